@@ -17,7 +17,7 @@ from disc_model.stability.attractor.outcome import OutcomeResult, Segment
 from disc_model.studies import run
 from disc_model.studies.merge import merge_batches
 from disc_model.studies.quantities import critical_speed
-from disc_model.studies.quantity import STATUSES
+from disc_model.studies.quantity import STATUSES, tried
 from disc_model.studies.run import run_batch
 from tests.stability.toy_map import fold_at, outside, toy
 from tests.studies.refused import parse_grid
@@ -52,7 +52,7 @@ class Table(NamedTuple):
 
 def compute(quantity: Any, points: Iterable[Any]) -> Table:
     """A quantity at some points."""
-    rows, messages = zip(*(run.compute(quantity, point) for point in points), strict=True)
+    rows, messages = zip(*(tried("status", quantity.compute_point, point) for point in points), strict=True)
     own = run.coordinates_of(quantity.COORDINATES, quantity)
     variables = run.variables_of(quantity.COLUMNS, own, rows, {"point": len(rows)})
     return Table({name: found.values for name, found in variables.items()}, list(messages))

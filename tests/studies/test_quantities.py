@@ -73,7 +73,7 @@ def test_a_batch_of_a_grid_has_the_results_of_its_points(name: str) -> None:
 @pytest.mark.parametrize("name", quantity_names())
 def test_a_quantity_says_what_it_costs_and_what_its_motions_show(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     quantity = quantity_of(name)
-    assert 0 < quantity.model_validate(OPTIONS[name]).seconds < 600
+    assert 0 < quantity.model_validate(OPTIONS[name]).cost() < 600
     assert bool(quantity.motions) == bool(quantity.motion) == (quantity.state_at is not Quantity.state_at)
     assert bool(quantity.SUMMARY_COLUMNS) == ("summarise" in vars(quantity))
     assert parse_grid(grid(name)).sources == (f"studies.quantities.{name}",)

@@ -127,7 +127,7 @@ def duration(job):
     study = GRIDS[job.wildcards.study]
     batch = json.loads(study.batches[job.wildcards.batch])
     points = 1 if study.options.tiled else len(batch["points"])
-    return 1.0 + study.options.seconds * points
+    return 1.0 + study.options.cost() * points
 
 
 def durations():

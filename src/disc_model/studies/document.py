@@ -1,19 +1,15 @@
-"""The model of a study file: `Document`.
-
-Rules within one part are checked here, rules between parts in `disc_model.studies.study`. The module imports nothing
-heavy. A job receives the values of all options, so this module is not among the sources of its result.
-"""
+"""The model of a study file: `Document`. Rules within one part are checked here, those between parts in `study`."""
 
 import json
 import re
 from collections.abc import Collection, Mapping
-from typing import Annotated, Any, ClassVar, Literal, TypeVar, Union
+from typing import Annotated, Any, ClassVar, Literal, Union
 
 import pydantic
 from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, Tag, WithJsonSchema, create_model
 
 from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, SCALARS, START, attributes
-from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults
 from disc_model.figures.kind import Kind, kind_of, library_kinds
 from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeRequest, by_frequencies, read_asked
 from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
@@ -28,15 +24,13 @@ TAKEN = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameter
 
 
 def _but(taken: Collection[str], rule: str) -> AfterValidator:
-    """Refuse some names."""
     return AfterValidator(must(lambda name: name not in taken, rule))
 
 
+# Snakemake takes a name that repeats itself for an endless recursion
 _REPETITION = must(lambda name: not re.search(r"(.+)\1{19}$", name), "must not end in 20 equal parts")
-Name = Annotated[
-    str, pydantic.StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=100), AfterValidator(_REPETITION)
-]
-"""A name that files are called by; Snakemake takes a name that repeats itself for an endless recursion."""
+_LETTERS = pydantic.StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=100)
+Name = Annotated[str, _LETTERS, AfterValidator(_REPETITION)]
 CaseName = Annotated[Name, _but(TAKEN, "a case must not be called so, the name is taken by a variable")]
 _WINDOW = "a window must not be called so, the name is taken by a variable or group"
 WindowName = Annotated[Name, _but(TAKEN | BESIDE_WINDOWS, _WINDOW)]
@@ -62,12 +56,10 @@ def _axis_kind(raw: Any) -> str | None:
     return "a list" if isinstance(raw, list) and raw else None
 
 
-_NO_AXIS = {
-    "custom_error_type": "axis",
-    "custom_error_message": "must be a list of values, or a range {start, stop, count or step}",
-}
+_NO_AXIS = "must be a list of values, or a range {start, stop, count or step}"
+_BY_KIND = pydantic.Discriminator(_axis_kind, custom_error_type="axis", custom_error_message=_NO_AXIS)
 Listed = Annotated[list[NumberOrUnit], Field(min_length=1), Tag("a list")]
-Block = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")], pydantic.Discriminator(_axis_kind, **_NO_AXIS)]
+Block = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")], _BY_KIND]
 
 
 class BlocksOf(Strict):
@@ -76,10 +68,7 @@ class BlocksOf(Strict):
     blocks: Annotated[list[Block], Field(min_length=1)]
 
 
-Axis = Annotated[
-    Listed | Annotated[AxisRange, Tag("AxisRange")] | Annotated[BlocksOf, Tag("BlocksOf")],
-    pydantic.Discriminator(_axis_kind, **_NO_AXIS),
-]
+Axis = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")] | Annotated[BlocksOf, Tag("BlocksOf")], _BY_KIND]
 
 
 def blocks_of(axis: list[Any] | AxisRange | BlocksOf, resolution: int = 1) -> Blocks:
@@ -89,8 +78,7 @@ def blocks_of(axis: list[Any] | AxisRange | BlocksOf, resolution: int = 1) -> Bl
     return axis.blocks(resolution) if isinstance(axis, AxisRange) else (tuple(axis),)
 
 
-VARIED = (*Parameters.model_fields, *RATIOS, START, *PERTURBATIONS)
-"""Names that a grid may vary, in the order of its dimensions: parameters, ratios in their place, and the start."""
+VARIED = (*Parameters.model_fields, *RATIOS, START, *PERTURBATIONS)  # what a grid may vary, in this order
 
 
 class _Columns(Strict):
@@ -100,10 +88,9 @@ class _Columns(Strict):
 
 
 def _described(name: str) -> dict[str, Any]:
-    if name == START:
-        return {"description": "where the motion starts: names of starts"}
-    if name == "disc":
-        return {"description": "discs: tables of modes, or names of `discs`"}
+    words = {START: "where the motion starts: names of starts", "disc": "discs: tables of modes, or names of `discs`"}
+    if name in words:
+        return {"description": words[name]}
     if name in (*PERTURBATIONS, *RATIOS):
         stated = attributes(name)
         return {"description": stated["long_name"], "json_schema_extra": {"unit": stated["units"]}}
@@ -116,29 +103,22 @@ Columns = create_model("Columns", __base__=_Columns, **_columns)  # an axis for 
 
 
 class BatchSpec(Strict):
-    """Division of the points of a grid into jobs.
+    """Division of the points of a grid into jobs."""
 
-    over : dimensions that are cut; each value of the others has batches of its own. If not given, the first dimensions
-        are cut as far as `size` requires
-    size : greatest number of points in a batch; if not given, about 20 s of work by the cost of a point
-    tile : approximate intervals along the side of a tile, for a quantity that needs a plane at once. `over` names its
-        two dimensions first, then those whose values share a batch. If not given, the plane's are the only two that are
-        numbers, and all other values share a batch
-    """
-
+    # dimensions that are cut, where each value of the others has batches of its own; if not given, the first ones are,
+    # as far as `size` requires. For a plane at once: its two, by default the only ones that are numbers, then those
+    # whose values share a batch, by default all others
     over: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
-    size: Annotated[Count, Field(ge=1)] | None = None
-    tile: Annotated[Count, Field(ge=1)] = 32
+    size: Annotated[Count, Field(ge=1)] | None = None  # most points in a batch; if not given, about 20 s of work
+    tile: Annotated[Count, Field(ge=1)] = 32  # approximate intervals along the side of a tile of a plane
 
 
 # ---- Named cases
 
 
 def _in_part(model: type[pydantic.BaseModel], **others: Any) -> type[Strict]:
-    """What may be said of a model in part, since the rest is inherited; as null, to drop what is inherited.
-
-    others : types of fields that are models themselves
-    """
+    """What may be said of a model in part, since the rest is inherited; null drops what is inherited. The other types
+    are those of fields that are models themselves."""
     fields: dict[str, Any] = {
         name: (others.get(name, Annotated[field.annotation, *field.metadata, "in part"]) | None, None)
         for name, field in model.model_fields.items()
@@ -156,13 +136,9 @@ class RecordSpec(Strict):
 
 
 SomeRecord = _in_part(RecordSpec, windows=dict[WindowName, _in_part(Window) | None])  # type: ignore[misc]
-
-
-_diameters = Parameters.model_fields["n_diameters"]
-
-
 _ratios: dict[str, Any] = {name: (Positive | None, Field(None, **_described(name))) for name in RATIOS}
 _WithRatios = create_model("_WithRatios", __base__=SomeParameters, **_ratios)
+_BY = "quantity by which n_diameters: auto chooses the modes"
 
 
 class GivenParameters(_WithRatios):  # type: ignore[misc, valid-type]
@@ -170,27 +146,20 @@ class GivenParameters(_WithRatios):  # type: ignore[misc, valid-type]
 
     n_diameters: Annotated[
         int,
-        *_diameters.metadata,
+        *Parameters.model_fields["n_diameters"].metadata,
         pydantic.WrapValidator(lambda value, check: value if value == AUTO else check(value)),
         WithJsonSchema({"anyOf": [{"type": "integer", "minimum": -1, "maximum": 60}, {"const": AUTO}]}),
-    ] = Field(  # type: ignore[assignment]
-        None, description=_diameters.description, json_schema_extra=_diameters.json_schema_extra
-    )
-    truncation_quantity: Literal[*CHOSEN_BY] = Field(  # type: ignore[valid-type]
-        None, description="quantity by which n_diameters: auto chooses the modes"
-    )
+    ] = Field(None, **_described("n_diameters"))
+    truncation_quantity: Literal[*CHOSEN_BY] = Field(None, description=_BY)  # type: ignore[valid-type]
     truncation_tolerance: Annotated[Finite, Field(ge=TRUSTED)] = Field(  # type: ignore[assignment]
         None, description="relative tolerance of this quantity"
     )
 
 
-def _of_case(values: Any) -> tuple[Parameters, ModeRequest | None]:
-    if not isinstance(values, Mapping):
+def _mapping(raw: Any) -> Mapping[str, Any]:
+    if not isinstance(raw, Mapping):
         raise ValueError("must be a mapping")
-    return read_asked(values)
-
-
-SomeSpan = TypeVar("SomeSpan", bound=Span)
+    return raw
 
 
 class NamedCase(Strict):
@@ -199,7 +168,8 @@ class NamedCase(Strict):
     title: str = ""
     reference: str = ""
     parameters: Annotated[
-        tuple[Parameters, ModeRequest | None], PlainValidator(_of_case, json_schema_input_type=GivenParameters)
+        tuple[Parameters, ModeRequest | None],
+        PlainValidator(lambda raw: read_asked(_mapping(raw)), json_schema_input_type=GivenParameters),
     ] = Field({}, validate_default=True)
     t_end: Seconds
     tol: Tolerance = 1e-10
@@ -211,54 +181,41 @@ class NamedCase(Strict):
     def spec(self) -> CaseSpec:
         """The specification to simulate; raises `ParameterError` with places inside the case."""
         faults: list[Fault] = []
-        p, truncation, modes = self._modes(faults)
-        record, events = self.record, None
-        windows = {
-            name: self._within(window, ("record", "windows", name), faults) for name, window in record.windows.items()
-        }
+        (p, request), record, truncation, modes = self.parameters, self.record, "", ""
+        if request is not None and request.quantity != FREQUENCIES:  # the modes are chosen when the case runs
+            modes = json.dumps(request.model_dump(), sort_keys=True)
+        elif request is not None:
+            try:
+                choice = by_frequencies(p, request.tolerance)
+                p, truncation = choice.parameters, choice.to_json()
+            except DiscModelError as error:  # no number of modes meets the tolerance
+                faults.append(Fault.of(("parameters", "n_diameters"), AUTO, str(error)))
+        spans: dict[tuple[str, ...], Any] = {("windows", name): window for name, window in record.windows.items()}
         if record.events:
-            span = self._within(Span() if record.events is True else record.events, ("record", "events"), faults)
-            events = span.start, span.stop
+            spans["events",] = Span() if record.events is True else record.events
+        for path, span in spans.items():
+            start, stop = span.ends(0.0, self.t_end)
+            if 0 <= start < stop <= self.t_end:
+                spans[path] = span.resolved(0.0, self.t_end)
+            else:
+                rule = f"must be within the run: 0 <= start={start:g} < stop={stop:g} <= t_end={self.t_end:g}"
+                faults.append(Fault(("record", *path), "", rule))
         for fault in ramp_faults(p, self.ramps, poincare=record.poincare is not None) if self.ramps else ():
             faults.append(fault.inside(("parameters",)) if fault.path[0] in Parameters.model_fields else fault)
-        if faults:
-            raise ParameterError(*faults)
+        raise_faults(faults)
+        events = spans.pop(("events",), None)
+        windows = tuple((name, window) for (_, name), window in spans.items())
         of_case = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
         of_record = {name: getattr(record, name) for name in ("poincare", "audit_every_step")}
-        recorded = of_record | {"windows": tuple(windows.items()), "events": events}
+        recorded = of_record | {"windows": windows, "events": events and (events.start, events.stop)}
         return CaseSpec(parameters=p, truncation=truncation, modes=modes, **of_case, **recorded)
-
-    def _modes(self, faults: list[Fault]) -> tuple[Parameters, str, str]:
-        """Parameters, and how their modes were chosen or will be chosen when the case runs."""
-        p, request = self.parameters
-        if request is None or request.quantity != FREQUENCIES:
-            return p, "", "" if request is None else json.dumps(request.model_dump(), sort_keys=True)
-        try:
-            choice = by_frequencies(p, request.tolerance)
-        except DiscModelError as error:  # no number of modes meets the tolerance
-            faults.append(Fault.of(("parameters", "n_diameters"), AUTO, str(error)))
-            return p, "", ""
-        return choice.parameters, choice.to_json(), ""
-
-    def _within(self, span: SomeSpan, path: tuple[str, ...], faults: list[Fault]) -> SomeSpan:
-        """A stretch of the run with absolute times."""
-        start, stop = span.ends(0.0, self.t_end)
-        if 0 <= start < stop <= self.t_end:
-            return span.resolved(0.0, self.t_end)
-        rule = f"must be within the run: 0 <= start={start:g} < stop={stop:g} <= t_end={self.t_end:g}"
-        faults.append(Fault(path, "", rule))
-        return span
 
 
 # ---- Figures
 
 
 def _figure(raw: Any) -> Kind:
-    if isinstance(raw, Kind):
-        return raw
-    if not isinstance(raw, Mapping):
-        raise ValueError("must be a mapping")
-    return kind_of(raw.get("kind")).model_validate(raw)
+    return raw if isinstance(raw, Kind) else kind_of(_mapping(raw).get("kind")).model_validate(raw)
 
 
 _OTHER_NAME = {"kind": {"type": "string", "pattern": r"^\w+\.\w+$"}}
@@ -267,21 +224,15 @@ _KIND: Any = Annotated[Union[*(kind for _, kind in sorted(library_kinds().items(
 Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND | _OTHER_KIND)]
 """A figure of any kind; the schema for editors knows the keys of the library's kinds, and not those of the paper's."""
 
-
-Figures = Annotated[
-    dict[Name, Figure],
-    BeforeValidator(
-        lambda raw: {name: plot for name, plot in raw.items() if plot is not None} if isinstance(raw, Mapping) else raw,
-        json_schema_input_type=dict[Name, Figure | None],
-    ),
-]
-"""Figures by their names; null drops one that is inherited."""
-
 # ---- The whole document
 
 
+def _given_figures(raw: Any) -> Any:
+    """Figures by their names, without those that null drops."""
+    return {name: plot for name, plot in raw.items() if plot is not None} if isinstance(raw, Mapping) else raw
+
+
 def _several(value: Any) -> Any:
-    """A list, also of a single value."""
     return value if isinstance(value, list | tuple) else [value]
 
 
@@ -293,40 +244,23 @@ def _known(name: str | None) -> str | None:
 
 def _options(raw: Any, info: pydantic.ValidationInfo) -> Any:
     """The quantity with its options; what is given for an unknown one is checked once it is known."""
-    if (quantity := info.data.get("quantity")) is None:
-        return raw
-    if not isinstance(raw, Mapping):
-        raise ValueError("must be a mapping")
-    return quantity_of(quantity).model_validate(raw)
+    quantity = info.data.get("quantity")
+    return raw if quantity is None else quantity_of(quantity).model_validate(_mapping(raw))
 
 
 class Document(Strict):
-    """A study: named cases, a grid of points, or both, and their figures; see docs/studies.md.
-
-    study : name of the study, and of its folder of results
-    title : subject of the study
-    base : parameters of all cases and of all points; the rest is Table 1 of the paper
-    figures : contents of each figure by its name
-    cases : named simulations, with inherited values; `tol` and `record` are common to them
-    claims : whether the paper's claims and tables are checked against the cases
-    quantity, options : the quantity that a grid computes at each point
-    axes, zip, starts : varying parameters, and starts of the motions
-    discs : tables of modes by the names that an axis of discs has for them
-    where : rules between values, such as mu_k <= mu_s; points that break one are excluded
-    batch : division of the points into jobs
-    studies : further files of grid studies, * stands for any part of a name
-    overrides : values that replace those of these files, by name
-    resolution : whole number that divides the intervals of all ranges
-    """
+    """A study: named cases, a grid of points, or both, and their figures; see docs/studies.md."""
 
     study: Name
     title: str = ""
     base: GivenParameters = GivenParameters()
-    figures: Figures = Field({})
-    tol: Tolerance | None = 1e-10
+    figures: Annotated[
+        dict[Name, Figure], BeforeValidator(_given_figures, json_schema_input_type=dict[Name, Figure | None])
+    ] = Field({})
+    tol: Tolerance | None = 1e-10  # of all cases, as `record`
     record: SomeRecord = SomeRecord()  # type: ignore[valid-type]
     cases: Annotated[dict[CaseName, NamedCase], Field(min_length=1)] = Field({}, validate_default=False)
-    claims: bool = False
+    claims: bool = False  # whether the paper's claims and tables are checked against the cases
     quantity: Annotated[str | None, AfterValidator(_known), WithJsonSchema({"enum": quantity_names()})] = None
     options: Annotated[Any, PlainValidator(_options), WithJsonSchema({"type": "object"})] = None
     axes: Columns = Columns()
@@ -338,6 +272,6 @@ class Document(Strict):
     batch: BatchSpec = BatchSpec()
     starts: dict[StartName, Start] = Field({})
     discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
-    studies: tuple[str, ...] = ()
-    overrides: dict[str, dict[str, Any]] = Field({})
-    resolution: Annotated[Count, Field(ge=1)] = 1
+    studies: tuple[str, ...] = ()  # further files of grid studies, * stands for any part of a name
+    overrides: dict[str, dict[str, Any]] = Field({})  # of values in these files, by the name of the study
+    resolution: Annotated[Count, Field(ge=1)] = 1  # divides the intervals of all ranges

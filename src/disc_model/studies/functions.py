@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from pydantic import create_model
 
 from disc_model.data.variables import SCALARS, Variable, flag_names
 from disc_model.display import computed
@@ -30,8 +31,7 @@ from disc_model.studies.quantity import NUMERICAL, Point, quantity_names, quanti
 from disc_model.studies.run import POINT, coordinates_of, describe, run_batch, variables_of
 from disc_model.units import Finite, Strict, canonical_json, is_whole
 
-# ----------------------------------------------------------------------------------------------------
-# Quantities of one case
+# ---- Quantities of one case
 
 
 def _quantity(name: str, case: Parameters, start: Mapping[str, float] | None = None, **options: Any) -> xr.Dataset:
@@ -42,10 +42,8 @@ def _quantity(name: str, case: Parameters, start: Mapping[str, float] | None = N
         quantity = quantity_of(name).model_validate(options)
     except ParameterError as error:
         arguments = {"perturbation": "start", "horizons": "horizon"}
-        faults += [
-            Fault(tuple(arguments.get(part, part) for part in fault.path), fault.value, fault.rule)
-            for fault in error.faults
-        ]
+        for fault in error.faults:
+            faults.append(Fault(tuple(arguments.get(part, part) for part in fault.path), fault.value, fault.rule))
     raise_faults(faults)
     row, message = quantity.compute_point(Point(case, begin))
     coordinates = coordinates_of(quantity.COORDINATES, quantity)
@@ -151,9 +149,8 @@ def critical_speed(
     >>> speeds["critical_speed"].values
     array([15.1])
     """
-    given: Any = horizon
-    horizons = tuple(given) if _several(given) else (horizon,)
-    options: dict[str, Any] = {"horizons": horizons, "scan": _scan(scan, step), "precision": precision}
+    horizons: Any = horizon if _several(horizon) else (horizon,)
+    options: dict[str, Any] = {"horizons": tuple(horizons), "scan": _scan(scan, step), "precision": precision}
     return _quantity("critical_speed", case, **options, early_end=early_end, tol=tol)
 
 
@@ -250,8 +247,7 @@ def hysteresis(
     return _quantity("hysteresis", case, **options, evaluation_time=evaluation_time, tol=tol)
 
 
-# ----------------------------------------------------------------------------------------------------
-# Sweeps
+# ---- Sweeps
 
 
 def sweep(
@@ -304,24 +300,19 @@ def sweep(
     unknown = [name for name in options if name not in arguments and not takes_all]
     rule = "is no number of the case, and no argument of the function"
     faults += [Fault.of((name,), named[name], f"{rule}{suggestion(name, case.numbers)}") for name in unknown]
-    own = [each for each in [*arguments.values()][1:] if each.kind not in (each.VAR_POSITIONAL, each.VAR_KEYWORD)]
+    further = [each for each in [*arguments.values()][1:] if each.kind not in (each.VAR_POSITIONAL, each.VAR_KEYWORD)]
     title = getattr(function, "__name__", type(function).__name__)
-    needed = [argument.name for argument in own if argument.default is argument.empty and argument.name not in named]
+    needed = [each.name for each in further if each.default is each.empty and each.name not in named]
     faults += [Fault((name,), "", f"is required by {title}") for name in needed]
     raise_faults(faults)
     points = [dict(zip(axes, values, strict=True)) for values in product(*axes.values())]
-    call = partial(_row, function, case, options, frozenset(argument.name for argument in own))
+    call = partial(_row, partial(function, **options), case, frozenset(each.name for each in further))
     rows = _in_parallel(call, [*enumerate(points)], workers, processes)
-    sizes = {name: len(values) for name, values in axes.items()}
-    coordinates = {
-        name: (
-            name,
-            np.array([float(value) if isinstance(value, int) else value for value in values]),
-            _described(name),
-        )
-        for name, values in axes.items()
-    }
-    variables, fixed = _stacked(rows, sizes)
+    coordinates = {}
+    for name, values in axes.items():
+        attrs = describe(name) if name in (*Parameters.model_fields, *RATIOS) else {}
+        coordinates[name] = (name, [float(value) if isinstance(value, int) else value for value in values], attrs)
+    variables, fixed = _stacked(rows, {name: len(values) for name, values in axes.items()})
     base = canonical_json(case.stated | {"disc": case.canonical.get("disc")})
     attrs = {"function": title, "parameters": case.json_in_words, "base": base}
     return xr.Dataset(variables, fixed | coordinates, attrs)
@@ -330,33 +321,22 @@ def sweep(
 def _values(name: str, values: Any, faults: list[str]) -> list[Any]:
     """The values of an axis in SI units; what is wrong with them, each by itself, is added to the faults."""
     several = np.iterable(values) and not isinstance(values, str | Mapping | Disc)
-    given, checked = [*values] if several else [values], []
-    if not given:
+    raw, checked = [*values] if several else [values], []
+    if not raw:
         faults.append(Fault.of((name,), values, "must have one value or more"))
-    for value in given:
-        plain = value.item() if isinstance(value, np.generic) else value
+    number: dict[str, Any] = {name: Finite}  # a ratio, or a number of a disc's mode
+    model = SomeParameters if name in Parameters.model_fields else create_model("Number", __base__=Strict, **number)
+    for value in raw:
         try:
-            known = name in Parameters.model_fields
-            model = SomeParameters(**{name: plain}) if known else _Number(number=plain)
-            checked.append(getattr(model, name if known else "number"))
+            checked.append(getattr(model(**{name: value.item() if isinstance(value, np.generic) else value}), name))
         except ParameterError as error:
             faults += [Fault((name,), fault.value, fault.rule) for fault in error.faults]
     return checked
 
 
-class _Number(Strict):
-    """A ratio, or a number of a disc's mode."""
-
-    number: Finite
-
-
 def _rules_of_workers(workers: Any, processes: Any) -> Iterator[tuple[object, str, object, str]]:
     yield is_whole(workers) and workers >= 1, "workers", workers, "must be a whole number >= 1"
     yield isinstance(processes, bool), "processes", processes, "must be True or False"
-
-
-def _described(name: str) -> dict[str, Any]:
-    return describe(name) if name in (*Parameters.model_fields, *RATIOS) else {}
 
 
 def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: int, processes: bool) -> list[Any]:
@@ -367,17 +347,11 @@ def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: 
         return computed(lambda _: next(results), arguments, "points")
 
 
-def _row(
-    function: Callable[..., Any],
-    case: Parameters,
-    options: dict[str, Any],
-    own: frozenset[str],
-    place: tuple[int, dict[str, Any]],
-) -> dict[str, xr.Variable]:
+def _row(function: Any, case: Parameters, own: frozenset[str], numbered: tuple[int, Any]) -> dict[str, xr.Variable]:
     """The variables of one call; a fault of the function's own arguments at the first point is that of all."""
-    number, point = place
+    number, point = numbered
     try:
-        result = function(case.replace(**point), **options)
+        result = function(case.replace(**point))
     except NUMERICAL as error:
         if number == 0 and own & {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}:
             raise
@@ -429,12 +403,9 @@ def _stacked(
         shape = np.max([values.shape for _, values in present], axis=0) if variable.ndim else ()
         kinds = {values.dtype.kind for _, values in present}
         whole = len(present) == len(rows) and all(values.shape == tuple(shape) for _, values in present)
-        if kinds <= {"U"}:
-            array: Any = np.full((len(rows), *shape), "", dtype=object)
-        elif kinds <= {"b"} and whole:
-            array = np.zeros((len(rows), *shape), dtype=bool)
-        else:
-            array = np.full((len(rows), *shape), math.nan, dtype=complex if "c" in kinds else float)
+        number: tuple[Any, Any] = (False, bool) if kinds <= {"b"} and whole else (math.nan, float)
+        missing, dtype = ("", object) if kinds <= {"U"} else (math.nan, complex) if "c" in kinds else number
+        array: Any = np.full((len(rows), *shape), missing, dtype)
         for i, values in present:
             array[(i, *map(slice, values.shape))] = values
         array = array.astype(str) if array.dtype == object else array
@@ -442,8 +413,7 @@ def _stacked(
     return stacked, fixed
 
 
-# ----------------------------------------------------------------------------------------------------
-# Studies
+# ---- Studies
 
 
 def run_study(

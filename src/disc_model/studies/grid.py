@@ -1,18 +1,14 @@
 """A grid study: its points, their batches, and the rules between its parts.
 
-A workflow job receives one batch as a text. Blocks of values are cut into batches of similar cost, by position and only
-inside a block. A finer axis therefore adds batches and keeps the others. Quantities that need a plane at once are cut
-into tiles. The text holds everything that its result depends on, and its hash is the name of the batch. A batch with
-equal content is therefore not computed again, however the file describes it.
+A workflow job receives one batch as a text, which holds everything that its result depends on. Its hash is the name of
+the batch, which is therefore not computed again, however a file describes it. Blocks of values are cut into batches of
+similar cost, only inside a block: a finer axis adds batches and keeps the others.
 """
-
-from __future__ import annotations
 
 import math
 import re
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain, pairwise, product
 from typing import Any, NamedTuple
@@ -30,61 +26,43 @@ from disc_model.mode_choice import ModeRequest, asked_modes
 from disc_model.parameters import AUTO, PLATE, RATIOS, RELATED, RESIDUAL, SURFACE, Parameters, case_of
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.document import STATIC, VARIED, BatchSpec, Document, blocks_of
-from disc_model.studies.quantity import WORK, Blocks, Quantity, Value, holds, names_in
+from disc_model.studies.quantity import WORK, Blocks, Quantity, Value, compiled_rule, holds
 from disc_model.units import Finite, Positive, canonical_json, content_key, given_values, is_number
 
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
-"""Keys of a study file that concern the grid alone."""
 REQUIRED = ("N", "Omega")  # parameters without a base value
-MOST_POINTS = 1_000_000
-"""Greatest number of points of a grid: Snakemake takes hours over so many jobs; many more do not fit into memory."""
+MOST_POINTS = 1_000_000  # Snakemake takes hours over so many jobs; many more do not fit into memory
 _OTHERS: dict[str, Any] = dict.fromkeys(PERTURBATIONS, (Finite, 0.0)) | dict.fromkeys(RATIOS, (Positive, 1.0))
 _Varied = create_model("_Varied", __base__=SomeParameters, **_OTHERS)
 
-# ---- Dimensions of a grid: axes, one parameter each, and zips, several parameters that vary together
 
-
-@dataclass(frozen=True)
 class Dimension:
-    """One dimension of a grid: the parameters that vary along it, and their values in blocks of sorted tuples."""
+    """One dimension of a grid: an axis, or a zip, along which several parameters vary together."""
 
-    names: tuple[str, ...]
-    blocks: tuple[tuple[tuple[Value, ...], ...], ...]
+    def __init__(self, names: Sequence[str], blocks: Iterable[Iterable[tuple[Value, ...]]]) -> None:
+        self.names, self.name = tuple(names), "_".join(names)
+        self.blocks: list[list[tuple[Value, ...]]] = []
+        known: set[tuple[Value, ...]] = set()
+        for block in blocks:  # a value belongs to the first block that has it
+            if new := sorted({*block} - known):
+                self.blocks.append(new)
+                known.update(new)
+        self.values = tuple(sorted(known))
 
-    @classmethod
-    def of(cls, names: Sequence[str], blocks: Iterable[Iterable[tuple[Value, ...]]]) -> Dimension:
-        """A dimension from blocks in any order; a value belongs to the first block that has it."""
-        first = {value: i for i, block in reversed([*enumerate(map(set, blocks))]) for value in block}
-        blocks_of_values = ([value for value in first if first[value] == i] for i in sorted({*first.values()}))
-        return cls(tuple(names), tuple(tuple(sorted(block)) for block in blocks_of_values))
-
-    @property
-    def name(self) -> str:
-        """The parameter, or the parameters of a zip, joined by _."""
-        return "_".join(self.names)
-
-    @property
-    def values(self) -> tuple[tuple[Value, ...], ...]:
-        """All values, sorted."""
-        return tuple(sorted(chain(*self.blocks)))
-
-    def thinned(self, most: int) -> Dimension:
+    def thinned(self, most: int) -> "Dimension":
         """A dimension of at most `most` values, evenly spaced by place and including both ends; words are all kept."""
         values = self.values
         if len(values) > most and not any(isinstance(part, str) for value in values for part in value):
             last = len(values) - 1
             values = tuple(values[round(i * last / max(most - 1, 1))] for i in range(most))
-        return Dimension(self.names, (values,))
+        return Dimension(self.names, [values])
 
 
 class FigureEntry(NamedTuple):
-    """A figure as lists and reports show it, and what it is drawn from.
-
-    inputs : names of cases, or of grid studies by their roles
-    """
+    """A figure as lists and reports show it, and what it is drawn from."""
 
     plot: Kind
-    inputs: Mapping[str, str]
+    inputs: Mapping[str, str]  # names of cases, or of grid studies by their roles
     category: str
     section: str
     title: str
@@ -92,24 +70,15 @@ class FigureEntry(NamedTuple):
 
 
 class GridStudy:
-    """A grid study; raises `ParameterError` with the faults between the parts of its file.
-
-    document : content of the file
-    quantity, options : name of the quantity, and the quantity with its options
-    base : values that do not vary
-    dims : in the order of `VARIED`; varied : names along them
-    mode_request : the choice of modes that is made at each point, if there is one
-    starts : starts of motions, by name
-    plots : figures, by name
-    """
+    """A grid study; raises `ParameterError` with the faults between the parts of its file."""
 
     def __init__(self, document: Document, plots: Mapping[str, Plot]) -> None:
         self.document, self.plots = document, plots
         self.name, self.title, self.quantity = document.study, document.title, str(document.quantity)
         self.where, self.discs, self.starts = document.where, document.discs, {STATIC: Start(), **document.starts}
         self.options: Quantity = document.options
-        self.base, self.mode_request = self._read_base()
-        of_options = [Dimension((name,), _tupled(blocks)) for name, blocks in self.options.dimensions.items()]
+        self.base, self.mode_request = self._read_base()  # what does not vary, and a choice of modes at each point
+        of_options = [Dimension([name], map(zip, blocks)) for name, blocks in self.options.dimensions.items()]
         self.dims = (*sorted(self._read_dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *of_options)
         self.varied = [name for dim in self.dims for name in dim.names]
         raise_faults([*self._wrong_names(), *self._wrong_starts()])
@@ -127,50 +96,46 @@ class GridStudy:
         if self.options.tiled:
             maps = [plot for plot in self.plots.values() if isinstance(plot, RegionMap)]
             marked = [{plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()]
-            return self._texts(self.dims, _tiles(self.dims, batch, marked))
-        size = batch.size or max(1, round(WORK / self.options.seconds))
-        return self._texts(self.dims, ({"points": cut} for cut in _chunks(self.dims, batch.over, size)))
+            return self._texts(_tiles(self.dims, batch, marked))
+        size = batch.size or max(1, round(WORK / self.options.cost()))
+        return self._texts({"points": cut} for cut in _chunks(self.dims, batch.over, size))
 
     @cached_property
     def motions(self) -> dict[str, str]:
         """JSON text, by its name, of the batch of points whose motions are stored; empty for some quantities."""
         few = [dim.thinned(self.options.motions) for dim in self.dims]
-        return self._texts(few, [{"points": product(*(dim.values for dim in few))}]) if self.options.motions else {}
+        return self._texts([{"points": product(*(dim.values for dim in few))}]) if self.options.motions else {}
 
-    def _texts(self, dims: Sequence[Dimension], parts: Iterable[dict[str, Any]]) -> dict[str, str]:
+    def _texts(self, parts: Iterable[dict[str, Any]]) -> dict[str, str]:
         """Parts of the grid that have points left, each as a text with everything that its result depends on."""
         shared = {"quantity": self.quantity, "options": self.options.model_dump(), "base": self.base}
-        shared["names"] = [name for dim in dims for name in dim.names]
         texts = []
         for part in parts:
-            points = [*self._points(dims, part["points"], self.base)]
-            texts_of_names = {}
+            points = [*self._points(self.varied, part["points"], self.base)]
+            named: dict[str, Any] = {"names": self.varied}
             for name, kind, known in ((START, "starts", self.starts), ("disc", "discs", self.discs)):
-                if name in shared["names"]:
-                    used = {str(point[name]) for point in points}
-                    texts_of_names[kind] = {word: known[word].model_dump() for word in used}
+                if name in self.varied:
+                    named[kind] = {word: known[word].model_dump() for word in {str(point[name]) for point in points}}
             if points:
                 content = part | {"points": [[*parameters.in_identities(point).values()] for point in points]}
-                texts.append(canonical_json(shared | texts_of_names | content))
+                texts.append(canonical_json(shared | named | content))
         return {content_key(text): text for text in texts}
 
-    def _points(
-        self, dims: Sequence[Dimension], points: Iterable[Sequence[tuple[Value, ...]]], base: Mapping[str, Any]
-    ) -> Iterator[dict[str, Value]]:
+    def _points(self, names: Sequence[str], points: Iterable[Any], base: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
         """The varying values, by name, at those of some points that keep the file's rules."""
-        names = [name for dim in dims for name in dim.names]
         for point in points:
             values = dict(zip(names, chain.from_iterable(point), strict=True))
             if not self.where or holds(self.where, {**base, **values}):
                 yield values
 
-    def points_along(self, dims: Sequence[Dimension], base: Mapping[str, Any] = {}) -> Iterator[dict[str, Value]]:
+    def points_along(self, dims: Sequence[Dimension], base: Mapping[str, Any] = {}) -> Iterator[dict[str, Any]]:
         """The varying values, by name, at every point along some dimensions that keeps the file's rules."""
-        return self._points(dims, product(*(dim.values for dim in dims)), base or self.base)
+        names = [name for dim in dims for name in dim.names]
+        return self._points(names, product(*(dim.values for dim in dims)), base or self.base)
 
     def points_of(self, names: Iterable[str]) -> Iterator[dict[str, Value]]:
         """Points that keep the file's rules, along the dimensions of some names and those that the rules compare."""
-        wanted = {*names, *chain(*map(names_in, self.where))}
+        wanted = {*names, *chain(*(compiled_rule(rule).co_names for rule in self.where))}
         ratios = [(name, *RATIOS[name]) for name in RATIOS.keys() & self.varied]
         wanted |= {*chain(*(related for related in ratios if not wanted.isdisjoint(related)))}
         return self.points_along([dim for dim in self.dims if not wanted.isdisjoint(dim.names)])
@@ -187,14 +152,13 @@ class GridStudy:
 
     @property
     def values(self) -> dict[str, tuple[tuple[Value, ...], ...]]:
-        """Values along each dimension, by its name."""
         return {dim.name: dim.values for dim in self.dims}
 
     @property
     def n_points(self) -> int:
-        """Number of points of the grid that are not excluded."""
-        whole = math.prod(len(dim.values) for dim in self.dims)
-        return sum(1 for _ in self.points_along(self.dims)) if self.where else whole
+        if self.where:
+            return sum(1 for _ in self.points_along(self.dims))
+        return math.prod(len(dim.values) for dim in self.dims)
 
     @property
     def attrs(self) -> dict[str, str]:
@@ -219,7 +183,6 @@ class GridStudy:
     # ---- what the file says
 
     def _read_base(self) -> tuple[dict[str, Any], ModeRequest | None]:
-        """The base values, which need not include N and Omega, and the choice of modes that is made at each point."""
         try:
             base, request = asked_modes(given_values(self.document.base))
         except ParameterError as error:
@@ -229,13 +192,12 @@ class GridStudy:
         return base, request
 
     def _read_dimensions(self) -> list[Dimension]:
-        """The dimensions of the file; raises `ParameterError`."""
         faults: list[Fault] = []
         axes = self._columns(self.document.axes, ("axes",), faults, self.document.resolution)
         for name, blocks in axes.items():
             repeated = isinstance(getattr(self.document.axes, name), list) and len({*blocks[0]}) < len(blocks[0])
             faults += [Fault.of(("axes", name), [*blocks[0]], "must be different values")] if repeated else []
-        dims = [Dimension.of((name,), _tupled(blocks)) for name, blocks in axes.items()]
+        dims = [Dimension([name], map(zip, blocks)) for name, blocks in axes.items()]
         for i, group in enumerate(self.document.zip):
             path = ("zip", str(i))
             columns = {name: [*chain(*blocks)] for name, blocks in self._columns(group, path, faults).items()}
@@ -243,7 +205,7 @@ class GridStudy:
                 lengths = ", ".join(f"{name}: {len(column)}" for name, column in columns.items())
                 faults.append(Fault(path, "", f"must have columns of equal length, not {lengths}"))
             elif columns:
-                dims.append(Dimension.of([*columns], [list(zip(*columns.values(), strict=True))]))
+                dims.append(Dimension([*columns], [zip(*columns.values(), strict=True)]))
         raise_faults(faults)
         return dims
 
@@ -262,14 +224,13 @@ class GridStudy:
 
     def _value(self, name: str, value: Value) -> Value:
         """Convert and check one value by itself; `_base_of_points` checks them together."""
-        if name == START and not (isinstance(value, str) and value in self.starts):
-            raise ParameterError(Fault.of((), value, f"no such start{suggestion(value, self.starts)}"))
-        if name == "disc" and not (isinstance(value, str) and value in self.discs):
-            raise ParameterError(Fault.of((), value, "must be the table of a disc"))
+        if name in (START, "disc"):
+            if isinstance(value, str) and value in (self.starts if name == START else self.discs):
+                return value
+            no_start = f"no such start{suggestion(value, self.starts)}"
+            raise ParameterError(Fault.of((), value, no_start if name == START else "must be the table of a disc"))
         if (name, value) in (("n_diameters", AUTO), ("contact_compliance", RESIDUAL), ("friction_offset", SURFACE)):
             raise ParameterError(Fault.of((), value, "must be a number along an axis: give it in base, for all points"))
-        if name in (START, "disc"):
-            return value
         return getattr(_Varied.model_validate({name: value}), name)  # type: ignore[no-any-return]
 
     # ---- rules between its parts
@@ -278,10 +239,9 @@ class GridStudy:
         """Faults of the names that vary and that are given, and names that are lacking."""
         in_base, scanned = self.document.base.model_fields_set, self.options.scanned
         quantity, counts = f"the quantity {self.quantity}", Counter(self.varied)
-        for name in scanned:
-            if name in counts or name in in_base:
-                yield Fault(("axes" if name in counts else "base", name), "", f"is varied by {quantity}")
-        for name in in_base & RATIOS.keys():
+        for name in sorted({*scanned} & {*counts, *in_base}):
+            yield Fault(("axes" if name in counts else "base", name), "", f"is varied by {quantity}")
+        for name in sorted(in_base & RATIOS.keys()):
             if RATIOS[name][0] in {*in_base, *counts}:
                 yield Fault(("base", name), "", f"stands for {RATIOS[name][0]}, which is given as well")
         for name in sorted(counts):
@@ -300,17 +260,14 @@ class GridStudy:
             ):
                 if broken:
                     yield Fault(("axes", name), "", rule)
-        for name in REQUIRED:
-            if name not in {*counts, *in_base, *scanned}:
-                yield Fault(("axes", name), "", "is required, here, in a zip or in base")
+        for name in sorted({*REQUIRED}.difference(counts, in_base, scanned)):
+            yield Fault(("axes", name), "", "is required, here, in a zip or in base")
         if not self.dims:
             yield Fault(("axes",), "", "is required: at least one axis or zip")
         if self.options.over and self.options.over not in self.values:
             yield Fault(("axes", self.options.over), "", f"is required: {quantity} looks along it")
-        known = f"must name dimensions (known: {', '.join(self.values)})"
-        for name in self.document.batch.over or ():
-            if name not in self.values:
-                yield Fault.of(("batch", "over"), name, known)
+        for name in sorted({*(self.document.batch.over or ())}.difference(self.values)):
+            yield Fault.of(("batch", "over"), name, f"must name dimensions (known: {', '.join(self.values)})")
 
     def _wrong_starts(self) -> Iterator[Fault]:
         """Only some quantities accept another start, and the file must give it in one place only."""
@@ -318,21 +275,21 @@ class GridStudy:
             coordinate = name.removeprefix("perturbation_")
             if "perturbation" not in type(self.options).model_fields:
                 yield Fault(("axes", name), "", f"the quantity {self.quantity} follows no motion from a start")
-                continue
-            if coordinate in self.options.perturbation:  # type: ignore[attr-defined]
+            elif coordinate in self.options.perturbation:  # type: ignore[attr-defined]
                 yield Fault(("options", "perturbation", coordinate), "", f"is given, and varies as axes.{name}")
-            for key in self.options.model_fields_set & {"prerun", "perturbation"} if name == START else ():
-                yield Fault(("options", key), "", "must not be given where the start varies: say it under starts")
+            elif name == START:
+                for key in self.options.model_fields_set & {"prerun", "perturbation"}:
+                    yield Fault(("options", key), "", "must not be given where the start varies: say it under starts")
 
     def _wrong_extent(self) -> Iterator[Fault]:
         """Faults of the plane and number of points, and of rules, which must compare known values and leave points."""
-        over, known = self.document.batch.over, [*{**Parameters.model_fields, **dict.fromkeys(self.varied)}]
+        over, known = self.document.batch.over, [*dict.fromkeys((*Parameters.model_fields, *self.varied))]
         if self.options.tiled and len(_plane(self.dims, over)) != 2:
             rule = f"must name the two dimensions, single numbers, of {self.quantity}'s plane first"
             yield Fault.of(("batch", "over"), over and list(over), rule)
         if (size := math.prod(len(dim.values) for dim in self.dims)) > MOST_POINTS:
             yield Fault(("axes",), "", f"must make at most {MOST_POINTS} points, and not {size}")
-        unknown = [(name, rule) for rule in self.where for name in sorted(names_in(rule).difference(known))]
+        unknown = [(name, rule) for rule in self.where for name in compiled_rule(rule).co_names if name not in known]
         for name, rule in unknown:
             more = suggestion(name, known, all_of_them=False)
             yield Fault.of(("where",), rule, f"{name} is no value of a point{more}")
@@ -369,7 +326,6 @@ class GridStudy:
     # ---- its figures
 
     def faults_of(self, plot: Plot) -> Iterable[Fault]:
-        """Faults that keep a figure from showing this grid."""
         if isinstance(plot, General):
             return self._faults_of_general(plot)
         if self.quantity in plot.quantities:
@@ -384,16 +340,14 @@ class GridStudy:
         for name, along in self.values.items():
             values[name] = [value[0] if len(value) == 1 else value for value in along]
         others, variables = [name for name in values if name != quantity.over], dict[str, Any]()
-        for columns, coordinates, dims in (
-            (quantity.COLUMNS, quantity.COORDINATES, [*values]),
-            (quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others),
-        ):
+        of_points = quantity.COLUMNS, quantity.COORDINATES, [*values]
+        of_summary = quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others
+        for columns, coordinates, dims in (of_points, of_summary):
             variables |= {name: (*dims, *column.dims) for name, column in columns.items()}
             values |= {name: along.values.tolist() for name, along in coordinates_of(coordinates, quantity).items()}
         return plot.faults_among(values, variables)
 
     def entry_of(self, name: str, plot: Plot) -> FigureEntry:
-        """A figure of this grid, as lists and reports show it."""
         inputs = {"study": self.name, **dict(sorted(plot.overlays.items()))}
         category = "Figures" if plot.section else "Maps and curves"
         title = plot.title or f"{self.title or self.name}: {name}"
@@ -402,11 +356,6 @@ class GridStudy:
 
 
 _CHOSEN = f"is chosen for each point, since base.n_diameters is {AUTO!r}"
-
-
-def _tupled(blocks: Blocks) -> tuple[tuple[tuple[Value], ...], ...]:
-    """Blocks of values as those of a dimension of one parameter."""
-    return tuple(tuple((value,) for value in block) for block in blocks)
 
 
 # ---- Batches
@@ -432,9 +381,7 @@ def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[An
         yield from ([*product(first[i : i + count], *others)] for i in range(0, len(first), count))
 
 
-def _tiles(
-    dims: Sequence[Dimension], batch: BatchSpec, sampled: Collection[Mapping[str, float]]
-) -> Iterator[dict[str, Any]]:
+def _tiles(dims: Sequence[Dimension], batch: BatchSpec, marks: list[dict[str, float]]) -> Iterator[dict[str, Any]]:
     """Points of each tile, and the values along its sides, with those of the next tiles that bound its last cells."""
     plane = _plane(dims, batch.over)
     others = [dim for dim in dims if dim not in plane]
@@ -444,7 +391,7 @@ def _tiles(
     for chosen, tile in product(product(*shares), product(*(_cuts(dim.values, batch.tile) for dim in plane))):
         along, within_tile = zip(*tile, strict=True)
         values = dict(zip([dim.name for dim in (*others, *plane)], [*chosen, *within_tile], strict=True))
-        indices = [[_index(mark[name], side) for name, side in zip(names, along, strict=True)] for mark in sampled]
+        indices = [[_index(mark[name], side) for name, side in zip(names, along, strict=True)] for mark in marks]
         inside = sorted(index for index in indices if None not in index)
         points = product(*(values[dim.name] for dim in dims))
         yield {"points": points, "tile": {"names": names, "along": along, "sampled": inside}}
@@ -457,7 +404,6 @@ def _plane(dims: Sequence[Dimension], over: Sequence[str] | None) -> list[Dimens
 
 
 def _index(value: float, along: Sequence[Value]) -> int | None:
-    """Index of a value along the side of a tile."""
     return next((i for i, other in enumerate(along) if math.isclose(value, float(other), rel_tol=1e-12)), None)
 
 

@@ -1,10 +1,6 @@
-"""The batches of a grid study in one dataset over the grid.
+"""The batches of a grid study in one dataset over the grid, and named cases in one tree.
 
-    study = xarray.open_dataset("results/map_N/map_N.nc")
-    study["first_separation"].sel(normalization="as_published").plot()
-
-The dataset has every point of the grid with its `status`, and the results of its quantity's summary. A
-zip is one dimension without a coordinate of its own. It is named after its parameters, which are variables along it.
+A zip is one dimension without a coordinate of its own. It is named after its parameters, which are variables along it.
 """
 
 import json
@@ -55,11 +51,10 @@ def merge_batches(
     indexed = flat.drop_vars(names).assign_coords(xr.Coordinates.from_pandas_multiindex(points, POINT))
     sizes = {name: range(size) for name, size in zip(whole.names, whole.levshape, strict=True)}
     merged = indexed.unstack(POINT, fill_value=fill).reindex(sizes, fill_value=fill).drop_vars(whole.names)
-    coords = {
-        name: ("_".join(dim["names"]), np.array([value[i] for value in dim["values"]]), describe(name))
-        for dim in grid
-        for i, name in enumerate(dim["names"])
-    }
+    coords = {}
+    for dim, along in zip(grid, whole.names, strict=True):
+        for name, values in zip(dim["names"], zip(*dim["values"], strict=True), strict=True):
+            coords[name] = (along, np.array(values), describe(name))
     merged = merged.transpose(*whole.names, ...).assign_coords(coords)
     merged.attrs = {"Conventions": CONVENTIONS, **attrs, **base}
     return summarised(merged, quantity_of(merged.attrs["quantity"]).model_validate(stated_in(merged, "options")))
@@ -72,7 +67,7 @@ def _indices(flat: xr.Dataset, grid: Sequence[Mapping[str, Any]]) -> pd.MultiInd
         known = {tuple(value): i for i, value in enumerate(dim["values"])}
         values = zip(*(flat[name].values.tolist() for name in dim["names"]), strict=True)
         columns["_".join(dim["names"])] = [known.get(value, -1) for value in values]
-    return pd.MultiIndex.from_arrays([*columns.values()], names=[*columns])
+    return pd.MultiIndex.from_frame(pd.DataFrame(columns))
 
 
 def failures(study: xr.Dataset) -> Iterator[str]:
@@ -82,8 +77,7 @@ def failures(study: xr.Dataset) -> Iterator[str]:
     failed = np.isin(status, STATUSES[1:])
     others = ~failed & (status != EXCLUDED) & ((status != "ok") | (study["message"].values != ""))
     for index in (*np.argwhere(failed), *np.argwhere(others)):
-        index_of = dict(zip(map(str, study["status"].dims), map(int, index), strict=True))
-        point = study.isel(index_of)
+        point = study.isel(dict(zip(study["status"].dims, index, strict=True)))
         values = {name: point[name].item() for name in varied}
         where = ", ".join(f"{name} = {x if isinstance(x, str) else as_text(x)}" for name, x in values.items())
         word, message = str(status[tuple(index)]), str(point["message"].item())
@@ -108,22 +102,17 @@ def _nothing(variable: xr.DataArray) -> Any:
 
 def _common(batches: Sequence[xr.Dataset]) -> dict[str, str]:
     """Attributes common to all batches (quantity, options, base values, sources), and the commits that made them."""
-    specification = json.loads(batches[0].attrs["specification"])
-    for name in ("points", "names", "tile"):
-        specification.pop(name, None)
-    specification["base"] = in_words(specification.get("base", {}))
-    for key in specification.keys() & {"starts", "discs"}:
-        every = [json.loads(batch.attrs["specification"])[key] for batch in batches]
-        specification[key] = {name: definition for named in every for name, definition in sorted(named.items())}
-    common = {name: value if isinstance(value, str) else json_attribute(value) for name, value in specification.items()}
-    return common | common_provenance(batches)
-
-
-# ---- Summaries: they are made again at each merge, so that changing them recomputes no batch
+    every = [json.loads(batch.attrs["specification"]) for batch in batches]
+    common = {name: value for name, value in every[0].items() if name not in ("points", "names", "tile")}
+    common["base"] = in_words(common["base"])
+    for key in common.keys() & {"starts", "discs"}:
+        common[key] = {name: definition for each in every for name, definition in sorted(each[key].items())}
+    texts = {name: value if isinstance(value, str) else json_attribute(value) for name, value in common.items()}
+    return texts | common_provenance(batches)
 
 
 def summarised(study: xr.Dataset, quantity: Quantity) -> xr.Dataset:
-    """A merged study with the summary of its quantity, if there is one."""
+    """A merged study with the summary of its quantity, if there is one. Changing a summary recomputes no batch."""
     if not quantity.SUMMARY_COLUMNS:
         return study
     others = {str(dim): size for dim, size in study["status"].sizes.items() if dim != quantity.over}
@@ -133,17 +122,9 @@ def summarised(study: xr.Dataset, quantity: Quantity) -> xr.Dataset:
     return study.assign_coords(coords).assign(variables_of(quantity.SUMMARY_COLUMNS, coords, rows, others))
 
 
-# ---- Named cases
-
-
 def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[str, str]]) -> xr.DataTree:
     """Put cases into one tree: a table of scalars along `case`, and below it a group for each, laid out as in its file.
-
-        table = xarray.open_dataset("cases.nc")                                  # first_separation by case
-        history = xarray.open_dataset("cases.nc", group="F13/history")           # one window of one case
-
-    labels : by case, texts that become variables of the table, such as title and reference
-    """
+    The labels, by case, are texts that become variables of the table: title and reference."""
     rows = [tree.to_dataset() for tree in cases.values()]
     table = xr.concat(rows, dim="case", **JOINED)
     table = table.assign_coords(case=("case", list(cases), {"long_name": "name of the case"}))
@@ -151,10 +132,7 @@ def merge_cases(cases: Mapping[str, xr.DataTree], labels: Mapping[str, Mapping[s
     for name, meaning in _TEXTS.items():
         table[name] = ("case", np.array([text.get(name, "") for text in texts], dtype=str), {"long_name": meaning})
     table.attrs = {"Conventions": CONVENTIONS, **common_provenance(rows)}
-    tree = xr.DataTree(table)
-    for name, case in cases.items():
-        tree[name] = case
-    return tree
+    return xr.DataTree(table, children=cases)
 
 
 _TEXTS = {"message": "what ended the simulation early", "reference": "place in the paper", "title": "what the case is"}

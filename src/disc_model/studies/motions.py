@@ -1,12 +1,7 @@
-"""Short histories of the motion at a few points of a grid, for the explorer page.
-
-A history begins at the end of the quantity's own computation: after the late stretch of an outcome, on the cycle whose
-stability is computed, or after the transient.
-"""
+"""Short histories of the motion at a few points of a grid, for the explorer page. They begin at `Quantity.state_at`."""
 
 import math
-from collections.abc import Mapping
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import xarray as xr
@@ -27,25 +22,21 @@ SHOWN = ("P", "u", "psi")
 
 
 class Motions:
-    """A quantity for `run` that computes histories instead of the study's own quantity."""
+    """A quantity for `run_batch` that computes histories instead of the study's own quantity."""
 
-    COLUMNS: Mapping[str, Variable] = {
+    COLUMNS: ClassVar = {
         "status": STATUS,
         "length": Variable("s", "length of the history"),
         **{name: SERIES[name]._replace(dims=("sample",)) for name in SHOWN},
         "phase": Variable("1", "phase of the motion", ("none", *PHASES), dims=("sample",)),
     }
-    COORDINATES: Mapping[str, Coordinate] = {
-        "sample": Coordinate("1", "number of the sample", lambda o: range(SAMPLES))
-    }
+    COORDINATES: ClassVar = {"sample": Coordinate("1", "number of the sample", lambda o: range(SAMPLES))}
 
     def __init__(self, quantity: Quantity) -> None:
         self.quantity = quantity
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """The history at one point."""
-        start = self.quantity.state_at(point).replace(time=0.0, time_low=0.0)
-        p = point.parameters
+        start, p = self.quantity.state_at(point).replace(time=0.0, time_low=0.0), point.parameters
         length = CYCLES_SHOWN * cycle_length(p, start)
         window = Window(start=0.0, stop=length, rate=(SAMPLES - 1) / length)
         result = simulate(p, length, {"history": window}, events=False, initial_state=start).raise_for_status()

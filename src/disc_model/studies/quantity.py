@@ -1,17 +1,14 @@
 """What all quantities of grid studies have in common, and ranges and rules as parts of files.
 
-A quantity is a module of `disc_model.studies.quantities` under its own name. It has a class with the options in a
-study file as fields, its variables, its computation at a point and its summary. `quantity_of` finds it by its name. It
-imports the engine only where it computes: reading a study file does not wait for it.
+A quantity is a module of `disc_model.studies.quantities` under its own name. It imports the engine only where it
+computes: reading a study file does not wait for it.
 """
-
-from __future__ import annotations
 
 import ast
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache
+from functools import cache, partial
 from importlib import import_module
 from itertools import chain
 from pkgutil import iter_modules
@@ -25,7 +22,7 @@ from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, suggestion
 from disc_model.parameters import DEFAULTS, RATIOS, Parameters, with_ratios
 from disc_model.simulation.case import Start
-from disc_model.units import Count, Finite, Positive, Strict, Tolerance, must, number
+from disc_model.units import Count, Finite, Positive, Strict, must, number
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -44,12 +41,9 @@ Rules = tuple[tuple[Callable[[Any], bool], str], ...]
 
 
 class Ruled(Strict):
-    """A part of a file with conditions between its fields.
+    """A part of a file with conditions between its fields."""
 
-    _rules : conditions, each with its message, which may show values of the part
-    """
-
-    _rules: ClassVar[Rules] = ()
+    _rules: ClassVar[Rules] = ()  # each with its message, which may show values of the part
 
     @model_validator(mode="after")
     def _keep_rules(self) -> Self:
@@ -80,10 +74,7 @@ class Range(Ruled):
             "a logarithmic range must give count, and start > 0",
         ),
         (lambda r: r._steps < MOST, f"must be at most {MOST} values"),
-        (
-            lambda r: abs(r._steps - r.intervals) <= 1e-9 * r._steps,
-            "stop - start must be a multiple of step={0.step:g}",
-        ),
+        (lambda r: math.isclose(r._steps, r.intervals), "stop - start must be a multiple of step={0.step:g}"),
     )
 
     @property
@@ -97,7 +88,6 @@ class Range(Ruled):
 
     @property
     def values(self) -> list[float]:
-        """All values, in ascending order."""
         return [float(value) for value in self.blocks()[0]]
 
     def blocks(self, resolution: int = 1) -> Blocks:
@@ -107,10 +97,8 @@ class Range(Ruled):
         if n >= MOST:
             raise ValueError(f"must be at most {MOST} values, and not {n + 1}")
         by_level: dict[int, list[Value]] = {}
-        for i in range(n + 1):
-            # the lowest resolution at which this value is there
-            level = resolution // math.gcd(i, resolution)
-            by_level.setdefault(level, []).append(self._at(i / n))
+        for i in range(n + 1):  # the level of a value is the lowest resolution at which it is there
+            by_level.setdefault(resolution // math.gcd(i, resolution), []).append(self._at(i / n))
         if len({*chain(*by_level.values())}) <= n:
             raise ValueError(f"must be {n + 1} values that differ in their first 12 digits")
         return tuple(tuple(by_level[level]) for level in sorted(by_level))
@@ -119,9 +107,9 @@ class Range(Ruled):
         """The value at a fraction of the range, rounded to 12 digits, so that ranges and lists agree on 0.3."""
         if share in (0.0, 1.0):
             return self.stop if share else self.start
-        if self.scale == "log":
-            return float(f"{self.start * (self.stop / self.start) ** share:.12g}")
-        return float(f"{self.start + share * (self.stop - self.start):.12g}")
+        log = self.scale == "log"
+        value = self.start * (self.stop / self.start) ** share if log else self.start + share * (self.stop - self.start)
+        return float(f"{value:.12g}")
 
 
 # ---- Rules between the values of a point, such as ``mu_k <= mu_s``, that exclude points of a grid
@@ -134,17 +122,12 @@ _MADE_OF = (
 
 def checked_rule(rule: str) -> str:
     """The text if it is a rule such as ``mu_k <= mu_s`` or ``0.5 < a/b < 0.8``, otherwise raises ValueError."""
-    _compiled(rule)
+    compiled_rule(rule)
     return rule
 
 
-def names_in(rule: str) -> frozenset[str]:
-    """Names in a rule."""
-    return frozenset(_compiled(rule).co_names)
-
-
 @cache
-def _compiled(rule: str) -> CodeType:
+def compiled_rule(rule: str) -> CodeType:
     """A rule of comparisons, with floats only: a whole number could repeat a word without end."""
     try:
         tree = ast.parse(rule.strip(), mode="eval")
@@ -163,18 +146,18 @@ def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
     """Whether all rules hold at a point; a rule that cannot be evaluated, such as a division by zero, does not."""
     floats = {name: float(x) if isinstance(x, int) else x for name, x in (DEFAULTS | with_ratios(values)).items()}
     try:
-        return all(eval(_compiled(rule), {"__builtins__": {}}, floats) for rule in rules)
+        return all(eval(compiled_rule(rule), {"__builtins__": {}}, floats) for rule in rules)
     except (ArithmeticError, TypeError):
         return False
 
 
 # ---- Quantities
 STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
-"""Status of a point. `failed`: it raised an error, or was not reached."""
 STATUS = Variable("1", "what became of the computation", STATUSES)
 
 Row = Mapping[str, Any]
 Made = Parameters | DiscModelError  # parameters, or the error in their place
+NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)  # errors that make a point fail
 
 
 class Point(NamedTuple):
@@ -193,11 +176,7 @@ class Coordinate(NamedTuple):
     values: Callable[[Any], Sequence[Any]]
 
 
-DIRECTION = Coordinate("", "direction of the sweep", lambda options: ("up", "down"))  # coordinate of sweeps up and down
-
-
-NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
-"""Errors that make a point fail: this package's errors, division by zero and overflow, unsolvable matrices."""
+DIRECTION = Coordinate("", "direction of the sweep", lambda options: ("up", "down"))
 
 
 def failed(error: Exception, flag: str = "status") -> tuple[Row, str]:
@@ -205,12 +184,18 @@ def failed(error: Exception, flag: str = "status") -> tuple[Row, str]:
     return {flag: "failed"}, f"{type(error).__name__}: {error}"
 
 
-def tried(flag: str, compute: Callable[..., tuple[Row, str]], *arguments: Any) -> tuple[Row, str]:
-    """Values and message that a function returns; with an error (see `NUMERICAL`) this flag is `failed`."""
+def tried(flag: str, compute: Callable[..., tuple[Row, str]], subject: Any, *options: Any) -> tuple[Row, str]:
+    """Values and message that a function returns; with an error (see `NUMERICAL`), which the subject may be already,
+    this flag is `failed`."""
     try:
-        return compute(*arguments)
+        return failed(subject, flag) if isinstance(subject, Exception) else compute(subject, *options)
     except NUMERICAL as error:
         return failed(error, flag)
+
+
+def along(*dims: str) -> Callable[..., Variable]:
+    """What makes variables along dimensions of a quantity's own."""
+    return partial(Variable, dims=dims)
 
 
 def with_ends(name: str, values: Iterable[Any]) -> dict[str, Any]:
@@ -231,43 +216,25 @@ CYCLE = 2.5e-3  # cost of finding a cycle and its multipliers, s
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
 )
-_NUMBERS = [name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_")]
-_FREE = re.compile("|".join([*_NUMBERS, *RATIOS, r"(omega|amplitude|damping_ratio)_\d+_\d+"]))
+NUMBERS = tuple(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_"))
+_FREE = re.compile("|".join([*NUMBERS, *RATIOS, r"(omega|amplitude|damping_ratio)_\d+_\d+"]))
 Free = Annotated[str, AfterValidator(must(lambda name: bool(_FREE.fullmatch(name)), "must be a number of the case"))]
 """A number along which cycles are continued: a parameter, a ratio, or one of a disc's modes."""
 
 
-_QUANTITIES = "disc_model.studies.quantities"
-
-
 class Quantity(Ruled):
-    """A quantity of grid studies: its fields are its options.
-
-    COLUMNS, COORDINATES : its variables, and its own dimensions beyond those of the grid
-    SUMMARY_COLUMNS, SUMMARY_COORDINATES : those of its summary
-    scans : parameters that it varies by itself, or the options that name them
-    motions : number of values of each axis for which a motion is stored; smaller if a motion is expensive. 0: none
-    motion : description of the motions, which begin at `state_at`
-    tiled : whether it needs a whole tile of a plane at once
-    over : the required dimension over which a merged study is summarised
-    cost : processor time of a point, s, by the options
-    """
+    """A quantity of grid studies: its fields are its options."""
 
     COLUMNS: ClassVar[Mapping[str, Variable]] = {}
-    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {}
+    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {}  # its own dimensions, beyond those of the grid
     SUMMARY_COLUMNS: ClassVar[Mapping[str, Variable]] = {}
     SUMMARY_COORDINATES: ClassVar[Mapping[str, Coordinate]] = {}
-    scans: ClassVar[tuple[str, ...]] = ()
-    motions: ClassVar[int] = 0
-    motion: ClassVar[str] = ""
-    tiled: ClassVar[bool] = False
-    over: ClassVar[str] = ""
-    cost: ClassVar[Callable[[Any], float]]
-
-    @property
-    def seconds(self) -> float:
-        """Approximate processor time of a point, s, measured at points of the paper's study."""
-        return type(self).cost(self)
+    scans: ClassVar[tuple[str, ...]] = ()  # parameters that it varies by itself, or the options that name them
+    motions: ClassVar[int] = 0  # number of values of each axis for which a motion is stored, fewer if it is expensive
+    motion: ClassVar[str] = ""  # description of these motions, which begin at `state_at`
+    tiled: ClassVar[bool] = False  # whether it needs a whole tile of a plane at once
+    over: ClassVar[str] = ""  # the required dimension over which a merged study is summarised
+    cost: ClassVar[Callable[[Any], float]]  # processor time of a point, s, measured at points of the paper's study
 
     @property
     def scanned(self) -> tuple[str, ...]:
@@ -288,14 +255,12 @@ class Quantity(Ruled):
         shorter than their dimension are padded with missing values, longer ones are cut."""
         raise NotImplementedError
 
-    def compute_tile(
-        self, points: Sequence[Sequence[Made]], sampled: Sequence[tuple[int, int]]
-    ) -> Sequence[Sequence[tuple[Row, str]]]:
+    def compute_tile(self, points: Sequence[Sequence[Made]], sampled: Sequence[tuple[int, int]]) -> list[list[Any]]:
         """Instead of it, rows and messages of a whole tile of a plane, at least at the places `sampled`."""
         raise NotImplementedError
 
     def state_at(self, point: Point) -> State:
-        """The state in which the motions of a point begin."""
+        """The state in which the motions of a point begin; raises `DiscModelError` if there is none."""
         raise NotImplementedError
 
     def summarise(self, cell: Dataset) -> Row:
@@ -304,18 +269,7 @@ class Quantity(Ruled):
         raise NotImplementedError
 
 
-class EarlyEnd(Quantity):
-    """A quantity whose simulations may end before the horizon.
-
-    early_end : whether a simulation ends as soon as its outcome is known, see `disc_model.stability.attractor`
-    """
-
-    tol: Tolerance = 1e-10
-    early_end: bool = True
-
-
 def quantity_names() -> list[str]:
-    """Names of all quantities."""
     return [module.name for module in iter_modules(import_module(_QUANTITIES).__path__)]
 
 
@@ -326,3 +280,6 @@ def quantity_of(name: str) -> type[Quantity]:
     values = vars(import_module(f"{_QUANTITIES}.{name}")).values()
     classes = (value for value in values if isinstance(value, type) and issubclass(value, Quantity))
     return next(each for each in classes if each.__module__.endswith(f".{name}"))
+
+
+_QUANTITIES = "disc_model.studies.quantities"

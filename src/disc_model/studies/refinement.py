@@ -1,16 +1,15 @@
 """Outcome of the static start over two parameters, refined at borders, and the cycle at every point.
 
-A batch is a tile of the plane. The cycle is computed at each of its points, which is cheap. Its multipliers give the
-outcome (`disc_model.stability.attractor`) if the start stays quiet, or grows too slowly for anything else within the
-horizon. Elsewhere the start is simulated at the corners of coarse cells, which are divided as docs/method.md,
-Regions, describes. Neutral curves and folds are thus resolved point by point, borders of separation to the grid's own
-intervals. In an undivided cell, points not decided by multipliers take the outcome of the simulated ones.
+A batch is a tile of the plane. At each of its points the multipliers of the cycle give the outcome if the start stays
+quiet, or grows too slowly for anything else within the horizon. Elsewhere the start is simulated at the corners of
+coarse cells, which are divided as docs/method.md, Regions, describes. In an undivided cell, points not decided by
+multipliers take the outcome of the simulated ones.
 """
 
 import math
 from collections.abc import Callable, Collection, Sequence
 from itertools import pairwise, product
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +24,6 @@ from disc_model.stability.return_map import newton
 from disc_model.studies.quantity import NUMERICAL, Made, Row, failed
 
 Array = NDArray[np.float64]
-T = TypeVar("T")
 Index = tuple[int, int]
 
 GROWN = {Outcome.GROWING, Outcome.OTHER_CYCLE}
@@ -33,34 +31,21 @@ CALM = (Outcome.QUIET, Outcome.STEADY_SLIDING, Outcome.AT_REST)
 
 
 class Tile:
-    """A tile of the plane; the outcome at the places `sampled` is computed in any case."""
+    """A tile of the plane, with the options of `Regions`; the outcome at the places `sampled` is always computed."""
 
-    def __init__(
-        self,
-        points: Sequence[Sequence[Made]],
-        sampled: Collection[Index] = (),
-        *,
-        horizon: float,
-        tol: float,
-        initial_cell_size: int,
-    ) -> None:
-        self.horizon, self.tol, self.initial_cell_size = horizon, tol, initial_cell_size
-        self.shape = len(points), len(points[0])
-        self.points = {(i, j): p for i, row in enumerate(points) for j, p in enumerate(row)}
-        self.starts = {
-            index: p if isinstance(p, Exception) else _result_or_error(cycle_of_static_start, p)
-            for index, p in self.points.items()
-        }
+    def __init__(self, points: Sequence[Sequence[Made]], sampled: Collection[Index], options: Any) -> None:
+        self.options, self.shape = options, (len(points), len(points[0]))
+        self.points: dict[Index, Any] = {(i, j): p for i, row in enumerate(points) for j, p in enumerate(row)}
+        self.starts = {index: _result_or_error(cycle_of_static_start, p) for index, p in self.points.items()}
         self.results: dict[Index, OutcomeResult | Exception] = {}
         self.filled: dict[Index, str] = {}
         self.presumed: dict[Index, str] = {}
         self.trends = {index: self._trend(index) for index in self.starts}
         for index in sampled:
             self.outcome(index)
-        rows, columns = (_edges(size, initial_cell_size) for size in self.shape)
+        rows, columns = (_edges(size, options.initial_cell_size) for size in self.shape)
         known = -1
-        # a result on its edge may require a cell to be divided
-        while known < len(self.results) or self._confirm():
+        while known < len(self.results) or self._confirm():  # a result on its edge may require a cell to be divided
             known = len(self.results)
             self.filled.clear()
             self.presumed.clear()
@@ -116,20 +101,18 @@ class Tile:
         return result.word if isinstance(result, OutcomeResult) else "failed"
 
     def _result(self, index: Index, furthest: float = AMPLITUDES[0]) -> OutcomeResult | Exception:
-        start = self.starts[index]
-        if isinstance(start, Exception):
-            return start
-        how = {"tol": self.tol, "near": start, "furthest": furthest}
-        return _result_or_error(find_outcome, self.points[index], self.horizon, **how)
+        def outcome(start: NearCycle | FloquetResult) -> OutcomeResult:
+            p, horizon, tol = self.points[index], self.options.horizon, self.options.tol
+            return find_outcome(p, horizon, tol=tol, near=start, furthest=furthest)
+
+        return _result_or_error(outcome, self.starts[index])
 
     def _trend(self, index: Index) -> str:
         """The outcome at a point from the multipliers, or "" if they leave it open."""
         start = self._own(index)
-        if start is None:
-            return ""
-        if start.cycle.stable:
+        if start is not None and start.cycle.stable:
             return Outcome.QUIET
-        return Outcome.GROWING if stays_linear_until(start, self.horizon) else ""
+        return Outcome.GROWING if start is not None and stays_linear_until(start, self.options.horizon) else ""
 
     def _refine(self, rows: Index, columns: Index) -> None:
         """Divide a cell, given by the indices of its edges, or fill it."""
@@ -148,7 +131,7 @@ class Tile:
         outcomes |= {self.trends[index] for index in inside if self.trends[index] is Outcome.GROWING}
         halves = [_halves(*edges) for edges in (rows, columns)]
         side = max(rows[1] - rows[0], columns[1] - columns[0])
-        most = max(1, self.initial_cell_size // 2)
+        most = max(1, self.options.initial_cell_size // 2)
         if len(outcomes) == 1 and outcomes <= GROWN and 1 < side <= most:
             # late separations depend on rounding: all corners may miss them by chance
             outcomes.add(self.outcome(_middle(undecided)))
@@ -162,21 +145,18 @@ class Tile:
 
     def _presume(self, rows: Index, columns: Index) -> None:
         """Presume that an edge of a small cell has the outcome of its equal corners; a cell beside it may differ."""
+
+        def outcome(corner: Index) -> str:
+            return self.trends[corner] or (self.outcome(corner) if corner in self.results else self.presumed[corner])
+
         edges = [((row, columns[0]), (row, columns[1])) for row in rows]
         edges += [((rows[0], column), (rows[1], column)) for column in columns]
         for first, two in edges:
             middle = (first[0] + two[0]) // 2, (first[1] + two[1]) // 2
-            if middle not in (first, two) and not self.trends[middle] and self._format(first) == self._format(two):
-                self.presumed.setdefault(middle, self._format(first))
-
-    def _format(self, index: Index) -> str:
-        """The outcome at a corner, computed or presumed."""
-        if self.trends[index]:
-            return self.trends[index]
-        return self.presumed[index] if index not in self.results else self.outcome(index)
+            if middle not in (first, two) and not self.trends[middle] and outcome(first) == outcome(two):
+                self.presumed.setdefault(middle, outcome(first))
 
     def rows(self) -> list[list[tuple[Row, str]]]:
-        """Values and message of each point."""
         others = self._others()
         self.followed = {index: self._follow(index) for index in self.starts}
         return [[self._row((i, j), others[i, j]) for j in range(self.shape[1])] for i in range(self.shape[0])]
@@ -218,27 +198,18 @@ class Tile:
         if result is None:
             row |= {"outcome": self._shown(index), "method": "multipliers" if self.trends[index] else "inferred"}
         else:
+            row |= {"status": result.status, "outcome": result.word, "simulated_time": result.simulated}
             method = "simulation" if result.simulated else "multipliers"
-            row |= {
-                "status": result.status,
-                "outcome": result.word,
-                "method": "settled" if result.stage is Stage.STEADY else method,
-                "first_separation": result.first_separation,
-                "simulated_time": result.simulated,
-            }
+            row["method"] = "settled" if result.stage is Stage.STEADY else method
+            row["first_separation"] = result.first_separation
         followed = self.followed[index]
         if followed is None:
             row["cycle"] = _without(start, result)
         else:
             cycle = followed.cycle
             lowest = min(frequency for frequency, _, bound in modes_at_rest(cycle.parameters) if bound)
-            row |= {
-                "cycle": "followed",
-                "growth_rate": cycle.growth_rate,
-                "period": cycle.period,
-                "releases": cycle.releases,
-                "period_ratio": cycle.period * lowest,
-            }
+            row |= {"cycle": "followed", "growth_rate": cycle.growth_rate, "period": cycle.period}
+            row |= {"releases": cycle.releases, "period_ratio": cycle.period * lowest}
         return row, "" if result is None else result.message
 
     def _others(self) -> dict[Index, int]:
@@ -268,9 +239,10 @@ class Tile:
                 known[index].append(orbit.start)
 
 
-def _result_or_error(compute: Callable[..., T], *arguments: Any, **named: Any) -> T | Exception:
+def _result_or_error(compute: Callable[[Any], Any], argument: Any) -> Any:
+    """The result of an argument, or the error in its place, which it may be already."""
     try:
-        return compute(*arguments, **named)
+        return argument if isinstance(argument, Exception) else compute(argument)
     except NUMERICAL as error:
         return error
 

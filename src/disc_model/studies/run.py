@@ -15,12 +15,11 @@ from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Var
 from disc_model.disc.plate import mode_arrays
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import chosen_modes, read_asked
-from disc_model.parameters import AUTO, CONTACTS, Parameters, case_of
+from disc_model.parameters import AUTO, Parameters, case_of, in_words
 from disc_model.simulation.case import Start
 from disc_model.sources import git_commit, source_hash, versions
-from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, failed, quantity_of, tried
+from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, quantity_of, tried
 
-# ---- Batches
 log = logging.getLogger(__name__)
 POINT = "point"
 
@@ -32,13 +31,8 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
     data = json.loads(text)
     quantity = quantity_of(data["quantity"]).model_validate(data["options"])
     computed = quantity if of is None else of(quantity)
-    names, points = data["names"], data["points"]
-    if "contact" in names:
-        i = names.index("contact")
-        points = [[*point[:i], CONTACTS.get(point[i], point[i]), *point[i + 1 :]] for point in points]
-    own_start = Start.model_fields.keys() & type(quantity).model_fields.keys()
-    start = Start(**{name: getattr(quantity, name) for name in own_start})
-    varied = [dict(zip(names, point, strict=True)) for point in points]
+    names = data["names"]
+    varied = [in_words(dict(zip(names, point, strict=True))) for point in data["points"]]
     chosen = data["base"].get("n_diameters") == AUTO
     # a tile makes its own
     parameters = [_made(data, values) for values in varied] if chosen or "tile" not in data else []
@@ -46,10 +40,11 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
     if "tile" in data and of is None:
         results = list(_over_tile(quantity, data))
     else:
-        starts = {name: Start.model_validate(stated) for name, stated in data.get("starts", {}).items()}
-        each = zip(parameters, varied, strict=True)
-        results = [compute(computed, _point(p, values, start, starts)) for p, values in each]
-    log.info("%d points, %.3f s of processor time", len(points), time.process_time() - began)
+        stated = {None: {name: value for name, value in data["options"].items() if name in Start.model_fields}}
+        starts = {name: Start(**start) for name, start in (stated | data.get("starts", {})).items()}
+        points = (_point(*point, starts) for point in zip(parameters, varied, strict=True))
+        results = [tried("status", computed.compute_point, point) for point in points]
+    log.info("%d points, %.3f s of processor time", len(varied), time.process_time() - began)
     rows, messages = zip(*results, strict=True)
     for values, message in zip(varied, messages, strict=True):
         if message:
@@ -61,7 +56,7 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
             highest = [-1 if isinstance(p, DiscModelError) else getattr(mode_arrays(p), name).max() for p in parameters]
             variables[f"n_{name}"] = xr.Variable(POINT, highest, attributes(f"n_{name}"))
     variables["message"] = xr.Variable(POINT, np.array(messages, dtype=str), {"long_name": "what went wrong"})
-    coords = {name: xr.Variable(POINT, [point[i] for point in points], describe(name)) for i, name in enumerate(names)}
+    coords = {name: xr.Variable(POINT, [values[name] for values in varied], describe(name)) for name in names}
     attrs = {
         "Conventions": CONVENTIONS, "specification": text,
         "source_hash": source_hash(__name__, type(quantity).__module__), "git_commit": git_commit(),
@@ -71,7 +66,7 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
 
 
 def _over_tile(quantity: Quantity, data: Mapping[str, Any]) -> Iterator[tuple[Row, str]]:
-    """Compute a tile with its margin, which belongs to the next tiles; return its own points in the text's order. Each
+    """Compute a tile with its margin, which belongs to the next tiles; yield its own points in the text's order. Each
     combination of the other varying parameters is a tile of its own."""
     (first, second), (rows, columns) = data["tile"]["names"], data["tile"]["along"]
     tiles: dict[tuple[Any, ...], Sequence[Sequence[tuple[Row, str]]]] = {}
@@ -85,11 +80,11 @@ def _over_tile(quantity: Quantity, data: Mapping[str, Any]) -> Iterator[tuple[Ro
         yield tiles[key][i][j]
 
 
-def _point(p: Made, varied: Mapping[str, Any], start: Start, starts: Mapping[str, Start]) -> Point | DiscModelError:
-    """A point with its parameters and everything else that varies."""
+def _point(p: Made, varied: Mapping[str, Any], starts: Mapping[str | None, Start]) -> Point | DiscModelError:
+    """A point with its parameters and everything else that varies; the start of None is that of the options."""
     if isinstance(p, DiscModelError):
         return p
-    start = starts[varied[START]] if START in varied else start
+    start = starts[varied.get(START)]
     whole: dict[str, float] = {str(name): value for name, value in start.perturbation.items()}
     for name in varied.keys() & PERTURBATIONS.keys():
         coordinate = name.removeprefix("perturbation_")
@@ -119,19 +114,11 @@ def describe(name: str) -> dict[str, Any]:
 
 
 def coordinates_of(coordinates: Mapping[str, Coordinate], quantity: Quantity) -> dict[str, xr.Variable]:
-    """Values along a quantity's own dimensions, beyond those of the grid."""
     variables = {}
     for name, (units, long_name, values) in coordinates.items():
-        described = Variable(units, long_name.format(quantity))
-        variables[name] = xr.Variable(name, np.array(values(quantity)), described.attributes)
+        attrs = Variable(units, long_name.format(quantity)).attributes
+        variables[name] = xr.Variable(name, np.array(values(quantity)), attrs)
     return variables
-
-
-def compute(quantity: Any, point: Point | DiscModelError) -> tuple[Row, str]:
-    """Compute a quantity at a point; with an error (see `NUMERICAL`) it is `failed`, with a message."""
-    if isinstance(point, DiscModelError):
-        return failed(point)
-    return tried("status", quantity.compute_point, point)
 
 
 def variables_of(
@@ -142,8 +129,7 @@ def variables_of(
     for name, column in columns.items():
         array = column.empty((len(rows), *(coords[dim].size for dim in column.dims)))
         for i, row in enumerate(rows):
-            if name in row:
-                _store(row[name], array, (i,), column)
+            _store(row.get(name), array, (i,), column)
         array = array.reshape((*sizes.values(), *array.shape[1:]))
         variables[name] = xr.Variable((*sizes, *column.dims), array, column.attributes)
     return variables
@@ -151,12 +137,12 @@ def variables_of(
 
 def _store(value: Any, array: NDArray[Any], index: tuple[int, ...], column: Variable) -> None:
     """Store a value in an array: flags as numbers; lists and arrays are cut to fit."""
-    room = array.shape[len(index) :]
+    cell = array[index]
     if isinstance(value, list):
-        for i, item in enumerate(value[: room[0]]):
+        for i, item in enumerate(value[: len(cell)]):
             _store(item, array, (*index, i), column)
     elif isinstance(value, np.ndarray) and value.ndim:
-        part = value[tuple(map(slice, room))]
-        array[index][tuple(map(slice, part.shape))] = part
+        part = value[tuple(map(slice, cell.shape))]
+        cell[tuple(map(slice, part.shape))] = part
     elif value is not None:
         array[index] = column.flags.index(value) if isinstance(value, str) else value

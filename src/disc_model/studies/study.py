@@ -1,12 +1,8 @@
 """Studies: their files are read and checked, and yield named cases and grids.
 
-`load_study` reads files, `study_from_config` takes what Snakemake read from one or more files, and `parse_study` takes
-the mapping itself. All raise one `StudyError` that lists the faults with their paths: those of single values first, and
-those between values once these are right. The keys of a file are defined in `disc_model.studies.document`. Each case
-inherits the study's base values and default records.
+What reads raises one `StudyError` that lists the faults with their paths: those of single values first, and those
+between values once these are right.
 """
-
-from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -48,10 +44,9 @@ def read_file(path: Path) -> Any:
     """A YAML file's content; raises `StudyError` if it cannot be read or gives a key twice."""
     try:
         return read_yaml(path.read_text(encoding="utf-8"), str(path))
-    except OSError as error:
-        raise StudyError(f"cannot be read: {error.strerror}", source=str(path)) from None
-    except UnicodeDecodeError as error:
-        raise StudyError(f"cannot be read: byte {error.start} is no UTF-8", source=str(path)) from None
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else f"byte {error.start} is no UTF-8"
+        raise StudyError(f"cannot be read: {reason}", source=str(path)) from None
 
 
 def read_yaml(text: str, source: str = "study") -> Any:
@@ -83,8 +78,8 @@ def _given_twice(root: yaml.Node | None) -> list[str]:
             lines: dict[Any, list[int]] = {}
             for key, _ in node.value:
                 lines.setdefault(key.value, []).append(key.start_mark.line + 1)
-            twice = {key: places for key, places in lines.items() if len(places) > 1 and key != "<<"}
-            faults += [f"{key}: given twice, in lines {lines[0]} and {lines[1]}" for key, lines in twice.items()]
+            twice = ((key, *places) for key, places in lines.items() if len(places) > 1 and key != "<<")
+            faults += [f"{key}: given twice, in lines {first} and {second}" for key, first, second, *_ in twice]
             nodes += chain(*node.value)
         elif isinstance(node, yaml.SequenceNode):
             nodes += node.value
@@ -112,23 +107,17 @@ def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
 # ---- Studies
 
 MODES = {"as_published": "modes scaled as in the published results", "orthonormal": "modes normalised as Eq. (17) says"}
-"""Normalizations in captions."""
 
 
 class Study:
-    """A study; raises `ParameterError` with the faults between the parts of its file.
-
-    document : content of the file; the study has its name, title, claims, cases, and files of further grid studies
-    specs : what is simulated of each case, in the order of the file
-    figures : figures of cases and of grids, by name
-    grid : the file's own grid, if it has one
-    """
+    """A study; raises `ParameterError` with the faults between the parts of its file."""
 
     def __init__(self, document: Document) -> None:
         self.document, self.name, self.title, self.claims = document, document.study, document.title, document.claims
         self.cases, self.studies, self.figures = document.cases, document.studies, document.figures
-        self.specs: dict[str, CaseSpec] = {}
-        self.grid: GridStudy | None = None
+        self.specs: dict[str, CaseSpec] = {}  # what is simulated of each case
+        self.grid: GridStudy | None = None  # the file's own
+        self._grid_plots = [(name, plot) for name, plot in self.figures.items() if isinstance(plot, Plot)]
         faults: list[Fault] = []
         for name, case in self.cases.items():
             try:
@@ -147,8 +136,7 @@ class Study:
         elif keys & GRID_KEYS:
             faults.append(Fault(("quantity",), "", "is required"))
         elif not keys & {"cases", "studies"}:
-            rule = "must say what to compute: cases, or quantity and axes, or studies"
-            faults.append(Fault(("study",), "", rule))
+            faults.append(Fault(("study",), "", "must say what to compute: cases, or quantity and axes, or studies"))
         recorded = {name: self.specs[name].sections if name in self.specs else None for name in self.cases}
         for name, plot in self.figures.items():
             if isinstance(plot, CasePlot):
@@ -157,11 +145,6 @@ class Study:
                 rule = "shows a grid: this study has none, and no other one is named as its study"
                 faults.append(Fault.of(("figures", name, "kind"), plot.kind, rule))
         raise_faults(faults)
-
-    @property
-    def _grid_plots(self) -> list[tuple[str, Plot]]:
-        """The figures of grids, with their names."""
-        return [(name, plot) for name, plot in self.figures.items() if isinstance(plot, Plot)]
 
     @property
     def labels(self) -> dict[str, dict[str, str]]:
@@ -195,12 +178,8 @@ class Study:
                 yield f"{texts[0]} ({len(texts)} of {len(self.specs)} cases)"
 
     def grids(self, folders: Sequence[Path] = (Path(),)) -> tuple[dict[str, GridStudy], tuple[str, ...]]:
-        """All grids, the file's own and those of its further files, and the names of the requested ones.
-
-        A figure of the file's own grid may show further grids. These are read from files beside it and are included.
-
-        folders : searched for the files; the first that has one counts
-        """
+        """All grids, the file's own and those of its further files, and the names of the requested ones. Grids that
+        figures show besides are read from files beside it. The first of the folders that has a file counts."""
         grids = {} if self.grid is None else {self.name: self.grid}
         paths = [path for pattern in self.studies for path in _matching(pattern, folders)]
         requested = (*grids, *(path.stem for path in paths))
@@ -234,7 +213,6 @@ class Study:
         return grids, requested
 
     def _add_grid(self, path: Path, grids: dict[str, GridStudy], faults: list[str]) -> None:
-        """Add the grid of another file, with the overriding values applied."""
         try:
             content = inherit(mapping(read_file(path)), self.document.overrides.get(path.stem, {}))
             raw = {"resolution": self.document.resolution, **content}
@@ -260,7 +238,6 @@ def load_study(*paths: str | Path) -> Study:
 
 
 def read_files(*paths: str | Path) -> Any:
-    """Contents of study files, later ones laid over earlier ones."""
     return reduce(lambda below, changes: inherit(mapping(below), mapping(changes)), map(read_file, map(Path, paths)))
 
 
@@ -274,10 +251,7 @@ def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
 
 
 def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> Study:
-    """Check the mapping that a study file holds; raises one `StudyError`.
-
-    folder : contains the tables of discs, if the file may name any
-    """
+    """The study of the mapping that a file holds, with tables of discs from a folder, if it may name any."""
     try:
         return Study(_document(raw if folder is None else _with_discs(raw, folder)))
     except ParameterError as error:
@@ -287,13 +261,13 @@ def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> 
 
 
 def _document(raw: Any) -> Document:
-    """The content of a file, in which each case has what it inherits; raises `ParameterError`."""
+    """The content of a file, in which each case has what it inherits."""
     if not isinstance(raw, Mapping):
         raise ParameterError(Fault.of(("study",), raw, "must be a mapping"))
     content = dict(raw)
     if isinstance(raw.get("cases"), Mapping):
-        shared = {"parameters": raw.get("base"), "record": raw.get("record"), "tol": raw.get("tol")}
-        shared = {key: value for key, value in shared.items() if value is not None}
+        keys = {"base": "parameters", "record": "record", "tol": "tol"}
+        shared = {inner: raw[key] for key, inner in keys.items() if raw.get(key) is not None}
         content["cases"] = {
             name: {"parameters": {}} | inherit(shared, case) if isinstance(case, Mapping) else case
             for name, case in raw["cases"].items()
@@ -305,7 +279,7 @@ def _document(raw: Any) -> Document:
 
 def _with_discs(raw: Any, folder: Path, path: tuple[str, ...] = ()) -> Any:
     """A file's content in which the names of disc tables, relative to the folder, are replaced by the discs.
-    Recomputation thus depends on a table's content and not on its name. Raises `ParameterError`."""
+    Recomputation thus depends on a table's content and not on its name."""
     if not isinstance(raw, Mapping):
         return raw
     if not path:  # names along an axis of discs are tables too
@@ -314,7 +288,7 @@ def _with_discs(raw: Any, folder: Path, path: tuple[str, ...] = ()) -> Any:
         axes = [mapping(group).get("disc") for group in groups]
         varied = [name for axis in axes if isinstance(axis, list) for name in axis if isinstance(name, str)]
         if varied:
-            raw = {**raw, "discs": {**{name: name for name in varied}, **mapping(raw.get("discs"))}}
+            raw = {**raw, "discs": {**dict(zip(varied, varied, strict=True)), **mapping(raw.get("discs"))}}
     content = {}
     for key, value in raw.items():
         inner = (*path, str(key))
@@ -329,7 +303,6 @@ def _with_discs(raw: Any, folder: Path, path: tuple[str, ...] = ()) -> Any:
 
 
 def _shown_path(path: Path) -> str:
-    """The shortest form of a path, relative to the current folder if possible."""
     whole, current = path.resolve(), Path.cwd()
     return str(whole.relative_to(current) if whole.is_relative_to(current) else path)
 
@@ -380,9 +353,7 @@ def check_targets(
     targets: Iterable[str], study: Study, grids: Mapping[str, GridStudy], figures: Mapping[str, Sequence[str]]
 ) -> None:
     """Raise DiscModelError if a file is requested by a name that no study, figure or case has, and say which there are.
-
-    figures : names of figures, by the study in whose folder of results they are
-    """
+    The names of figures are given by the study in whose folder of results they are."""
     known: Collection[str]
     for target in targets:
         match Path(target).parts:
@@ -402,7 +373,6 @@ def check_targets(
 
 
 def closing_lines(study: Study, figures: Sequence[Path], grids: Mapping[str, GridStudy]) -> Iterator[str]:
-    """Summary of a run of a whole study: its figures, points without a result, and how to examine each point."""
     if figures:
         folders = {str(figure.parent) for figure in figures}
         folder = folders.pop() if len(folders) == 1 else "results/*/figures"

@@ -5,27 +5,28 @@ the energy in its list, and i. The first starts of all energies come first, then
 leave the earlier ones unchanged.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import Field
 
+from disc_model.analysis.classify import share
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
 from disc_model.display import computed
 from disc_model.simulation.case import Start
 from disc_model.studies import quantity
-from disc_model.studies.quantity import STATUS, Attractor, Coordinate, OutcomeResult, Point, Quantity, State, listed
+from disc_model.studies.quantity import STATUS, Attractor, Coordinate, OutcomeResult, Point, Quantity, listed
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
 CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])  # outcomes of a start
 SHOWN = ("range", "separation_rate", "stick_fraction", "separation_fraction")  # statistics of a stretch on an attractor
 SMALLEST = 2.0**-40  # fraction of the least separating energy of the sample, below which the bisection gives up
+_ONE_START = "n_starts must be 1 where an energy is 0, since no direction tells them apart"
+Follow = Callable[[float, int, int], OutcomeResult]
 _EACH, _SHARES, _KNOWN = ("energy", "start"), ("energy", "attractor_class"), ("attractor",)
 
 
@@ -35,36 +36,22 @@ def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Variab
 
 
 class AttractorBasins(Start, Quantity):
-    """Attractors, basin fractions and critical energy, from many starts.
-
-    energies : J, of the perturbations that are added to the start in random directions; 0 adds nothing
-    n_starts : number of starts at each energy
-    seed : whole number; a direction depends on it, on the place of the energy, and on the number of the start
-    horizon : s
-    attractor_tol : relative; a motion ends early if its range agrees with that of a known attractor to this, and
-        approaches it. 0: every motion is simulated to the horizon
-    confidence : confidence level of the intervals of fractions
-    n_bisection_directions : number of directions for the critical energy, those of the separating starts with the least
-        energies
-    precision : relative precision of the critical energy
-    """
+    """Attractors, basin fractions and critical energy, from many starts."""
 
     tol: Tolerance = 1e-10
-    energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,)
-    n_starts: Annotated[Count, Field(ge=1, le=quantity.MOST)] = 1
+    energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,)  # of the perturbations; 0 adds nothing
+    n_starts: Annotated[Count, Field(ge=1, le=quantity.MOST)] = 1  # at each energy
     seed: Annotated[Count, Field(ge=0)] = 1
     horizon: Seconds = 200.0
+    # a motion ends early if its range agrees with that of a known attractor to this, and approaches it; 0: none does
     attractor_tol: Annotated[Real, Field(ge=0, le=0.25)] = 0.1
-    confidence: Annotated[Real, Field(gt=0, lt=1)] = 0.95
-    n_bisection_directions: Annotated[Count, Field(ge=0, le=1000)] = 1
-    precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05
+    confidence: Annotated[Real, Field(gt=0, lt=1)] = 0.95  # level of the intervals of fractions
+    n_bisection_directions: Annotated[Count, Field(ge=0, le=1000)] = 1  # those of the least energies that separate
+    precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05  # of the critical energy, relative
 
     _rules = (
         (lambda o: [*o.energies] == sorted({*o.energies}), "energies must ascend"),
-        (
-            lambda o: o.n_starts == 1 or 0.0 not in o.energies,
-            "n_starts must be 1 where an energy is 0, since no direction tells them apart",
-        ),
+        (lambda o: o.n_starts == 1 or 0.0 not in o.energies, _ONE_START),
     )
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -98,11 +85,21 @@ class AttractorBasins(Start, Quantity):
     cost: ClassVar = lambda o: quantity.SIMULATED * len(o.energies) * o.n_starts * o.horizon / 6
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Compute the basins; failed starts have a fraction of their own, and the point fails if all starts do."""
-        from disc_model.analysis.classify import share
+        """Failed starts have a fraction of their own, and the point fails if all starts do."""
+        from disc_model.simulation.api import make_initial_state
+        from disc_model.simulation.states import static_start
+        from disc_model.stability.attractor.basins import Basins, random_perturbation
 
-        sample = _Sample(point, self)
-        results = sample.found
+        p, energies = point.parameters, list(enumerate(self.energies))
+        start = make_initial_state(p, point.start, self.tol) or static_start(p)
+        basins = Basins(p, self.horizon, near=self.attractor_tol, tol=self.tol)
+
+        def follow(energy: float, i: int, j: int) -> OutcomeResult:
+            """The outcome of a perturbation of any energy in the direction of start i of the j-th energy."""
+            return basins.follow(random_perturbation(p, start, energy, (self.seed, j, i)))
+
+        by_start = computed(lambda i: [follow(x, i, j) for j, x in energies], range(self.n_starts), "starts")
+        results = list(zip(*by_start, strict=True))
         rows = [reached for row in results for reached in row]
         starts = Counter(reached.attractor for reached in rows if reached.attractor is not None)
         attractors = [attractor for attractor, _ in starts.most_common()]
@@ -119,88 +116,51 @@ class AttractorBasins(Start, Quantity):
         values |= {name: part for name, (part,) in _shares("basin_fraction", [rows], self.confidence).items()}
         shown = share(sum(reached.separates for reached in rows), len(rows), confidence=self.confidence)
         values |= quantity.with_ends("separating_fraction", shown)
-        values |= sample.critical_energy() | _described(starts)
-        message = f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
-        return values, message
+        values |= self._critical_energy(results, follow) | _described(starts)
+        return values, f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
 
-
-class _Sample:
-    """The starts of a point; their outcomes are indexed by the number of the energy, then by that of the start."""
-
-    def __init__(self, point: Point, options: AttractorBasins) -> None:
-        from disc_model.simulation.api import make_initial_state
-        from disc_model.simulation.states import static_start
-        from disc_model.stability.attractor.basins import Basins
-
-        p = point.parameters
-        self.p, self.options = p, options
-        self.start: State = make_initial_state(p, point.start, options.tol) or static_start(p)
-        self.basins = Basins(p, options.horizon, near=options.attractor_tol, tol=options.tol)
-        energies = list(enumerate(options.energies))
-        starts = range(options.n_starts)
-        all_of = computed(lambda i: [self._outcome_of(energy, j, i) for j, energy in energies], starts, "starts")
-        self.found = list(zip(*all_of, strict=True))
-
-    def _outcome_of(self, energy: float, j: int, i: int) -> OutcomeResult:
-        """The outcome of a perturbation of any energy in the direction of a start."""
-        from disc_model.stability.attractor.basins import random_perturbation
-
-        return self.basins.follow(random_perturbation(self.p, self.start, energy, (self.options.seed, j, i)))
-
-    def critical_energy(self) -> dict[str, float]:
+    def _critical_energy(self, results: Sequence[Sequence[OutcomeResult]], follow: Follow) -> dict[str, float]:
         """Bisect the logarithm of the energy in the directions of the separating starts with the lowest energies."""
-        energies = self.options.energies
-        reached = ((energies[j], i, j, result) for j, row in enumerate(self.found) for i, result in enumerate(row))
-        separating = sorted((energy, i, j) for energy, i, j, result in reached if result.separates)
+        numbered = ((i, j, result) for j, row in enumerate(results) for i, result in enumerate(row))
+        separating = sorted((self.energies[j], i, j) for i, j, result in numbered if result.separates)
         if not separating:
             return {}
         least = {"critical_energy_sampled": separating[0][0]}
-        if separating[0][0] == 0 or not self.options.n_bisection_directions:
+        if separating[0][0] == 0 or not self.n_bisection_directions:
             return least
-        if self._outcome_of(0.0, 0, 0).separates:
+        if follow(0.0, 0, 0).separates:
             return least | {"critical_energy": 0.0}
-        ends = [self._bisected(*start) for start in separating[: self.options.n_bisection_directions]]
+        ends = [self._bisected(*first, follow) for first in separating[: self.n_bisection_directions]]
         low, high = min(ends, key=lambda pair: pair[1])
         return least | {"critical_energy_lower": low, "critical_energy": high}
 
-    def _bisected(self, high: float, i: int, j: int) -> tuple[float, float]:
+    def _bisected(self, first: float, i: int, j: int, follow: Follow) -> tuple[float, float]:
         """Energies without and with lasting separation, closer to each other than the required precision."""
-        low, first = high / 4, high
-        while self._outcome_of(low, j, i).separates:
+        low, high = first / 4, first
+        while follow(low, i, j).separates:
             low, high = low / 4, low
             if low < SMALLEST * first:
                 return math.nan, high
-        while high > low * (1 + self.options.precision):
+        while high > low * (1 + self.precision):
             middle = math.sqrt(low * high)
-            if self._outcome_of(middle, j, i).separates:
-                high = middle
-            else:
-                low = middle
+            low, high = (low, middle) if follow(middle, i, j).separates else (middle, high)
         return low, high
 
 
 def _shares(name: str, results: Sequence[Sequence[OutcomeResult]], confidence: float) -> dict[str, Any]:
     """Fractions of the outcomes in each row, with Wilson intervals: shape (rows, classes)."""
-    from disc_model.analysis.classify import share
-
-    shares = [
-        [share(sum(reached.word == class_ for reached in row), len(row), confidence=confidence) for class_ in CLASSES]
-        for row in results
-    ]
+    shares = []
+    for row in results:
+        counts = Counter(reached.word for reached in row)
+        shares.append([share(counts[word], len(row), confidence=confidence) for word in CLASSES])
     return quantity.with_ends(name, np.moveaxis(np.array(shares), -1, 0))
 
 
 def _described(starts: Counter[Attractor]) -> dict[str, Any]:
     """Attractors by decreasing number of starts; of equal numbers the one reached first comes first."""
-    described = [
-        {
-            "attractor_kind": attractor.kind,
-            "attractor_starts": count,
-            "attractor_releases": attractor.releases,
-            "attractor_period": attractor.period,
-            "attractor_growth_rate": attractor.growth_rate,
-            **{f"attractor_{name}": getattr(attractor.segment, name) for name in SHOWN},
-        }
-        for attractor, count in starts.most_common()
-    ]
-    return listed(described)
+    rows = []
+    for attractor, count in starts.most_common():
+        row = {f"attractor_{name}": getattr(attractor, name) for name in ("kind", "releases", "period", "growth_rate")}
+        row |= {f"attractor_{name}": getattr(attractor.segment, name) for name in SHOWN}
+        rows.append(row | {"attractor_starts": count})
+    return listed(rows)

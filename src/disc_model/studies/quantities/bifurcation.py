@@ -1,7 +1,5 @@
 """Samples of the settled motion, once a turn of the drive or at events."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -21,20 +19,16 @@ SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
 class Bifurcation(Start, Quantity):
     """Samples of the motion after a transient, for bifurcation diagrams.
 
-    section : once a turn of the drive, or at events: each separation if there are any, else each release. A periodic
-        motion then shows as many points as its period has events
-    transient : s, left out; at events it is doubled until the motion has settled
-    max_transient : s, greatest length of the transient then
-    samples : number of turns or events sampled after it
-    theta : rad, the disc's point whose displacement is sampled once a turn
+    At events, which are separations if there are any, else releases, a periodic motion shows as many points as its
+    period has events. The transient is doubled there until the motion has settled, up to `max_transient`.
     """
 
-    section: Literal["stroboscopic", "event"] = "stroboscopic"
+    section: Literal["stroboscopic", "event"] = "stroboscopic"  # once a turn of the drive, or at events
     tol: Tolerance = 1e-10
-    transient: Seconds
+    transient: Seconds  # left out
     max_transient: Seconds = 480.0
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
-    theta: Annotated[Finite, Unit("rad")] = 1.0
+    theta: Annotated[Finite, Unit("rad")] = 1.0  # the disc's point whose displacement is sampled once a turn
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {
@@ -64,11 +58,9 @@ class Bifurcation(Start, Quantity):
     cost: ClassVar = lambda o: SIMULATED * (o.transient + o.max_transient / 2)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Sample the motion from the static start or from the point's own start."""
         return _once_a_turn(point, self) if self.section == "stroboscopic" else _at_switches(point, self)
 
     def state_at(self, point: Point) -> State:
-        """State at the end of the transient; raises `SimulationError` if the motion does not reach it."""
         from disc_model.simulation.api import state_after
 
         return state_after(point.parameters, point.start, self.transient, self.tol)
@@ -89,23 +81,14 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     run = simulate(p, end, {"turns": turns}, tol=options.tol, initial_state=start)
     reached, taken = run.final_state.time, run.samples["turns"]
     answer = settling(taken["time"], taken["psi"]) if run.status.complete else Settling()
-    values = (
-        _answer(answer)
-        | {name: taken[name] for name in SAMPLED}
-        | {
-            "phase": taken["phase"] + 1,  # after "none"
-            "status": run.status.value,
-            "first_separation": run.first_separation,
-            "separations": int(run.statistics["separations"]),
-            "stick_fraction": run.statistics["time_stick"] / reached if reached else math.nan,
-            "transient_time": options.transient,
-        }
-    )
+    values = _answer(answer) | {name: taken[name] for name in SAMPLED} | {"phase": taken["phase"] + 1}  # 0 is "none"
+    values |= {"status": run.status.value, "first_separation": run.first_separation}
+    values |= {"separations": int(run.statistics["separations"]), "transient_time": options.transient}
+    values["stick_fraction"] = run.statistics["time_stick"] / reached if reached else math.nan
     return values, "" if run.status.complete else f"the simulation ended early: {run.status}"
 
 
 def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
-    """Sample at separations if there are any, else at releases; double the transient until the motion has settled."""
     from disc_model.analysis.classify import closure
     from disc_model.simulation.api import make_initial_state, simulate
     from disc_model.stability.attractor.arrival import Regularity, arrival, regularity

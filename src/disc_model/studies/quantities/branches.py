@@ -1,10 +1,6 @@
-"""Branches of cycles against one parameter: stable and unstable, in contact and separating, beside a sweep.
-
-The sweep up and down starts at each value from the motion at the last one. Each cycle that the sweep reaches, and the
-cycle near the static start, is continued in both directions, unless a known branch passes there.
+"""Branches of cycles against one parameter, beside a sweep. Each cycle that the sweep reaches, and the cycle near the
+static start, is continued in both directions, unless a known branch passes there.
 """
-
-from __future__ import annotations
 
 import math
 from typing import Annotated, Any, ClassVar
@@ -16,36 +12,25 @@ from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.studies import quantity
-from disc_model.studies.quantity import STATUS, Coordinate, FloquetResult, Free, Point, Quantity, Range, State, listed
+from disc_model.studies.quantity import STATUS, Coordinate, Free, Point, Quantity, Range, State, along
 from disc_model.units import Count, Finite, Positive, Seconds, Tolerance, Unit
 
-_ONE, _EACH, _SWEEP = ("branch",), ("branch", "branch_point"), ("direction", "sweep_value")
+_SWEEP = ("direction", "sweep_value")
+_one, _each, _swept = along("branch"), along("branch", "branch_point"), along(*_SWEEP)
 
 
 class Branches(Quantity):
-    """Branches of stable and unstable cycles against one parameter, by continuation, and a sweep up and down.
-
-    parameter : the one that varies
-    scan : its values in the sweep; each cycle found is followed between the first and the last
-    sweep_from : the rising sweep leaves out values below; null: none
-    dwell : s at each value; it is doubled until the motion has settled
-    max_dwell : s, greatest length of the stay then
-    evaluation_time : s, the last stretch of it, over which the range is taken
-    releases : greatest number of releases of a cycle that is followed
-    max_step : arclength of the longest step along a branch
-    max_points : greatest number of points of a branch in each direction
-    max_branches : room for that many
-    """
+    """Branches of stable and unstable cycles against one parameter, by continuation, and a sweep up and down."""
 
     parameter: Free = "Omega"
-    scan: Annotated[Range, Unit(of="parameter")]
-    sweep_from: Annotated[Finite | None, Unit(of="parameter")] = None
-    dwell: Seconds
+    scan: Annotated[Range, Unit(of="parameter")]  # cycles are followed between its first value and its last
+    sweep_from: Annotated[Finite | None, Unit(of="parameter")] = None  # the rising sweep leaves out values below
+    dwell: Seconds  # at each value; it is doubled until the motion has settled
     max_dwell: Seconds = 480.0
-    evaluation_time: Seconds = 2.0
-    releases: Annotated[Count, Field(ge=1, le=100)] = 4
-    max_step: Positive = 0.05
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200
+    evaluation_time: Seconds = 2.0  # the last stretch of a stay, over which the range is taken
+    releases: Annotated[Count, Field(ge=1, le=100)] = 4  # greatest number of a cycle that is followed
+    max_step: Positive = 0.05  # arclength of the longest step along a branch
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200  # of a branch, in each direction
     max_branches: Annotated[Count, Field(ge=1, le=1000)] = 12
     tol: Tolerance = 1e-10
 
@@ -58,16 +43,14 @@ class Branches(Quantity):
         "status": STATUS,
         "n_branches": Variable("1", "number of branches found", whole=True),
         "n_continuation_failures": Variable("1", "number of cycles that could not be followed", whole=True),
-        "releases": Variable("1", "releases of stick in a period of the branch", dims=_ONE, whole=True),
-        "separations": Variable("1", "separations in a period of the branch", dims=_ONE, whole=True),
-        "value": Variable("", "parameter along the branch, SI units", dims=_EACH),
-        "period": Variable("s", "period of the cycle", dims=_EACH),
-        "range": Variable("m", "range of the slider's height over a period", dims=_EACH),
-        "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle", dims=_EACH),
-        "sweep_range": Variable("m", "range of the slider's height at the end of the stay at a value", dims=_SWEEP),
-        "sweep_separation_rate": Variable(
-            "s-1", "separations per second at the end of the stay at a value", dims=_SWEEP
-        ),
+        "releases": _one("1", "releases of stick in a period of the branch", whole=True),
+        "separations": _one("1", "separations in a period of the branch", whole=True),
+        "value": _each("", "parameter along the branch, SI units"),
+        "period": _each("s", "period of the cycle"),
+        "range": _each("m", "range of the slider's height over a period"),
+        "growth_rate": _each("s-1", "growth rate of disturbances of the cycle"),
+        "sweep_range": _swept("m", "range of the slider's height at the end of the stay at a value"),
+        "sweep_separation_rate": _swept("s-1", "separations per second at the end of the stay at a value"),
         "sweep_settled": ANSWER._replace(dims=_SWEEP),
         "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding", dims=_SWEEP[1:]),
     }
@@ -80,25 +63,24 @@ class Branches(Quantity):
     cost: ClassVar = lambda o: quantity.WORK
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Compute the sweep and the branches; the point's own value of the parameter is not used."""
         from disc_model.stability.attractor.arrival import sweep
         from disc_model.stability.cycle import find_cycle
         from disc_model.stability.sliding import steady_sliding
 
-        values, unfollowed = self.scan.values, []
+        values, message, failures = self.scan.values, "", 0
         rows: list[dict[str, Any]] = []
         swept = {name: column.empty((2, len(values))) for name, column in self.COLUMNS.items() if column.dims == _SWEEP}
-        message = ""
 
-        def follow(cycle: FloquetResult, reached: bool) -> None:
+        def follow(cycle: quantity.FloquetResult, reached: bool) -> None:
+            nonlocal failures
             assert cycle.state is not None
             value = cycle.parameters.numbers[self.parameter]
             size = _range(cycle.parameters, cycle.state, cycle.period)
             if len(rows) < self.max_branches and not any(_passes(row, value, cycle.period, size) for row in rows):
                 try:
                     rows.append(_branch(cycle, reached, self))
-                except quantity.NUMERICAL as error:
-                    unfollowed.append(str(error))
+                except quantity.NUMERICAL:
+                    failures += 1
 
         lowest = 0 if self.sweep_from is None else int(np.searchsorted(values, self.sweep_from))
         how = self.dwell, self.max_dwell, self.evaluation_time, self.tol, lowest
@@ -113,9 +95,9 @@ class Branches(Quantity):
             if reached.near is not None and reached.near.cycle.releases <= self.releases:
                 follow(reached.near.cycle, True)
         sliding = [steady_sliding(point.parameters.replace(**{self.parameter: v})).growth_rate for v in values]
-        counts = {"n_branches": len(rows), "n_continuation_failures": len(unfollowed)}
+        counts = {"n_branches": len(rows), "n_continuation_failures": failures}
         known = {"status": "failed" if message else "ok", "sliding_growth_rate": sliding}
-        return listed(rows) | swept | counts | known, message
+        return quantity.listed(rows) | swept | counts | known, message
 
 
 SAME = np.array([2e-4, 0.4])
@@ -123,7 +105,7 @@ SAME = np.array([2e-4, 0.4])
 distinguish branches; ranges between points of a steep branch are known roughly."""
 
 
-def _branch(cycle: FloquetResult, reached: bool, options: Branches) -> dict[str, Any]:
+def _branch(cycle: quantity.FloquetResult, reached: bool, options: Branches) -> dict[str, Any]:
     """Continue a cycle in both directions by arclength: the one near the static start, or one that a motion reached."""
     from disc_model.stability.continuation import StepControl, continue_cycle
     from disc_model.stability.return_map import ReturnMap

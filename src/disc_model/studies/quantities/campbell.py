@@ -1,6 +1,5 @@
-"""Frequencies and growth rates of steady sliding and of the stick-slip cycle, for Campbell diagrams.
-
-Crossings of mode frequencies with multiples of the stick-slip or rotation frequency, and their effect on growth.
+"""Frequencies and growth rates of steady sliding and of the stick-slip cycle, for Campbell diagrams; crossings of mode
+frequencies with multiples of the stick-slip or rotation frequency, and their effect on growth.
 
 At a crossing the frequency of a mode equals that of a line, by linear interpolation between two speeds. The mode's
 frequency is that of the cycle's multiplier. Without a multiplier of the mode's shape, as in a resonance, it is that of
@@ -9,11 +8,8 @@ The effect is read, mode by mode, from the cycle's growth rates within a window 
 at its ends.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
-from itertools import chain
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -22,31 +18,25 @@ from pydantic import Field
 
 from disc_model.data.variables import EXCLUDED, CycleStatus, Variable, flag_names
 from disc_model.studies.quantities.floquet import CYCLE_STATUSES
-from disc_model.studies.quantity import CYCLE, Coordinate, Dataset, Point, Quantity, listed
+from disc_model.studies.quantity import CYCLE, Coordinate, Dataset, Point, Quantity, along, listed
 from disc_model.units import Count, CycleTolerance, Positive, Unit
 
 KINDS = ("none", "disc", "slider")
-_EACH = ("mode",)
+_each = along("mode")
 Array = NDArray[np.float64]
 LINES = ("none", "stick_slip", "rotation")
 EFFECTS = ("none", "no_rise", "mode_rises", "rises", "destabilises", "no_cycle", "unresolved")
 """At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable
 there and on neither side; there is no cycle; or fewer than three speeds, or an end of the axis, lie in the window."""
-_CROSSING = ("crossing",)
+_crossing = along("crossing")
 
 
 class Campbell(Quantity):
-    """Frequencies and growth rates of steady sliding and of the stick-slip cycle.
+    """Frequencies and growth rates of steady sliding and of the stick-slip cycle."""
 
-    modes : room for that many, the lowest in frequency
-    half_bandwidth : Hz, on either side of a crossing, within which growth rates are compared
-    min_rise : 1/s, least rise of a growth rate within the window above those at its ends
-    max_crossings : room for that many
-    """
-
-    modes: Annotated[Count, Field(ge=1, le=1000)] = 12
-    half_bandwidth: Annotated[Positive, Unit("Hz")] = 1.0
-    min_rise: Annotated[Positive, Unit("1/s")] = 0.01
+    modes: Annotated[Count, Field(ge=1, le=1000)] = 12  # room for that many, the lowest in frequency
+    half_bandwidth: Annotated[Positive, Unit("Hz")] = 1.0  # of the window about a crossing, see `effect_of`
+    min_rise: Annotated[Positive, Unit("1/s")] = 0.01  # of a growth rate within the window, above those at its ends
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100
     tol: CycleTolerance = 1e-12
     over: ClassVar = "Omega"
@@ -55,35 +45,31 @@ class Campbell(Quantity):
         "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
         "stick_slip_frequency": Variable("Hz", "releases of stick per second on the stick-slip cycle, f_s"),
         "rotation_frequency": Variable("Hz", "turns of the drive per second, f_Omega"),
-        "mode_kind": Variable("1", "what moves most: the disc, or the slider in the disc's plane", KINDS, dims=_EACH),
-        "diameters": Variable("1", "nodal diameters of the modes with most of the energy", dims=_EACH, whole=True),
-        "forward_wave_fraction": Variable(
-            "1", "share of their energy in waves that travel with the slider", dims=_EACH
-        ),
-        "sliding_frequency": Variable("Hz", "frequency of steady sliding, in the slider's frame", dims=_EACH),
-        "sliding_growth_rate": Variable("s-1", "growth rate of that mode of steady sliding", dims=_EACH),
-        "cycle_frequency": Variable("Hz", "frequency of the cycle's multiplier that goes to the mode", dims=_EACH),
-        "cycle_growth_rate": Variable("s-1", "growth rate of the cycle's multipliers that go to the mode", dims=_EACH),
-        "mac": Variable("1", "how like the shapes of mode and multiplier are: squared cosine", dims=_EACH),
+        "mode_kind": _each("1", "what moves most: the disc, or the slider in the disc's plane", KINDS),
+        "diameters": _each("1", "nodal diameters of the modes with most of the energy", whole=True),
+        "forward_wave_fraction": _each("1", "share of their energy in waves that travel with the slider"),
+        "sliding_frequency": _each("Hz", "frequency of steady sliding, in the slider's frame"),
+        "sliding_growth_rate": _each("s-1", "growth rate of that mode of steady sliding"),
+        "cycle_frequency": _each("Hz", "frequency of the cycle's multiplier that goes to the mode"),
+        "cycle_growth_rate": _each("s-1", "growth rate of the cycle's multipliers that go to the mode"),
+        "mac": _each("1", "how like the shapes of mode and multiplier are: squared cosine"),
     }
     COORDINATES: ClassVar = {
         "mode": Coordinate("1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1))
     }
     SUMMARY_COLUMNS: ClassVar = {
         "n_crossings": Variable("1", "number of crossings found", whole=True),
-        "crossing_Omega": Variable("rad s-1", "speed of the crossing", dims=_CROSSING),
-        "crossing_frequency": Variable("Hz", "frequency of the crossing", dims=_CROSSING),
-        "crossing_mode": Variable("1", "number of the mode", dims=_CROSSING, whole=True),
-        "crossing_line": Variable("1", "what the line is a multiple of", LINES, dims=_CROSSING),
-        "crossing_multiple": Variable("1", "which multiple; half-integer where a period may double", dims=_CROSSING),
-        "crossing_growth_rate": Variable("s-1", "largest growth rate of the cycle within the window", dims=_CROSSING),
-        "crossing_rise": Variable(
-            "s-1", "largest rise of a mode's growth rate within the window over that at its ends", dims=_CROSSING
+        "crossing_Omega": _crossing("rad s-1", "speed of the crossing"),
+        "crossing_frequency": _crossing("Hz", "frequency of the crossing"),
+        "crossing_mode": _crossing("1", "number of the mode", whole=True),
+        "crossing_line": _crossing("1", "what the line is a multiple of", LINES),
+        "crossing_multiple": _crossing("1", "which multiple; half-integer where a period may double"),
+        "crossing_growth_rate": _crossing("s-1", "largest growth rate of the cycle within the window"),
+        "crossing_rise": _crossing(
+            "s-1", "largest rise of a mode's growth rate within the window over that at its ends"
         ),
-        "crossing_growing_mode": Variable(
-            "1", "number of the mode whose growth rate rises most", dims=_CROSSING, whole=True
-        ),
-        "crossing_effect": Variable("1", "what the growth rates do at the crossing", EFFECTS, dims=_CROSSING),
+        "crossing_growing_mode": _crossing("1", "number of the mode whose growth rate rises most", whole=True),
+        "crossing_effect": _crossing("1", "what the growth rates do at the crossing", EFFECTS),
     }
     SUMMARY_COORDINATES: ClassVar = {
         "crossing": Coordinate("1", "number of the crossing", lambda o: range(1, o.max_crossings + 1))
@@ -91,7 +77,6 @@ class Campbell(Quantity):
     cost: ClassVar = lambda o: 1.5 * CYCLE
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Compute one point; modes are numbered by their frequency at this point, independently of its neighbours."""
         from disc_model.stability.cycle import frequencies
 
         campbell = frequencies(point.parameters, tol=self.tol)
@@ -109,12 +94,12 @@ class Campbell(Quantity):
         return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 
     def summarise(self, cell: Dataset) -> dict[str, Any]:
-        """Summarise over the speeds, which ascend; where a rule of the grid leaves some out, an axis ends."""
+        # where a rule of the grid leaves some speeds out, an axis ends
         included = flag_names(cell["status"]) != EXCLUDED
         stretches = np.split(np.arange(len(included)), np.flatnonzero(np.diff(included)) + 1)
         axes = [cell.isel(Omega=stretch).transpose("Omega", ...) for stretch in stretches if included[stretch[0]]]
-        every = chain.from_iterable(crossings(axis, self) for axis in axes)
-        rows = sorted(every, key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
+        rows = [row for axis in axes for row in crossings(axis, self)]
+        rows.sort(key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
         columns = listed(rows[: self.max_crossings])
         return {"n_crossings": len(rows)} | {f"crossing_{name}": column for name, column in columns.items()}
 
@@ -122,23 +107,22 @@ class Campbell(Quantity):
 def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
     """All crossings over ``Omega``, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to that of modes."""
     growth, leading = cell["cycle_growth_rate"].transpose("Omega", "mode").values, cell["growth_rate"].values
-    speeds = cell["Omega"].values
+    speeds, turns = cell["Omega"].values, cell["rotation_frequency"].values
     releases = cell["stick_slip_frequency"].interpolate_na("Omega").values
-    turns = cell["rotation_frequency"].values
-    highest = int(cell["diameters"].max())
     for i, mode in enumerate(cell["mode"].values):
         of_mode = frequency_of(cell.isel(mode=i))
         if not np.isfinite(of_mode).any():
             continue
         most = math.floor(2 * np.nanmax(of_mode) / np.nanmin(releases)) + 1 if np.isfinite(releases).any() else 0
         lines = [("stick_slip", half / 2, half / 2 * releases) for half in range(1, most + 1)]
-        lines += [("rotation", float(l), l * turns) for l in range(1, highest + 1)]
+        lines += [("rotation", float(l), l * turns) for l in range(1, int(cell["diameters"].max()) + 1)]
         for line, multiple, frequency in lines:
             detuning = of_mode - frequency
             for index in np.flatnonzero(detuning[:-1] * detuning[1:] <= 0):
-                if detuning[index] == detuning[index + 1] or (detuning[index + 1] == 0 and index + 2 < len(speeds)):
+                before, after = detuning[index : index + 2]
+                if before == after or (after == 0 and index + 2 < len(speeds)):
                     continue  # the next interval begins there
-                part = detuning[index] / (detuning[index] - detuning[index + 1])
+                part = before / (before - after)
                 yield {
                     "Omega": float(speeds[index] + part * (speeds[index + 1] - speeds[index])),
                     "frequency": float(frequency[index] + part * (frequency[index + 1] - frequency[index])),
@@ -159,12 +143,9 @@ def frequency_of(mode: Dataset) -> Array:
 
 
 def effect_of(detuning: Array, index: int, growth: Array, leading: Array, options: Campbell) -> dict[str, Any]:
-    """The effect of a crossing (one of `EFFECTS`), the largest growth rate, and the largest rise with its mode's
-    number, as far as they are known.
-
-    detuning : Hz, (speeds,), frequency of the line less that of the mode; place : index of the speed before it
-    growth : 1/s, (speeds, modes), by mode, nan without a cycle; leading : (speeds,), of the cycle
-    """
+    """The effect of a crossing after the speed of an index, the largest growth rate, and the largest rise with its
+    mode's number, as far as they are known. In the window line and mode are at most `half_bandwidth` apart. Shapes:
+    growth, of the modes, (speeds, modes), nan without a cycle; detuning and leading, of the cycle, (speeds,)."""
     outside = np.flatnonzero(~(np.abs(detuning) <= options.half_bandwidth))  # nan lies outside
     first = outside.max(initial=-1, where=outside <= index)
     last = outside.min(initial=len(detuning), where=outside > index)
@@ -178,8 +159,7 @@ def effect_of(detuning: Array, index: int, growth: Array, leading: Array, option
     rises = growth[within].max(axis=0) - ends.max(axis=0)
     if not np.isfinite(rises).any():
         return {"effect": "unresolved", "growth_rate": highest}
-    mode = int(np.nanargmax(rises))
-    rise = float(rises[mode])
+    mode, rise = int(np.nanargmax(rises)), float(np.nanmax(rises))
     beside, least = max(leading[first], leading[last]), options.min_rise
     effect = "rises" if highest - beside >= least else "mode_rises" if rise >= least else "no_rise"
     if highest > 0 >= beside:

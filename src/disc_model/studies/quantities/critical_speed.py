@@ -4,8 +4,6 @@ Motions are simulated from their start to the first separation. To extrapolate d
 quarter of the time, but moves first separations by more than 0.05 times of growth by e in a fifth of all cases.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace
@@ -17,55 +15,48 @@ from pydantic import AfterValidator, Field
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.display import computed
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, EarlyEnd, OutcomeResult, Point, Range, listed
-from disc_model.units import Count, Seconds, Speed, Unit
+from disc_model.studies import quantity
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, OutcomeResult, Point, Quantity, Range, along
+from disc_model.units import Count, Seconds, Speed, Tolerance, Unit
 
+_MULTIPLE = "the scan's step must be a multiple of precision"
 KINDS = ("none", "begins", "ends")
-_EACH, _CROSSINGS = ("horizon",), ("horizon", "crossing_number")
+_each, _crossing = along("horizon"), along("horizon", "crossing_number")
 
 
-class CriticalSpeed(EarlyEnd):
-    """Scan of the speed, then bisection of each interval in which separation begins or ends.
+class CriticalSpeed(Quantity):
+    """Scan of the speed, then bisection of each interval in which separation begins or ends."""
 
-    horizons : s; each has a critical speed of its own, all from the same simulations
-    scan : rad/s
-    precision : rad/s, width of the last interval; the scan's step must be a multiple
-    max_crossings : room for that many crossings at each horizon
-    """
-
+    tol: Tolerance = 1e-10
+    early_end: bool = True  # whether a simulation ends as soon as its outcome is known
+    # each has a critical speed of its own, all from the same simulations
     horizons: Annotated[tuple[Seconds, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))]
     scan: Annotated[Range, Unit("rad/s")]
-    precision: Speed = 0.1
+    precision: Speed = 0.1  # width of the last interval; the scan's step must be a multiple
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12
 
     _rules = (
         (lambda o: o.scan.scale == "linear", "scan must be linear"),
-        (
-            lambda o: 0.5 < o.step < math.inf and abs(o.step - round(o.step)) <= 1e-6,
-            "the scan's step must be a multiple of precision",
-        ),
+        (lambda o: 0.5 < o.ratio < math.inf and abs(o.ratio - round(o.ratio)) <= 1e-6, _MULTIPLE),
     )
 
     @property
-    def step(self) -> float:
+    def ratio(self) -> float:
         """The scan's step as a multiple of the precision."""
         return (self.scan.stop - self.scan.start) / self.scan.intervals / self.precision
 
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {
         "status": STATUS,
-        "critical_speed": Variable(
+        "critical_speed": _each(
             "rad s-1",
             "lowest speed computed with separation within the horizon, nan if there is none or one below failed",
-            dims=_EACH,
         ),
-        "n_crossings": Variable(
-            "1", "number of speeds found at which separation within the horizon begins or ends", dims=_EACH, whole=True
+        "n_crossings": _each(
+            "1", "number of speeds found at which separation within the horizon begins or ends", whole=True
         ),
-        "crossing": Variable(
-            "rad s-1", "a speed at which separation begins or ends, upper end of the last interval", dims=_CROSSINGS
-        ),
-        "crossing_kind": Variable("1", "whether separation begins or ends as the speed rises", KINDS, dims=_CROSSINGS),
+        "crossing": _crossing("rad s-1", "a speed at which separation begins or ends, upper end of the last interval"),
+        "crossing_kind": _crossing("1", "whether separation begins or ends as the speed rises", KINDS),
         "scan_first_separation": SCALARS["first_separation"]._replace(dims=("scan_Omega",)),
         "scan_status": STATUS._replace(dims=("scan_Omega",)),
         "simulations": Variable("1", "number of simulations", whole=True),
@@ -81,7 +72,6 @@ class CriticalSpeed(EarlyEnd):
     cost: ClassVar = lambda o: SIMULATED * o.scan.intervals * o.horizons[-1] / 9
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Scan and bisect the speed; the point's own Omega is not used."""
         p, scan = point.parameters, self.scan
         motions: dict[int, OutcomeResult] = {}
         known: dict[int, float] = {}
@@ -90,27 +80,23 @@ class CriticalSpeed(EarlyEnd):
             return float(f"{scan.start + i * self.precision:.12g}")
 
         def look(i: int) -> None:
-            """Compute the motion at the i-th speed of the lattice, which is not known yet."""
-            # their return maps would take megabytes each for a disc of many modes
+            # return maps would take megabytes each for a disc of many modes
             result = motions[i] = replace(motion(p.replace(Omega=speed(i)), self), near=None, extrapolated=None)
             none = math.isnan(result.first_separation) and result.status == "ok"
             known[i] = math.inf if none else result.first_separation
 
-        scanned = [i * round(self.step) for i in range(scan.intervals + 1)]
+        scanned = [i * round(self.ratio) for i in range(scan.intervals + 1)]
         computed(look, scanned, "speeds")
         for horizon in self.horizons:
             # every interval over which separation within the horizon begins or ends is halved, down to the lattice
             while wide := [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]:
                 computed(look, wide, "further speeds")
         failed = {i: result for i, result in motions.items() if result.status != "ok"}
-        values: dict[str, Any] = {
-            "status": next((result.status for result in failed.values()), "ok"),
-            "scan_first_separation": [motions[i].first_separation for i in scanned],
-            "scan_status": [motions[i].status for i in scanned],
-            "simulations": len(motions),
-            "simulated_time": sum(result.simulated for result in motions.values()),
-        }
-        values |= listed([_crossings(known, horizon, speed) for horizon in self.horizons])
+        values: dict[str, Any] = {"status": next((result.status for result in failed.values()), "ok")}
+        values["scan_first_separation"] = [motions[i].first_separation for i in scanned]
+        values["scan_status"] = [motions[i].status for i in scanned]
+        values |= {"simulations": len(motions), "simulated_time": sum(x.simulated for x in motions.values())}
+        values |= quantity.listed([_crossings(known, horizon, speed) for horizon in self.horizons])
         return values, "; ".join(f"Omega={speed(i):g}: {result.message}" for i, result in failed.items())
 
 
@@ -122,15 +108,10 @@ def motion(case: Parameters, options: CriticalSpeed) -> OutcomeResult:
 
 
 def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
-    """Pairs of neighbours of which only one separates within the horizon; unknown ones belong to no pair.
-
-    known : first separations by place on the lattice, s; inf without one within the longest horizon, nan if unknown
-    """
-    return [
-        (a, b)
-        for a, b in pairwise(sorted(known))
-        if not math.isnan(known[a] + known[b]) and (known[a] <= horizon) != (known[b] <= horizon)
-    ]
+    """Pairs of neighbours on the lattice of which only one separates within the horizon. Of the first separations by
+    place, s, those without one within the longest horizon are inf, and unknown ones, which belong to no pair, nan."""
+    pairs = ((a, b) for a, b in pairwise(sorted(known)) if not math.isnan(known[a] + known[b]))
+    return [(a, b) for a, b in pairs if (known[a] <= horizon) != (known[b] <= horizon)]
 
 
 def _crossings(known: dict[int, float], horizon: float, speed: Callable[[int], float]) -> dict[str, Any]:

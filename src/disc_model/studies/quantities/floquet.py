@@ -1,7 +1,5 @@
 """The stick-slip cycle near the static start and its stability, from Floquet multipliers instead of simulation."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, ClassVar
 
@@ -30,7 +28,6 @@ class Floquet(Quantity):
     cost: ClassVar = lambda o: CYCLE
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Compute the cycle of this point, without a neighbour's cycle as initial guess."""
         from disc_model.stability.cycle import floquet
 
         cycle = floquet(point.parameters, tol=self.tol)
@@ -43,7 +40,6 @@ class Floquet(Quantity):
         return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 
     def state_at(self, point: Point) -> State:
-        """A state on the cycle, stable or not; raises `CycleError` if there is none."""
         from disc_model.stability.cycle import floquet
 
         state = floquet(point.parameters, tol=self.tol).raise_for_status().state

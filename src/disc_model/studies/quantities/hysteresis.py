@@ -1,7 +1,5 @@
 """Hysteresis: a slow sweep of the speed up and down, which continues the motion from speed to speed."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from typing import Annotated, Any, ClassVar
 
@@ -16,19 +14,13 @@ _DIMS = ("direction", "sweep_Omega")
 
 
 class Hysteresis(Quantity):
-    """A sweep of the speed up from the static start and down again; each speed continues the motion of the last one.
-
-    scan : rad/s
-    dwell : s at each speed; it is doubled until the motion has settled
-    max_dwell : s, greatest length of the stay then
-    evaluation_time : s, the last stretch of it, over which separations, ranges and shares of the phases are taken
-    """
+    """A sweep of the speed up from the static start and down again; each speed continues the motion of the last one."""
 
     tol: Tolerance = 1e-10
     scan: Annotated[Range, Unit("rad/s")]
-    dwell: Seconds
+    dwell: Seconds  # at each speed; it is doubled until the motion has settled
     max_dwell: Seconds = 480.0
-    evaluation_time: Seconds = 5.0
+    evaluation_time: Seconds = 5.0  # the last stretch of a stay, which is described
 
     _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
     scans: ClassVar = ("Omega",)
@@ -52,21 +44,19 @@ class Hysteresis(Quantity):
     cost: ClassVar = lambda o: SIMULATED * 2 * o.scan.intervals * o.dwell
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Sweep the speed up and down; the point's own Omega is not used."""
         from disc_model.stability.attractor.arrival import sweep
 
-        speeds, columns = self.scan.values, self.COLUMNS.items()
+        speeds, columns, status, message = self.scan.values, self.COLUMNS.items(), "ok", ""
         values: dict[str, Any] = {name: column.empty((2, len(speeds))) for name, column in columns if column.dims}
-        status, message = "ok", ""
         times = self.dwell, self.max_dwell, self.evaluation_time
         for index, result, late, reached in sweep(point.parameters, "Omega", speeds, *times, self.tol):
             if late is None:
                 status, message = result.status.value, f"Omega={speeds[index[1]]:g}: {result.message}"
             values["sweep_status"][index] = STATUSES.index(status)
             values["sweep_settled"][index] = ANSWER.flags.index(reached.settling.answer)
-            for name, number in asdict(late).items() if late else ():
-                if name in values:
-                    values[name][index] = number
+            stretch = asdict(late) if late else {}
+            for name in values.keys() & stretch.keys():
+                values[name][index] = stretch[name]
         done = values["sweep_status"] == STATUSES.index("ok")
         rising, falling = values["separation_rate"] > 0
         if rising.any():

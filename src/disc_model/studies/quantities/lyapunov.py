@@ -1,7 +1,5 @@
 """The largest Lyapunov exponents of the motion, across all its events."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -10,38 +8,28 @@ from pydantic import Field
 from disc_model.data.variables import Variable
 from disc_model.errors import SimulationError
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, State
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, State, along
 from disc_model.units import Count, Seconds, Tolerance
 
 CONVERGED = ("unknown", "no", "yes")
-_EACH = ("exponent_number",)
+_each = along("exponent_number")
 
 
 class Lyapunov(Start, Quantity):
-    """The largest Lyapunov exponents of the motion, without the one along it, which is zero.
-
-    transient : s, left out
-    duration : s, averaging time of the rates
-    exponents : number of exponents, 1 to 7
-    interval : s, between orthonormalisations; exponents below -400/s need a shorter one
-    """
+    """The largest Lyapunov exponents of the motion, without the one along it, which is zero."""
 
     tol: Tolerance = 1e-10
-    transient: Seconds
-    duration: Seconds
+    transient: Seconds  # left out
+    duration: Seconds  # averaging time of the rates
     exponents: Annotated[Count, Field(ge=1, le=7)] = 2
-    interval: Seconds = 0.05
+    interval: Seconds = 0.05  # between orthonormalisations; exponents below -400/s need a shorter one
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {
         "status": STATUS,
-        "exponent": Variable(
-            "s-1", "Lyapunov exponent, the one along the motion left out; -inf where changes vanish", dims=_EACH
-        ),
-        "exponent_error": Variable(
-            "s-1", "the larger of its standard error and the difference between both halves", dims=_EACH
-        ),
-        "converged": Variable("1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED, dims=_EACH),
+        "exponent": _each("s-1", "Lyapunov exponent, the one along the motion left out; -inf where changes vanish"),
+        "exponent_error": _each("s-1", "the larger of its standard error and the difference between both halves"),
+        "converged": _each("1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED),
         "trivial_exponent": Variable("s-1", "exponent along the motion: 0 but for what the time is too short for"),
         "averaging_time": Variable("s", "time over which the rates are averaged"),
         "separations": Variable("1", "number of separations in that time", whole=True),
@@ -52,7 +40,6 @@ class Lyapunov(Start, Quantity):
     cost: ClassVar = lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Compute the exponents after the transient."""
         from disc_model.simulation.result import STATUS_OF
         from disc_model.stability.lyapunov import lyapunov_exponents
 
@@ -60,8 +47,8 @@ class Lyapunov(Start, Quantity):
             start = self.state_at(point)
         except SimulationError as error:
             return {"status": STATUS_OF[type(error)].value}, str(error)
-        how: dict[str, Any] = {"count": self.exponents, "interval": self.interval, "tol": self.tol}
-        result = lyapunov_exponents(point.parameters, self.duration, initial_state=start, leave_out_trivial=True, **how)
+        how: dict[str, Any] = {"count": self.exponents, "interval": self.interval, "leave_out_trivial": True}
+        result = lyapunov_exponents(point.parameters, self.duration, initial_state=start, tol=self.tol, **how)
         known = np.isfinite(result.exponents)
         values = {
             "status": result.status.value, "exponent": result.exponents, "exponent_error": result.errors,
@@ -71,7 +58,6 @@ class Lyapunov(Start, Quantity):
         return values, "" if result.status.complete else result.status.advice
 
     def state_at(self, point: Point) -> State:
-        """State at the end of the transient; raises `SimulationError` if the motion does not reach it."""
         from disc_model.simulation.api import state_after
 
         return state_after(point.parameters, point.start, self.transient, self.tol)

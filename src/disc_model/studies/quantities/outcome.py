@@ -1,6 +1,4 @@
-"""Outcome of the static start within a horizon: the motion stays quiet, grows in contact, or separates."""
-
-from __future__ import annotations
+"""Outcome of one simulation within a horizon: the motion stays quiet, grows in contact, or separates."""
 
 from dataclasses import asdict
 from typing import Any, ClassVar
@@ -10,30 +8,23 @@ import numpy as np
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Outcome, Variable
 from disc_model.simulation.case import Start
 from disc_model.studies import quantity
-from disc_model.studies.quantity import STATUS, EarlyEnd, OutcomeResult, Point, Result, Segment, State
-from disc_model.units import Seconds
+from disc_model.studies.quantity import STATUS, OutcomeResult, Point, Quantity, Result, Segment, State
+from disc_model.units import Seconds, Tolerance
 
+_TIMES = "evaluation_time must be <= after_separation and <= horizon"
 FEWEST = 4  # least number of checks of a motion that give a rate
 
 
-class HorizonOutcome(Start, EarlyEnd):
-    """Outcome of one simulation at each point, within a horizon.
+class HorizonOutcome(Start, Quantity):
+    """Outcome of one simulation at each point, within a horizon."""
 
-    horizon : s
-    evaluation_time : s, length of the last stretch, over which ranges and fractions of the phases are taken
-    after_separation : s, simulated after the first separation, so that the late stretch shows the motion it leads to
-    """
-
+    tol: Tolerance = 1e-10
+    early_end: bool = True  # whether it ends as soon as the outcome is known
     horizon: Seconds
-    evaluation_time: Seconds = 1.0
-    after_separation: Seconds = 5.0
+    evaluation_time: Seconds = 1.0  # the late stretch
+    after_separation: Seconds = 5.0  # from the first separation to the end of the late stretch
 
-    _rules = (
-        (
-            lambda o: o.evaluation_time <= min(o.after_separation, o.horizon),
-            "evaluation_time must be <= after_separation and <= horizon",
-        ),
-    )
+    _rules = ((lambda o: o.evaluation_time <= min(o.after_separation, o.horizon), _TIMES),)
     motions: ClassVar = 4
     motion: ClassVar = quantity.COME_TO
     COLUMNS: ClassVar = {
@@ -57,7 +48,6 @@ class HorizonOutcome(Start, EarlyEnd):
     cost: ClassVar = lambda o: quantity.SIMULATED * o.horizon / 2
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Compute one point; if it separates, its late stretch lies ``after_separation`` later."""
         reached, result, late = _late(point, self)
         last = reached if result is None else result
         values: dict[str, Any] = {
@@ -79,7 +69,6 @@ class HorizonOutcome(Start, EarlyEnd):
         return values, "" if last.status.complete else last.message
 
     def state_at(self, point: Point) -> State:
-        """State at the end of the late stretch; raises `SimulationError` if the motion does not reach it."""
         reached, result, _ = _late(point, self)
         last = reached.failed or result
         state = reached.state if last is None else last.raise_for_status().final_state

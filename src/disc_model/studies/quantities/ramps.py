@@ -1,51 +1,41 @@
 """Speed ramps up and down as on a test rig: speeds at which separation begins and ends, against the ramp's rate."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Any, ClassVar
 
-from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Ramp
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, Range, Result, State, listed
+from disc_model.studies import quantity
+from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, Range, Result, State, along
 from disc_model.units import Seconds, Speed, Tolerance, Unit
 
-_DIMS = ("rate",)
+_each = along("rate")
 
 
 class Ramps(Quantity):
-    """Slow ramps of the speed, up from the static start and down again, once for each rate.
-
-    low, high : rad/s, ends of the ramps
-    rates : rad/s^2
-    dwell : s, at the highest speed, and at the lowest one at the end
-    """
+    """Slow ramps of the speed, up from the static start and down again, once for each rate."""
 
     tol: Tolerance = 1e-10
     low: Speed
     high: Speed
     rates: Annotated[Range, Unit("rad/s^2")]
-    dwell: Seconds = 60.0
+    dwell: Seconds = 60.0  # at the highest speed, and at the lowest one at the end
 
     _rules = ((lambda o: o.low < o.high, "low must be < high"), (lambda o: o.rates.start > 0, "rates must be > 0"))
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {
         "status": STATUS,
-        "rate_status": STATUS._replace(dims=_DIMS),
-        "onset_speed": Variable(
-            "rad s-1", "speed at the first separation on the way up, nan if there is none", dims=_DIMS
-        ),
-        "top_separation_rate": Variable("s-1", "separations per second over the stay at the highest speed", dims=_DIMS),
-        "offset_speed": Variable(
-            "rad s-1", "speed at the last separation on the way down, nan if there is none, or it continues", dims=_DIMS
+        "rate_status": STATUS._replace(dims=("rate",)),
+        "onset_speed": _each("rad s-1", "speed at the first separation on the way up, nan if there is none"),
+        "top_separation_rate": _each("s-1", "separations per second over the stay at the highest speed"),
+        "offset_speed": _each(
+            "rad s-1", "speed at the last separation on the way down, nan if there is none, or it continues"
         ),
     }
     COORDINATES: ClassVar = {"rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)}
     cost: ClassVar = lambda o: SIMULATED * sum(2 * ((o.high - o.low) / rate + o.dwell) for rate in o.rates.values)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Simulate one run for each rate; the point's own Omega is not used."""
         rows: list[dict[str, Any]] = []
         status, message = "ok", ""
         for rate in self.rates.values:
@@ -53,7 +43,7 @@ class Ramps(Quantity):
             rows.append({"rate_status": failed.status.value if failed else "ok", **run})
             if failed:
                 status, message = failed.status.value, f"rate={rate:g}: {failed.message}"
-        return listed(rows) | {"status": status}, message
+        return quantity.listed(rows) | {"status": status}, message
 
 
 def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], Result | None]:
@@ -66,15 +56,13 @@ def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], 
     top = (options.high - options.low) / rate
     down = top + options.dwell
     bottom = down + top
-    up_and_down = (
-        Ramp(parameter="Omega", to=options.high, start=0.0, end=top),
-        Ramp(parameter="Omega", to=options.low, start=down, end=bottom),
-    )
+    up = Ramp(parameter="Omega", to=options.high, start=0.0, end=top)
+    ramps = up, Ramp(parameter="Omega", to=options.low, start=down, end=bottom)
 
     def on(state: State | None, until: float, **more: Any) -> Result:
         """Continue the motion to a later time."""
-        how: dict[str, Any] = {"events": False, "tol": options.tol, "ramps": up_and_down} | more
-        return simulate(p, until, initial_state=state, **how)
+        how: dict[str, Any] = {"events": False, "tol": options.tol} | more
+        return simulate(p, until, initial_state=state, ramps=ramps, **how)
 
     run = on(None, top, stop_at="first_separation")
     values = {"onset_speed": options.low + rate * run.first_separation}

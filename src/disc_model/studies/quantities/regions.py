@@ -1,9 +1,4 @@
-"""Outcome of the static start over two parameters, refined at borders, and the cycle at every point.
-
-A batch is a tile of the plane; `disc_model.studies.refinement` computes it.
-"""
-
-from __future__ import annotations
+"""Outcome of the static start over two parameters, refined at borders, and the cycle at every point."""
 
 from collections.abc import Collection, Sequence
 from typing import Annotated, ClassVar
@@ -16,19 +11,16 @@ from disc_model.units import Count, Seconds, Tolerance
 
 METHODS = ("none", "multipliers", "simulation", "inferred", "settled")
 JOINED = ("no", "yes")
+_CONTINUES = "whether the cycle continues into the next point's along the plane's"
 CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
 
 
 class Regions(Quantity):
-    """Outcomes over a plane of two parameters, computed more densely where they change.
-
-    horizon : s
-    initial_cell_size : initial side of a cell, in intervals of the grid
-    """
+    """Outcomes over a plane of two parameters, computed more densely where they change."""
 
     tol: Tolerance = 1e-8
     horizon: Seconds
-    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8
+    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8  # side of a first cell, in intervals of the grid
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
     tiled: ClassVar = True
@@ -47,18 +39,13 @@ class Regions(Quantity):
         "period": Variable("s", "period of the cycle"),
         "releases": Variable("1", "number of stick releases in its period", whole=True),
         "period_ratio": Variable("1", "period of the cycle over that of the lowest mode of disc and slider at rest"),
-        "branch_continues_first": Variable(
-            "1", "whether the cycle continues into the next point's along the plane's first dimension", JOINED
-        ),
-        "branch_continues_second": Variable(
-            "1", "whether the cycle continues into the next point's along the plane's second dimension", JOINED
-        ),
+        "branch_continues_first": Variable("1", f"{_CONTINUES} first dimension", JOINED),
+        "branch_continues_second": Variable("1", f"{_CONTINUES} second dimension", JOINED),
         "other_cycles": Variable("1", "number of other cycles known, followed from neighbours", whole=True),
     }
     cost: ClassVar = lambda o: WORK
 
     def state_at(self, point: Point) -> State:
-        """The state that the motion reaches; raises `SimulationError` if the motion does not get there."""
         from disc_model.simulation.api import simulate
         from disc_model.stability.attractor.outcome import find_outcome
 
@@ -75,7 +62,6 @@ class Regions(Quantity):
     def compute_tile(
         self, points: Sequence[Sequence[Made]], sampled: Collection[tuple[int, int]]
     ) -> list[list[tuple[Row, str]]]:
-        """Compute a tile; the outcome at the places `sampled` is computed in any case."""
         from disc_model.studies.refinement import Tile
 
-        return Tile(points, sampled, **self.model_dump()).rows()
+        return Tile(points, sampled, self).rows()

@@ -1,12 +1,8 @@
 """Sensitivity: the stick-slip cycle at samples of distributed parameters, from one scrambled Sobol' sequence.
 
-A sample depends only on the seed and its own number. Fractions of the cycles refer to all samples, and fractions of the
-outcomes to the simulated ones. The Wilson intervals assume independent samples. Quasi-random samples are more even, so
-that their errors are mostly smaller. A failed sample is neither stable nor unstable: the lower and upper ends of an
-interval count it as one and as the other.
+The Wilson intervals assume independent samples. Quasi-random samples are more even, so that their errors are mostly
+smaller. The lower and upper ends of an interval count a failed sample as stable and as unstable.
 """
-
-from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
@@ -24,7 +20,7 @@ from disc_model.errors import Fault, ParameterError, as_text
 from disc_model.parameters import DEFAULTS, PLATE, RELATED, Disc, Parameters, case_of, cross_faults
 from disc_model.simulation.case import SomeParameters
 from disc_model.studies import quantity
-from disc_model.studies.quantity import STATUS, Blocks, Coordinate, Dataset, Point, Quantity, Row, Ruled, Rules, tried
+from disc_model.studies.quantity import NUMBERS, STATUS, Blocks, Coordinate, Dataset, Point, Quantity, Row, Ruled, tried
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Seconds, Tolerance, Units, is_number
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
@@ -32,27 +28,23 @@ SAMPLE_CYCLES = ("failed", *STABLE_CYCLES, *UNSTABLE)
 """Classes of the cycle near the static start: one of `STABLE_CYCLES`; or an unstable cycle, none though the slider
 sticks and slips, immediate separation, or unstable sliding."""
 SAMPLE_OUTCOMES = ("not_simulated", *variables.OUTCOMES_TO_HORIZON)
+FAILED = "failed"
+Array = NDArray[np.float64]
+
 # ---- Distributions of uncertain parameters
-NUMBERS = tuple(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_"))
-"""Parameters that can be distributed."""
-FARTHEST = 6.47
-"""Standard deviations at which a normal distribution is cut off, rounded up: a fraction of 1e-10 lies beyond."""
+EDGE = 1e-10  # fraction of a normal distribution that is cut off, in both tails together
+FARTHEST = 6.47  # standard deviations at which it is cut off, rounded up
 
 
 class _Distribution(Ruled):
-    """Of one parameter.
-
-    relative : whether the numbers are multiples of the parameter's own value at the point
-    """
-
-    relative: bool = False
+    relative: bool = False  # whether the numbers are multiples of the parameter's own value at the point
 
 
 class _Bounded(_Distribution):
     low: Finite
     high: Finite
 
-    _rules: ClassVar[Rules] = ((lambda d: d.low < d.high, "low={0.low:g} must be < high={0.high:g}"),)
+    _rules: ClassVar[quantity.Rules] = ((lambda d: d.low < d.high, "low={0.low:g} must be < high={0.high:g}"),)
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -95,9 +87,7 @@ class TruncatedNormal(_Bounded):
 
 Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator="distribution")]
 
-
-Array = NDArray[np.float64]
-FAILED = "failed"
+# ---- The quantity
 
 
 def _with_interval(name: str, words: str) -> dict[str, Variable]:
@@ -105,24 +95,16 @@ def _with_interval(name: str, words: str) -> dict[str, Variable]:
 
 
 class Sensitivity(Quantity):
-    """The stick-slip cycle at samples of uncertain parameters, and the outcome of the static start.
+    """The stick-slip cycle at samples of uncertain parameters, and the outcome of the static start."""
 
-    distributions : by parameter; for a disc given by its modes also by mode, such as omega_2_0, amplitude_2_0 and
-        damping_ratio_2_0 for two nodal diameters and no circle
-    samples : number of samples, a power of two; more samples keep the existing ones
-    seed : whole number; a sample depends only on it and on the sample's own number
-    simulated_samples : number of samples, from the first on, whose motion is simulated as well
-    horizon : s, of this simulation
-    tol : tolerance of the cycles; motion_tol : tolerance of the motions
-    """
-
+    # by parameter, or by number of a mode of a disc, such as omega_2_0 for two nodal diameters and no circle
     distributions: Annotated[dict[str, Distribution], Field(min_length=1)]
-    # the grid contains it: the result of a sample does not depend on their number
+    # the grid contains it: the result of a sample depends only on the seed and on its own number
     samples: Annotated[Count, Field(ge=2, le=2**16, exclude=True)] = 64
     seed: Annotated[Count, Field(ge=0)] = 0
-    simulated_samples: Annotated[Count, Field(ge=0)] = 0
+    simulated_samples: Annotated[Count, Field(ge=0)] = 0  # the first ones, whose motion is simulated as well
     horizon: Seconds = 500.0
-    tol: CycleTolerance = 1e-12
+    tol: CycleTolerance = 1e-12  # of the cycles
     motion_tol: Tolerance = 1e-10
 
     @classmethod
@@ -166,14 +148,14 @@ class Sensitivity(Quantity):
         varied = {*grid.varied, *({*numbers}.difference(NUMBERS) if "disc" in grid.varied else ())}
         faults = []
         for name, distribution in self.distributions.items():
-            nominal = _own(name, grid.base)
-            if name not in numbers:
-                rule = f"must be of a parameter that is a number (known: {', '.join(numbers)})"
-                faults.append(Fault((*path, name), "", rule))
-            elif not distribution.relative and name in varied:
-                faults.append(Fault((*path, name), "", "must be relative, since it varies along an axis as well"))
-            elif distribution.relative and name not in varied and (not is_number(nominal) or nominal == 0):
-                faults.append(Fault((*path, name), "", f"must not be relative to {as_text(nominal)}"))
+            nominal, relative = _own(name, grid.base), distribution.relative
+            scales = is_number(nominal) and nominal != 0
+            rules = {
+                f"must be of a parameter that is a number (known: {', '.join(numbers)})": name not in numbers,
+                "must be relative, since it varies along an axis as well": name in varied and not relative,
+                f"must not be relative to {as_text(nominal)}": name not in varied and relative and not scales,
+            }
+            faults += [Fault((*path, name), "", rule) for rule, broken in rules.items() if broken][:1]
         yield from faults
         first: dict[str, Fault] = {}
         for fault in () if faults else self._out_of_reach(grid):
@@ -204,36 +186,30 @@ class Sensitivity(Quantity):
                 yield from cross_faults(DEFAULTS | case | dict(zip(related, corner, strict=True)))
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Compute one sample about the point's own parameters."""
         p, names = point.parameters, sorted(self.distributions)
         numbers = dict(p) | ({} if p.disc is None else p.disc.numbers)
         draws = zip(names, unit_draw(self.seed, len(names), point.sample), strict=True)
         drawn = [quantile(self.distributions[name], float(numbers[name]), draw) for name, draw in draws]
         p = p.replace(**dict(zip(names, drawn, strict=True)))
         cycle, message = tried("cycle", evaluate, p, self.tol)
-        values = {"status": "ok", "parameter_values": np.array(drawn), "outcome": "not_simulated", **cycle}
-        messages = [message]
+        outcome: tuple[Row, str] = {"outcome": "not_simulated"}, ""
         if point.sample < self.simulated_samples:
-            more, message = tried("outcome", _followed, p, self)
-            values |= more
-            messages.append(message)
-        return values, "; ".join(dict.fromkeys(filter(None, messages)))
+            outcome = tried("outcome", _followed, p, self)
+        values = {"status": "ok", "parameter_values": np.array(drawn), **cycle, **outcome[0]}
+        return values, "; ".join(dict.fromkeys(filter(None, (message, outcome[1]))))
 
     def summarise(self, cell: Dataset) -> dict[str, Any]:
-        """Summarise over the samples that no rule of the grid leaves out."""
         cell = cell.isel(sample=flag_names(cell["status"]) != EXCLUDED)
         if not cell.sizes["sample"]:
             return {}
         cycles, outcomes = flag_names(cell["cycle"]), flag_names(cell["outcome"])
         outcomes = outcomes[outcomes != "not_simulated"]
-        values: dict[str, Any] = {
-            "n_known_cycles": np.count_nonzero(cycles != FAILED),
-            "n_known_outcomes": np.count_nonzero(outcomes != FAILED),
-        }
-        for name, words, hit in (("unstable", cycles, UNSTABLE), ("separation", outcomes, ("separation",))):
+        values: dict[str, Any] = {}
+        of_cycles, of_outcomes = ("unstable", cycles, UNSTABLE), ("separation", outcomes, ("separation",))
+        for counted, (name, words, hit) in {"cycles": of_cycles, "outcomes": of_outcomes}.items():
             known = words[words != FAILED]
             chance = share(int(np.isin(known, hit).sum()), len(known), len(words) - len(known))
-            values |= quantity.with_ends(f"probability_{name}", chance)
+            values |= {f"n_known_{counted}": len(known), **quantity.with_ends(f"probability_{name}", chance)}
         return values
 
 
@@ -249,14 +225,12 @@ def _numbers(grid: Any) -> list[str]:
 
 def _own(name: str, values: Mapping[str, Any]) -> Any:
     """A point's own value of a parameter, if it has one."""
-    if isinstance(disc := values.get("disc"), Disc) and name in disc.numbers:
-        return disc.numbers[name]
-    return values[name] if name in values else DEFAULTS.get(name)
+    numbers = disc.numbers if isinstance(disc := values.get("disc"), Disc) else {}
+    return (DEFAULTS | {**values} | numbers).get(name)
 
 
 # ---- Samples
 BLOCK = 64  # number of samples that are drawn at once
-EDGE = 1e-10  # fraction of a normal distribution that is cut off, in both tails together
 
 
 def unit_draw(seed: int, count: int, number: int) -> Array:
@@ -281,10 +255,10 @@ def quantile(distribution: Distribution, nominal: float, share: float) -> float:
 
     scale = nominal if distribution.relative else 1.0
     low, high = distribution.ends
-    if distribution.distribution == "uniform":
+    if isinstance(distribution, Uniform):
         return float(scale * (low + share * (high - low)))
     first, last = EDGE / 2, 1 - EDGE / 2
-    if distribution.distribution == "truncated_normal":
+    if isinstance(distribution, TruncatedNormal):
         first, last = (ndtr((end - distribution.mean) / distribution.deviation) for end in (low, high))
     value = distribution.mean + distribution.deviation * float(ndtri(first + share * (last - first)))
     # rounding must not exceed the ends
@@ -295,20 +269,18 @@ def quantile(distribution: Distribution, nominal: float, share: float) -> float:
 
 
 def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
-    """Compute the cycle of a sample: its class and growth rate (1/s), and a message."""
     from disc_model.stability.cycle import floquet
 
     cycle = floquet(p, tol=tol)
-    word = cycle.status.value if cycle.status.value in SAMPLE_CYCLES else "failed"
+    word = cycle.status.value if cycle.status.value in SAMPLE_CYCLES else FAILED
     if cycle.status is CycleStatus.OK:
         word = "stable" if cycle.stable else "unstable"
     elif cycle.status is CycleStatus.NO_STICK_SLIP:
         word = "steady_sliding" if cycle.sliding.stable else "unstable_sliding"
-    return {"cycle": word, "growth_rate": cycle.growth_rate}, cycle.message if word == "failed" else ""
+    return {"cycle": word, "growth_rate": cycle.growth_rate}, cycle.message if word == FAILED else ""
 
 
 def _followed(p: Parameters, options: Sensitivity) -> tuple[Row, str]:
-    """Simulate the static start and return its outcome."""
     from disc_model.stability.attractor.outcome import find_outcome
 
     result = find_outcome(p, options.horizon, tol=options.motion_tol)

@@ -1,7 +1,5 @@
 """Complex eigenvalues: frequencies, growth rates and damping of the modes of steady sliding along one parameter."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -15,16 +13,11 @@ _ONE, _EACH = ("value",), ("value", "mode")
 
 
 class Sliding(Quantity):
-    """Modes of steady sliding along one parameter, each keeping its number.
+    """Modes of steady sliding along one parameter, each keeping its number."""
 
-    parameter : the one that varies; mu_s rises with mu_k where that is larger
-    scan : its values
-    modes : room for that many, numbered by frequency at the first value
-    """
-
-    parameter: Free = "Omega"
+    parameter: Free = "Omega"  # with mu_k, mu_s rises where that is larger
     scan: Annotated[Range, Unit(of="parameter")]
-    modes: Annotated[Count, Field(ge=1, le=2000)] = 24
+    modes: Annotated[Count, Field(ge=1, le=2000)] = 24  # room for that many, numbered by frequency at the first value
     scans: ClassVar = ("parameter",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -45,7 +38,6 @@ class Sliding(Quantity):
     cost: ClassVar = lambda o: 3e-3 * (o.scan.intervals + 1)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Follow the modes along the scan; the point's own value of the parameter is not used."""
         from disc_model.stability.sliding import SlidingStatus, follow_modes
 
         p, values = point.parameters, self.scan.values
@@ -63,15 +55,9 @@ class Sliding(Quantity):
             for name, column in row.items():
                 columns[name][i, numbers[room]] = column[room]
         states = [sliding for sliding, *_ in followed]
-        absent = [
-            f"{self.parameter}={value:g}: {sliding.message}"
-            for value, sliding in zip(values, states, strict=True)
-            if sliding.status is not SlidingStatus.OK
-        ]
-        more = {
-            "status": "ok",
-            "unstable_modes": np.array([sliding.unstable_modes for sliding in states]),
-            "largest_growth_rate": np.array([sliding.growth_rate for sliding in states]),
-            "contact_force": np.array([sliding.contact_force for sliding in states]),
-        }
-        return columns | more, absent[0] if absent else ""
+        for name in ("unstable_modes", "contact_force"):
+            columns[name] = np.array([getattr(sliding, name) for sliding in states])
+        columns["largest_growth_rate"] = np.array([sliding.growth_rate for sliding in states])
+        absent = [i for i, sliding in enumerate(states) if sliding.status is not SlidingStatus.OK]
+        message = f"{self.parameter}={values[absent[0]]:g}: {states[absent[0]].message}" if absent else ""
+        return columns | {"status": "ok"}, message

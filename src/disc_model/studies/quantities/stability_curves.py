@@ -1,41 +1,30 @@
 """Neutral curves and folds of the stick-slip cycle, by continuation in two parameters."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
 from disc_model.data.variables import Variable
-from disc_model.studies.quantity import STATUS, WORK, Coordinate, Free, Point, Quantity, Range, listed
+from disc_model.studies.quantity import STATUS, WORK, Coordinate, Free, Point, Quantity, Range, along, listed
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Unit
 
 KINDS = ("none", "neutral", "fold")
 SIDES = ("no", "yes")
-_ONE, _EACH = ("curve",), ("curve", "curve_point")
+_one, _each = along("curve"), along("curve", "curve_point")
 
 
 class StabilityCurves(Quantity):
-    """Neutral curves and folds of the stick-slip cycle in the plane of two parameters.
-
-    x, y : the parameters
-    x_range : from, to; cycles are searched for at `points` values in it
-    y_lines : values of y for this search; curves are followed from the first to the last, widened by `margin`
-    margin : fraction of the range of y, beyond the lines at both ends
-    max_step : arclength of the longest step along a curve
-    max_points : greatest number of points of a curve in each direction
-    max_curves : room for that many
-    """
+    """Neutral curves and folds of the stick-slip cycle in the plane of two parameters."""
 
     x: Free = "Omega"
     y: Free = "N"
-    x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]
-    y_lines: Annotated[Range, Unit(of="y")]
-    margin: Annotated[Real, Field(ge=0, le=1)] = 0.0
-    points: Annotated[Count, Field(ge=2, le=10_000)] = 31
-    max_step: Positive = 0.1
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100
+    x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]  # from, to
+    y_lines: Annotated[Range, Unit(of="y")]  # cycles are searched for along these lines
+    margin: Annotated[Real, Field(ge=0, le=1)] = 0.0  # fraction of the range of y by which curves may leave it
+    points: Annotated[Count, Field(ge=2, le=10_000)] = 31  # of the search, along each line
+    max_step: Positive = 0.1  # arclength of the longest step along a curve
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100  # of a curve, in each direction
     max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
     tol: CycleTolerance = 1e-12
 
@@ -48,22 +37,18 @@ class StabilityCurves(Quantity):
         "status": STATUS,
         "n_curves": Variable("1", "number of curves found", whole=True),
         "n_continuation_failures": Variable("1", "number of places at which a curve could not be followed", whole=True),
-        "kind": Variable(
-            "1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS, dims=_ONE
-        ),
-        "x": Variable("", "first parameter along the curve, SI units", dims=_EACH),
-        "y": Variable("", "second parameter along the curve, SI units", dims=_EACH),
-        "adjoins_stable_cycle": Variable("1", "whether the cycle is stable on one side", SIDES, dims=_EACH),
-        "period": Variable("s", "period of the cycle on the curve", dims=_EACH),
-        "multiplier_re": Variable("1", "real part of the leading multiplier", dims=_EACH),
-        "multiplier_im": Variable("1", "imaginary part of the leading multiplier", dims=_EACH),
-        "resonance_harmonic": Variable("1", "n of the resonance n f_s = f + s l Omega / 2 pi", dims=_ONE),
-        "resonance_frequency": Variable("Hz", "f of that resonance, of a mode at rest", dims=_ONE),
-        "resonance_diameters": Variable("1", "l of that resonance", dims=_ONE, whole=True),
-        "resonance_sign": Variable("1", "s of that resonance, -1, 0 or 1", dims=_ONE, whole=True),
-        "resonance_detuning": Variable(
-            "Hz", "how far the cycle at the curve's middle is from that resonance", dims=_ONE
-        ),
+        "kind": _one("1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS),
+        "x": _each("", "first parameter along the curve, SI units"),
+        "y": _each("", "second parameter along the curve, SI units"),
+        "adjoins_stable_cycle": _each("1", "whether the cycle is stable on one side", SIDES),
+        "period": _each("s", "period of the cycle on the curve"),
+        "multiplier_re": _each("1", "real part of the leading multiplier"),
+        "multiplier_im": _each("1", "imaginary part of the leading multiplier"),
+        "resonance_harmonic": _one("1", "n of the resonance n f_s = f + s l Omega / 2 pi"),
+        "resonance_frequency": _one("Hz", "f of that resonance, of a mode at rest"),
+        "resonance_diameters": _one("1", "l of that resonance", whole=True),
+        "resonance_sign": _one("1", "s of that resonance, -1, 0 or 1", whole=True),
+        "resonance_detuning": _one("Hz", "how far the cycle at the curve's middle is from that resonance"),
     }
     COORDINATES: ClassVar = {
         "curve": Coordinate("1", "number of the curve", lambda o: range(o.max_curves)),
@@ -72,7 +57,6 @@ class StabilityCurves(Quantity):
     cost: ClassVar = lambda o: WORK
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        """Compute the curves of the plane; the point's own values of its two parameters are not used."""
         from disc_model.stability.curves import neutral_curves
 
         lines = self.y_lines
@@ -80,19 +64,11 @@ class StabilityCurves(Quantity):
         bounds = {self.x: self.x_range, self.y: (lines.start - margin, lines.stop + margin)}
         how: dict[str, Any] = {"points": self.points, "max_points": self.max_points, "longest": self.max_step}
         curves = neutral_curves(point.parameters, bounds, lines.values, tol=self.tol, **how)
-        # the array holds the longest curve
-        rows = [
-            {
-                "kind": curve.kind,
-                "x": curve.values[:, 0],
-                "y": curve.values[:, 1],
-                "adjoins_stable_cycle": curve.adjoins_stable_cycle,
-                "period": curve.period,
-                "multiplier_re": curve.multipliers.real,
-                "multiplier_im": curve.multipliers.imag,
-                **{f"resonance_{name}": value for name, value in asdict(curve.resonance).items()},
-            }
-            for curve in sorted(curves, key=lambda curve: -len(curve.period))
-        ]
+        rows = []
+        for curve in sorted(curves, key=lambda curve: -len(curve.period)):  # the array holds the longest curve
+            row = {name: getattr(curve, name) for name in ("kind", "adjoins_stable_cycle", "period")}
+            row |= {"x": curve.values[:, 0], "y": curve.values[:, 1]}
+            row |= {"multiplier_re": curve.multipliers.real, "multiplier_im": curve.multipliers.imag}
+            rows.append(row | {f"resonance_{name}": value for name, value in asdict(curve.resonance).items()})
         counts = {"n_curves": len(curves), "n_continuation_failures": len(curves.failures)}
         return listed(rows) | counts | {"status": "ok"}, ""
