@@ -1,17 +1,13 @@
-"""Common style and parts of several figures: labels, envelopes of long histories, points of grids.
-
-matplotlib is imported where something is drawn, see `disc_model.figures.kind`.
-"""
+"""Common style and parts of several figures: labels, envelopes of long histories, points of grids."""
 
 from __future__ import annotations
 
 import json
 import logging
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
-from functools import wraps
 from itertools import chain, repeat
 from pathlib import Path
 from textwrap import fill
@@ -23,23 +19,15 @@ import xarray as xr
 from disc_model.data import dataset, variables
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import EXCLUDED, SHOWN, WITHOUT_CYCLE, axis_of, flag_names, stated_in, typeset
-from disc_model.errors import Fault, ParameterError
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.cm import ScalarMappable
-    from matplotlib.collections import QuadMesh
-    from matplotlib.colors import AsinhNorm, Normalize
+    from matplotlib.colors import Normalize
     from matplotlib.figure import Figure, FigureBase
-    from matplotlib.legend import Legend
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
-    from matplotlib.path import Path as Outline
-    from matplotlib.patheffects import AbstractPathEffect
-else:  # names for annotations, without matplotlib
-    Artist = AsinhNorm = Axes = Figure = FigureBase = Line2D = Normalize = Outline = Patch = QuadMesh = Any
-    ScalarMappable = Any
+else:  # names for annotations: matplotlib is imported where something is drawn, see `disc_model.figures.kind`
+    Artist = Axes = Figure = FigureBase = Normalize = ScalarMappable = Any
 
 logging.getLogger("fontTools").setLevel(logging.WARNING)  # its reports on fonts would fill the logs of figures
 
@@ -53,19 +41,14 @@ BLACK, GREY = "#000000", "#8a8a8a"
 
 # One colour per quantity in the whole set; loss of contact is always vermilion.
 DISC, SLIDER, FORCE = BLUE, ORANGE, "#4d4d4d"
-"""Motion of the disc; of the slider, normal to the disc (u) and in its plane (psi); contact force."""
 STICK, SLIP, SEPARATED = GREEN, PURPLE, VERMILION
 PHASE_COLOURS = {"stick": STICK, "slip": SLIP, "separation": SEPARATED}
-BEFORE, AFTER = SKY, BLACK  # stages of a run: in contact before and after the first separation
-ONSET, END = SEPARATED, BLUE  # speeds at which separation begins, and at which it ends
-PAPER = "#F0E442"
-"""Colour of the paper's results, always with a black edge: no other mark and no map has it."""
+PAPER = "#F0E442"  # the paper's results, always with a black edge: no other mark and no map has it
 
-BORDERS: dict[str, dict[str, Any]] = {
+BORDERS: dict[str, dict[str, Any]] = {  # lines of all stability charts; corners of cells stay visible in short dashes
     "neutral": {"color": BLACK, "linewidth": 1.0, "linestyle": "-", "label": "cycle loses stability"},
     "fold": {"color": BLACK, "linewidth": 1.0, "linestyle": (0, (1.2, 0.8)), "label": "stable cycle ends (fold)"},
 }
-"""Looks and labels of the lines of all stability charts; the dashes are so short that corners of cells stay visible."""
 
 
 def styled() -> AbstractContextManager[None]:
@@ -81,16 +64,11 @@ def blank_if_missing(*axes: Axes) -> Iterator[None]:
     try:
         yield
     except Missing as reason:
+        text = fill(f"not shown: the case {reason}", 24)
         for ax in axes:
             ax.cla()
-            say_missing(ax, reason)
-
-
-def say_missing(ax: Axes, reason: Missing) -> None:
-    """Write into an empty panel why there is nothing to show."""
-    phrase = fill(f"not shown: the case {reason}", 24)
-    ax.set_axis_off()
-    ax.text(0.5, 0.5, phrase, ha="center", va="center", transform=ax.transAxes, in_layout=False)
+            ax.set_axis_off()
+            ax.text(0.5, 0.5, text, ha="center", va="center", transform=ax.transAxes, in_layout=False)
 
 
 def new_figure(width: float, height: float) -> Figure:
@@ -121,39 +99,33 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
 def history(case: xr.DataTree, window: str = "history", until: float | None = None) -> xr.Dataset:
     """Ranges in a window, up to a time in s; two bins define the bin width."""
     ranges = dataset.samples(case, window, envelope=True)
-    shown = ranges.sel(time=slice(None, until))
+    shown = ranges.sel(time=slice(until))
     return shown if shown.sizes["time"] > 1 else ranges
 
 
 Values = TypeVar("Values", xr.DataArray, xr.Dataset)
 MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes", "given": "modes of a table"}
-"""Title of a panel by normalization; "given" stands for modes from a table."""
-WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}
-"""Words of parameters in panel titles, those of the paper first."""
+WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}  # those of the paper first
 MODELS = {"normal": WORDS["normal"], "residual": "residual flexibility", "surface": "friction on the surface"}
 MODELS |= dict.fromkeys(("bilateral", "bonded"), "bilateral contact")  # the second in files of results
-"""Words for models other than the paper's."""
+"""Words in titles: of normalizations, of parameters in panels, and of models other than the paper's."""
 
 
-def sample(**look: Any) -> Line2D:
+def sample(**look: Any) -> Artist:
     """A line or mark for a legend."""
     from matplotlib.lines import Line2D
 
     return Line2D([], [], **look)
 
 
-def halo(width: float = 1.5) -> list[AbstractPathEffect]:
-    """A white outline for text over lines or colours; width in points."""
-    return outline(width, "white")
-
-
-def outline(width: float, colour: str) -> list[AbstractPathEffect]:
+def halo(width: float = 1.5, colour: str = "white") -> list[Any]:
     """An outline of text, lines or marks; width in points, that of what it surrounds included."""
     from matplotlib.patheffects import withStroke
 
     return [withStroke(linewidth=width, foreground=colour)]
 
 
+DECADES = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()  # ticks of a logarithmic axis
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
 """Units of the reader and the factors from SI to them, by parameter or sampled variable, while a figure is drawn."""
 
@@ -163,23 +135,21 @@ def restate_axes(figure: Figure) -> None:
     from matplotlib.ticker import AutoLocator, FixedLocator, FuncFormatter
 
     class Ticks(AutoLocator):
-        def __init__(self, ratio: float) -> None:
-            super().__init__()
-            self.ratio = ratio
+        ratio: float
 
         def tick_values(self, low: float, high: float) -> Any:
             return np.asarray(super().tick_values(low * self.ratio, high * self.ratio)) / self.ratio
 
-    decades = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()
     for axis in [axis for ax in figure.axes for axis in (ax.xaxis, ax.yaxis)]:
         text = axis.get_label_text()
         for name, (unit, factor) in UNITS.get().items():
             shown = SHOWN[name]
             if text.startswith(typeset(f"{shown.name} {shown.symbol}".strip())) and text.endswith(f"({shown.unit})"):
-                ratio = factor / shown.factor
+                ticks, ratio = Ticks(), factor / shown.factor
+                ticks.ratio = ratio
                 axis.set_label_text(text.removesuffix(f"({shown.unit})") + f"({unit})")
                 linear = axis.get_scale() == "linear"
-                axis.set_major_locator(Ticks(ratio) if linear else FixedLocator((decades / ratio).tolist()))
+                axis.set_major_locator(ticks if linear else FixedLocator((DECADES / ratio).tolist()))
                 axis.set_major_formatter(FuncFormatter(lambda value, _, ratio=ratio: f"{value * ratio:.6g}"))
 
 
@@ -192,6 +162,12 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
     unit = str(variable.attrs.get("units", "1")).replace("s-1", "/s").replace(" /", "/")
     phrase = fill(words[0].upper() + words[1:], 48)
     return (f"{phrase} ({'1' + unit if unit.startswith('/') else unit})" if unit not in ("", "1") else phrase), 1.0
+
+
+def along(coordinate: xr.DataArray) -> tuple[str, np.ndarray]:
+    """Axis label of a coordinate, and its values in the label's unit."""
+    label, factor = label_of(coordinate)
+    return label, coordinate.values * factor
 
 
 def flags_of(variable: xr.DataArray) -> list[str]:
@@ -242,11 +218,8 @@ def slices(variable: Values, by: str | None) -> list[tuple[str, Values]]:
     ranks = {word: i for i, word in enumerate(WORDS)}
 
     def rank(value: Any) -> Any:  # other words keep their order, those that begin with a number by this
-        return (
-            (ranks.get(value, 0), float((re.findall(r"^\d+", value) or ["inf"])[0]))
-            if isinstance(value, str)
-            else value
-        )
+        leading = re.findall(r"^\d+", str(value)) or ["inf"]
+        return (ranks.get(value, 0), float(leading[0])) if isinstance(value, str) else value
 
     each = [variable.isel({by: i}) for i in range(variable.sizes[by])]
     each.sort(key=lambda part: [rank(part[name].item()) for name in along])
@@ -390,13 +363,10 @@ def letter(ax: Axes, text: str, title: str = "", **look: Any) -> None:
 def letters(axes: Sequence[Axes] | np.ndarray, titles: Iterable[str] = (), **look: Any) -> None:
     """Write the letters of panels, and the subjects of the first ones; a single panel has no letter."""
     for ax, text, title in zip(axes, "abcdefghijkl", chain(titles, repeat("")), strict=False):
-        if len(axes) > 1:
-            letter(ax, text, title, **look)
-        else:
-            ax.set_title(title, loc="left", **look)
+        ax.set_title(f"({text}) {title}".strip() if len(axes) > 1 else title, loc="left", **look)
 
 
-def legend_above(ax: Axes, **look: Any) -> Legend:
+def legend_above(ax: Axes, **look: Any) -> Any:
     """Draw a legend in one row above the right end of the axes, where it covers nothing."""
     return ax.legend(loc="lower right", bbox_to_anchor=(1, 1), **{"borderaxespad": 0.2, "ncols": 4, **look})
 
@@ -416,9 +386,7 @@ def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
 
 def statuses(study: xr.Dataset) -> xr.DataArray:
     """The status of each point of a grid study, as a word."""
-    if "status" not in study:
-        return xr.DataArray("ok")
-    return study["status"].copy(data=flag_names(study["status"]))
+    return study["status"].copy(data=flag_names(study["status"])) if "status" in study else xr.DataArray("ok")
 
 
 def failed(study: xr.Dataset) -> xr.DataArray:
@@ -428,40 +396,11 @@ def failed(study: xr.Dataset) -> xr.DataArray:
 
 def mark_failed(ax: Axes, values: np.ndarray, on: Literal["x", "y"] = "x", name: str = "failed") -> None:
     """Mark failed points by crosses beside an axis, as in stability maps; nothing if there are none."""
-    if not values.size:
-        return
-    points, transform = [values, np.full(values.shape, 0.02)], ax.get_xaxis_transform()
-    if on == "y":
-        points, transform = points[::-1], ax.get_yaxis_transform()
-    ax.plot(*points, "x", color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)
-
-
-# ---- Pictures that a reader asks for, beside those of a study
-
-
-def by_itself(draw: Callable[..., Axes | np.ndarray]) -> Callable[..., Any]:
-    """Make a function draw in the common style, unless it is given axes, which keep the style of their figure."""
-
-    @wraps(draw)
-    def drawn(*inputs: Any, ax: Any = None, **options: Any) -> Any:
-        with styled() if ax is None else nullcontext():
-            return draw(*inputs, ax=ax, **options)
-
-    return drawn
-
-
-def axes_for(ax: Any, width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any) -> list[Axes]:
-    """The axes that are given, as many as there are panels; or those of a new figure, which pyplot shows."""
-    if ax is not None:
-        panels_given = list(np.ravel(ax))
-        if len(panels_given) != rows * columns:
-            rule = f"must be {rows * columns}, one for each panel"
-            raise ParameterError(Fault(("ax",), f"{len(panels_given)} axes", rule))
-        return panels_given
-    from matplotlib import pyplot
-
-    figure = pyplot.figure(figsize=(width, height), layout="constrained")
-    return list(figure.subplots(rows, columns, squeeze=False, **shared).flat)
+    if values.size:
+        points, transform = [values, np.full(values.shape, 0.02)], ax.get_xaxis_transform()
+        if on == "y":
+            points, transform = points[::-1], ax.get_yaxis_transform()
+        ax.plot(*points, "x", color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)
 
 
 def head_text(width: float, title: str, values: str) -> str:

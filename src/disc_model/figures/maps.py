@@ -1,7 +1,7 @@
 """What maps and charts draw: cells in flat colours, growth rates of the stick-slip cycle, neutral curves and folds."""
 
 from collections.abc import Callable, Container, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, axis_of, flag_names, typeset
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, AsinhNorm, Axes, FigureBase, Line2D, Outline, Patch, edges, label_of
+from disc_model.figures.drawing import BLACK, GREY, Artist, Axes, FigureBase, Normalize, edges, label_of
 from disc_model.stability.resonances import Resonance
 
 Array = NDArray[np.float64]
@@ -28,9 +28,7 @@ class Look(NamedTuple):
     hatch: str = ""
 
 
-UNRESOLVED = Look("unresolved", "none", 8 * "/")
-"""Look of cells whose neighbours on both sides have another outcome: what is there is finer than the cells. A cell of
-a fiftieth of a panel has two lines of their hatch."""
+UNRESOLVED = Look("unresolved", "none", 8 * "/")  # two lines of its hatch fit into a fiftieth of a panel
 OUTCOME_LOOKS = {  # in all maps and charts, distinct in grey print by darkness or a hatch
     "quiet": Look("quiet", "#f3f6f8"),
     "steady_sliding": Look("steady sliding", "#e3d5ee", 3 * "|"),
@@ -41,7 +39,7 @@ OUTCOME_LOOKS = {  # in all maps and charts, distinct in grey print by darkness 
     "undecided": Look("undecided", "#43372a"),
     "failed": Look("failed", "#222222"),
 }
-CYCLE_LOOKS = {
+CYCLE_LOOKS = {  # where no cycle is followed; decay, whose sign a grey print does not show; rates of another cycle
     "steady_sliding": OUTCOME_LOOKS["steady_sliding"],
     "at_rest": OUTCOME_LOOKS["at_rest"],
     "separates": Look(WITHOUT_CYCLE["separates"], "#f3c9ae", 6 * "\\"),
@@ -52,11 +50,8 @@ CYCLE_LOOKS = {
     "failed": OUTCOME_LOOKS["failed"],
     EXCLUDED: Look("left out by the study's rule", "white"),
 }
-"""Looks of points where no cycle is followed, of decay, whose sign a grey print does not show, and of growth rates that
-may be another cycle's."""
 CELL_LOOKS = OUTCOME_LOOKS | {"fine": UNRESOLVED}
-GREYNESS, DARK = np.array([0.299, 0.587, 0.114]), 0.5
-"""Weights of red, green and blue in grey print, and the lightness below which a hatch is white."""
+GREYNESS = np.array([0.299, 0.587, 0.114])  # weights of red, green and blue in grey print
 
 
 def unresolved(words: Names) -> NDArray[np.bool_]:
@@ -69,9 +64,8 @@ def unresolved(words: Names) -> NDArray[np.bool_]:
 def scale_of(name: str, values: Array) -> str:
     """Scale of an axis: logarithmic for values over decades, most at the lower end; with a linear start from 0."""
     positive = values[values > 0]
-    if name in ("N", "Omega") or positive.size < 2 or positive[-1] / positive[0] <= 15:
-        return "linear"
-    if np.median(values) - values[0] > 0.25 * (values[-1] - values[0]):
+    decades = name not in ("N", "Omega") and positive.size > 1 and positive[-1] / positive[0] > 15
+    if not decades or np.median(values) - values[0] > 0.25 * (values[-1] - values[0]):
         return "linear"
     return "log" if values[0] > 0 else "symlog"
 
@@ -87,38 +81,29 @@ def edges_of(plane: xr.DataArray, scale: Callable[[str, Array], str] = scale_of)
 
 
 def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below: Array | None = None) -> None:
-    """Fill and hatch cells in the look of their word; cells whose word has no look remain unchanged.
-
-    A hatch is black over light colours and white over dark ones.
-
-    below : colours that are drawn there already, shape (rows, columns, 4)
-    """
+    """Fill cells in the look of their word, and hatch them, black over light colours and white over dark ones; cells
+    whose word has no look remain unchanged, as do colours drawn there before, shape (rows, columns, 4)."""
     from matplotlib.colors import to_rgba
     from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
 
     colours = np.zeros((*words.shape, 4))
     for word, look in looks.items():
         colours[words == word] = to_rgba(look.face)
     if colours.any():
         ax.pcolormesh(*sides, colours, rasterized=True)
-    light = np.ones(words.shape)  # that of the page
+    light, (x, y) = np.ones(words.shape), sides  # lightness of the page
     for layer in (colours if below is None else below, colours):
         light = np.where(layer[..., 3] > 0, layer[..., :3] @ GREYNESS, light)
-    dark = light < DARK
     for word, look in looks.items():
-        for ink, ground in ((BLACK, ~dark), ("white", dark)):
-            mask = ground & (words == word)
-            if look.hatch and mask.any():
-                ax.add_patch(PathPatch(_outline(sides, mask), fill=False, hatch=look.hatch, ec=ink, lw=0, zorder=1.1))
-
-
-def _outline(sides: Edges, mask: NDArray[np.bool_]) -> Outline:
-    """The outlines of all these cells as one path: a hatch of each cell would take a hundred times as long."""
-    from matplotlib.path import Path
-
-    (low, leftmost), (x, y) = np.nonzero(mask), sides
-    corners = [(x[leftmost + across], y[low + up]) for across, up in ((0, 0), (1, 0), (1, 1), (0, 1))]
-    return Path.make_compound_path_from_polys(np.moveaxis(np.array(corners), (0, 1, 2), (1, 2, 0)))
+        for ink, ground in ((BLACK, light >= 0.5), ("white", light < 0.5)):
+            low, left = np.nonzero(ground & (words == word))
+            if (
+                look.hatch and low.size
+            ):  # of all these cells as one path: of each one it would take a hundred times as long
+                corners = [(x[left + across], y[low + up]) for across, up in ((0, 0), (1, 0), (1, 1), (0, 1))]
+                outline = Path.make_compound_path_from_polys(np.moveaxis(np.array(corners), (0, 1, 2), (1, 2, 0)))
+                ax.add_patch(PathPatch(outline, fill=False, hatch=look.hatch, ec=ink, lw=0, zorder=1.1))
 
 
 def outcome_cells(ax: Axes, outcome: xr.DataArray) -> set[str]:
@@ -129,7 +114,7 @@ def outcome_cells(ax: Axes, outcome: xr.DataArray) -> set[str]:
     return set(words.flat)
 
 
-def patches(looks: Mapping[str, Look], words: Container[str]) -> list[Patch]:
+def patches(looks: Mapping[str, Look], words: Container[str]) -> list[Artist]:
     """Legend entries of the looks that are among words."""
     from matplotlib.patches import Patch
 
@@ -142,25 +127,20 @@ def patches(looks: Mapping[str, Look], words: Container[str]) -> list[Patch]:
 
 # ---- The one scale of colours for growth rates of the stick-slip cycle
 GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates are larger
-LINEAR = 1 / 30  # fraction of the scale's end up to which the colours are nearly linear
 
 
-def growth_norm(rates: Array) -> AsinhNorm:
-    """A colour scale that is nearly linear near 0 and nearly logarithmic beyond."""
+def growth_norm(rates: Array) -> Normalize:
+    """A colour scale that is nearly linear near 0 and nearly logarithmic beyond a thirtieth of its end."""
     from matplotlib.colors import AsinhNorm
 
     sizes = np.abs(rates[np.isfinite(rates)])
     greatest = float(sizes.max()) if sizes.size and np.median(sizes) > GREATEST else GREATEST
-    return AsinhNorm(linear_width=LINEAR * greatest, vmin=-greatest, vmax=greatest)
+    return AsinhNorm(linear_width=1 / 30 * greatest, vmin=-greatest, vmax=greatest)
 
 
 def growth_panels(figure: FigureBase, axes: Sequence[Axes], panels: Sequence[xr.Dataset]) -> set[str]:
-    """Draw `growth_rate` (1/s) over two parameters on one scale of colours, or the status where no cycle is followed.
-
-    Cells of decay are dotted, isolated ones hatched. Returns the used keys of `CYCLE_LOOKS`, and "".
-
-    panels : of the quantity `regions` or `floquet`; without flags, points without a rate have no cycle
-    """
+    """Draw `growth_rate` (1/s) of `regions` or `floquet` on one scale of colours, dotted where it is negative, hatched
+    where isolated, or the status where no cycle is followed; returns the used keys of `CYCLE_LOOKS`, and ""."""
     from cmcrameri import cm
 
     norm = growth_norm(np.concatenate([panel["growth_rate"].values.ravel() for panel in panels]))
@@ -187,12 +167,6 @@ def stability_of(data: xr.Dataset) -> Names:
     return np.where(rate < 0, "stable", np.where(rate > 0, "unstable", flag_names(data["cycle"])))
 
 
-def isolated(data: xr.Dataset) -> NDArray[np.bool_]:
-    """Cells whose growth rate, or whose stability, differs from that around them."""
-    cells = alone(data["growth_rate"].values)
-    return cells | unresolved(stability_of(data)) if "cycle" in data else cells
-
-
 def cycles_of(data: xr.Dataset) -> Names:
     """Words where no cycle is followed, a key of `CYCLE_LOOKS`, otherwise ""; of `regions` or `floquet`."""
     rate = data["growth_rate"].values
@@ -210,28 +184,24 @@ def cycles_of(data: xr.Dataset) -> Names:
     return np.where(np.isfinite(rate), "", words)
 
 
-def alone(rate: Array) -> NDArray[np.bool_]:
-    """Cells whose growth rate differs from that of the eight around them: of another cycle, or a narrow resonance."""
+def isolated(data: xr.Dataset) -> NDArray[np.bool_]:
+    """Cells whose growth rate differs from that of the eight around them, by another cycle or a narrow resonance, or
+    whose stability does."""
+    rate = data["growth_rate"].values
     share = np.where(np.isfinite(rate), growth_norm(rate)(np.nan_to_num(rate)), np.nan).clip(0, 1)
     padded = np.pad(share, 1, constant_values=np.nan)
     around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
-    like = np.abs(share[..., None, None] - around) < 0.1  # of the colour scale
-    # each cell equals itself
-    return (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)
+    like = np.abs(share[..., None, None] - around) < 0.1  # of the colour scale; each cell equals itself
+    cells = (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)
+    return cells | unresolved(stability_of(data)) if "cycle" in data else cells
 
 
 # ---- Neutral curves and folds of the cycle over speed and preload
 SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
 
 
-@dataclass(frozen=True, eq=False)
-class Curve:
-    """A line on a stability chart.
-
-    Omega, N : shape (n,), rad/s and N
-    kind : "neutral" or "fold"
-    label : text next to it, such as a resonance's "2 f_s = 135.42 Hz"; may be empty
-    """
+class Curve(NamedTuple):
+    """A line on a stability chart; "neutral" or "fold", with a label such as "2 f_s = 135.42 Hz"."""
 
     Omega: Array
     N: Array
@@ -246,15 +216,14 @@ def curves_of(data: xr.Dataset) -> list[Curve]:
     for i in np.flatnonzero(kinds != "none"):
         curve_data = data.isel(curve=int(i))
         border = (flag_names(curve_data["adjoins_stable_cycle"]) == "yes") & np.isfinite(curve_data["x"].values)
-        if border.sum() < 2:
-            continue
         x, y = (np.where(border, curve_data[name].values, np.nan) for name in ("x", "y"))
         label = ""
         # a resonance farther away, in Hz, is not named
         if kinds[i] == "fold" and abs(float(curve_data["resonance_detuning"])) < 3.0:
             values = (curve_data[f"resonance_{field.name}"].item() for field in fields(Resonance))
             label = Resonance(*values).label.replace(" - ", " − ").replace("Ω/2π", "f_Ω")
-        curves.append(Curve(x, y, str(kinds[i]), label))
+        if border.sum() > 1:
+            curves.append(Curve(x, y, str(kinds[i]), label))
     return curves
 
 
@@ -262,18 +231,13 @@ def passes(curve: Curve, cells: xr.DataArray) -> NDArray[np.bool_]:
     """Whether each point of a curve lies in one of these cells over N and Omega, or in one of the eight around it."""
     from scipy.ndimage import binary_dilation
 
-    i, j = (
-        np.abs(cells[name].values - np.nan_to_num(getattr(curve, name))[:, None]).argmin(axis=1)
-        for name in ("N", "Omega")
-    )
+    points = (("N", curve.N), ("Omega", curve.Omega))
+    i, j = (np.abs(cells[name].values - np.nan_to_num(x)[:, None]).argmin(axis=1) for name, x in points)
     return np.asarray(np.isfinite(curve.Omega) & binary_dilation(cells, np.ones((3, 3)))[i, j])
 
 
 def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], list[Curve]]:
-    """Split curves into the parts that bound the cycle of a map, and those that belong to another cycle.
-
-    cycle : `growth_rate` (1/s, nan without a cycle) over N and Omega
-    """
+    """Split curves into the parts that bound the cycle of a map over N and Omega, and those of another cycle."""
     rate = cycle["growth_rate"]
     beyond = {"neutral": rate > 0, "fold": ~(rate < 0)}
     shown: list[Curve] = []
@@ -289,7 +253,7 @@ def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], lis
                 # one point more at each end, so that the parts of a curve meet
                 joined = stretch | np.roll(stretch, 1) & (np.arange(stretch.size) > 0)
                 Omega, N = (np.where(joined, along, np.nan) for along in (curve.Omega, curve.N))
-                lines.append(replace(curve, Omega=Omega, N=N, label=curve.label if lines is shown else ""))
+                lines.append(Curve(Omega, N, curve.kind, curve.label if lines is shown else ""))
     return shown, other
 
 
@@ -302,28 +266,20 @@ def crossings(curve: Curve, load: float) -> Array:
     return np.unique(curve.Omega[indices] + share * (curve.Omega[indices + 1] - curve.Omega[indices]))
 
 
-def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]]) -> list[Line2D]:
-    """Draw the curves of each panel, numbered if they have a label; returns legend entries of lines and numbers.
-
-    Numbers ascend with speed, equal labels share one, and they stand beyond the upper end, where they cover no line.
-    """
-    labelled = [curve for of_panel in curves for curve in of_panel if curve.label]
-    labelled.sort(key=lambda curve: float(np.nanmax(curve.Omega)))
+def draw_curves(ax: Axes, curves: Sequence[Curve]) -> list[Artist]:
+    """Draw curves, numbered if they have a label; returns legend entries of lines and numbers. Numbers ascend with
+    speed, equal labels share one, and they stand beyond the upper end, where they cover no line."""
+    labelled = sorted((x for x in curves if x.label), key=lambda curve: float(np.nanmax(curve.Omega)))
     numbers = {label: i for i, label in enumerate(dict.fromkeys(curve.label for curve in labelled), 1)}
-    for ax, of_panel in zip(axes, curves, strict=True):
-        for curve in of_panel:
-            ax.plot(curve.Omega, curve.N, **drawing.BORDERS[curve.kind] | {"label": "_nolegend_"})
-            if curve.label and np.isfinite(curve.N).any():
-                i = int(np.nanargmax(curve.N))
-                end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
-                look: dict[str, Any] = {"fontsize": 6, "annotation_clip": False, "path_effects": drawing.halo()}
-                drawing.say(ax, str(numbers[curve.label]), end, (0, 2), **look)
-    kinds = {curve.kind for of_panel in curves for curve in of_panel}
+    for curve in curves:
+        ax.plot(curve.Omega, curve.N, **drawing.BORDERS[curve.kind] | {"label": "_nolegend_"})
+        if curve.label and np.isfinite(curve.N).any():
+            i = int(np.nanargmax(curve.N))
+            end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
+            look: dict[str, Any] = {"fontsize": 6, "annotation_clip": False, "path_effects": drawing.halo()}
+            drawing.say(ax, str(numbers[curve.label]), end, (0, 2), **look)
+    kinds = {curve.kind for curve in curves}
     handles = [drawing.sample(**drawing.BORDERS[kind]) for kind in drawing.BORDERS if kind in kinds]
     mark: dict[str, Any] = {"linestyle": "", "color": BLACK, "markersize": 4, "markeredgewidth": 0}
     handles += [drawing.sample(marker=f"${i}$", label=typeset(label), **mark) for label, i in numbers.items()]
     return handles
-
-
-def span(values: Array) -> tuple[float, float]:
-    return float(values.min()), float(values.max())

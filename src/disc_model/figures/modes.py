@@ -22,18 +22,14 @@ HOLLOW: dict[str, Any] = {"markersize": 3.5, "markerfacecolor": "white", "marker
 
 
 class Campbell(Plot):
-    """Frequencies and growth rates against the speed, and where modes meet multiples of the stick-slip frequency.
-
-    normalization : the one that is shown, where the study has several
-    """
+    """Frequencies and growth rates against the speed, and where modes meet multiples of the stick-slip frequency."""
 
     quantities = ("campbell",)
     needs = ("Omega",)
     kind: Literal["campbell"] = "campbell"
-    normalization: Literal["as_published", "orthonormal"] | None = None
+    normalization: Literal["as_published", "orthonormal"] | None = None  # the one shown, where the study has several
 
     def _wrong_dims(self, values: Values) -> Iterator[Fault]:
-        """Allow several normalizations if the file chooses one."""
         yield from super()._wrong_dims(values if self.normalization is None else {**values, NORM: ()})
         known = [str(word) for (word,) in values.get(NORM, ())]
         if self.normalization is not None and known and self.normalization not in known:
@@ -56,21 +52,21 @@ class Campbell(Plot):
         for mask, look in ((~by_itself, {}), (by_itself, HOLLOW)):
             bottom.plot(speeds[mask], rate[mask], **DOT | {"markersize": 1.0} | look)
         scale_rates(bottom)
+        beside: dict[str, Any] = {"fontsize": 7, "path_effects": drawing.halo()}
         for i, crossing in peaks(study):
             for ax in (top, bottom):
                 ax.axvline(speeds[i], color=GREY, linewidth=0.4, zorder=0)
             bottom.plot(speeds[i], rate[i], **DOT | (HOLLOW if by_itself[i] else {}))
             if crossing is None:
                 continue
-            of_cycle = flag_names(crossing["crossing_line"]) == "stick_slip"
-            multiple = float(crossing["crossing_multiple"])
-            line = multiple * study["stick_slip_frequency" if of_cycle else "rotation_frequency"]
-            top.plot(speeds, line, color=GREY, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0)
+            multiple, symbol, line = float(crossing["crossing_multiple"]), "f_Ω", study["rotation_frequency"]
+            if flag_names(crossing["crossing_line"]) == "stick_slip":
+                symbol, line = "f_s", study["stick_slip_frequency"]
+            top.plot(speeds, multiple * line, color=GREY, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0)
             meeting = float(crossing["crossing_Omega"]), float(crossing["crossing_frequency"])
             top.plot(*meeting, **DOT)
-            name = rf"{multiple:g} ${'f_s' if of_cycle else 'f_Ω'}$"
-            drawing.say(top, name, meeting, (4, -3), fontsize=7, path_effects=drawing.halo())
-            drawing.say(bottom, name, (speeds[i], rate[i]), (2, 3), fontsize=7, path_effects=drawing.halo())
+            drawing.say(top, f"{multiple:g} ${symbol}$", meeting, (4, -3), **beside)
+            drawing.say(bottom, f"{multiple:g} ${symbol}$", (speeds[i], rate[i]), (2, 3), **beside)
         for ax in (top, bottom):
             for low, high in gaps(study):
                 ax.axvspan(low, high, color=GREY, alpha=0.25, linewidth=0)
@@ -98,9 +94,9 @@ def peaks(study: xr.Dataset) -> list[tuple[int, xr.Dataset | None]]:
         leads = study["mode"][int(np.nanargmax(study["cycle_growth_rate"].values[i]))]
         apart = np.abs(study["crossing_Omega"].values - speeds[i])
         other = np.where(study["crossing_mode"] == leads, 0.0, np.ptp(speeds))
-        known = np.flatnonzero(apart <= NEAR * np.ptp(speeds))
-        nearest = known[np.argsort((apart + other)[known])[:1]]
-        highest.append((int(i), study.isel(crossing=int(nearest[0])) if nearest.size else None))
+        distance = np.where(apart <= NEAR * np.ptp(speeds), apart + other, np.inf)
+        crossing = study.isel(crossing=int(distance.argmin())) if np.isfinite(distance).any() else None
+        highest.append((int(i), crossing))
     return highest
 
 
@@ -125,10 +121,9 @@ def named_modes(diameters: np.ndarray, heights: np.ndarray, apart: float) -> Ite
 
 def gaps(study: xr.Dataset) -> Iterator[tuple[float, float]]:
     """Ranges of speeds without a cycle, extended by half a step."""
-    speeds = study["Omega"].values
-    edges = drawing.edges(speeds)
-    for first, last in drawing.stretches(~np.isfinite(study["growth_rate"].values)):
-        yield float(edges[first]), float(edges[last])
+    edges = drawing.edges(study["Omega"].values)
+    for first, after in drawing.stretches(~np.isfinite(study["growth_rate"].values)):
+        yield float(edges[first]), float(edges[after])
 
 
 # ---- Modes of steady sliding along a parameter, root loci, and what the motion really does
@@ -136,20 +131,8 @@ THIN, THICK = 0.8, 2.4  # widths of the lines of modes that decay and grow
 ROUNDING = 1e-9  # 1/s, growth rates of undamped modes by rounding
 
 
-def modes_of(study: xr.Dataset) -> Iterator[tuple[int, xr.Dataset]]:
-    """Each mode of a study of one point, cut where its nodal diameters change: these, -1 in the plane, and its part."""
-    for _, mode in study[["frequency", "mode_growth_rate", "diameters"]].groupby("mode"):
-        mode = mode.squeeze("mode")
-        diameters = mode["diameters"].where(mode["frequency"].notnull())
-        for l in np.unique(diameters.dropna("value")):
-            yield int(l), mode.where(diameters == l)
-
-
 class SlidingModes(Plot):
-    """Frequencies and growth rates of steady sliding's modes along a parameter; where two meet, they coalesce.
-
-    highest : Hz, highest frequency shown
-    """
+    """Frequencies and growth rates of steady sliding's modes along a parameter; where two meet, they coalesce."""
 
     quantities = ("sliding",)
     kind: Literal["sliding_modes"] = "sliding_modes"
@@ -159,15 +142,18 @@ class SlidingModes(Plot):
         """Draw (a) frequencies, named where they begin, (b) growth rates, named at their peaks; thick where a mode
         grows. Growth at zero frequency belongs to no mode; it is drawn where it is the largest."""
         study = study.squeeze()
-        label, factor = drawing.label_of(study["value"])
-        along = study["value"].values * factor
+        label, along = drawing.along(study["value"])
         figure, [top, bottom] = panels(PAGE, 5.6, 2, height_ratios=[5, 4], sharex=True)
         largest = study["largest_growth_rate"]
         diverging = (largest > study["mode_growth_rate"].max("mode") + ROUNDING).values
+        lines: list[tuple[Any, ...]] = []
+        for _, mode in study.groupby("mode"):
+            mode = mode.squeeze("mode")
+            frequency, rate = mode["frequency"].values, mode["mode_growth_rate"].values
+            diameters = np.where(np.isfinite(frequency), mode["diameters"], np.nan)
+            for l in np.unique(diameters[np.isfinite(diameters)]):  # the mode is cut where its nodal diameters change
+                lines.append((name_of(int(l)), *(np.where(diameters == l, x, np.nan) for x in (frequency, rate))))
         at_zero = [np.where(diverging, values, np.nan) for values in (0 * largest, largest)]
-        lines: list[tuple[Any, ...]] = [
-            (name_of(l), mode["frequency"].values, mode["mode_growth_rate"].values) for l, mode in modes_of(study)
-        ]
         for name, frequency, rate in (*lines, ("0 Hz", *at_zero)):
             grows = np.nan_to_num(rate) > ROUNDING
             for ax, values in ((top, frequency), (bottom, rate)):
@@ -202,15 +188,14 @@ class RootLocus(Plot):
         from cmcrameri import cm
 
         study = study.squeeze()
-        label, factor = drawing.label_of(study["value"])
-        along = study["value"].values * factor
+        label, along = drawing.along(study["value"])
         figure, [ax] = panels(PAGE, 4.8)
         for _, mode in study.groupby("mode"):
             rate, frequency = mode["mode_growth_rate"].values, mode["frequency"].values
             points = ax.scatter(rate, frequency, c=along, cmap=cm.batlow, vmin=along[0], vmax=along[-1], s=5, zorder=2)
         first = study.isel(value=0)
-        ax.plot(first["mode_growth_rate"], first["frequency"], "o", color=BLACK, markersize=4, markerfacecolor="white")
         rates, heights = first["mode_growth_rate"].values, first["frequency"].values
+        ax.plot(rates, heights, "o", color=BLACK, markersize=4, markerfacecolor="white")
         ahead = study["mode_growth_rate"].isel(value=1).values - rates
         for part, name in named_modes(first["diameters"].values, heights, 0.01 * float(study["frequency"].max())):
             side, ring = (-1, rates[part].min()) if ahead[part].mean() > 0 else (1, rates[part].max())
@@ -234,10 +219,7 @@ AGREEMENTS = {  # what linear analysis of steady sliding says, and what the moti
 
 
 class SlidingOutcome(Plot):
-    """What linear analysis says of steady sliding beside what the motion does, over two parameters.
-
-    x : the parameter along which modes are followed by the study ``sliding``
-    """
+    """What linear analysis says of steady sliding beside what the motion does, over two parameters."""
 
     quantities = ("regions", "outcome")
     several = True
@@ -248,7 +230,6 @@ class SlidingOutcome(Plot):
 
     @property
     def roles(self) -> Roles:  # type: ignore[override]
-        """Steady sliding along x, over y."""
         return {"sliding": Role("sliding", (self.y,), {"parameter": self.x}, required=True)}
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import Any, ClassVar, Literal
 
 import numpy as np
@@ -12,9 +11,9 @@ from pydantic import Field
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.errors import Fault
 from disc_model.figures import drawing, maps
-from disc_model.figures.drawing import BLACK, BORDERS, MODES, PAGE, PAPER, Artist, Axes, Figure, Line2D, panels
+from disc_model.figures.drawing import BLACK, BORDERS, MODES, PAGE, PAPER, Artist, Axes, Figure, panels
 from disc_model.figures.kind import CURVES, Plot, Roles, Values
-from disc_model.figures.maps import OUTCOME_LOOKS, curves_of, draw_curves, growth_panels, parted, patches, span
+from disc_model.figures.maps import OUTCOME_LOOKS, curves_of, draw_curves, growth_panels, parted, patches
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Strict, Units
 
@@ -22,15 +21,12 @@ PAPER_MARKERS = {"quiet": "o", "growing": "^", "separation": "s"}  # the marker 
 
 
 class Mark(Strict):
-    """A case of the paper: where it lies, and what the paper says of it.
-
-    assumed : whether the paper does not state where, so that nothing is said of its start
-    """
+    """A case of the paper: where it lies, and what the paper says of it."""
 
     x: Finite
     y: Finite
     paper_outcome: Literal["quiet", "growing", "separation"]
-    assumed: bool = False
+    assumed: bool = False  # whether the paper does not state where, so that nothing is said of its start
 
 
 class RegionMap(Plot):
@@ -60,12 +56,8 @@ class RegionMap(Plot):
         yield from super().faults(values)
         for name, mark in self.marks.items():
             for axis, dim, value in (("x", self.x, mark.x), ("y", self.y, mark.y)):
-                along = [
-                    float(coordinate)
-                    for coordinate, *more in values.get(dim, ())
-                    if not more and not isinstance(coordinate, str)
-                ]
-                if along and not any(math.isclose(value, coordinate, rel_tol=1e-12) for coordinate in along):
+                along = [float(x) for x, *more in values.get(dim, ()) if not more and not isinstance(x, str)]
+                if along and not any(math.isclose(value, x, rel_tol=1e-12) for x in along):
                     yield Fault.of(("marks", name, axis), value, f"must be a value of {dim}, such as an extra one")
         if "curves" in self.overlays and (self.x, self.y) != ("Omega", "N"):
             yield Fault.of(("overlays", "curves"), self.overlays["curves"], "needs x: Omega and y: N")
@@ -87,32 +79,30 @@ class RegionMap(Plot):
             outcomes |= maps.outcome_cells(upper, plane["outcome"])
             for ax in (upper, lower):
                 lines += _curves(ax, plane, overlays["curves"]) if "curves" in overlays else _borders(ax, plane, upward)
+        _set_scales(axes, study, self.axes)
         named = {line.get_label(): line for line in lines}.values()
-        handles = [*patches(maps.CELL_LOOKS, outcomes), *named, *finish(axes, study, self)]
+        marks = _marks(axes[0], self) if norms[0] == "as_published" else []
+        handles = [*patches(maps.CELL_LOOKS, outcomes), *named, *marks]
         figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 4), title_fontsize=8)
         without, said = patches(maps.CYCLE_LOOKS, gaps), "\n".join(_captions(study, self))
         figure.legend(handles=without, loc="outside lower center", ncols=max(len(without), 1), title=said)
         return figure
 
 
-def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Line2D]:
-    """Draw continued curves of the map's cycle, within its points; growth maps show their numbers."""
+def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Artist]:
+    """Draw continued curves of the map's cycle, within its points."""
     paths = []
     for curve in parted(curves_of(drawing.of(curves, drawing.normalizations(data)[0])), data)[0]:
-        along = {"Omega": curve.Omega, "N": curve.N}
-        inside = [values == np.clip(values, *span(data[name].values)) for name, values in along.items()]
-        paths.append(replace(curve, N=np.where(np.all(inside, axis=0), curve.N, np.nan), label=""))
-    return draw_curves([ax], [paths])
+        along = ((curve.Omega, data["Omega"].values), (curve.N, data["N"].values))
+        inside = [values == np.clip(values, points.min(), points.max()) for values, points in along]
+        paths.append(curve._replace(N=np.where(np.all(inside, axis=0), curve.N, np.nan), label=""))
+    return draw_curves(ax, paths)
 
 
-def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Line2D]:
-    """Draw borders between cells: where the same cycle changes its stability, and where a stable one ends.
-
-    A cycle ends where the next cell has no cycle and the motion does not stay quiet there. A start that follows no
-    cycle, or another one, does not prove an end. Nothing is drawn around unresolved cells.
-
-    upward : whether the study's first dimension is the vertical one
-    """
+def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Artist]:
+    """Draw borders between cells, but not around unresolved ones: where the same cycle changes its stability, and where
+    a stable one ends, because the next cell has no cycle and does not stay quiet. A start that follows no cycle, or
+    another one, does not prove an end. Upward: the study's first dimension is the vertical one."""
     from matplotlib.collections import LineCollection
 
     x, y = maps.edges_of(data["outcome"])
@@ -138,65 +128,57 @@ def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Line2D]:
 
 
 def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
-    """Captions: the horizon, and disagreements between paper, start and cycle."""
+    """The horizon, and disagreements between paper, start and cycle."""
     horizon = stated_in(study, "options")["horizon"]
     yield f"Within {horizon:g} s of the static start."
-    if "as_published" not in drawing.normalizations(study):
-        return
-    data = drawing.of(study, "as_published")
-    for name, mark in plot.marks.items():
+    published = "as_published" in drawing.normalizations(study)
+    for name, mark in plot.marks.items() if published else ():
         if mark.assumed:
             continue
+        data = drawing.of(study, "as_published")
         point = data.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")
         outcome, rate = str(flag_names(point["outcome"])), float(point["growth_rate"])
-        label = OUTCOME_LOOKS[outcome].label
-        if outcome != mark.paper_outcome:
-            stated = OUTCOME_LOOKS[mark.paper_outcome].label
+        label, of_paper = OUTCOME_LOOKS[outcome].label, OUTCOME_LOOKS[mark.paper_outcome].label
+        if label != of_paper:
             still = f"still growing at {horizon:g} s" if outcome == "growing" else label
-            yield f"{name}: paper: “{stated}”, static start: {still}."
+            yield f"{name}: paper: “{of_paper}”, static start: {still}."
         if (outcome == "quiet") != (rate < 0) and np.isfinite(rate):
             kind = "stable" if rate < 0 else "unstable"
             why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"
             yield f"{name}: {label}, beside a cycle that is {kind} ({rate:.2g}/s): {why}."
 
 
-def finish(axes: Sequence[Axes], study: xr.Dataset, plot: RegionMap) -> list[Artist]:
-    """Scale and label the shared axes, and mark the paper's cases in the first panel, if it has the published modes.
-    Returns legend entries, one for each shape among the marks."""
-    set_scales(axes, study, plot)
-    if drawing.normalizations(study)[0] != "as_published":
-        return []
-    ax = axes[0]
-    edge: dict[str, Any] = {"edgecolor": PAPER, "linewidth": 1.4, "path_effects": drawing.outline(2.4, BLACK)}
+def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
+    """Mark the paper's cases: a large open mark whose shape is the paper's outcome, and beside it the case's name,
+    towards the middle. Returns legend entries, one for each shape among the marks."""
+    edge: dict[str, Any] = {"edgecolor": PAPER, "linewidth": 1.4, "path_effects": drawing.halo(2.4, BLACK)}
+    look: dict[str, Any] = {"fontsize": 7, "zorder": 5, "annotation_clip": False, "path_effects": drawing.halo(2.0)}
+    outcomes = {mark.paper_outcome for mark in plot.marks.values()}
     for name, mark in plot.marks.items():
-        # a large open mark whose shape is the paper's outcome, and beside it the case's name, towards the middle
         point = (mark.x * drawing.axis_of(plot.x)[1], mark.y * drawing.axis_of(plot.y)[1])
         shape = PAPER_MARKERS[mark.paper_outcome]
         ax.scatter(*point, 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
         across, up = (ax.transData + ax.transAxes.inverted()).transform(point)
-        offset, look = (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5), {"path_effects": drawing.halo(2.0)}
-        drawing.say(ax, name, point, offset, fontsize=7, zorder=5, annotation_clip=False, **look)
-    outcomes = {mark.paper_outcome for mark in plot.marks.values()}
+        drawing.say(ax, name, point, (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5), **look)
     ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
-    ring |= {"markeredgecolor": PAPER, "path_effects": drawing.outline(2.4, BLACK)}
-    said = [(f"paper: {OUTCOME_LOOKS[name].label}", mark) for name, mark in PAPER_MARKERS.items() if name in outcomes]
-    return [drawing.sample(marker=mark, label=label, **ring) for label, mark in said]
+    ring |= {"markeredgecolor": PAPER, "path_effects": edge["path_effects"]}
+    said = [(f"paper: {OUTCOME_LOOKS[name].label}", shape) for name, shape in PAPER_MARKERS.items() if name in outcomes]
+    return [drawing.sample(marker=shape, label=label, **ring) for label, shape in said]
 
 
-def set_scales(axes: Sequence[Axes], study: xr.Dataset, plot: RegionMap) -> None:
+def _set_scales(axes: Sequence[Axes], study: xr.Dataset, names: Mapping[str, str]) -> None:
     """Set limits, labels and scales of shared axes; a logarithmic scale with a 0 is linear up to the second value."""
     from matplotlib.ticker import FixedLocator, NullFormatter, NullLocator
 
-    for which, name in plot.axes.items():
+    for which, name in names.items():
         label, factor = drawing.axis_of(name)
         values = study[name].values * factor
         axis = getattr(axes[0], f"{which}axis")
         if (scale := maps.scale_of(name, values)) != "linear":
             start = {"linthresh": values[1], "linscale": 0.4} if scale == "symlog" else {}
             getattr(axes[0], f"set_{which}scale")(scale, **start)
-            ticks = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()
-            ticks = ticks[(ticks >= 0.999 * values[values > 0][0]) & (ticks <= 1.001 * values[-1])]
-            axis.set_major_locator(FixedLocator([*[0.0] * (scale == "symlog"), *ticks]))
+            ticks = [x for x in drawing.DECADES if 0.999 * values[values > 0][0] <= x <= 1.001 * values[-1]]
+            axis.set_major_locator(FixedLocator([0.0] * (scale == "symlog") + ticks))
             axis.set_major_formatter("{x:g}")
             axis.set_minor_formatter(NullFormatter())
             if scale == "symlog":
