@@ -10,7 +10,7 @@ from pydantic import Field
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.errors import Fault, suggestion
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, PAGE, PHASE_COLOURS, SEPARATED, Axes, Figure, panels
+from disc_model.figures.drawing import BLACK, GREY, PAGE, PHASE_COLOURS, SEPARATED, Axes, Figure, mpl, panels
 from disc_model.figures.kind import Plot, Role, Roles, Values
 from disc_model.units import Finite, Positive, Unit
 
@@ -33,9 +33,8 @@ class Bifurcation(Plot):
     paper_cases: Annotated[dict[str, Finite], Unit(of="x")] = Field({})  # values of x by the paper's name of the case
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw samples against a parameter, coloured by phase, hollow where the motion is not shown to have settled.
-        A cross marks a failed point or a missing largest exponent, a dash a motion without samples, such as one without
-        events. Periods are below, and the further study ``lyapunov``, if it is given."""
+        """Draw samples by phase, hollow where the motion is not shown to have settled, with crosses at failed points,
+        dashes at motions without samples; below periods, and exponents with crosses where the largest is missing."""
         study = study.transpose(self.x, "sample", ...)
         by_event = stated_in(study, "options")["section"] == "event"
         names = {"stick": "at release of stick", "separation": "at loss of contact"} if by_event else {}
@@ -126,8 +125,6 @@ class Branches(Plot):
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw one point: a line for each branch, thick where it is stable, and triangles for the sweep up and down."""
-        from matplotlib.legend_handler import HandlerTuple
-
         study = study.squeeze()
         name = str(stated_in(study, "options")["parameter"])
         label, factor = drawing.axis_of(name)
@@ -153,19 +150,18 @@ class Branches(Plot):
             ax.plot([], [], color=color, linewidth=2, label=f"stable cycle, {text}")
         ax.plot([], [], color=BLACK, linewidth=THIN, label="unstable cycle")
         handles, labels = ax.get_legend_handles_labels()
-        in_contact, apart, pale = (
-            tuple(drawing.sample(linestyle="", marker=way, color=color, **SWEEP_MARK) for way in "^v")
-            for color in (BLACK, SEPARATED, UNSETTLED)
-        )
-        simulated: dict[str, Any] = dict(zip(("rising", "falling"), in_contact, strict=True))
+        colours = (BLACK, SEPARATED, UNSETTLED)
+        up, down = ([drawing.sample(ls="", marker=way, c=colour, **SWEEP_MARK) for colour in colours] for way in "^v")
+        simulated: dict[str, Any] = {"rising": up[0], "falling": down[0]}
         if separating:
-            simulated["separating"] = apart
+            simulated["separating"] = (up[1], down[1])
         swept = np.isfinite(study["sweep_range"].values)
         if (flag_names(study["sweep_settled"])[swept] != "settled").any():
-            simulated["not settled, or undecided"] = pale
+            simulated["not settled, or undecided"] = (up[2], down[2])
         handles += simulated.values()
         labels += [f"simulated, {text}" for text in simulated]
-        figure.legend(handles, labels, loc="outside lower center", ncols=3, handler_map={tuple: HandlerTuple(None)})
+        beside = {tuple: mpl.legend_handler.HandlerTuple(None)}
+        figure.legend(handles, labels, loc="outside lower center", ncols=3, handler_map=beside)
         return figure
 
 

@@ -72,11 +72,8 @@ class CriticalSpeed(Plot):
             axes[0].plot(speed, load, "*", color=PAPER, markersize=9, zorder=5, clip_on=False, label="paper", **edge)
         titles = ["from the static start"]
         if sweep is not None:
-            titles.append(_sweep(axes[1], sweep, study, horizon))
-            if "basins" in overlays:
-                _measured(axes[1], overlays["basins"])
-            elif cycle is not None:
-                _both(axes[1], cycle, sweep)
+            _onsets(axes[1], study, horizon, label="_nolegend_", **ONSETS)
+            titles.append(_beside(axes[1], sweep, cycle, overlays.get("basins")))
         drawing.letters(axes, titles, pad=12)
         for ax in axes:
             ax.set_xlabel(SPEED)
@@ -140,45 +137,37 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
     return patches(looks, words)
 
 
-def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> str:
-    """Draw onset and end of separation as the speed rises and falls in steps, and the onsets of (a); its title."""
+def _beside(ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset | None, basins: xr.Dataset | None) -> str:
+    """Draw onset and end of separation as the speed rises and falls in steps, and shade where some motions stay quiet
+    and others separate; returns a title."""
     N, lost = sweep["N"].values, drawing.failed(sweep).values
     look: dict[str, Any] = {"markersize": 4, "markerfacecolor": "none", "linestyle": "", "clip_on": False}
     onset, end = (np.where(lost, np.nan, sweep[name].values) for name in ("onset_speed", "offset_speed"))
     ax.plot(onset, N, color=ONSET, marker="^", label="sweep up: separation begins", **look)
     ax.plot(end, N, color=END, marker="v", label="sweep down: separation ends", **look)
-    _onsets(ax, study, horizon, label="_nolegend_", **ONSETS)
     drawing.mark_failed(ax, N[lost], on="y")
-    step = float(np.diff(sweep["sweep_Omega"].values[:2])[0])
-    return f"sweeps in steps of {step:g} rad/s"
-
-
-def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
-    """Shade cells in which the quiet cycle is stable by its multipliers, and separating motions continue to separate.
-    The delay of a sweep up, due to its short dwells, does not make a cycle stable. A load between two loads of the
-    sweep is left out if the sweep found no separation at one of them."""
-    from matplotlib.colors import ListedColormap
-
-    rate = cycle["growth_rate"]
-    speeds, loads = rate["Omega"].values, rate["N"].values
-    lowest = np.interp(loads, sweep["N"].values, sweep["offset_speed"].values, left=np.nan, right=np.nan)
-    stable = (rate.values < 0) & (speeds >= lowest[:, None]) & (speeds <= float(sweep["sweep_Omega"].max()))
-    look: dict[str, Any] = {"alpha": 0.25, "shading": "nearest", "rasterized": True}
-    ax.pcolormesh(speeds, loads, np.ma.masked_where(~stable, stable), cmap=ListedColormap([ORANGE]), **look)
-    label = "the cycle is stable where the\nsweep down still separates"
-    ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label=label)
-
-
-def _measured(ax: Axes, basins: xr.Dataset) -> None:
-    """Draw speeds at which some of many starts reach the quiet cycle, and others lasting separation. Both fractions
-    exceed zero with their intervals. A bar joins neighbouring speeds; a single speed is a line."""
-    load, speeds = stated_in(basins, "base")["N"], basins["Omega"].values
-    quiet, separating = basins["basin_fraction_low"].sel(attractor_class="quiet"), basins["separating_fraction_low"]
-    # well within the step of the sweeps, N
-    look: dict[str, Any] = {"height": 20.0, "color": ORANGE, "alpha": 0.6, "linewidth": 0.8, "edgecolor": ORANGE}
-    for i, (first, after) in enumerate(drawing.stretches(((quiet > 0) & (separating > 0)).values)):
-        label = "_nolegend_" if i else f"quiet or separating,\ncomputed at {load:g} N"
-        ax.barh(load, speeds[after - 1] - speeds[first], left=speeds[first], label=label, **look)
+    if basins is not None:
+        # by the starts: both fractions exceed zero with their intervals; a single speed is a line
+        load, speeds = stated_in(basins, "base")["N"], basins["Omega"].values
+        quiet, apart = basins["basin_fraction_low"].sel(attractor_class="quiet"), basins["separating_fraction_low"]
+        # its height is well within a step of the sweeps, N
+        bar: dict[str, Any] = {"height": 20.0, "color": ORANGE, "alpha": 0.6, "linewidth": 0.8, "edgecolor": ORANGE}
+        for i, (first, after) in enumerate(drawing.stretches(((quiet > 0) & (apart > 0)).values)):
+            label = "_nolegend_" if i else f"quiet or separating,\ncomputed at {load:g} N"
+            width = speeds[after - 1] - speeds[first]
+            ax.barh(load, width, left=speeds[first], label=label, **bar)
+    elif cycle is not None:
+        # by the multipliers, as short dwells only delay a sweep up; without loads between whose neighbours of the sweep
+        # one never separates
+        speeds, loads = cycle["Omega"].values, cycle["N"].values
+        lowest = np.interp(loads, N, sweep["offset_speed"].values, left=np.nan, right=np.nan)
+        within = (speeds >= lowest[:, None]) & (speeds <= float(sweep["sweep_Omega"].max()))
+        stable = (cycle["growth_rate"].values < 0) & within
+        cmap, shown = drawing.mpl.colors.ListedColormap([ORANGE]), np.ma.masked_where(~stable, stable)
+        ax.pcolormesh(speeds, loads, shown, cmap=cmap, alpha=0.25, shading="nearest", rasterized=True)
+        label = "the cycle is stable where the\nsweep down still separates"
+        ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label=label)
+    return f"sweeps in steps of {float(np.diff(sweep['sweep_Omega'].values[:2])[0]):g} rad/s"
 
 
 # ---- Ramps
@@ -192,9 +181,8 @@ class RampedSpeeds(Plot):
     kind: Literal["ramps"] = "ramps"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw one point; with the further study ``curves``, also the speed at which the cycle ends at this load. This
-        is the limit of the onset for slow ramps: the highest such speed below all onsets. Other ends belong to other
-        cycles."""
+        """Draw one point, and the speed at which the cycle ends at this load, by the further study ``curves``: the
+        limit of the onset for slow ramps, the highest one below all onsets. Other ends belong to other cycles."""
         study = study.squeeze()
         options, load = stated_in(study, "options"), float(stated_in(study, "base")["N"])
         rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))

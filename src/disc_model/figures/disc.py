@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
-from disc_model.figures.drawing import BLACK, DISC, GREY, SEPARATED, SLIDER, Axes, Figure, Normalize, ScalarMappable
+from disc_model.figures.drawing import BLACK, DISC, GREY, SEPARATED, SLIDER, Axes, Figure, Normalize, cm, mpl
 from disc_model.parameters import Parameters
 
 if TYPE_CHECKING:
@@ -50,14 +50,12 @@ class Motion(NamedTuple):
 
 def scale_of(motion: Motion) -> Normalize:
     """Colour scale of the deflection, mm, equal at all times and centred on 0."""
-    from matplotlib.colors import Normalize
-
     edge, theta = np.array([radial_range(motion.parameters)[1]]), np.linspace(0, 2 * np.pi, ANGLES)
     step = max(1, motion.time.size // 50)
     largest = max(float(np.abs(motion.deflection(i, edge, theta)).max()) for i in range(0, motion.time.size, step))
     if not largest > 0:
         raise Missing("did not move the disc")
-    return Normalize(-1e3 * largest, 1e3 * largest)
+    return mpl.colors.Normalize(-1e3 * largest, 1e3 * largest)
 
 
 def colour_of(motion: Motion, i: int, otherwise: str = SLIDER) -> str:
@@ -71,21 +69,18 @@ def _plane(p: Parameters) -> tuple[Array, Array, Array, Array]:
     return r, theta, 1e3 * r[:, None] * np.cos(theta), 1e3 * r[:, None] * np.sin(theta)
 
 
-def _draw_plane(ax: Axes, p: Parameters, values: Array, scale: Normalize) -> ScalarMappable:
+def _draw_plane(ax: Axes, p: Parameters, values: Array, scale: Normalize) -> Any:
     """Draw values over the disc from above, in mm; blue below the plane of the disc at rest, red above it."""
-    from cmcrameri.cm import vik
-    from matplotlib.patches import Circle
-
     r, _, x, y = _plane(p)
-    mesh = ax.pcolormesh(x, y, values, cmap=vik, norm=scale, shading="gouraud", rasterized=True)
+    mesh = ax.pcolormesh(x, y, values, cmap=cm.vik, norm=scale, shading="gouraud", rasterized=True)
     for radius, fill in ((r[0], "0.85"), (r[-1], "none")):
-        ax.add_patch(Circle((0, 0), 1e3 * radius, fc=fill, ec=GREY, lw=0.6, clip_on=radius == r[0]))
+        ax.add_patch(mpl.patches.Circle((0, 0), 1e3 * radius, fc=fill, ec=GREY, lw=0.6, clip_on=radius == r[0]))
     ax.set_aspect("equal")
     ax.axis("off")
     return mesh
 
 
-def draw_disc(ax: Axes, motion: Motion, i: int, scale: Normalize, levels: Sequence[float] = ()) -> ScalarMappable:
+def draw_disc(ax: Axes, motion: Motion, i: int, scale: Normalize, levels: Sequence[float] = ()) -> Any:
     """Draw the disc from above, in mm, with the slider on it, and lines at levels in mm, dashed below zero."""
     p = motion.parameters
     r, theta, x, y = _plane(p)
@@ -118,8 +113,6 @@ def draw_circle(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> N
 
 def draw_modes(axes: Sequence[Axes], p: Parameters, slider: bool = True) -> None:
     """Draw the shape of each mode from above, its nodal lines in black, and its frequency, by ascending frequency."""
-    from matplotlib.colors import Normalize
-
     modes = mode_arrays(p)
     r, theta, x, y = _plane(p)
     shapes = mode_shapes(p, r)
@@ -127,7 +120,7 @@ def draw_modes(axes: Sequence[Axes], p: Parameters, slider: bool = True) -> None
     for ax, i in zip(axes, np.argsort(modes.omega), strict=False):
         values = shapes[i, :, None] * np.cos(modes.diameters[i] * theta)
         largest = float(np.abs(values).max()) or 1.0
-        _draw_plane(ax, p, values, Normalize(-1.6 * largest, 1.6 * largest))
+        _draw_plane(ax, p, values, mpl.colors.Normalize(-1.6 * largest, 1.6 * largest))
         if values[inside].min() < 0 < values[inside].max():
             ax.contour(x[inside], y[inside], values[inside], levels=[0.0], colors=BLACK, linewidths=0.9)
         if slider:
@@ -138,8 +131,6 @@ def draw_modes(axes: Sequence[Axes], p: Parameters, slider: bool = True) -> None
 def film(figure: Figure, motion: Motion, time: Array, force: Array) -> Any:
     """Make the film of a motion: the disc from above, its circle under the slider, and the contact force (N) over the
     time (s) of the whole stretch; returns a `matplotlib.animation.FuncAnimation`."""
-    from matplotlib.animation import FuncAnimation
-
     figure.set_layout_engine("none")  # panels keep their places in all frames
     boxes = ((0.01, 0.05, 0.38, 0.9), (0.48, 0.62, 0.5, 0.29), (0.48, 0.13, 0.5, 0.29))
     disc, circle, trace = (figure.add_axes(box) for box in boxes)
@@ -158,4 +149,4 @@ def film(figure: Figure, motion: Motion, time: Array, force: Array) -> Any:
         trace.set(xlabel="Time (ms)", ylabel="Contact force P (N)", xlim=1e3 * (time[[0, -1]] - begin))
         return [disc, circle, trace]
 
-    return FuncAnimation(figure, draw, frames=motion.time.size, blit=False)  # type: ignore[arg-type]
+    return mpl.animation.FuncAnimation(figure, draw, frames=motion.time.size, blit=False)

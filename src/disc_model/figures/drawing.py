@@ -10,8 +10,9 @@ from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
 from itertools import chain, repeat
 from pathlib import Path
+from pkgutil import resolve_name
 from textwrap import fill
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -23,11 +24,22 @@ from disc_model.data.variables import EXCLUDED, SHOWN, WITHOUT_CYCLE, axis_of, f
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
-    from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
     from matplotlib.figure import Figure, FigureBase
-else:  # names for annotations: matplotlib is imported where something is drawn, see `disc_model.figures.kind`
-    Artist = Axes = Figure = FigureBase = Normalize = ScalarMappable = Any
+else:  # names for annotations
+    Artist = Axes = Figure = FigureBase = Normalize = Any
+
+
+class _Deferred(NamedTuple):
+    """A library that is imported where something is drawn, see `disc_model.figures.kind`."""
+
+    library: str
+
+    def __getattr__(self, name: str) -> Any:
+        return resolve_name(f"{self.library}.{name}")
+
+
+mpl, cm = _Deferred("matplotlib"), _Deferred("cmcrameri.cm")
 
 logging.getLogger("fontTools").setLevel(logging.WARNING)  # its reports on fonts would fill the logs of figures
 
@@ -53,9 +65,7 @@ BORDERS: dict[str, dict[str, Any]] = {  # lines of all stability charts; corners
 
 def styled() -> AbstractContextManager[None]:
     """The common style instead of the user's settings, as a context."""
-    from matplotlib import style
-
-    return style.context(Path(__file__).with_name("drawing.mplstyle"), after_reset=True)
+    return mpl.style.context(Path(__file__).with_name("drawing.mplstyle"), after_reset=True)
 
 
 @contextmanager
@@ -73,9 +83,7 @@ def blank_if_missing(*axes: Axes) -> Iterator[None]:
 
 def new_figure(width: float, height: float) -> Figure:
     """An empty figure of a size in inches, outside pyplot's state."""
-    from matplotlib.figure import Figure
-
-    return Figure(figsize=(width, height), layout="constrained")
+    return mpl.figure.Figure(figsize=(width, height), layout="constrained")
 
 
 def panels(width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any) -> tuple[Figure, list[Axes]]:
@@ -87,10 +95,8 @@ def panels(width: float, height: float, rows: int = 1, columns: int = 1, **share
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
     """Write a figure with its title in the format of the path's suffix; equal figures give equal bytes. The first file
     decides the layout. Further ones take it over, which halves their cost."""
-    path = Path(path)
-    metadata: dict[str, Any] = {"CreationDate": None} if path.suffix == ".pdf" else {"Software": None}
-    if title:
-        metadata["Title"] = title
+    metadata: dict[str, Any] = {"CreationDate": None} if Path(path).suffix == ".pdf" else {"Software": None}
+    metadata |= {"Title": title} if title else {}
     with styled():
         figure.savefig(path, metadata=metadata)
         figure.set_layout_engine(None)  # not "none", with which all is drawn twice
@@ -103,7 +109,6 @@ def history(case: xr.DataTree, window: str = "history", until: float | None = No
     return shown if shown.sizes["time"] > 1 else ranges
 
 
-Values = TypeVar("Values", xr.DataArray, xr.Dataset)
 MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes", "given": "modes of a table"}
 WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}  # those of the paper first
 MODELS = {"normal": WORDS["normal"], "residual": "residual flexibility", "surface": "friction on the surface"}
@@ -113,16 +118,12 @@ MODELS |= dict.fromkeys(("bilateral", "bonded"), "bilateral contact")  # the sec
 
 def sample(**look: Any) -> Artist:
     """A line or mark for a legend."""
-    from matplotlib.lines import Line2D
-
-    return Line2D([], [], **look)
+    return mpl.lines.Line2D([], [], **look)
 
 
 def halo(width: float = 1.5, colour: str = "white") -> list[Any]:
     """An outline of text, lines or marks; width in points, that of what it surrounds included."""
-    from matplotlib.patheffects import withStroke
-
-    return [withStroke(linewidth=width, foreground=colour)]
+    return [mpl.patheffects.withStroke(linewidth=width, foreground=colour)]
 
 
 DECADES = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()  # ticks of a logarithmic axis
@@ -132,9 +133,8 @@ UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default
 
 def restate_axes(figure: Figure) -> None:
     """Give axes in the units of the reader: their labels and ticks; what is drawn stays."""
-    from matplotlib.ticker import AutoLocator, FixedLocator, FuncFormatter
 
-    class Ticks(AutoLocator):
+    class Ticks(mpl.ticker.AutoLocator):  # type: ignore[name-defined]
         ratio: float
 
         def tick_values(self, low: float, high: float) -> Any:
@@ -149,8 +149,8 @@ def restate_axes(figure: Figure) -> None:
                 ticks.ratio = ratio
                 axis.set_label_text(text.removesuffix(f"({shown.unit})") + f"({unit})")
                 linear = axis.get_scale() == "linear"
-                axis.set_major_locator(ticks if linear else FixedLocator((DECADES / ratio).tolist()))
-                axis.set_major_formatter(FuncFormatter(lambda value, _, ratio=ratio: f"{value * ratio:.6g}"))
+                axis.set_major_locator(ticks if linear else mpl.ticker.FixedLocator((DECADES / ratio).tolist()))
+                axis.set_major_formatter(mpl.ticker.FuncFormatter(lambda value, _, ratio=ratio: f"{value * ratio:.6g}"))
 
 
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
@@ -170,18 +170,13 @@ def along(coordinate: xr.DataArray) -> tuple[str, np.ndarray]:
     return label, coordinate.values * factor
 
 
-def flags_of(variable: xr.DataArray) -> list[str]:
-    """Words of a flag's values; none for other variables."""
-    in_words = variable.dtype.kind in "UO"
-    words = np.unique(variable.values).tolist() if in_words else variable.attrs.get("flag_meanings", "").split()
-    return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words if in_words or word != EXCLUDED]
-
-
-def as_numbers(variable: xr.DataArray) -> xr.DataArray:
-    """A variable as numbers: words by their places among `flags_of`."""
-    if variable.dtype.kind not in "UO":
-        return variable
-    return variable.copy(data=np.unique(variable.values, return_inverse=True)[1].reshape(variable.shape).astype(float))
+def as_numbers(variable: xr.DataArray) -> tuple[list[str], xr.DataArray]:
+    """Words of a flag's values, none for other variables; and the variable with numbers for words, their places."""
+    words = [word for word in variable.attrs.get("flag_meanings", "").split() if word != EXCLUDED]
+    if variable.dtype.kind in "UO":
+        distinct, places = np.unique(variable.values, return_inverse=True)
+        words, variable = distinct.tolist(), variable.copy(data=places.reshape(variable.shape).astype(float))
+    return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words], variable
 
 
 def picked(study: xr.Dataset, values: Mapping[str, float | str]) -> xr.Dataset:
@@ -209,21 +204,21 @@ def what_case(values: Mapping[str, Any]) -> str:
     return ", ".join(filter(None, [variables.values_text(numbers, UNITS.get()), *words]))
 
 
-def slices(variable: Values, by: str | None) -> list[tuple[str, Values]]:
-    """Label and values of each slice along a dimension; one slice without a dimension. A slice of a zip is labelled by
-    its parameters. Words are ordered as in `WORDS`, not alphabetically as in datasets."""
+def slices(variable: Any, by: str | None) -> list[tuple[str, Any]]:
+    """Label and values of each slice along a dimension, if there is one; those of a zip are labelled by its parameters.
+    Words are ordered as in `WORDS`, others by the number with which they begin, and not as in datasets."""
     if by is None:
         return [("", variable)]
-    along = [str(name) for name, values in variable.coords.items() if values.dims == (by,)]
+    names = [str(name) for name, values in variable.coords.items() if values.dims == (by,)]
     ranks = {word: i for i, word in enumerate(WORDS)}
 
-    def rank(value: Any) -> Any:  # other words keep their order, those that begin with a number by this
+    def rank(value: Any) -> Any:
         leading = re.findall(r"^\d+", str(value)) or ["inf"]
         return (ranks.get(value, 0), float(leading[0])) if isinstance(value, str) else value
 
-    each = [variable.isel({by: i}) for i in range(variable.sizes[by])]
-    each.sort(key=lambda part: [rank(part[name].item()) for name in along])
-    return [(", ".join(coordinate_text(part, name) for name in along), part) for part in each]
+    parts = [variable.isel({by: i}) for i in range(variable.sizes[by])]
+    parts.sort(key=lambda part: [rank(part[name].item()) for name in names])
+    return [(", ".join(coordinate_text(part, name) for name in names), part) for part in parts]
 
 
 def coordinate_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
@@ -244,8 +239,7 @@ def coordinate_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
 
 
 def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
-    """Axis label of a sampled variable, the factor from SI to its unit, and its colour. The label of the disc's fixed
-    point states its angle."""
+    """Axis label of a sampled variable, with the angle of the disc's fixed point, factor to its unit, and colour."""
     angles = variables.angles_text(float(window.attrs["theta"]) for window in windows if "theta" in window.attrs)
     label, factor = axis_of(name, rf", $\theta$ = {angles}" if name.startswith("w_point") else "")
     return label, factor, FORCE if name == "P" else DISC if name.partition("_")[0] == "w" else SLIDER
@@ -320,12 +314,11 @@ def show_thickness(ax: Axes, case: xr.DataTree, along: Literal["x", "y"]) -> Non
 def mark_printed(ax: Axes, time: float) -> None:
     """Mark a time that the paper prints, at the lower edge of a panel that shows it."""
     low, high = ax.get_xlim()
-    if not low <= time <= high:
-        return
-    look: dict[str, Any] = {"marker": "^", "color": PAPER, "markeredgecolor": BLACK, "markersize": 6, "zorder": 6}
-    ax.plot([time], [0], transform=ax.get_xaxis_transform(), clip_on=False, **look)
-    beside: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "fontsize": 6, "path_effects": halo()}
-    say(ax, f"paper: {time:g} s", (time, 0), (-6, 4), **beside)
+    if low <= time <= high:
+        look: dict[str, Any] = {"marker": "^", "color": PAPER, "markeredgecolor": BLACK, "markersize": 6, "zorder": 6}
+        ax.plot([time], [0], transform=ax.get_xaxis_transform(), clip_on=False, **look)
+        place = {"xycoords": ("data", "axes fraction")}
+        say(ax, f"paper: {time:g} s", (time, 0), (-6, 4), fontsize=6, path_effects=halo(), **place)
 
 
 def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:
@@ -385,7 +378,7 @@ def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
 
 
 def statuses(study: xr.Dataset) -> xr.DataArray:
-    """The status of each point of a grid study, as a word."""
+    """The status of each point of a grid study, as a word; "ok" without one."""
     return study["status"].copy(data=flag_names(study["status"])) if "status" in study else xr.DataArray("ok")
 
 

@@ -13,7 +13,7 @@ from pydantic import Field
 from disc_model.data.variables import EXCLUDED, stated_in
 from disc_model.errors import Fault, suggestion
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, PAGE, Artist, Axes, Figure, FigureBase, ScalarMappable, panels
+from disc_model.figures.drawing import BLACK, GREY, PAGE, Artist, Axes, Figure, FigureBase, cm, mpl, panels
 from disc_model.figures.kind import NORM, Plot
 from disc_model.figures.maps import CELL_LOOKS, CYCLE_LOOKS, edges_of, growth_panels, outcome_cells, patches
 from disc_model.parameters import Parameters
@@ -46,17 +46,13 @@ class General(Plot):
         return study.assign_coords(words)
 
     def chosen(self, study: xr.Dataset) -> list[str]:
-        """Values of all dimensions that the figure takes at one place."""
         shown = drawing.picked(study, self.at)[self.variable]
         alone = [str(name) for name, size in study.sizes.items() if size > 1 and name not in shown.dims]
         return [drawing.coordinate_text(shown, name) for name in alone if name in shown.coords]
 
     def faults_among(self, dims: Mapping[str, Sequence[Any]], variables: Mapping[str, Any]) -> Iterator[Fault]:
-        """Faults that keep it from being drawn.
-
-        dims : values along each dimension, the quantity's own included; tuples for a zip; none if it has faults
-        variables : dimensions of each variable
-        """
+        """Faults that keep it from being drawn, by the values along each dimension, the quantity's own included (tuples
+        for a zip, none if it has faults), and the dimensions of each variable."""
         yield from self._wrong_overlays()
         if self.variable not in variables:
             yield Fault.of(("variable",), self.variable, f"unknown variable{suggestion(self.variable, variables)}")
@@ -64,17 +60,15 @@ class General(Plot):
         own_dims = {name: dims[name] for name in variables[self.variable] if name in dims}
         places = self.axes | ({"by": self.by} if self.by is not None else {})
         for role, name in places.items():
-            values, rule = own_dims.get(name, ()), ""
+            values = own_dims.get(name, ())
             if name not in own_dims:
-                rule = f"is no dimension of {self.variable}{suggestion(name, own_dims)}"
-            elif role == "by":
-                rule = f"has {len(values)} values, and there is room for {self.room}" if len(values) > self.room else ""
-            elif any(isinstance(value, str | tuple) for value in values):
-                rule = "must be one parameter, and a number"
-            elif len(values) == 1:
-                rule = "must have two values or more"
-            if rule:
-                yield Fault.of((role,), name, rule)
+                yield Fault.of((role,), name, f"is no dimension of {self.variable}{suggestion(name, own_dims)}")
+            elif role == "by" and len(values) > self.room:
+                yield Fault.of((role,), name, f"has {len(values)} values, and there is room for {self.room}")
+            elif role != "by" and any(isinstance(value, str | tuple) for value in values):
+                yield Fault.of((role,), name, "must be one parameter, and a number")
+            elif role != "by" and len(values) == 1:
+                yield Fault.of((role,), name, "must have two values or more")
         used = [*places.values()]
         for name in sorted({name for name in used if used.count(name) > 1}):
             role = "y" if self.axes.get("y") == name else "by"
@@ -123,47 +117,40 @@ def scale(name: str, values: np.ndarray) -> str:
 
 def in_steps(colours: Sequence[Any]) -> dict[str, Any]:
     """Colour map and scale for matplotlib: a colour for each of the numbers 0, 1, ..."""
-    from matplotlib.colors import from_levels_and_colors
-
-    cmap, norm = from_levels_and_colors((np.arange(len(colours) + 1) - 0.5).tolist(), colours)
+    cmap, norm = mpl.colors.from_levels_and_colors((np.arange(len(colours) + 1) - 0.5).tolist(), colours)
     return {"cmap": cmap, "norm": norm}
 
 
 def draw_maps(
     figure: FigureBase, axes: Sequence[Axes], study: xr.Dataset, variable: str, x: str, y: str, log: bool = False
 ) -> list[Artist]:
-    """Draw a variable in colour over two dimensions, a panel for each value of a third; returns entries of a legend.
-    Growth rates and outcomes look as in all maps; variables of both signs are centred on 0. Missing values are
-    hatched."""
-    from cmcrameri import cm
-    from matplotlib.colors import ListedColormap
-    from matplotlib.patches import Patch
-
+    """Draw a variable in colour over two dimensions, a panel for each value of a third, hatched where it is missing;
+    growth rates and outcomes as in all maps. Returns entries of a legend."""
     ruled = "status" in study and EXCLUDED in study["status"].attrs.get("flag_meanings", "")
     left_out = drawing.statuses(study) == EXCLUDED
     array = study[variable].where(~left_out) if ruled else study[variable]
     by = remaining(array, (x, y))
-    shown = [panel.transpose(y, x) for _, panel in drawing.slices(array, by)]
     handles: list[Artist] = []
     if variable == "growth_rate" and not log:
         names = [name for name in ("growth_rate", "cycle", "status", "sliding_growth_rate") if name in study]
         grids = [plane.transpose(y, x, ...) for _, plane in drawing.slices(study[names], by)]
         handles = patches(CYCLE_LOOKS, growth_panels(figure, axes, grids))
     elif variable == "outcome":
+        shown = [panel.transpose(y, x) for _, panel in drawing.slices(array, by)]
         used = [outcome_cells(ax, panel) for ax, panel in zip(axes, shown, strict=True)]
         handles = patches(CELL_LOOKS, set().union(*used))
     else:
-        words, array = drawing.flags_of(array), drawing.as_numbers(array)
+        words, array = drawing.as_numbers(array)
         colours = _colours(array, words, log)
         if array.dtype.kind == "i" and not words and array.max() < FEW:  # a count
             words = [str(count) for count in range(int(array.max()) + 1)]
             colours = in_steps([cm.batlow(i / len(words)) for i in range(len(words))])
-        for ax, panel in zip(axes, shown, strict=True):
+        for ax, (_, panel) in zip(axes, drawing.slices(array, by), strict=True):
             ax.patch.set(linewidth=0, **HATCH)
-            mesh = _cells(ax, drawing.as_numbers(panel), **colours)
+            mesh = _cells(ax, panel.transpose(y, x), **colours)
         if ruled:
             for ax, (_, panel) in zip(axes, drawing.slices(left_out, by), strict=False):
-                _cells(ax, panel.where(panel).transpose(y, x), cmap=ListedColormap(["white"]))
+                _cells(ax, panel.where(panel).transpose(y, x), cmap=mpl.colors.ListedColormap(["white"]))
             handles += patches(CYCLE_LOOKS, {EXCLUDED})
         bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=drawing.label_of(array)[0])
         if "norm" in colours and log and colours["norm"].vmax < 10 * colours["norm"].vmin:
@@ -172,7 +159,7 @@ def draw_maps(
             bar.set_ticks(range(len(words)), labels=words)
             bar.minorticks_off()
         elif gaps := drawing.gaps(study, array):
-            handles.append(Patch(label=", ".join(gaps), **HATCH))
+            handles.append(mpl.patches.Patch(label=", ".join(gaps), **HATCH))
     axes[0].set(xscale=scale(x, study[x].values), yscale=scale(y, study[y].values))  # axes are shared
     for ax in axes:
         ax.set(xlabel=drawing.label_of(array[x])[0], ylabel=drawing.label_of(array[y])[0])
@@ -210,33 +197,28 @@ class HeatMap(General):
         return figure
 
 
-def _cells(ax: Axes, plane: xr.DataArray, **colours: Any) -> ScalarMappable:
+def _cells(ax: Axes, plane: xr.DataArray, **colours: Any) -> Any:
     """Draw the values of a panel in colour, where there are any."""
-    from matplotlib.colors import LogNorm
-
     values = np.ma.masked_invalid(plane.values.astype(float))
-    if isinstance(colours.get("norm"), LogNorm):
+    if isinstance(colours.get("norm"), mpl.colors.LogNorm):
         values = np.ma.masked_where(values <= 0, values)
     return ax.pcolormesh(*edges_of(plane, scale), values, rasterized=True, **colours)
 
 
 def _colours(array: xr.DataArray, words: Sequence[str], log: bool) -> dict[str, Any]:
     """Colour map and scale for matplotlib."""
-    from cmcrameri import cm
-    from matplotlib.colors import LogNorm, Normalize
-
     if words:
         return in_steps([COLOURS[i % len(COLOURS)] for i in range(len(words))])
     values = array.values[np.isfinite(array.values)]
     if log:
         above = values[values > 0]
         low, high = (above.min(), above.max()) if above.size else (1.0, 10.0)
-        return {"cmap": cm.batlow, "norm": LogNorm(low, high if high > low else 10 * low)}
+        return {"cmap": cm.batlow, "norm": mpl.colors.LogNorm(low, high if high > low else 10 * low)}
     low, high = (float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
     if low < 0 < high:
         most = max(-low, high)
-        return {"cmap": cm.vik, "norm": Normalize(-most, most)}
-    return {"cmap": cm.batlow, "norm": Normalize(low, high)}
+        return {"cmap": cm.vik, "norm": mpl.colors.Normalize(-most, most)}
+    return {"cmap": cm.batlow, "norm": mpl.colors.Normalize(low, high)}
 
 
 def scale_rates(ax: Axes) -> None:
@@ -254,14 +236,11 @@ def scale_rates(ax: Axes) -> None:
 
 
 def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = False) -> None:
-    """Draw a variable against one dimension, or a line for each value of a second one, with its label for a legend.
-    Its marks above the panel, in a row below the reason, stand for missing values."""
-    from cmcrameri import cm
-
-    array = study[variable]
-    by = remaining(array, [x])
-    (label, along), words = drawing.along(array[x]), drawing.flags_of(array)
-    lines = drawing.slices(drawing.as_numbers(array), by)
+    """Draw a variable against one dimension, or a labelled line for each value of a second one. Its marks above the
+    panel, in a row below the reason, stand for missing values."""
+    words, array = drawing.as_numbers(study[variable])
+    by, (label, along) = remaining(array, [x]), drawing.along(array[x])
+    lines = drawing.slices(array, by)
     colours = [cm.batlow(i / len(lines)) for i in range(len(lines))] if by else [BLACK]
     rates = variable == "growth_rate" and not log
     look: dict[str, Any] = {"markersize": 3, "markerfacecolor": "none", "markeredgewidth": 0.6, "linewidth": 0.7}

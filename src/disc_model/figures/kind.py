@@ -78,19 +78,14 @@ def _known_units(units: dict[str, str]) -> dict[str, str]:
 
 
 class Kind(Strict):
-    """A figure: its fields are what a study file may say of it.
-
-    title : stands above the figure, and in lists
-    caption : stands below the figure in report, explorer and gallery, and then nothing above; as a text or its parts
-    section : heading under which report and explorer show it
-    units : units of axes and titles by parameter or sampled variable, such as ``{Omega: rpm, N: kN}``
-    """
+    """A figure: its fields are what a study file may say of it."""
 
     kind: str
-    title: str = ""
+    title: str = ""  # stands above the figure, and in lists
+    # stands below the figure in report, explorer and gallery, and then nothing above; as a text or its parts
     caption: Annotated[str, BeforeValidator(_joined, json_schema_input_type=str | list[str])] = ""
-    section: str = ""
-    units: Annotated[dict[str, str], AfterValidator(_known_units)] = Field({})
+    section: str = ""  # heading under which report and explorer show it
+    units: Annotated[dict[str, str], AfterValidator(_known_units)] = Field({})  # by parameter or sampled variable
 
     @contextmanager
     def in_its_style(self) -> Iterator[None]:
@@ -104,10 +99,7 @@ class Kind(Strict):
             drawing.UNITS.reset(token)
 
     def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
-        """Draw it from its data in the common style.
-
-        inputs : the cases by their names; or the grid study as ``study``, and further ones by their roles
-        """
+        """Draw it in the common style from cases by their names, or from ``study`` and further ones by their roles."""
         raise NotImplementedError
 
     def draw(self, *inputs: Any, **options: Any) -> Figure:
@@ -115,8 +107,8 @@ class Kind(Strict):
         raise NotImplementedError
 
     def write_head(self, figure: Figure, title: str, values: str) -> None:
-        """Write the figure's title, or else another one, and values of parameters above it, in lines that fit. A
-        caption says both. Axes get the units of the reader."""
+        """Write the figure's title, or another one, and values of parameters above it, unless a caption says both; and
+        give axes the units of the reader."""
         drawing.restate_axes(figure)
         text = drawing.head_text(figure.get_figwidth(), self.title or title, values)
         if text and not self.caption:

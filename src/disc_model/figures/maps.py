@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, axis_of, flag_names, typeset
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, Artist, Axes, FigureBase, Normalize, edges, label_of
+from disc_model.figures.drawing import BLACK, GREY, Artist, Axes, FigureBase, Normalize, cm, edges, label_of, mpl
 from disc_model.stability.resonances import Resonance
 
 Array = NDArray[np.float64]
@@ -83,13 +83,9 @@ def edges_of(plane: xr.DataArray, scale: Callable[[str, Array], str] = scale_of)
 def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below: Array | None = None) -> None:
     """Fill cells in the look of their word, and hatch them, black over light colours and white over dark ones; cells
     whose word has no look remain unchanged, as do colours drawn there before, shape (rows, columns, 4)."""
-    from matplotlib.colors import to_rgba
-    from matplotlib.patches import PathPatch
-    from matplotlib.path import Path
-
     colours = np.zeros((*words.shape, 4))
     for word, look in looks.items():
-        colours[words == word] = to_rgba(look.face)
+        colours[words == word] = mpl.colors.to_rgba(look.face)
     if colours.any():
         ax.pcolormesh(*sides, colours, rasterized=True)
     light, (x, y) = np.ones(words.shape), sides  # lightness of the page
@@ -98,12 +94,11 @@ def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below:
     for word, look in looks.items():
         for ink, ground in ((BLACK, light >= 0.5), ("white", light < 0.5)):
             low, left = np.nonzero(ground & (words == word))
-            if (
-                look.hatch and low.size
-            ):  # of all these cells as one path: of each one it would take a hundred times as long
+            if look.hatch and low.size:  # all as one path, since paths of each cell take a hundred times as long
                 corners = [(x[left + across], y[low + up]) for across, up in ((0, 0), (1, 0), (1, 1), (0, 1))]
-                outline = Path.make_compound_path_from_polys(np.moveaxis(np.array(corners), (0, 1, 2), (1, 2, 0)))
-                ax.add_patch(PathPatch(outline, fill=False, hatch=look.hatch, ec=ink, lw=0, zorder=1.1))
+                polygons = np.moveaxis(np.array(corners), (0, 1, 2), (1, 2, 0))
+                outline = mpl.path.Path.make_compound_path_from_polys(polygons)
+                ax.add_patch(mpl.patches.PathPatch(outline, fill=False, hatch=look.hatch, ec=ink, lw=0, zorder=1.1))
 
 
 def outcome_cells(ax: Axes, outcome: xr.DataArray) -> set[str]:
@@ -116,13 +111,8 @@ def outcome_cells(ax: Axes, outcome: xr.DataArray) -> set[str]:
 
 def patches(looks: Mapping[str, Look], words: Container[str]) -> list[Artist]:
     """Legend entries of the looks that are among words."""
-    from matplotlib.patches import Patch
-
-    return [
-        Patch(fc=look.face, ec=BLACK if look.hatch else GREY, hatch=look.hatch, linewidth=0.4, label=look.label)
-        for name, look in looks.items()
-        if name in words
-    ]
+    used = [(look, {"ec": BLACK if look.hatch else GREY, "lw": 0.4}) for name, look in looks.items() if name in words]
+    return [mpl.patches.Patch(fc=x.face, hatch=x.hatch, label=x.label, **edge) for x, edge in used]
 
 
 # ---- The one scale of colours for growth rates of the stick-slip cycle
@@ -131,18 +121,14 @@ GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates a
 
 def growth_norm(rates: Array) -> Normalize:
     """A colour scale that is nearly linear near 0 and nearly logarithmic beyond a thirtieth of its end."""
-    from matplotlib.colors import AsinhNorm
-
     sizes = np.abs(rates[np.isfinite(rates)])
     greatest = float(sizes.max()) if sizes.size and np.median(sizes) > GREATEST else GREATEST
-    return AsinhNorm(linear_width=1 / 30 * greatest, vmin=-greatest, vmax=greatest)
+    return mpl.colors.AsinhNorm(linear_width=1 / 30 * greatest, vmin=-greatest, vmax=greatest)
 
 
 def growth_panels(figure: FigureBase, axes: Sequence[Axes], panels: Sequence[xr.Dataset]) -> set[str]:
     """Draw `growth_rate` (1/s) of `regions` or `floquet` on one scale of colours, dotted where it is negative, hatched
     where isolated, or the status where no cycle is followed; returns the used keys of `CYCLE_LOOKS`, and ""."""
-    from cmcrameri import cm
-
     norm = growth_norm(np.concatenate([panel["growth_rate"].values.ravel() for panel in panels]))
     used: set[str] = set()
     for ax, data in zip(axes, panels, strict=True):

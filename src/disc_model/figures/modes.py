@@ -9,7 +9,7 @@ import xarray as xr
 from disc_model.data.variables import flag_names
 from disc_model.errors import Fault
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, PAGE, Figure, panels
+from disc_model.figures.drawing import BLACK, GREY, PAGE, Figure, cm, panels
 from disc_model.figures.general import LINEAR, scale_rates
 from disc_model.figures.kind import NORM, Plot, Role, Roles, Values
 from disc_model.figures.maps import Look, edges_of, fill, patches
@@ -36,7 +36,6 @@ class Campbell(Plot):
             yield Fault.of((NORM,), self.normalization, f"is not computed (known: {', '.join(known)})")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw (a) frequencies of modes, and multiples that meet them at peaks of (b) the cycle's growth rate."""
         study = study.transpose("Omega", ...)
         speeds, rate = study["Omega"].values, study["growth_rate"].values
         figure, [top, bottom] = panels(PAGE, 5.4, 2, height_ratios=[3, 2], sharex=True)
@@ -79,9 +78,9 @@ class Campbell(Plot):
 
 
 def peaks(study: xr.Dataset) -> list[tuple[int, xr.Dataset | None]]:
-    """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on: index of the speed, and the crossing there.
-    Of several crossings it is one of the mode that leads, and the nearest; without one it is None. Points by themselves
-    beside speeds without a cycle are left out: there another cycle than the one followed is found."""
+    """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on: index of the speed, and the nearest
+    crossing, one of the mode that leads if there is any. Points by themselves beside speeds without a cycle are left
+    out: there another cycle than the one followed is found."""
     speeds, rate = study["Omega"].values, study["growth_rate"].values.copy()
     for first, after in drawing.stretches(unjoined(rate)):
         if np.isnan(rate[[max(first - 1, 0), min(after, rate.size - 1)]]).any():
@@ -139,8 +138,8 @@ class SlidingModes(Plot):
     highest: Annotated[Positive, Unit("Hz")] | None = None
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw (a) frequencies, named where they begin, (b) growth rates, named at their peaks; thick where a mode
-        grows. Growth at zero frequency belongs to no mode; it is drawn where it is the largest."""
+        """Draw lines, thick where a mode grows. Growth at zero frequency belongs to no mode, and is drawn where it is
+        the largest."""
         study = study.squeeze()
         label, along = drawing.along(study["value"])
         figure, [top, bottom] = panels(PAGE, 5.6, 2, height_ratios=[5, 4], sharex=True)
@@ -184,9 +183,7 @@ class RootLocus(Plot):
     kind: Literal["root_locus"] = "root_locus"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw points for each mode, with a ring where it begins, and its name on the side from which it leads away."""
-        from cmcrameri import cm
-
+        """Draw points, with a ring where a mode begins, and its name on the side from which it leads away."""
         study = study.squeeze()
         label, along = drawing.along(study["value"])
         figure, [ax] = panels(PAGE, 4.8)
@@ -233,7 +230,6 @@ class SlidingOutcome(Plot):
         return {"sliding": Role("sliding", (self.y,), {"parameter": self.x}, required=True)}
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw a panel for each normalization; shares of the points of each are in the legend."""
         norms = drawing.normalizations(study)
         figure, axes = panels(PAGE, 3.4, 1, len(norms), sharex=True, sharey=True)
         each: list[np.ndarray] = []

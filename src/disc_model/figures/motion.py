@@ -17,7 +17,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
 from disc_model.errors import Fault, ParameterError
 from disc_model.figures import drawing
-from disc_model.figures.drawing import COLUMN, GREY, PAGE, SEPARATED, Artist, Axes, Figure, FigureBase, panels
+from disc_model.figures.drawing import COLUMN, GREY, PAGE, SEPARATED, Artist, Axes, Figure, FigureBase, cm, mpl, panels
 from disc_model.figures.kind import HIGHEST, CasePlot, Need, Recorded, Sampled, as_samples, as_spectrum
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
@@ -35,8 +35,6 @@ SHADES: dict[str, dict[str, Any]] = {  # behind a history, told apart by darknes
 def draw_history(axes: Sequence[Axes], case: xr.DataTree, window: xr.Dataset, variables: Sequence[str]) -> list[Artist]:
     """Draw variables against time, one above the other; samples over shaded stick and separation, an envelope as
     ranges. Returns the entries of a legend of the phases, none where they are too dense to be shaded."""
-    from matplotlib.patches import Patch
-
     for ax, name in zip(axes, variables, strict=True):
         drawing.show(ax, case, window, name, named=ax is axes[0])
         ax.set_ylabel(fill(ax.get_ylabel(), 40 if "$" in ax.get_ylabel() else 20))  # markup is not shown
@@ -53,7 +51,7 @@ def draw_history(axes: Sequence[Axes], case: xr.DataTree, window: xr.Dataset, va
         for ax in axes:
             ax.broken_barh(bars, (0, 1), transform=ax.get_xaxis_transform(), linewidth=0, zorder=0, **SHADES[name])
     looks = SHADES | {"slip": {"facecolor": "white", "edgecolor": GREY, "linewidth": 0.5}}
-    return [Patch(label=name, **looks[name]) for i, name in enumerate(PHASES) if i in phase]
+    return [mpl.patches.Patch(label=name, **looks[name]) for i, name in enumerate(PHASES) if i in phase]
 
 
 def _as_either(window: Window) -> Iterator[str]:
@@ -170,17 +168,14 @@ def draw_sections(
     title, names = "Separation ignored:" if bonded else "No separation:", BY_SETTLING
     if masks.divided_by_separation:
         title, names = f"First separation at {first:.2f} s:", BY_SEPARATION
-    marks = [
-        ax.scatter([], [], label=name, **(MARKS[stage] | {"s": 14}))
-        for stage, name in zip(MARKS, names, strict=True)
-        if getattr(masks, stage).any()
-    ]
+    present = [(MARKS[stage], name) for stage, name in zip(MARKS, names, strict=True) if getattr(masks, stage).any()]
+    marks = [ax.scatter([], [], label=name, **(look | {"s": 14})) for look, name in present]
     return [ax.scatter([], [], s=0, label=title), *marks]
 
 
 def _settled_since(case: xr.DataTree, samples: xr.Dataset) -> float:
-    """Time from which a motion has settled, s, by its section; by the ranges of a window where that does not show it.
-    Points of a section may come near each other again for longer than the record. From then on all lie on its end."""
+    """Time from which a motion has settled, s: all later points of its section lie on its end, to which they may return
+    after longer than the record. By the ranges of a window where the section does not show it."""
     window = next((node.to_dataset() for node in case.children.values() if "w_point_min" in node), None)
     since = []
     for name in ("psi", "w_point"):
@@ -301,13 +296,11 @@ def spectrum_of(case: xr.DataTree, window: str, variable: str, **options: float)
 
 def draw_power(ax: Axes, case: xr.DataTree, spectrum: TimeFrequency, reference: float, highest: float) -> Any:
     """Draw power in dB relative to a reference, up to a frequency in Hz; the first separation is marked."""
-    from cmcrameri.cm import lipari
-
     shown = spectrum.frequency <= highest
     power = 10 * np.log10(np.maximum(spectrum.power[shown] / reference, 10 ** (FLOOR / 10 - 2)))
-    look = {"cmap": lipari, "vmin": FLOOR, "vmax": 0, "shading": "nearest", "rasterized": True}
+    look = {"cmap": cm.lipari, "vmin": FLOOR, "vmax": 0, "shading": "nearest", "rasterized": True}
     mesh = ax.pcolormesh(spectrum.time, spectrum.frequency[shown], power, **look)
-    ax.set_facecolor(lipari(0.0))
+    ax.set_facecolor(cm.lipari(0.0))
     ax.set(xlim=span_of(spectrum), ylim=(0, highest))
     drawing.mark_first_separation(ax, case, named=False, color="white", linewidth=0.9)
     return mesh

@@ -11,7 +11,7 @@ from pydantic import Field
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.errors import Fault
 from disc_model.figures import drawing, maps
-from disc_model.figures.drawing import BLACK, BORDERS, MODES, PAGE, PAPER, Artist, Axes, Figure, panels
+from disc_model.figures.drawing import BLACK, BORDERS, MODES, PAGE, PAPER, Artist, Axes, Figure, mpl, panels
 from disc_model.figures.kind import CURVES, Plot, Roles, Values
 from disc_model.figures.maps import OUTCOME_LOOKS, curves_of, draw_curves, growth_panels, parted, patches
 from disc_model.parameters import Parameters
@@ -48,11 +48,9 @@ class RegionMap(Plot):
         return super()._units(data) | {"marks": dict.fromkeys(marks, axes) if isinstance(marks, dict) else ""}
 
     def place_title(self, figure: Figure, text: str) -> None:
-        """Write it into the legend, which a title of the figure would cover."""
         figure.legends[0].set_title(text)
 
     def faults(self, values: Values) -> Iterator[Fault]:
-        """Faults as of any figure; each marked case must be a computed point, and curves need speed and preload."""
         yield from super().faults(values)
         for name, mark in self.marks.items():
             for axis, dim, value in (("x", self.x, mark.x), ("y", self.y, mark.y)):
@@ -63,8 +61,7 @@ class RegionMap(Plot):
             yield Fault.of(("overlays", "curves"), self.overlays["curves"], "needs x: Omega and y: N")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw two panels for each normalization, outcomes and growth rates; the paper's cases are marked. Lines come
-        from the further study ``curves``, if it is given, and else lie between cells."""
+        """Draw two panels for each normalization; lines are those of the study ``curves``, or lie between cells."""
         norms = drawing.normalizations(study)
         shown = [drawing.of(study, norm).transpose(self.y, self.x, ...) for norm in norms]
         figure, axes = panels(PAGE, 5.6, 2, len(norms), sharex=True, sharey=True)
@@ -103,8 +100,6 @@ def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Artist]:
     """Draw borders between cells, but not around unresolved ones: where the same cycle changes its stability, and where
     a stable one ends, because the next cell has no cycle and does not stay quiet. A start that follows no cycle, or
     another one, does not prove an end. Upward: the study's first dimension is the vertical one."""
-    from matplotlib.collections import LineCollection
-
     x, y = maps.edges_of(data["outcome"])
     state = maps.stability_of(data)
     state[maps.unresolved(state)] = "unresolved"
@@ -123,7 +118,8 @@ def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Artist]:
         segments["neutral"] += [ends(i, j) for i, j in np.argwhere(changes & same)]
         segments["fold"] += [ends(i, j) for i, j in np.argwhere(stops)]
     for kind, lines in segments.items():
-        ax.add_collection(LineCollection(lines, capstyle="projecting" if kind == "neutral" else None, **BORDERS[kind]))
+        capstyle = "projecting" if kind == "neutral" else None
+        ax.add_collection(mpl.collections.LineCollection(lines, capstyle=capstyle, **BORDERS[kind]))
     return [drawing.sample(**BORDERS[kind]) for kind, lines in segments.items() if lines]
 
 
@@ -168,8 +164,6 @@ def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
 
 def _set_scales(axes: Sequence[Axes], study: xr.Dataset, names: Mapping[str, str]) -> None:
     """Set limits, labels and scales of shared axes; a logarithmic scale with a 0 is linear up to the second value."""
-    from matplotlib.ticker import FixedLocator, NullFormatter, NullLocator
-
     for which, name in names.items():
         label, factor = drawing.axis_of(name)
         values = study[name].values * factor
@@ -178,11 +172,11 @@ def _set_scales(axes: Sequence[Axes], study: xr.Dataset, names: Mapping[str, str
             start = {"linthresh": values[1], "linscale": 0.4} if scale == "symlog" else {}
             getattr(axes[0], f"set_{which}scale")(scale, **start)
             ticks = [x for x in drawing.DECADES if 0.999 * values[values > 0][0] <= x <= 1.001 * values[-1]]
-            axis.set_major_locator(FixedLocator([0.0] * (scale == "symlog") + ticks))
+            axis.set_major_locator(mpl.ticker.FixedLocator([0.0] * (scale == "symlog") + ticks))
             axis.set_major_formatter("{x:g}")
-            axis.set_minor_formatter(NullFormatter())
+            axis.set_minor_formatter(mpl.ticker.NullFormatter())
             if scale == "symlog":
-                axis.set_minor_locator(NullLocator())
+                axis.set_minor_locator(mpl.ticker.NullLocator())
         to_axis = axis.get_transform()
         low, high = to_axis.transform(values[[0, -1]])
         margin = 0.02 * (high - low) or 0.02 * abs(high) or 1.0

@@ -17,7 +17,7 @@ from disc_model.data.dataset import Missing
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.figures import disc, drawing, general, motion
 from disc_model.figures.bifurcation import draw_branch
-from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes
+from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes, mpl
 from disc_model.figures.maps import patches
 from disc_model.figures.uncertain import LOOKS, draw_shares, outcomes_in
 from disc_model.parameters import RATIOS, Parameters, foreign_case
@@ -47,18 +47,16 @@ def canvas(
 ) -> Iterator[list[Axes]]:
     """The axes that a reader gives, one for each panel, which keep the style of their figure; or those of a new figure
     in the common style, which pyplot shows, with a title above."""
-    from matplotlib import axes, pyplot
-
     if ax is not None:
         axes_given = list(np.ravel(np.asarray(ax, dtype=object)))
-        require((all(isinstance(each, axes.Axes) for each in axes_given), "ax", ax, "must be axes of matplotlib"))
+        require((all(isinstance(each, mpl.axes.Axes) for each in axes_given), "ax", ax, "must be axes of matplotlib"))
         if len(axes_given) != rows * columns:
             rule = f"must be {rows * columns}, one for each panel"
             raise ParameterError(Fault(("ax",), f"{len(axes_given)} axes", rule))
         yield axes_given
         return
     with drawing.styled():
-        figure = pyplot.figure(figsize=(width, height), layout="constrained")
+        figure = mpl.pyplot.figure(figsize=(width, height), layout="constrained")
         yield list(figure.subplots(rows, columns, squeeze=False, **shared).flat)
         if title is not None:
             figure.suptitle(drawing.head_text(width, "", title), fontsize=8)
@@ -70,8 +68,8 @@ def canvas(
 def window_of(
     case: xr.DataTree, name: object, which: str = "window", *, samples: bool = False, **variables: object
 ) -> xr.Dataset:
-    """A window of a run by its name; raises `ParameterError` if there is none, it holds ranges instead of samples, or
-    it lacks one of the variables, which are given by the arguments of the picture that ask for them."""
+    """A window of a run by its name, if it holds samples where these are needed, and the variables that arguments of
+    the picture ask for."""
     known = [str(child) for child in case.children if child not in ("events", "poincare")]
     if not (isinstance(name, str) and name in case.children):
         raise ParameterError(Fault.of((which,), name, f"was not recorded{suggestion(name, known)}"))
@@ -149,14 +147,12 @@ def plot_poincare(case: xr.DataTree, ax: Any = None) -> np.ndarray:
 
 def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str | Path | None, fps: int) -> Any:
     """Make a film of disc, slider and contact force through states; written to a path if there is one."""
-    from matplotlib.animation import writers
-    from matplotlib.figure import Figure
-
     file = Path(path) if isinstance(path, str | Path) else None
     writer = {".gif": "pillow", ".mp4": "ffmpeg"}.get(file.suffix if file else "", "")
     rules: list[Any] = [(is_number(fps) and fps > 0, "fps", fps, "must be a number > 0")]
     if path is not None:
-        there, available = file and file.absolute().parent.is_dir(), not writer or writers.is_available(writer)
+        there = file and file.absolute().parent.is_dir()
+        available = not writer or mpl.animation.writers.is_available(writer)
         rules += [
             (there, "path", str(path), "must be in a folder that exists"),
             (writer, "path", str(path), "must end in .gif or .mp4; a window is given by window="),
@@ -164,7 +160,7 @@ def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str 
         ]
     require(*rules)
     with drawing.styled():
-        figure = Figure(figsize=(6.4, 2.7), layout="constrained")
+        figure = mpl.figure.Figure(figsize=(6.4, 2.7), layout="constrained")
         film = disc.film(figure, disc.Motion.of(p, states), window["time"].values, window["P"].values)
         if path is not None:
             film.save(path, writer=writer, fps=fps, dpi=100)

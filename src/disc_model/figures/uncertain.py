@@ -35,8 +35,7 @@ class BasinShares(Plot):
     x: str
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw the fractions of starts of each energy above, and the range of each attractor and the energies below.
-        The size of an attractor's mark is its fraction of all starts."""
+        """Draw the fractions for each energy; below, attractors by range, as large as their fractions, and energies."""
         study = study.transpose(self.x, ...)
         (label, along), energies = drawing.along(study[self.x]), study["energy"].values
         figure = drawing.new_figure(PAGE, 4.6)
@@ -130,8 +129,8 @@ class Sensitivity(Plot):
             yield Fault.of(("kind",), self.kind, rule)
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw a panel for each point and a row for each parameter, those above that change most somewhere. Bars are 95
-        % intervals; the dashed line is the probability at all values."""
+        """Draw a row for each parameter, those above that change most somewhere, with 95 % intervals; the dashed line
+        is the probability at all values."""
         cells = list(cells_of(study))
         names = [str(name) for name in study["parameter"].values]
         each = np.array([[probabilities(cell, name) for name in names] for _, cell in cells])
