@@ -98,10 +98,6 @@ class Kind(Strict):
         finally:
             drawing.UNITS.reset(token)
 
-    def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
-        """Draw it in the common style from cases by their names, or from ``study`` and further ones by their roles."""
-        raise NotImplementedError
-
     def draw(self, *inputs: Any, **options: Any) -> Figure:
         """Draw the cases, or the study and further ones by their roles; raises `Missing` where a case lacks data."""
         raise NotImplementedError
@@ -151,6 +147,7 @@ class Plot(Kind):
     overlays: dict[str, str] = Field({})  # further studies by the roles they play
 
     def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
+        """Draw it in the common style from its study, the first input, and further ones by their roles."""
         study, *others = (tree.to_dataset() for tree in inputs.values())
         if not self.several:
             norm = getattr(self, NORM, None) or drawing.normalizations(study)[0]
@@ -226,8 +223,7 @@ HIGHEST = 1000.0  # highest frequency of a spectrum in time, Hz
 
 
 class Need(NamedTuple):
-    """A record that a figure shows: the figure's key that names it, its case, its name, and the rules for a window; a
-    Poincaré section has none."""
+    """A record that a figure shows: the figure's key that names it, its case and name, and rules if it is a window."""
 
     key: str
     case: str
@@ -281,7 +277,7 @@ class CasePlot(Kind):
         return (self.case, *filter(None, further))
 
     def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
-        """Draw it as any figure; the reason instead, if a case does not hold what it needs."""
+        """Draw it in the common style from cases by their names; the reason instead, if one lacks what it needs."""
         first = next(iter(inputs.values()))
         with self.in_its_style():
             try:
