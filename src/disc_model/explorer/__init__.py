@@ -140,14 +140,8 @@ PAGE_WIDTH = 2055  # width of such a figure as drawn, pixels
 QUALITY = 80
 SCRIPTS = ("contents", "view", "drawing", "map", "point", "motion", "start")  # in the order of their dependence
 PALETTE = (BLUE, ORANGE, SKY, GREEN, PURPLE, BROWN, GREY, VERMILION)  # of flags whose words have no colour of their own
-WORDS = PHASE_COLOURS | {
-    "ok": SKY,
-    "quiet": BLUE,
-    "stable": BLUE,
-    "growing": ORANGE,
-    "unstable": ORANGE,
-    "failed": BLACK,
-}
+WORDS = {"ok": SKY, "quiet": BLUE, "stable": BLUE, "growing": ORANGE, "unstable": ORANGE, "failed": BLACK}
+WORDS = PHASE_COLOURS | WORDS
 
 
 class Picture(NamedTuple):

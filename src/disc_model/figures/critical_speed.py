@@ -83,12 +83,8 @@ class CriticalSpeed(Plot):
         return figure
 
 
-# ---- Crossings of a scan
-
-
 def speeds_of(study: xr.Dataset, horizon: float, kind: str = "begins") -> list[Array]:
-    """Speeds at which separation within a horizon begins, or ends, as the speed rises, for each load, rad/s; where it
-    begins with the lowest speed of the scan if it separates already."""
+    """Rising speeds, rad/s, at which separation begins (or the scan begins with it), or ends, for each load."""
     of_horizon = study.sel(horizon=horizon).transpose("N", ..., "crossing_number")
     speeds = np.where(flag_names(of_horizon["crossing_kind"]) == kind, of_horizon["crossing"].values, np.nan)
     rows = np.column_stack([of_horizon["critical_speed"].where(kind == "begins"), speeds])
@@ -120,12 +116,8 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
     ax.plot(*np.reshape(points, (-1, 2)).T, path_effects=drawing.halo(1.3, BLACK), **look)
 
 
-# ---- The map behind, and the panel beside
-
-
 def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
-    """Draw the outcomes of the static start over N and Omega, or at least where the cycle is stable; returns entries of
-    a legend."""
+    """Draw outcomes of the static start, or at least where the cycle is stable; returns entries of a legend."""
     words, looks = np.where(cycle["growth_rate"].values < 0, "quiet", ""), {"quiet": STABLE}
     if "outcome" in cycle:
         words = flag_names(cycle["outcome"])
@@ -138,8 +130,7 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
 
 
 def _beside(ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset | None, basins: xr.Dataset | None) -> str:
-    """Draw onset and end of separation as the speed rises and falls in steps, and shade where some motions stay quiet
-    and others separate; returns a title."""
+    """Draw sweeps of the speed, and shade where some motions stay quiet and others separate; returns a title."""
     N, lost = sweep["N"].values, drawing.failed(sweep).values
     look: dict[str, Any] = {"markersize": 4, "markerfacecolor": "none", "linestyle": "", "clip_on": False}
     onset, end = (np.where(lost, np.nan, sweep[name].values) for name in ("onset_speed", "offset_speed"))
@@ -170,9 +161,6 @@ def _beside(ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset | None, basins: xr.Da
     return f"sweeps in steps of {float(np.diff(sweep['sweep_Omega'].values[:2])[0]):g} rad/s"
 
 
-# ---- Ramps
-
-
 class RampedSpeeds(Plot):
     """Where separation begins on the way up and ends on the way down, against the rate of the speed's ramps."""
 
@@ -181,8 +169,7 @@ class RampedSpeeds(Plot):
     kind: Literal["ramps"] = "ramps"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw one point, and the speed at which the cycle ends at this load, by the further study ``curves``: the
-        limit of the onset for slow ramps, the highest one below all onsets. Other ends belong to other cycles."""
+        """Draw one point; by ``curves``, the highest end of the cycle below all onsets, their limit for slow ramps."""
         study = study.squeeze()
         options, load = stated_in(study, "options"), float(stated_in(study, "base")["N"])
         rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))

@@ -40,8 +40,7 @@ class Motion(NamedTuple):
         return cls(p, time, turned, slider, u, np.array([state.phase for state in states]))
 
     def deflection(self, i: int, r: Array | None, theta: Array) -> Array:
-        """The disc's displacement at sample i, m, at radii (k,) in m and angles (m,) in rad: shape (k, m). Without
-        radii it is that along the slider's circle, which needs no shapes."""
+        """Displacement at sample i, m, at radii (k,) and angles (m,): (k, m); without radii on the slider's circle."""
         modes = mode_arrays(self.parameters)
         shapes = modes.psi[:, None] if r is None else mode_shapes(self.parameters, r)
         turns = modes.diameters[:, None] * theta
@@ -129,8 +128,7 @@ def draw_modes(axes: Sequence[Axes], p: Parameters, slider: bool = True) -> None
 
 
 def film(figure: Figure, motion: Motion, time: Array, force: Array) -> Any:
-    """Make the film of a motion: the disc from above, its circle under the slider, and the contact force (N) over the
-    time (s) of the whole stretch; returns a `matplotlib.animation.FuncAnimation`."""
+    """Make the film of disc, circle under the slider, and contact force (N) over the time (s) of the whole stretch."""
     figure.set_layout_engine("none")  # panels keep their places in all frames
     boxes = ((0.01, 0.05, 0.38, 0.9), (0.48, 0.62, 0.5, 0.29), (0.48, 0.13, 0.5, 0.29))
     disc, circle, trace = (figure.add_axes(box) for box in boxes)

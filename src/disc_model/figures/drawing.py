@@ -317,8 +317,8 @@ def mark_printed(ax: Axes, time: float) -> None:
     if low <= time <= high:
         look: dict[str, Any] = {"marker": "^", "color": PAPER, "markeredgecolor": BLACK, "markersize": 6, "zorder": 6}
         ax.plot([time], [0], transform=ax.get_xaxis_transform(), clip_on=False, **look)
-        place = {"xycoords": ("data", "axes fraction")}
-        say(ax, f"paper: {time:g} s", (time, 0), (-6, 4), fontsize=6, path_effects=halo(), **place)
+        beside: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "fontsize": 6, "path_effects": halo()}
+        say(ax, f"paper: {time:g} s", (time, 0), (-6, 4), **beside)
 
 
 def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:

@@ -57,12 +57,12 @@ class General(Plot):
         if self.variable not in variables:
             yield Fault.of(("variable",), self.variable, f"unknown variable{suggestion(self.variable, variables)}")
             return
-        own_dims = {name: dims[name] for name in variables[self.variable] if name in dims}
+        dims_of_variable = {name: dims[name] for name in variables[self.variable] if name in dims}
         places = self.axes | ({"by": self.by} if self.by is not None else {})
         for role, name in places.items():
-            values = own_dims.get(name, ())
-            if name not in own_dims:
-                yield Fault.of((role,), name, f"is no dimension of {self.variable}{suggestion(name, own_dims)}")
+            values = dims_of_variable.get(name, ())
+            if name not in dims_of_variable:
+                yield Fault.of((role,), name, f"is no dimension of {self.variable}{suggestion(name, dims_of_variable)}")
             elif role == "by" and len(values) > self.room:
                 yield Fault.of((role,), name, f"has {len(values)} values, and there is room for {self.room}")
             elif role != "by" and any(isinstance(value, str | tuple) for value in values):
@@ -73,7 +73,7 @@ class General(Plot):
         for name in sorted({name for name in used if used.count(name) > 1}):
             role = "y" if self.axes.get("y") == name else "by"
             yield Fault.of((role,), name, "must differ from the other dimensions shown")
-        free_dims = {name: values for name, values in own_dims.items() if name not in used}
+        free_dims = {name: values for name, values in dims_of_variable.items() if name not in used}
         for name, value in self.at.items():
             if name not in free_dims:
                 rule = f"is no dimension that remains (known: {', '.join(free_dims) or 'none'})"
@@ -124,8 +124,7 @@ def in_steps(colours: Sequence[Any]) -> dict[str, Any]:
 def draw_maps(
     figure: FigureBase, axes: Sequence[Axes], study: xr.Dataset, variable: str, x: str, y: str, log: bool = False
 ) -> list[Artist]:
-    """Draw a variable in colour over two dimensions, a panel for each value of a third, hatched where it is missing;
-    growth rates and outcomes as in all maps. Returns entries of a legend."""
+    """Draw a variable in colour, a panel for each value of a third dimension; returns entries of a legend."""
     ruled = "status" in study and EXCLUDED in study["status"].attrs.get("flag_meanings", "")
     left_out = drawing.statuses(study) == EXCLUDED
     array = study[variable].where(~left_out) if ruled else study[variable]
@@ -236,8 +235,7 @@ def scale_rates(ax: Axes) -> None:
 
 
 def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = False) -> None:
-    """Draw a variable against one dimension, or a labelled line for each value of a second one. Its marks above the
-    panel, in a row below the reason, stand for missing values."""
+    """Draw a line, or one for each value of a second dimension; its marks above the panel stand for missing values."""
     words, array = drawing.as_numbers(study[variable])
     by, (label, along) = remaining(array, [x]), drawing.along(array[x])
     lines = drawing.slices(array, by)
@@ -322,6 +320,6 @@ class CurvePlot(General):
             if labels and not name_ends(ax):
                 # longer names do not fit beside the panel
                 beside = len(labels) > 4 and max(map(len, labels)) < 25 and not self.panels
-                place: Any = "outside right upper" if beside else "outside lower right"
-                figure.legend(handles, labels, ncols=1 if self.by else 2, loc=place)
+                corner: Any = "outside right upper" if beside else "outside lower right"
+                figure.legend(handles, labels, ncols=1 if self.by else 2, loc=corner)
         return figure

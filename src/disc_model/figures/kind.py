@@ -103,8 +103,7 @@ class Kind(Strict):
         raise NotImplementedError
 
     def write_head(self, figure: Figure, title: str, values: str) -> None:
-        """Write the figure's title, or another one, and values of parameters above it, unless a caption says both; and
-        give axes the units of the reader."""
+        """Write title and values above the figure, unless a caption says both; give axes the units of the reader."""
         drawing.restate_axes(figure)
         text = drawing.head_text(figure.get_figwidth(), self.title or title, values)
         if text and not self.caption:

@@ -99,9 +99,9 @@ def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below:
         light = np.where(layer[..., 3] > 0, layer[..., :3] @ GREYNESS, light)
     for word, look in looks.items():
         for ink, ground in ((BLACK, light >= 0.5), ("white", light < 0.5)):
-            low, left = np.nonzero(ground & (words == word))
-            if look.hatch and low.size:  # all as one path, since paths of each cell take a hundred times as long
-                corners = [(x[left + across], y[low + up]) for across, up in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            row, column = np.nonzero(ground & (words == word))
+            if look.hatch and row.size:  # all as one path, since paths of each cell take a hundred times as long
+                corners = [(x[column + across], y[row + up]) for across, up in ((0, 0), (1, 0), (1, 1), (0, 1))]
                 polygons = np.moveaxis(np.array(corners), (0, 1, 2), (1, 2, 0))
                 outline = mpl.path.Path.make_compound_path_from_polys(polygons)
                 ax.add_patch(mpl.patches.PathPatch(outline, fill=False, hatch=look.hatch, ec=ink, lw=0, zorder=1.1))
@@ -177,8 +177,7 @@ def cycles_of(data: xr.Dataset) -> Names:
 
 
 def isolated(data: xr.Dataset) -> NDArray[np.bool_]:
-    """Cells whose growth rate differs from that of the eight around them, by another cycle or a narrow resonance, or
-    whose stability does."""
+    """Cells whose growth rate (of another cycle, or a narrow resonance) or stability differs from that around them."""
     rate = data["growth_rate"].values
     share = np.where(np.isfinite(rate), growth_norm(rate)(np.nan_to_num(rate)), np.nan).clip(0, 1)
     padded = np.pad(share, 1, constant_values=np.nan)
@@ -406,8 +405,7 @@ def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
 
 
 def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
-    """Mark the paper's cases: a large open mark whose shape is the paper's outcome, and beside it the case's name,
-    towards the middle. Returns legend entries, one for each shape among the marks."""
+    """Mark cases by the shape of the paper's outcome, with names towards the middle; returns entries of a legend."""
     edge: dict[str, Any] = {"edgecolor": drawing.PAPER, "linewidth": 1.4, "path_effects": drawing.halo(2.4, BLACK)}
     look: dict[str, Any] = {"fontsize": 7, "zorder": 5, "annotation_clip": False, "path_effects": drawing.halo(2.0)}
     outcomes = {mark.paper_outcome for mark in plot.marks.values()}

@@ -138,8 +138,7 @@ class SlidingModes(Plot):
     highest: Annotated[Positive, Unit("Hz")] | None = None
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw lines, thick where a mode grows. Growth at zero frequency belongs to no mode, and is drawn where it is
-        the largest."""
+        """Draw lines, thick where a mode grows. Growth at 0 Hz is of no mode, and drawn where it is the largest."""
         study = study.squeeze()
         label, along = drawing.along(study["value"])
         figure, [top, bottom] = panels(PAGE, 5.6, 2, height_ratios=[5, 4], sharex=True)

@@ -33,8 +33,7 @@ SHADES: dict[str, dict[str, Any]] = {  # behind a history, told apart by darknes
 
 
 def draw_history(axes: Sequence[Axes], case: xr.DataTree, window: xr.Dataset, variables: Sequence[str]) -> list[Artist]:
-    """Draw variables against time, one above the other; samples over shaded stick and separation, an envelope as
-    ranges. Returns the entries of a legend of the phases, none where they are too dense to be shaded."""
+    """Draw variables against time, over shaded phases unless these are too dense; returns entries of a legend."""
     for ax, name in zip(axes, variables, strict=True):
         drawing.show(ax, case, window, name, named=ax is axes[0])
         ax.set_ylabel(fill(ax.get_ylabel(), 40 if "$" in ax.get_ylabel() else 20))  # markup is not shown
@@ -89,9 +88,6 @@ class History(CasePlot):
         return figure
 
 
-# ---- Phase portraits
-
-
 def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
     """Draw one variable over another, coloured by phase."""
     (across, in_x, _), (up, in_y, _) = (drawing.sampled(name, samples) for name in (x, y))
@@ -135,11 +131,9 @@ BY_SEPARATION = ("in contact, before", "in contact, after", "separated")
 BY_SETTLING = ("not shown to have settled", "settled", "separated")
 
 
-def draw_sections(
-    axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, compared: Sequence[xr.Dataset] = ()
-) -> list[Artist]:
-    """Draw velocity over displacement of slider and disc, once a turn of the drive, on axes that fit further sections
-    too; a section that is small on them is drawn again in an inset. Returns the entries of a legend."""
+def draw_sections(axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, compared: Any = ()) -> list[Artist]:
+    """Draw velocity over displacement, what is small in insets too, on axes that fit several sections; returns entries
+    of a legend."""
     first = float(case["first_separation"])
     masks = stages(samples["time"].values, samples["phase"].values, first, _settled_since(case, samples))
     for ax, name in zip(axes, ("psi", "w_point"), strict=True):

@@ -1,5 +1,4 @@
-"""Pictures that results draw of themselves: the functions behind their methods `plot`, `plot_spectrum`, ...; each
-returns the axes on which it drew."""
+"""Pictures that results draw of themselves, on new or given axes: the functions behind their methods `plot`, ..."""
 
 from __future__ import annotations
 
@@ -48,12 +47,12 @@ def canvas(
     """The axes that a reader gives, one for each panel, which keep the style of their figure; or those of a new figure
     in the common style, which pyplot shows, with a title above."""
     if ax is not None:
-        axes_given = list(np.ravel(np.asarray(ax, dtype=object)))
-        require((all(isinstance(each, mpl.axes.Axes) for each in axes_given), "ax", ax, "must be axes of matplotlib"))
-        if len(axes_given) != rows * columns:
+        known_axes = list(np.ravel(np.asarray(ax, dtype=object)))
+        require((all(isinstance(each, mpl.axes.Axes) for each in known_axes), "ax", ax, "must be axes of matplotlib"))
+        if len(known_axes) != rows * columns:
             rule = f"must be {rows * columns}, one for each panel"
-            raise ParameterError(Fault(("ax",), f"{len(axes_given)} axes", rule))
-        yield axes_given
+            raise ParameterError(Fault(("ax",), f"{len(known_axes)} axes", rule))
+        yield known_axes
         return
     with drawing.styled():
         figure = mpl.pyplot.figure(figsize=(width, height), layout="constrained")
@@ -62,14 +61,10 @@ def canvas(
             figure.suptitle(drawing.head_text(width, "", title), fontsize=8)
 
 
-# ---- Runs
-
-
 def window_of(
     case: xr.DataTree, name: object, which: str = "window", *, samples: bool = False, **variables: object
 ) -> xr.Dataset:
-    """A window of a run by its name, if it holds samples where these are needed, and the variables that arguments of
-    the picture ask for."""
+    """A window of a run, if it holds what is needed: samples, and variables by the arguments that name them."""
     known = [str(child) for child in case.children if child not in ("events", "poincare")]
     if not (isinstance(name, str) and name in case.children):
         raise ParameterError(Fault.of((which,), name, f"was not recorded{suggestion(name, known)}"))
@@ -165,9 +160,6 @@ def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str 
         if path is not None:
             film.save(path, writer=writer, fps=fps, dpi=100)
         return film
-
-
-# ---- Stability
 
 
 def plot_multipliers(cycle: FloquetResult, ax: Any = None) -> Axes:
@@ -302,7 +294,6 @@ def plot_exponents(lyapunov: Lyapunov, ax: Any = None) -> Axes:
     return axes
 
 
-# ---- Grids and discs
 NAMES = {*Parameters.model_fields, *RATIOS}  # coordinates of one value that titles state
 SHARES = ("basin_fraction_by_energy", "basin_fraction")
 PREFERRED = (*SHARES, "growth_rate", "outcome", "critical_speed", "separation_rate", "scan_first_separation", "kind")
@@ -410,7 +401,7 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
     require((across in possible and len(dims) < 3, "x", across, rule))
     case = json.loads(study.attrs.get("base", study.attrs.get("parameters", "{}")))
     shown = {str(name).removeprefix("sweep_").removeprefix("scan_") for name in study.coords}
-    fixed = {str(name): at.item() for name, at in study.coords.items() if not at.ndim and str(name) in NAMES}
+    fixed = {str(name): x.item() for name, x in study.coords.items() if not x.ndim and str(name) in NAMES}
     title = drawing.what_case({name: value for name, value in case.items() if name not in shown} | fixed)
     with canvas(ax, 1.3 * COLUMN, 2.9, title=title) as [axes]:
         handles: Sequence[Any]

@@ -129,8 +129,7 @@ class Sensitivity(Plot):
             yield Fault.of(("kind",), self.kind, rule)
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw a row for each parameter, those above that change most somewhere, with 95 % intervals; the dashed line
-        is the probability at all values."""
+        """Draw rows with 95 % intervals, those above that change most; the line is the probability at all values."""
         cells = list(cells_of(study))
         names = [str(name) for name in study["parameter"].values]
         each = np.array([[probabilities(cell, name) for name in names] for _, cell in cells])
