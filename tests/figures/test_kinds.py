@@ -6,12 +6,12 @@ import pytest
 
 from disc_model.errors import ParameterError
 from disc_model.figures.general import General
-from disc_model.figures.kind import CasePlot, Plot, kind_of, library_kinds
+from disc_model.figures.kind import CasePlot, Plot, kind_of, kinds_in
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import quantity_names
 from tests.processes import python
 
-KINDS = library_kinds()
+KINDS = kinds_in("")
 TESTS = [path for path in Path(__file__).parent.glob("test_*.py") if path.name != "test_kinds.py"]
 
 

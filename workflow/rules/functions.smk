@@ -69,7 +69,7 @@ def figure_made_of(entry):
     figure = FIGURES[entry]
     inputs_made_of = grid_made_of if isinstance(figure.plot, Plot) else case_made_of
     of = [figure.plot.model_dump_json(), *map(inputs_made_of, figure.inputs.values())]
-    return made_of("draw_figure", figure.plot.module, of=of)
+    return made_of("draw_figure", figure.plot.__module__, of=of)
 
 
 def figure_names():

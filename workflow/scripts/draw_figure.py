@@ -2,7 +2,7 @@
 
 plot : JSON, the figure as its kind describes it
 title : JSON, the text written into the files
-inputs : name=netCDF file, as `disc_model.figures.kind.Kind.render` has it
+inputs : name=netCDF file, as `disc_model.figures.kind.Plot.render` has it
 """
 
 import json

@@ -32,21 +32,10 @@ BITS = 17  # number of bits kept of the 23 of a 32-bit mantissa: five digits, as
 
 
 def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = None, text: str = "") -> dict[str, Any]:
-    """Contents of a merged study.
-
-    Parameters
-    ----------
-    study : as from `disc_model.studies.merge.merge_batches`
-    motions : as from `disc_model.studies.motions.run_motions`
-    text : description of the motions
-
-    Returns
-    -------
-    dict with the parameters that do not vary, the dimensions, each variable that lies along one (numbers as 32-bit
-    floats of `BITS`, or of 64 bits if they are too great for that; flags as bytes with their words), messages, and
-    motions.
-    """
+    """Contents of a merged study, with its motions and a text that describes these: parameters that do not vary,
+    dimensions, each variable that lies along one, and messages."""
     study = study.transpose(*study.sizes)
+    base = json.loads(study.attrs.get("base", "{}"))
     messages = None
     if "message" in study:  # as indices into the distinct ones; most points share theirs
         words, indices = np.unique(study["message"].values.astype(str), return_inverse=True)
@@ -54,10 +43,7 @@ def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = No
     return {
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,
-        "fixed": [
-            _named(name, attributes(name)) | {"value": value}
-            for name, value in json.loads(str(study.attrs.get("base", "{}"))).items()
-        ],
+        "fixed": [_named(name, attributes(name)) | {"value": value} for name, value in base.items()],
         "dims": [_dimension(study, str(dim)) for dim in study.sizes],
         "variables": [_variable(x) for x in study.data_vars.values() if x.ndim and x.dtype.kind in "biuf"],
         "messages": messages,
@@ -123,14 +109,15 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
     if dim in study.coords:
         values = _plain(study[dim].values)
         return _named(dim, study[dim].attrs) | {"values": values, "parts": {dim: values}}
-    along = {str(name): _plain(study[name].values) for name in study.coords if study[name].dims == (dim,)}
+    along = {str(name): _plain(x.values) for name, x in study.coords.items() if x.dims == (dim,)}
     columns = along or {dim: list(range(study.sizes[dim]))}
-    words = [", ".join(f"{name} = {_format(value)}" for name, value in zip(columns, row, strict=True))
-             for row in zip(*columns.values(), strict=True)]  # fmt: skip
+    texts = [[f"{name} = {x if isinstance(x, str) else f'{x:g}'}" for x in column] for name, column in columns.items()]
+    words = [", ".join(row) for row in zip(*texts, strict=True)]
     return {"name": dim, "title": ", ".join(columns), "unit": "", "values": words, "parts": columns}
 
 
 def _variable(variable: xr.DataArray) -> dict[str, Any]:
+    """Numbers as 32-bit floats of `BITS`, or of 64 bits if they are too great for that; flags as bytes with words."""
     attrs, values = variable.attrs, variable.values
     described = _named(str(variable.name), attrs) | {"dims": list(variable.dims)}
     if "flag_meanings" in attrs:
@@ -146,26 +133,18 @@ def _plain(values: NDArray[Any]) -> list[Any]:
     return values.astype(str).tolist() if values.dtype.kind in "OUS" else values.tolist()
 
 
-def _format(value: Any) -> str:
-    return value if isinstance(value, str) else f"{value:g}"
-
-
 # ---- The page
 
 PICTURE_WIDTH = 1100  # width of a page-wide figure, pixels; narrower ones are scaled alike
 PAGE_WIDTH = 2055  # width of such a figure as drawn, pixels
 QUALITY = 80
-SCRIPTS = ("contents", "view", "drawing", "map", "point", "motion", "start")
-"""Scripts, in the order of their dependence."""
-PALETTE = (BLUE, ORANGE, SKY, GREEN, PURPLE, BROWN, GREY, VERMILION)
-"""Colours of flags whose words have none of their own, distinct to colour-blind readers too."""
+SCRIPTS = ("contents", "view", "drawing", "map", "point", "motion", "start")  # in the order of their dependence
+PALETTE = (BLUE, ORANGE, SKY, GREEN, PURPLE, BROWN, GREY, VERMILION)  # of flags whose words have no colour of their own
 WORDS = {"ok": SKY, "quiet": BLUE, "stable": BLUE, "growing": ORANGE, "unstable": ORANGE, "failed": BLACK}
-WORDS = {**PHASE_COLOURS, **WORDS}
+WORDS = PHASE_COLOURS | WORDS
 
 
 class Picture(NamedTuple):
-    """A figure of the report."""
-
     heading: str
     title: str
     caption: str
@@ -174,9 +153,10 @@ class Picture(NamedTuple):
 
 def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Picture]) -> str:
     """The whole page, for studies as from `study_contents`, and pictures grouped by heading."""
+    maps = {"sequential": cm.batlow, "diverging": cm.vik}
     contents = {
         "studies": studies,
-        "maps": {"sequential": _colours("batlow"), "diverging": _colours("vik")},
+        "maps": {kind: [to_hex(colour) for colour in colours(range(256))] for kind, colours in maps.items()},
         "palette": PALETTE,
         "words": WORDS,
         "parameters": [*Parameters.model_fields, *RATIOS],
@@ -200,10 +180,6 @@ def embedded(file: Path) -> str:
     buffer = io.BytesIO()
     small.save(buffer, "WEBP", quality=QUALITY, method=6)
     return f"data:image/webp;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"
-
-
-def _colours(name: str) -> list[str]:
-    return [to_hex(colour) for colour in getattr(cm, name)(range(256))]
 
 
 def _part(name: str) -> str:

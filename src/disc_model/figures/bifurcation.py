@@ -10,7 +10,7 @@ from pydantic import Field
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.errors import Fault, suggestion
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, PAGE, PHASE_COLOURS, SEPARATED, Axes, Figure, panels
+from disc_model.figures.drawing import BLACK, GREY, PAGE, PHASE_COLOURS, SEPARATED, Axes, Figure, mpl, panels
 from disc_model.figures.kind import Plot, Role, Roles, Values
 from disc_model.units import Finite, Positive, Unit
 
@@ -23,27 +23,21 @@ ERRORS = 4  # half-width of the band about an exponent, in standard errors
 
 
 class Bifurcation(Plot):
-    """Samples once a turn against a parameter, and after how many switches the motion repeats.
-
-    paper_cases : cases of the paper by name, each with its value of x
-    """
+    """Samples once a turn against a parameter, and after how many switches the motion repeats."""
 
     quantities = ("bifurcation",)
     roles: ClassVar[Roles] = {"lyapunov": Role("lyapunov")}
     kind: Literal["bifurcation"] = "bifurcation"
     x: str
     variable: Literal["psi", "psi_velocity", "P", "u", "w_point"] = "psi"
-    paper_cases: Annotated[dict[str, Finite], Unit(of="x")] = Field({})
+    paper_cases: Annotated[dict[str, Finite], Unit(of="x")] = Field({})  # values of x by the paper's name of the case
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw samples against a parameter, coloured by phase, hollow where the motion is not shown to have settled.
-        A cross marks a failed point or a missing largest exponent, a dash a motion without samples, such as one without
-        events. Periods are below, and the further study ``lyapunov``, if it is given."""
-        from matplotlib.lines import Line2D
-
+        """Draw samples by phase, hollow where the motion is not shown to have settled, with crosses at failed points,
+        dashes at motions without samples; below periods, and exponents with crosses where the largest is missing."""
         study = study.transpose(self.x, "sample", ...)
-        events = {"stick": "at release of stick", "separation": "at loss of contact"}
-        names = events if stated_in(study, "options")["section"] == "event" else {}
+        by_event = stated_in(study, "options")["section"] == "event"
+        names = {"stick": "at release of stick", "separation": "at loss of contact"} if by_event else {}
         heights = [2.4, 0.9, *[1.4] * ("lyapunov" in overlays)]  # inch
         figure, axes = panels(PAGE, sum(heights) + 0.7, len(heights), sharex=True, height_ratios=heights)
         ax = axes[0]
@@ -86,9 +80,8 @@ class Bifurcation(Plot):
         for panel in axes:
             panel.margins(x=0.01)  # no dot is cut at the edge
         drawing.mark_cases(axes, {case: value * factor for case, value in self.paper_cases.items()})
-        for handle in drawing.legend_above(ax).legend_handles:  # the diagram's dots are too small for a legend
-            if isinstance(handle, Line2D):
-                handle.set_markersize(6)
+        for line in drawing.legend_above(ax).get_lines():  # the diagram's dots are too small for a legend
+            line.set_markersize(6)
         return figure
 
 
@@ -124,19 +117,14 @@ UNSETTLED = "#aaaaaa"  # a sweep's marks where it is not shown that the motion h
 
 
 class Branches(Plot):
-    """Range of motion of all cycles found against one parameter, stable and unstable, and where a sweep jumps.
-
-    paper_cases : cases of the paper by name, each with its value of the parameter
-    """
+    """Range of motion of all cycles found against one parameter, stable and unstable, and where a sweep jumps."""
 
     quantities = ("branches",)
     kind: Literal["branches"] = "branches"
-    paper_cases: dict[str, Finite] = Field({})
+    paper_cases: dict[str, Finite] = Field({})  # values of the parameter by the paper's name of the case
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw one point: a line for each branch, thick where it is stable, and triangles for the sweep up and down."""
-        from matplotlib.legend_handler import HandlerTuple
-
         study = study.squeeze()
         name = str(stated_in(study, "options")["parameter"])
         label, factor = drawing.axis_of(name)
@@ -162,19 +150,18 @@ class Branches(Plot):
             ax.plot([], [], color=color, linewidth=2, label=f"stable cycle, {text}")
         ax.plot([], [], color=BLACK, linewidth=THIN, label="unstable cycle")
         handles, labels = ax.get_legend_handles_labels()
-        (rising, falling), both, pale = (
-            [drawing.sample(linestyle="", marker=way, color=color, **SWEEP_MARK) for way in "^v"]
-            for color in (BLACK, SEPARATED, UNSETTLED)
-        )
-        simulated: dict[str, Any] = {"rising": rising, "falling": falling}
+        colours = (BLACK, SEPARATED, UNSETTLED)
+        up, down = ([drawing.sample(ls="", marker=way, c=colour, **SWEEP_MARK) for colour in colours] for way in "^v")
+        simulated: dict[str, Any] = {"rising": up[0], "falling": down[0]}
         if separating:
-            simulated["separating"] = tuple(both)
+            simulated["separating"] = (up[1], down[1])
         swept = np.isfinite(study["sweep_range"].values)
         if (flag_names(study["sweep_settled"])[swept] != "settled").any():
-            simulated["not settled, or undecided"] = tuple(pale)
+            simulated["not settled, or undecided"] = (up[2], down[2])
         handles += simulated.values()
         labels += [f"simulated, {text}" for text in simulated]
-        figure.legend(handles, labels, loc="outside lower center", ncols=3, handler_map={tuple: HandlerTuple(None)})
+        beside = {tuple: mpl.legend_handler.HandlerTuple(None)}
+        figure.legend(handles, labels, loc="outside lower center", ncols=3, handler_map=beside)
         return figure
 
 
@@ -182,8 +169,11 @@ def draw_branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, colo
     """Draw a line along a branch, thick where it is stable, with gaps where its height jumps by more than a factor."""
     known = np.isfinite(x)
     x, y, stable = x[known], y[known], stable[known]
-    along, height = (x, y) if factor == np.inf else drawing.broken(x, np.log(y), np.log(factor))
-    ax.plot(along, height if factor == np.inf else np.exp(height), color=color, linewidth=THIN)
+    if factor == np.inf:
+        ax.plot(x, y, color=color, linewidth=THIN)
+    else:
+        along, height = drawing.broken(x, np.log(y), np.log(factor))
+        ax.plot(along, np.exp(height), color=color, linewidth=THIN)
     # a segment is stable where both its ends are
     for first, last in drawing.stretches(stable[:-1] & stable[1:]):
         ax.plot(x[first : last + 1], y[first : last + 1], color=color, linewidth=2.0, solid_capstyle="butt")
@@ -207,29 +197,21 @@ SMALLEST = 1e-5  # thicknesses, least range drawn: a quiet cycle moves the slide
 
 
 class LateRange(Plot):
-    """Peak-to-peak displacement of the slider against the speed, with separation and with it ignored.
-
-    by : dimension with a panel for each value
-    thickness : of the disc, m; that of the paper unless given
-    not_valid : points at which the law of friction does not hold: values along dimensions
-    names : words for values of ``by``
-    """
+    """Peak-to-peak displacement of the slider against the speed, with separation and with it ignored."""
 
     quantities = ("outcome",)
     named_above = True
     kind: Literal["late_range"] = "late_range"
-    by: str = "disc"
-    thickness: Positive = 0.002
-    not_valid: tuple[dict[str, tuple[Finite | str, ...]], ...] = ()
-    names: dict[str, str] = Field({})
+    by: str = "disc"  # dimension with a panel for each value
+    thickness: Positive = 0.002  # of the disc, m; that of the paper unless given
+    not_valid: tuple[dict[str, tuple[Finite | str, ...]], ...] = ()  # points at which the law of friction does not hold
+    names: dict[str, str] = Field({})  # words for values of `by`
 
     @property
     def dims(self) -> tuple[str, ...]:  # type: ignore[override]
-        """All that the figure shows."""
         return ("Omega", "N", "contact", self.by)
 
     def faults(self, values: Values) -> Iterator[Fault]:
-        """Faults as of any figure, and values that there are not."""
         yield from super().faults(values)
         chosen = [("not_valid", *item) for part in self.not_valid for item in part.items()]
         for key, dim, words in (("names", self.by, self.names), *chosen):
@@ -239,7 +221,6 @@ class LateRange(Plot):
                     yield Fault.of((key,), word, f"is no value of {dim}{suggestion(str(word), [*map(str, known)])}")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw a panel for each value of ``by``, and a line for each preload and contact."""
         ranges = ((study["u_max"] - study["u_min"]) / self.thickness).clip(SMALLEST)
         outcomes = study["outcome"].copy(data=flag_names(study["outcome"]))
         valid = xr.ones_like(ranges, dtype=bool)
@@ -255,7 +236,7 @@ class LateRange(Plot):
             for load, colour in zip(loads, LOAD_COLOURS, strict=False):
                 for contact, look in (("unilateral", "-"), ("bilateral", "--")):
                     line = {self.by: name, "N": load, "contact": contact}
-                    heights, words, holds = (each.sel(line).values for each in (ranges, outcomes, valid))
+                    heights, words, holds = (values.sel(line).values for values in (ranges, outcomes, valid))
                     ax.plot(speeds[~holds], heights[~holds], **no_law)
                     heights = np.where(holds, heights, np.nan)
                     ax.plot(speeds, heights, look, color=colour, linewidth=1.0)
@@ -267,14 +248,15 @@ class LateRange(Plot):
         axes[0].set_ylabel("Slider, peak to peak (thicknesses)")
         axes[0].text(0.03, 0.99, "beyond linear plate theory", transform=axes[0].transAxes, va="top", c=GREY, size=6)
         drawing.letters(axes, [self.names.get(str(name), str(name)) for name in names])
-        handles = [
-            *(drawing.sample(color=c, label=f"{1e-3 * n:g} kN") for n, c in zip(loads, LOAD_COLOURS, strict=False)),
-            drawing.sample(color=GREY, linestyle="-", label="with separation"),
-            drawing.sample(color=GREY, linestyle="--", label="separation ignored"),
-            drawing.sample(color=GREY, label="separates", **apart),
-            drawing.sample(color=GREY, label="growing or undecided", **open_end),
-            drawing.sample(color=GREY, label="settled in contact", **apart | {"markerfacecolor": "white"}),
-            *([drawing.sample(**no_law)] if self.not_valid else []),
+        looks: list[dict[str, Any]] = [
+            *({"color": c, "label": f"{1e-3 * n:g} kN"} for n, c in zip(loads, LOAD_COLOURS, strict=False)),
+            {"linestyle": "-", "label": "with separation"},
+            {"linestyle": "--", "label": "separation ignored"},
+            apart | {"label": "separates"},
+            open_end | {"label": "growing or undecided"},
+            apart | {"label": "settled in contact", "markerfacecolor": "white"},
+            *[no_law] * bool(self.not_valid),
         ]
+        handles = [drawing.sample(**{"color": GREY} | look) for look in looks]
         figure.legend(handles=handles, loc="outside lower center", ncols=4, columnspacing=1.0)
         return figure

@@ -1,7 +1,6 @@
 """Charts over speed and preload: onset and end of separation, loss of stability of the cycle, sweeps and ramps."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from itertools import chain, pairwise
 from typing import Any, ClassVar, Literal
 
@@ -12,13 +11,14 @@ from pydantic import Field
 
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures import drawing, maps
-from disc_model.figures.drawing import BLACK, COLUMN, END, ONSET, ORANGE, PAGE, PAPER, Artist, Axes, Figure, panels
+from disc_model.figures.drawing import BLACK, BLUE, COLUMN, ORANGE, PAGE, PAPER, SEPARATED, Artist, Axes, Figure, panels
 from disc_model.figures.kind import CURVES, CYCLE, Plot, Role, Roles
-from disc_model.figures.maps import LOAD, OUTCOME_LOOKS, SPEED, Curve, crossings, curves_of, draw_curves, patches, span
+from disc_model.figures.maps import LOAD, OUTCOME_LOOKS, SPEED, crossings, curves_of, draw_curves, patches
 from disc_model.units import Finite
 
 Array = NDArray[np.float64]
 
+ONSET, END = SEPARATED, BLUE  # speeds at which separation begins, and at which it ends
 STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle\n(white: none)")
 CONTACT = OUTCOME_LOOKS["growing"]._replace(label="oscillations grow, or another\ncycle is reached, in contact")
 EDGE: dict[str, Any] = {"markersize": 2.4, "markeredgecolor": BLACK, "markeredgewidth": 0.5, "zorder": 1.9}
@@ -43,22 +43,27 @@ class CriticalSpeed(Plot):
         """Draw (a) where separation begins from the static start, over a map, and (b) sweeps of the speed."""
         lost = drawing.failed(study).values
         sweep, cycle = overlays.get("hysteresis"), overlays.get("cycle")
-        scan = span(study["scan_Omega"].values)
+        speeds, loads = study["scan_Omega"].values, study["N"].values
         if cycle is not None:
             # separation is unknown beyond the scan
-            cycle = cycle.sel(Omega=slice(*scan)).transpose("N", "Omega", ...)
+            cycle = cycle.sel(Omega=slice(speeds.min(), speeds.max())).transpose("N", "Omega", ...)
             cycle = cycle if min(cycle["growth_rate"].shape) > 1 else None
+        if cycle is not None:
+            speeds = cycle["Omega"].values
         figure, axes = panels(*((COLUMN, 3.8, 1, 1) if sweep is None else (PAGE, 3.8, 1, 2)), sharex=True, sharey=True)
-        loads = study["N"].values
-        axes[0].set_xlim(scan if cycle is None else span(cycle["Omega"].values))
+        axes[0].set_xlim(speeds.min(), speeds.max())
         axes[0].set_ylim(0.95 * loads.min(), 1.02 * loads.max())
         drawing.mark_failed(axes[0], loads[lost], on="y")
         study = study.isel(N=~lost).sortby("N")
         handles: list[Artist] = [] if cycle is None else _behind(axes[0], cycle)
         if "curves" in overlays:
             curves = curves_of(overlays["curves"])
-            shown = curves if cycle is None else _named(maps.parted(curves, cycle)[0], cycle)
-            handles += draw_curves([axes[0]], [shown])
+            if cycle is not None:
+                curves = maps.parted(curves, cycle)[0]
+            if cycle is not None and "outcome" in cycle:  # what passes no cell with separation has no name
+                apart = cycle["outcome"].copy(data=flag_names(cycle["outcome"]) == "separation")
+                curves = [x if maps.passes(x, apart).any() else x._replace(label="") for x in curves]
+            handles += draw_curves(axes[0], curves)
         horizon = float(study["horizon"].max())
         _onsets(axes[0], study, horizon, label=f"separation begins, within {horizon:g} s", **ONSETS)
         if self.paper_points:
@@ -67,11 +72,8 @@ class CriticalSpeed(Plot):
             axes[0].plot(speed, load, "*", color=PAPER, markersize=9, zorder=5, clip_on=False, label="paper", **edge)
         titles = ["from the static start"]
         if sweep is not None:
-            titles.append(_sweep(axes[1], sweep, study, horizon))
-            if "basins" in overlays:
-                _measured(axes[1], overlays["basins"])
-            elif cycle is not None:
-                _both(axes[1], cycle, sweep)
+            _onsets(axes[1], study, horizon, label="_nolegend_", **ONSETS)
+            titles.append(_beside(axes[1], sweep, cycle, overlays.get("basins")))
         drawing.letters(axes, titles, pad=12)
         for ax in axes:
             ax.set_xlabel(SPEED)
@@ -81,14 +83,8 @@ class CriticalSpeed(Plot):
         return figure
 
 
-# ---- Crossings of a scan
-
-
 def speeds_of(study: xr.Dataset, horizon: float, kind: str = "begins") -> list[Array]:
-    """Speeds at which separation within a horizon begins, or ends, as the speed rises, for each load, rad/s.
-
-    Where it begins they include the lowest speed of the scan if it separates already.
-    """
+    """Rising speeds, rad/s, at which separation begins (or the scan begins with it), or ends, for each load."""
     of_horizon = study.sel(horizon=horizon).transpose("N", ..., "crossing_number")
     speeds = np.where(flag_names(of_horizon["crossing_kind"]) == kind, of_horizon["crossing"].values, np.nan)
     rows = np.column_stack([of_horizon["critical_speed"].where(kind == "begins"), speeds])
@@ -117,83 +113,52 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
     gap = (np.nan, np.nan)
     points = [point for i, a, b in links for point in ((a, loads[i]), (b, loads[i + 1]), gap)]
     points += [at for load, row in zip(loads, speeds, strict=True) for speed in row for at in ((speed, load), gap)]
-    ax.plot(*np.reshape(points, (-1, 2)).T, path_effects=drawing.outline(1.3, BLACK), **look)
-
-
-# ---- The map behind, and the panel beside
+    ax.plot(*np.reshape(points, (-1, 2)).T, path_effects=drawing.halo(1.3, BLACK), **look)
 
 
 def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
-    """Draw the outcomes of the static start, or at least where the cycle is stable; handles of the legend.
-
-    cycle : over N and Omega, of the quantity `regions` or `floquet`
-    """
+    """Draw outcomes of the static start, or at least where the cycle is stable; returns entries of a legend."""
+    words, looks = np.where(cycle["growth_rate"].values < 0, "quiet", ""), {"quiet": STABLE}
     if "outcome" in cycle:
         words = flag_names(cycle["outcome"])
         words = np.where(words == "other_cycle", "growing", words)
         horizon = stated_in(cycle, "options")["horizon"]
         apart = OUTCOME_LOOKS["separation"]._replace(label=f"separation within {horizon:g} s")
         looks = OUTCOME_LOOKS | {"growing": CONTACT, "separation": apart}
-        maps.fill(ax, maps.edges_of(cycle["outcome"]), words, looks)
-        return [*patches(looks, words)]
-    stable = np.where(cycle["growth_rate"].values < 0, "quiet", "")
-    maps.fill(ax, maps.edges_of(cycle["growth_rate"]), stable, {"quiet": STABLE})
-    return [*patches({"quiet": STABLE}, stable)]
+    maps.fill(ax, maps.edges_of(cycle["growth_rate"]), words, looks)
+    return patches(looks, words)
 
 
-def _named(curves: Sequence[Curve], cycle: xr.Dataset) -> list[Curve]:
-    """The curves of a map, without the names of those that pass no cell with separation."""
-    if "outcome" not in cycle:
-        return [*curves]
-    apart = cycle["outcome"].copy(data=flag_names(cycle["outcome"]) == "separation")
-    return [curve if maps.passes(curve, apart).any() else replace(curve, label="") for curve in curves]
-
-
-def _sweep(ax: Axes, sweep: xr.Dataset, study: xr.Dataset, horizon: float) -> str:
-    """Draw onset and end of separation as the speed rises and falls in steps, and the onsets of (a); its title."""
+def _beside(ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset | None, basins: xr.Dataset | None) -> str:
+    """Draw sweeps of the speed, and shade where some motions stay quiet and others separate; returns a title."""
     N, lost = sweep["N"].values, drawing.failed(sweep).values
     look: dict[str, Any] = {"markersize": 4, "markerfacecolor": "none", "linestyle": "", "clip_on": False}
-    for name, color, marker, text in (
-        ("onset_speed", ONSET, "^", "sweep up: separation begins"),
-        ("offset_speed", END, "v", "sweep down: separation ends"),
-    ):
-        speeds = np.where(lost, np.nan, sweep[name].values)
-        ax.plot(speeds, N, color=color, marker=marker, label=text, **look)
-    _onsets(ax, study, horizon, label="_nolegend_", **ONSETS)
+    onset, end = (np.where(lost, np.nan, sweep[name].values) for name in ("onset_speed", "offset_speed"))
+    ax.plot(onset, N, color=ONSET, marker="^", label="sweep up: separation begins", **look)
+    ax.plot(end, N, color=END, marker="v", label="sweep down: separation ends", **look)
     drawing.mark_failed(ax, N[lost], on="y")
-    step = float(np.diff(sweep["sweep_Omega"].values[:2])[0])
-    return f"sweeps in steps of {step:g} rad/s"
-
-
-def _both(ax: Axes, cycle: xr.Dataset, sweep: xr.Dataset) -> None:
-    """Shade cells in which the quiet cycle is stable by its multipliers, and separating motions continue to separate.
-    The delay of a sweep up, due to its short dwells, does not make a cycle stable. A load between two loads of the
-    sweep is left out if the sweep found no separation at one of them."""
-    from matplotlib.colors import ListedColormap
-
-    rate = cycle["growth_rate"]
-    speeds, loads = rate["Omega"].values, rate["N"].values
-    lowest = np.interp(loads, sweep["N"].values, sweep["offset_speed"].values, left=np.nan, right=np.nan)
-    stable = (rate.values < 0) & (speeds >= lowest[:, None]) & (speeds <= float(sweep["sweep_Omega"].max()))
-    look: dict[str, Any] = {"alpha": 0.25, "shading": "nearest", "rasterized": True}
-    ax.pcolormesh(speeds, loads, np.ma.masked_where(~stable, stable), cmap=ListedColormap([ORANGE]), **look)
-    label = "the cycle is stable where the\nsweep down still separates"
-    ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label=label)
-
-
-def _measured(ax: Axes, basins: xr.Dataset) -> None:
-    """Draw speeds at which some of many starts reach the quiet cycle, and others lasting separation. Both fractions
-    exceed zero with their intervals. A bar joins neighbouring speeds; a single speed is a line."""
-    load, speeds = stated_in(basins, "base")["N"], basins["Omega"].values
-    quiet, separating = basins["basin_fraction_low"].sel(attractor_class="quiet"), basins["separating_fraction_low"]
-    # well within the step of the sweeps, N
-    look: dict[str, Any] = {"height": 20.0, "color": ORANGE, "alpha": 0.6, "linewidth": 0.8, "edgecolor": ORANGE}
-    for i, (first, after) in enumerate(drawing.stretches(((quiet > 0) & (separating > 0)).values)):
-        label = "_nolegend_" if i else f"quiet or separating,\ncomputed at {load:g} N"
-        ax.barh(load, speeds[after - 1] - speeds[first], left=speeds[first], label=label, **look)
-
-
-# ---- Ramps
+    if basins is not None:
+        # by the starts: both fractions exceed zero with their intervals; a single speed is a line
+        load, speeds = stated_in(basins, "base")["N"], basins["Omega"].values
+        quiet, apart = basins["basin_fraction_low"].sel(attractor_class="quiet"), basins["separating_fraction_low"]
+        # its height is well within a step of the sweeps, N
+        bar: dict[str, Any] = {"height": 20.0, "color": ORANGE, "alpha": 0.6, "linewidth": 0.8, "edgecolor": ORANGE}
+        for i, (first, after) in enumerate(drawing.stretches(((quiet > 0) & (apart > 0)).values)):
+            label = "_nolegend_" if i else f"quiet or separating,\ncomputed at {load:g} N"
+            width = speeds[after - 1] - speeds[first]
+            ax.barh(load, width, left=speeds[first], label=label, **bar)
+    elif cycle is not None:
+        # by the multipliers, as short dwells only delay a sweep up; without loads between whose neighbours of the sweep
+        # one never separates
+        speeds, loads = cycle["Omega"].values, cycle["N"].values
+        lowest = np.interp(loads, N, sweep["offset_speed"].values, left=np.nan, right=np.nan)
+        within = (speeds >= lowest[:, None]) & (speeds <= float(sweep["sweep_Omega"].max()))
+        stable = (cycle["growth_rate"].values < 0) & within
+        cmap, shown = drawing.mpl.colors.ListedColormap([ORANGE]), np.ma.masked_where(~stable, stable)
+        ax.pcolormesh(speeds, loads, shown, cmap=cmap, alpha=0.25, shading="nearest", rasterized=True)
+        label = "the cycle is stable where the\nsweep down still separates"
+        ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label=label)
+    return f"sweeps in steps of {float(np.diff(sweep['sweep_Omega'].values[:2])[0]):g} rad/s"
 
 
 class RampedSpeeds(Plot):
@@ -204,9 +169,7 @@ class RampedSpeeds(Plot):
     kind: Literal["ramps"] = "ramps"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw one point; with the further study ``curves``, also the speed at which the cycle ends at this load. This
-        is the limit of the onset for slow ramps: the highest such speed below all onsets. Other ends belong to other
-        cycles."""
+        """Draw one point; by ``curves``, the highest end of the cycle below all onsets, their limit for slow ramps."""
         study = study.squeeze()
         options, load = stated_in(study, "options"), float(stated_in(study, "base")["N"])
         rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))
@@ -214,8 +177,7 @@ class RampedSpeeds(Plot):
         figure, [ax] = panels(COLUMN, 3.4)
         ax.plot(rates, onset, "^-", color=ONSET, markersize=4, linewidth=0.8, label="onset, rising ramp")
         ax.plot(rates, end, "v-", color=END, markersize=4, linewidth=0.8, label="end, falling ramp")
-        late = rates[np.isnan(onset) & ~gone]
-        if late.size:
+        if (late := rates[np.isnan(onset) & ~gone]).size:
             look: dict[str, Any] = {"color": ONSET, "markersize": 4, "markerfacecolor": "white", "clip_on": False}
             ax.plot(late, np.full(late.size, options["high"]), "^", label="none up to the highest speed", **look)
         if "curves" in overlays:

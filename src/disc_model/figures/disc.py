@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
-from disc_model.figures.drawing import BLACK, DISC, GREY, SEPARATED, SLIDER, Axes, FigureBase, Normalize, QuadMesh
+from disc_model.figures.drawing import BLACK, DISC, GREY, SEPARATED, SLIDER, Axes, Figure, Normalize, cm, mpl
 from disc_model.parameters import Parameters
 
 if TYPE_CHECKING:
@@ -21,21 +21,13 @@ RADII, ANGLES = 25, 181  # points across and around the disc at which it is draw
 
 
 class Motion(NamedTuple):
-    """Motion of the disc and the slider in a stretch of time.
-
-    parameters : of the case
-    time : s, shape (n,)
-    amplitudes : m sqrt(kg), of each mode, cosine + i sine of the angle fixed to the disc, shape (n_modes, n)
-    slider : rad, shape (n,), its angle on the disc
-    u : m, shape (n,), its height
-    phase : shape (n,), words of `disc_model.data.variables.PHASES`
-    """
+    """Motion of the disc and the slider through n states."""
 
     parameters: Parameters
-    time: Array
-    amplitudes: NDArray[np.complex128]
-    slider: Array
-    u: Array
+    time: Array  # s
+    amplitudes: NDArray[np.complex128]  # m sqrt(kg), cosine + i sine of the angle fixed to the disc, (n_modes, n)
+    slider: Array  # rad, its angle on the disc
+    u: Array  # m, its height
     phase: NDArray[np.str_]
 
     @classmethod
@@ -48,8 +40,7 @@ class Motion(NamedTuple):
         return cls(p, time, turned, slider, u, np.array([state.phase for state in states]))
 
     def deflection(self, i: int, r: Array | None, theta: Array) -> Array:
-        """The disc's displacement at sample i, m, at radii (k,) in m and angles (m,) in rad: shape (k, m). Without
-        radii it is that along the slider's circle, which needs no shapes."""
+        """Displacement at sample i, m, at radii (k,) and angles (m,): (k, m); without radii on the slider's circle."""
         modes = mode_arrays(self.parameters)
         shapes = modes.psi[:, None] if r is None else mode_shapes(self.parameters, r)
         turns = modes.diameters[:, None] * theta
@@ -58,14 +49,12 @@ class Motion(NamedTuple):
 
 def scale_of(motion: Motion) -> Normalize:
     """Colour scale of the deflection, mm, equal at all times and centred on 0."""
-    from matplotlib.colors import Normalize
-
     edge, theta = np.array([radial_range(motion.parameters)[1]]), np.linspace(0, 2 * np.pi, ANGLES)
     step = max(1, motion.time.size // 50)
     largest = max(float(np.abs(motion.deflection(i, edge, theta)).max()) for i in range(0, motion.time.size, step))
     if not largest > 0:
         raise Missing("did not move the disc")
-    return Normalize(-1e3 * largest, 1e3 * largest)
+    return mpl.colors.Normalize(-1e3 * largest, 1e3 * largest)
 
 
 def colour_of(motion: Motion, i: int, otherwise: str = SLIDER) -> str:
@@ -73,35 +62,36 @@ def colour_of(motion: Motion, i: int, otherwise: str = SLIDER) -> str:
     return SEPARATED if motion.phase[i] == "separation" else otherwise
 
 
-def _draw_plane(ax: Axes, p: Parameters, values: Array, scale: Normalize, r: Array, theta: Array) -> QuadMesh:
-    """Draw values over the disc from above, in mm; blue below the plane of the disc at rest, red above it."""
-    from cmcrameri.cm import vik
-    from matplotlib.patches import Circle
+def _plane(p: Parameters) -> tuple[Array, Array, Array, Array]:
+    """Radii and angles of points of the disc, and their coordinates in mm, shape (radii, angles)."""
+    r, theta = np.linspace(*radial_range(p), RADII), np.linspace(0, 2 * np.pi, ANGLES)
+    return r, theta, 1e3 * r[:, None] * np.cos(theta), 1e3 * r[:, None] * np.sin(theta)
 
-    x, y = (1e3 * r[:, None] * turn(theta) for turn in (np.cos, np.sin))
-    mesh = ax.pcolormesh(x, y, values, cmap=vik, norm=scale, shading="gouraud", rasterized=True)
+
+def _draw_plane(ax: Axes, p: Parameters, values: Array, scale: Normalize) -> Any:
+    """Draw values over the disc from above, in mm; blue below the plane of the disc at rest, red above it."""
+    r, _, x, y = _plane(p)
+    mesh = ax.pcolormesh(x, y, values, cmap=cm.vik, norm=scale, shading="gouraud", rasterized=True)
     for radius, fill in ((r[0], "0.85"), (r[-1], "none")):
-        ax.add_patch(Circle((0, 0), 1e3 * radius, fc=fill, ec=GREY, lw=0.6, clip_on=radius == r[0]))
+        ax.add_patch(mpl.patches.Circle((0, 0), 1e3 * radius, fc=fill, ec=GREY, lw=0.6, clip_on=radius == r[0]))
     ax.set_aspect("equal")
     ax.axis("off")
     return mesh
 
 
-def draw_disc(ax: Axes, motion: Motion, i: int, scale: Normalize, levels: Sequence[float] = ()) -> QuadMesh:
+def draw_disc(ax: Axes, motion: Motion, i: int, scale: Normalize, levels: Sequence[float] = ()) -> Any:
     """Draw the disc from above, in mm, with the slider on it, and lines at levels in mm, dashed below zero."""
     p = motion.parameters
-    inner, outer = radial_range(p)
-    r, theta = np.linspace(inner, outer, RADII), np.linspace(0, 2 * np.pi, ANGLES)
+    r, theta, x, y = _plane(p)
     values = 1e3 * motion.deflection(i, r, theta)
-    mesh = _draw_plane(ax, p, values, scale, r, theta)
+    mesh = _draw_plane(ax, p, values, scale)
     if levels:
-        x, y = (1e3 * r[:, None] * turn(theta) for turn in (np.cos, np.sin))
         ax.contour(x, y, values, levels, colors=BLACK, linewidths=0.5)
     angle = motion.slider[i]
     point = 1e3 * p.r_0 * np.array([np.cos(angle), np.sin(angle)])
     ax.plot(*point, "o", ms=5, mfc=colour_of(motion, i), mec=BLACK, mew=0.6)
     # a tick at theta = 0, and an arrow in the direction of theta, in which the slider is dragged
-    edge, middle = 1e3 * outer, 0.6 * 1e3 * inner
+    edge, middle = 1e3 * r[-1], 0.6 * 1e3 * r[0]
     ax.plot([edge, 1.07 * edge], [0, 0], color=BLACK, lw=0.8)
     arc = np.radians(np.linspace(-60, 60, 30))
     ax.plot(middle * np.cos(arc), middle * np.sin(arc), color=BLACK, lw=0.8)
@@ -122,41 +112,29 @@ def draw_circle(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> N
 
 def draw_modes(axes: Sequence[Axes], p: Parameters, slider: bool = True) -> None:
     """Draw the shape of each mode from above, its nodal lines in black, and its frequency, by ascending frequency."""
-    from matplotlib.colors import Normalize
-
     modes = mode_arrays(p)
-    inner, outer = radial_range(p)
-    r, theta = np.linspace(inner, outer, RADII), np.linspace(0, 2 * np.pi, ANGLES)
+    r, theta, x, y = _plane(p)
     shapes = mode_shapes(p, r)
+    inside = r > r[0] + 0.02 * (r[-1] - r[0])  # a clamped edge is no nodal line
     for ax, i in zip(axes, np.argsort(modes.omega), strict=False):
         values = shapes[i, :, None] * np.cos(modes.diameters[i] * theta)
         largest = float(np.abs(values).max()) or 1.0
-        _draw_plane(ax, p, values, Normalize(-1.6 * largest, 1.6 * largest), r, theta)
-        inside = r > inner + 0.02 * (outer - inner)  # a clamped edge is no nodal line
+        _draw_plane(ax, p, values, mpl.colors.Normalize(-1.6 * largest, 1.6 * largest))
         if values[inside].min() < 0 < values[inside].max():
-            x, y = (1e3 * r[inside, None] * turn(theta) for turn in (np.cos, np.sin))
-            ax.contour(x, y, values[inside], levels=[0.0], colors=BLACK, linewidths=0.9)
+            ax.contour(x[inside], y[inside], values[inside], levels=[0.0], colors=BLACK, linewidths=0.9)
         if slider:
             ax.plot(1e3 * p.r_0, 0, "o", ms=3.5, mfc=SLIDER, mec=BLACK, mew=0.5)
         ax.set_title(f"({modes.diameters[i]}, {modes.circles[i]})  {modes.omega[i] / (2 * np.pi):.0f} Hz", loc="center")
 
 
-def film(figure: FigureBase, motion: Motion, time: Array, force: Array) -> Any:
-    """Make the film of a motion: the disc from above, its circle under the slider, and the contact force.
-
-    time, force : s and N, of the whole stretch; returns a `matplotlib.animation.FuncAnimation`
-    """
-    from matplotlib.animation import FuncAnimation
-    from matplotlib.artist import Artist
-    from matplotlib.figure import Figure
-
-    assert isinstance(figure, Figure)
+def film(figure: Figure, motion: Motion, time: Array, force: Array) -> Any:
+    """Make the film of disc, circle under the slider, and contact force (N) over the time (s) of the whole stretch."""
     figure.set_layout_engine("none")  # panels keep their places in all frames
     boxes = ((0.01, 0.05, 0.38, 0.9), (0.48, 0.62, 0.5, 0.29), (0.48, 0.13, 0.5, 0.29))
     disc, circle, trace = (figure.add_axes(box) for box in boxes)
     scale, begin = scale_of(motion), motion.time[0]
 
-    def draw(i: int) -> list[Artist]:
+    def draw(i: int) -> list[Axes]:
         for ax in (disc, circle, trace):
             ax.cla()
         draw_disc(disc, motion, i, scale)
@@ -169,4 +147,4 @@ def film(figure: FigureBase, motion: Motion, time: Array, force: Array) -> Any:
         trace.set(xlabel="Time (ms)", ylabel="Contact force P (N)", xlim=1e3 * (time[[0, -1]] - begin))
         return [disc, circle, trace]
 
-    return FuncAnimation(figure, draw, frames=motion.time.size, blit=False)  # type: ignore[arg-type]
+    return mpl.animation.FuncAnimation(figure, draw, frames=motion.time.size, blit=False)

@@ -1,21 +1,18 @@
-"""Common style and parts of several figures: labels, envelopes of long histories, points of grids.
-
-matplotlib is imported where something is drawn, see `disc_model.figures.kind`.
-"""
+"""Common style and parts of several figures: labels, envelopes of long histories, points of grids."""
 
 from __future__ import annotations
 
 import json
 import logging
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
-from functools import wraps
 from itertools import chain, repeat
 from pathlib import Path
+from pkgutil import resolve_name
 from textwrap import fill
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -23,23 +20,26 @@ import xarray as xr
 from disc_model.data import dataset, variables
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import EXCLUDED, SHOWN, WITHOUT_CYCLE, axis_of, flag_names, stated_in, typeset
-from disc_model.errors import Fault, ParameterError
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.collections import QuadMesh
-    from matplotlib.colors import AsinhNorm, Normalize
+    from matplotlib.colors import Normalize
     from matplotlib.figure import Figure, FigureBase
-    from matplotlib.legend import Legend
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
-    from matplotlib.path import Path as Outline
-    from matplotlib.patheffects import AbstractPathEffect
-else:  # names for annotations, without matplotlib
-    Artist = AsinhNorm = Axes = Figure = FigureBase = Line2D = Normalize = Outline = Patch = QuadMesh = Any
-    ScalarMappable = Any
+else:  # names for annotations
+    Artist = Axes = Figure = FigureBase = Normalize = Any
+
+
+class _Deferred(NamedTuple):
+    """A library that is imported where something is drawn, see `disc_model.figures.kind`."""
+
+    library: str
+
+    def __getattr__(self, name: str) -> Any:
+        return resolve_name(f"{self.library}.{name}")
+
+
+mpl, cm = _Deferred("matplotlib"), _Deferred("cmcrameri.cm")
 
 logging.getLogger("fontTools").setLevel(logging.WARNING)  # its reports on fonts would fill the logs of figures
 
@@ -53,26 +53,19 @@ BLACK, GREY = "#000000", "#8a8a8a"
 
 # One colour per quantity in the whole set; loss of contact is always vermilion.
 DISC, SLIDER, FORCE = BLUE, ORANGE, "#4d4d4d"
-"""Motion of the disc; of the slider, normal to the disc (u) and in its plane (psi); contact force."""
 STICK, SLIP, SEPARATED = GREEN, PURPLE, VERMILION
 PHASE_COLOURS = {"stick": STICK, "slip": SLIP, "separation": SEPARATED}
-BEFORE, AFTER = SKY, BLACK  # stages of a run: in contact before and after the first separation
-ONSET, END = SEPARATED, BLUE  # speeds at which separation begins, and at which it ends
-PAPER = "#F0E442"
-"""Colour of the paper's results, always with a black edge: no other mark and no map has it."""
+PAPER = "#F0E442"  # the paper's results, always with a black edge: no other mark and no map has it
 
-BORDERS: dict[str, dict[str, Any]] = {
+BORDERS: dict[str, dict[str, Any]] = {  # lines of all stability charts; corners of cells stay visible in short dashes
     "neutral": {"color": BLACK, "linewidth": 1.0, "linestyle": "-", "label": "cycle loses stability"},
     "fold": {"color": BLACK, "linewidth": 1.0, "linestyle": (0, (1.2, 0.8)), "label": "stable cycle ends (fold)"},
 }
-"""Looks and labels of the lines of all stability charts; the dashes are so short that corners of cells stay visible."""
 
 
 def styled() -> AbstractContextManager[None]:
     """The common style instead of the user's settings, as a context."""
-    from matplotlib import style
-
-    return style.context(Path(__file__).with_name("drawing.mplstyle"), after_reset=True)
+    return mpl.style.context(Path(__file__).with_name("drawing.mplstyle"), after_reset=True)
 
 
 @contextmanager
@@ -81,23 +74,16 @@ def blank_if_missing(*axes: Axes) -> Iterator[None]:
     try:
         yield
     except Missing as reason:
+        text = fill(f"not shown: the case {reason}", 24)
         for ax in axes:
             ax.cla()
-            say_missing(ax, reason)
-
-
-def say_missing(ax: Axes, reason: Missing) -> None:
-    """Write into an empty panel why there is nothing to show."""
-    phrase = fill(f"not shown: the case {reason}", 24)
-    ax.set_axis_off()
-    ax.text(0.5, 0.5, phrase, ha="center", va="center", transform=ax.transAxes, in_layout=False)
+            ax.set_axis_off()
+            ax.text(0.5, 0.5, text, ha="center", va="center", transform=ax.transAxes, in_layout=False)
 
 
 def new_figure(width: float, height: float) -> Figure:
     """An empty figure of a size in inches, outside pyplot's state."""
-    from matplotlib.figure import Figure
-
-    return Figure(figsize=(width, height), layout="constrained")
+    return mpl.figure.Figure(figsize=(width, height), layout="constrained")
 
 
 def panels(width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any) -> tuple[Figure, list[Axes]]:
@@ -109,10 +95,8 @@ def panels(width: float, height: float, rows: int = 1, columns: int = 1, **share
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
     """Write a figure with its title in the format of the path's suffix; equal figures give equal bytes. The first file
     decides the layout. Further ones take it over, which halves their cost."""
-    path = Path(path)
-    metadata: dict[str, Any] = {"CreationDate": None} if path.suffix == ".pdf" else {"Software": None}
-    if title:
-        metadata["Title"] = title
+    metadata: dict[str, Any] = {"CreationDate": None} if Path(path).suffix == ".pdf" else {"Software": None}
+    metadata |= {"Title": title} if title else {}
     with styled():
         figure.savefig(path, metadata=metadata)
         figure.set_layout_engine(None)  # not "none", with which all is drawn twice
@@ -121,66 +105,52 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
 def history(case: xr.DataTree, window: str = "history", until: float | None = None) -> xr.Dataset:
     """Ranges in a window, up to a time in s; two bins define the bin width."""
     ranges = dataset.samples(case, window, envelope=True)
-    shown = ranges.sel(time=slice(None, until))
+    shown = ranges.sel(time=slice(until))
     return shown if shown.sizes["time"] > 1 else ranges
 
 
-Values = TypeVar("Values", xr.DataArray, xr.Dataset)
 MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes", "given": "modes of a table"}
-"""Title of a panel by normalization; "given" stands for modes from a table."""
-WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}
-"""Words of parameters in panel titles, those of the paper first."""
+WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}  # those of the paper first
 MODELS = {"normal": WORDS["normal"], "residual": "residual flexibility", "surface": "friction on the surface"}
 MODELS |= dict.fromkeys(("bilateral", "bonded"), "bilateral contact")  # the second in files of results
-"""Words for models other than the paper's."""
+"""Words in titles: of normalizations, of parameters in panels, and of models other than the paper's."""
 
 
-def sample(**look: Any) -> Line2D:
+def sample(**look: Any) -> Artist:
     """A line or mark for a legend."""
-    from matplotlib.lines import Line2D
-
-    return Line2D([], [], **look)
+    return mpl.lines.Line2D([], [], **look)
 
 
-def halo(width: float = 1.5) -> list[AbstractPathEffect]:
-    """A white outline for text over lines or colours; width in points."""
-    return outline(width, "white")
-
-
-def outline(width: float, colour: str) -> list[AbstractPathEffect]:
+def halo(width: float = 1.5, colour: str = "white") -> list[Any]:
     """An outline of text, lines or marks; width in points, that of what it surrounds included."""
-    from matplotlib.patheffects import withStroke
-
-    return [withStroke(linewidth=width, foreground=colour)]
+    return [mpl.patheffects.withStroke(linewidth=width, foreground=colour)]
 
 
+DECADES = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()  # ticks of a logarithmic axis
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
 """Units of the reader and the factors from SI to them, by parameter or sampled variable, while a figure is drawn."""
 
 
 def restate_axes(figure: Figure) -> None:
     """Give axes in the units of the reader: their labels and ticks; what is drawn stays."""
-    from matplotlib.ticker import AutoLocator, FixedLocator, FuncFormatter
 
-    class Ticks(AutoLocator):
-        def __init__(self, ratio: float) -> None:
-            super().__init__()
-            self.ratio = ratio
+    class Ticks(mpl.ticker.AutoLocator):  # type: ignore[name-defined]
+        ratio: float
 
         def tick_values(self, low: float, high: float) -> Any:
             return np.asarray(super().tick_values(low * self.ratio, high * self.ratio)) / self.ratio
 
-    decades = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()
     for axis in [axis for ax in figure.axes for axis in (ax.xaxis, ax.yaxis)]:
         text = axis.get_label_text()
         for name, (unit, factor) in UNITS.get().items():
             shown = SHOWN[name]
             if text.startswith(typeset(f"{shown.name} {shown.symbol}".strip())) and text.endswith(f"({shown.unit})"):
-                ratio = factor / shown.factor
+                ticks, ratio = Ticks(), factor / shown.factor
+                ticks.ratio = ratio
                 axis.set_label_text(text.removesuffix(f"({shown.unit})") + f"({unit})")
                 linear = axis.get_scale() == "linear"
-                axis.set_major_locator(Ticks(ratio) if linear else FixedLocator((decades / ratio).tolist()))
-                axis.set_major_formatter(FuncFormatter(lambda value, _, ratio=ratio: f"{value * ratio:.6g}"))
+                axis.set_major_locator(ticks if linear else mpl.ticker.FixedLocator((DECADES / ratio).tolist()))
+                axis.set_major_formatter(mpl.ticker.FuncFormatter(lambda value, _, ratio=ratio: f"{value * ratio:.6g}"))
 
 
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
@@ -194,18 +164,19 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
     return (f"{phrase} ({'1' + unit if unit.startswith('/') else unit})" if unit not in ("", "1") else phrase), 1.0
 
 
-def flags_of(variable: xr.DataArray) -> list[str]:
-    """Words of a flag's values; none for other variables."""
-    in_words = variable.dtype.kind in "UO"
-    words = np.unique(variable.values).tolist() if in_words else variable.attrs.get("flag_meanings", "").split()
-    return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words if in_words or word != EXCLUDED]
+def along(coordinate: xr.DataArray) -> tuple[str, np.ndarray]:
+    """Axis label of a coordinate, and its values in the label's unit."""
+    label, factor = label_of(coordinate)
+    return label, coordinate.values * factor
 
 
-def as_numbers(variable: xr.DataArray) -> xr.DataArray:
-    """A variable as numbers: words by their places among `flags_of`."""
-    if variable.dtype.kind not in "UO":
-        return variable
-    return variable.copy(data=np.unique(variable.values, return_inverse=True)[1].reshape(variable.shape).astype(float))
+def as_numbers(variable: xr.DataArray) -> tuple[list[str], xr.DataArray]:
+    """Words of a flag's values, none for other variables; and the variable with numbers for words, their places."""
+    words = [word for word in variable.attrs.get("flag_meanings", "").split() if word != EXCLUDED]
+    if variable.dtype.kind in "UO":
+        distinct, places = np.unique(variable.values, return_inverse=True)
+        words, variable = distinct.tolist(), variable.copy(data=places.reshape(variable.shape).astype(float))
+    return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words], variable
 
 
 def picked(study: xr.Dataset, values: Mapping[str, float | str]) -> xr.Dataset:
@@ -233,24 +204,21 @@ def what_case(values: Mapping[str, Any]) -> str:
     return ", ".join(filter(None, [variables.values_text(numbers, UNITS.get()), *words]))
 
 
-def slices(variable: Values, by: str | None) -> list[tuple[str, Values]]:
-    """Label and values of each slice along a dimension; one slice without a dimension. A slice of a zip is labelled by
-    its parameters. Words are ordered as in `WORDS`, not alphabetically as in datasets."""
+def slices(variable: Any, by: str | None) -> list[tuple[str, Any]]:
+    """Label and values of each slice along a dimension, if there is one; those of a zip are labelled by its parameters.
+    Words are ordered as in `WORDS`, others by the number with which they begin, and not as in datasets."""
     if by is None:
         return [("", variable)]
-    along = [str(name) for name, values in variable.coords.items() if values.dims == (by,)]
+    names = [str(name) for name, values in variable.coords.items() if values.dims == (by,)]
     ranks = {word: i for i, word in enumerate(WORDS)}
 
-    def rank(value: Any) -> Any:  # other words keep their order, those that begin with a number by this
-        return (
-            (ranks.get(value, 0), float((re.findall(r"^\d+", value) or ["inf"])[0]))
-            if isinstance(value, str)
-            else value
-        )
+    def rank(value: Any) -> Any:
+        leading = re.findall(r"^\d+", str(value)) or ["inf"]
+        return (ranks.get(value, 0), float(leading[0])) if isinstance(value, str) else value
 
-    each = [variable.isel({by: i}) for i in range(variable.sizes[by])]
-    each.sort(key=lambda part: [rank(part[name].item()) for name in along])
-    return [(", ".join(coordinate_text(part, name) for name in along), part) for part in each]
+    parts = [variable.isel({by: i}) for i in range(variable.sizes[by])]
+    parts.sort(key=lambda part: [rank(part[name].item()) for name in names])
+    return [(", ".join(coordinate_text(part, name) for name in names), part) for part in parts]
 
 
 def coordinate_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
@@ -271,8 +239,7 @@ def coordinate_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
 
 
 def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
-    """Axis label of a sampled variable, the factor from SI to its unit, and its colour. The label of the disc's fixed
-    point states its angle."""
+    """Axis label of a sampled variable, with the angle of the disc's fixed point, factor to its unit, and colour."""
     angles = variables.angles_text(float(window.attrs["theta"]) for window in windows if "theta" in window.attrs)
     label, factor = axis_of(name, rf", $\theta$ = {angles}" if name.startswith("w_point") else "")
     return label, factor, FORCE if name == "P" else DISC if name.partition("_")[0] == "w" else SLIDER
@@ -347,12 +314,11 @@ def show_thickness(ax: Axes, case: xr.DataTree, along: Literal["x", "y"]) -> Non
 def mark_printed(ax: Axes, time: float) -> None:
     """Mark a time that the paper prints, at the lower edge of a panel that shows it."""
     low, high = ax.get_xlim()
-    if not low <= time <= high:
-        return
-    look: dict[str, Any] = {"marker": "^", "color": PAPER, "markeredgecolor": BLACK, "markersize": 6, "zorder": 6}
-    ax.plot([time], [0], transform=ax.get_xaxis_transform(), clip_on=False, **look)
-    beside: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "fontsize": 6, "path_effects": halo()}
-    say(ax, f"paper: {time:g} s", (time, 0), (-6, 4), **beside)
+    if low <= time <= high:
+        look: dict[str, Any] = {"marker": "^", "color": PAPER, "markeredgecolor": BLACK, "markersize": 6, "zorder": 6}
+        ax.plot([time], [0], transform=ax.get_xaxis_transform(), clip_on=False, **look)
+        beside: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "fontsize": 6, "path_effects": halo()}
+        say(ax, f"paper: {time:g} s", (time, 0), (-6, 4), **beside)
 
 
 def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:
@@ -390,13 +356,10 @@ def letter(ax: Axes, text: str, title: str = "", **look: Any) -> None:
 def letters(axes: Sequence[Axes] | np.ndarray, titles: Iterable[str] = (), **look: Any) -> None:
     """Write the letters of panels, and the subjects of the first ones; a single panel has no letter."""
     for ax, text, title in zip(axes, "abcdefghijkl", chain(titles, repeat("")), strict=False):
-        if len(axes) > 1:
-            letter(ax, text, title, **look)
-        else:
-            ax.set_title(title, loc="left", **look)
+        ax.set_title(f"({text}) {title}".strip() if len(axes) > 1 else title, loc="left", **look)
 
 
-def legend_above(ax: Axes, **look: Any) -> Legend:
+def legend_above(ax: Axes, **look: Any) -> Any:
     """Draw a legend in one row above the right end of the axes, where it covers nothing."""
     return ax.legend(loc="lower right", bbox_to_anchor=(1, 1), **{"borderaxespad": 0.2, "ncols": 4, **look})
 
@@ -415,10 +378,8 @@ def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
 
 
 def statuses(study: xr.Dataset) -> xr.DataArray:
-    """The status of each point of a grid study, as a word."""
-    if "status" not in study:
-        return xr.DataArray("ok")
-    return study["status"].copy(data=flag_names(study["status"]))
+    """The status of each point of a grid study, as a word; "ok" without one."""
+    return study["status"].copy(data=flag_names(study["status"])) if "status" in study else xr.DataArray("ok")
 
 
 def failed(study: xr.Dataset) -> xr.DataArray:
@@ -428,40 +389,11 @@ def failed(study: xr.Dataset) -> xr.DataArray:
 
 def mark_failed(ax: Axes, values: np.ndarray, on: Literal["x", "y"] = "x", name: str = "failed") -> None:
     """Mark failed points by crosses beside an axis, as in stability maps; nothing if there are none."""
-    if not values.size:
-        return
-    points, transform = [values, np.full(values.shape, 0.02)], ax.get_xaxis_transform()
-    if on == "y":
-        points, transform = points[::-1], ax.get_yaxis_transform()
-    ax.plot(*points, "x", color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)
-
-
-# ---- Pictures that a reader asks for, beside those of a study
-
-
-def by_itself(draw: Callable[..., Axes | np.ndarray]) -> Callable[..., Any]:
-    """Make a function draw in the common style, unless it is given axes, which keep the style of their figure."""
-
-    @wraps(draw)
-    def drawn(*inputs: Any, ax: Any = None, **options: Any) -> Any:
-        with styled() if ax is None else nullcontext():
-            return draw(*inputs, ax=ax, **options)
-
-    return drawn
-
-
-def axes_for(ax: Any, width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any) -> list[Axes]:
-    """The axes that are given, as many as there are panels; or those of a new figure, which pyplot shows."""
-    if ax is not None:
-        panels_given = list(np.ravel(ax))
-        if len(panels_given) != rows * columns:
-            rule = f"must be {rows * columns}, one for each panel"
-            raise ParameterError(Fault(("ax",), f"{len(panels_given)} axes", rule))
-        return panels_given
-    from matplotlib import pyplot
-
-    figure = pyplot.figure(figsize=(width, height), layout="constrained")
-    return list(figure.subplots(rows, columns, squeeze=False, **shared).flat)
+    if values.size:
+        points, transform = [values, np.full(values.shape, 0.02)], ax.get_xaxis_transform()
+        if on == "y":
+            points, transform = points[::-1], ax.get_yaxis_transform()
+        ax.plot(*points, "x", color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)
 
 
 def head_text(width: float, title: str, values: str) -> str:

@@ -13,14 +13,13 @@ from pydantic import Field
 from disc_model.data.variables import EXCLUDED, stated_in
 from disc_model.errors import Fault, suggestion
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, PAGE, Axes, Figure, FigureBase, Patch, ScalarMappable, panels
+from disc_model.figures.drawing import BLACK, GREY, PAGE, Artist, Axes, Figure, FigureBase, cm, mpl, panels
 from disc_model.figures.kind import NORM, Plot
 from disc_model.figures.maps import CELL_LOOKS, CYCLE_LOOKS, edges_of, growth_panels, outcome_cells, patches
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Unit
 
 COLOURS = (drawing.BLUE, drawing.ORANGE, drawing.GREEN, drawing.VERMILION, drawing.SKY, drawing.PURPLE, GREY)
-"""Colours of the values of a flag."""
 HATCH: dict[str, Any] = {"facecolor": "white", "hatch": "//////", "edgecolor": GREY}  # look of missing values
 LINEAR = 0.1  # growth rate up to which its scale is linear, 1/s; a greater step breaks the line, or finds another cycle
 FEW = 12  # counts below which each has a colour of its own
@@ -29,23 +28,17 @@ UNITS = {name: Parameters.unit(name) for name in Parameters.model_fields}
 
 
 class General(Plot):
-    """Any variable of any quantity over dimensions of the study, those of the quantity's own included.
-
-    at : values at which the dimensions that are not shown are taken; those of one value need none
-    by : a dimension with a panel, or a line, for each of its values; normalization if it varies
-    log : whether the scale of the variable is logarithmic
-    names : words for values of `by`
-    """
+    """Any variable of any quantity over dimensions of the study, those of the quantity's own included."""
 
     several = True
     room: ClassVar[int] = 6  # greatest number of values of `by`
 
     variable: str
     x: str
-    at: Annotated[dict[str, Finite | str], Unit(UNITS)] = Field({})
-    by: str | None = None
-    log: bool = False
-    names: dict[str, str] = Field({})
+    at: Annotated[dict[str, Finite | str], Unit(UNITS)] = Field({})  # values along dimensions that are not shown
+    by: str | None = None  # a dimension with a panel, or a line, for each of its values; normalization if it varies
+    log: bool = False  # whether the scale of the variable is logarithmic
+    names: dict[str, str] = Field({})  # words for values of `by`
 
     def named(self, study: xr.Dataset) -> xr.Dataset:
         """The study with the words that the file has for values of `by`."""
@@ -53,17 +46,13 @@ class General(Plot):
         return study.assign_coords(words)
 
     def chosen(self, study: xr.Dataset) -> list[str]:
-        """Values of all dimensions that the figure takes at one place."""
         shown = drawing.picked(study, self.at)[self.variable]
         alone = [str(name) for name, size in study.sizes.items() if size > 1 and name not in shown.dims]
         return [drawing.coordinate_text(shown, name) for name in alone if name in shown.coords]
 
     def faults_among(self, dims: Mapping[str, Sequence[Any]], variables: Mapping[str, Any]) -> Iterator[Fault]:
-        """Faults that keep it from being drawn.
-
-        dims : values along each dimension, the quantity's own included; tuples for a zip; none if it has faults
-        variables : dimensions of each variable
-        """
+        """Faults that keep it from being drawn, by the values along each dimension, the quantity's own included (tuples
+        for a zip, none if it has faults), and the dimensions of each variable."""
         yield from self._wrong_overlays()
         if self.variable not in variables:
             yield Fault.of(("variable",), self.variable, f"unknown variable{suggestion(self.variable, variables)}")
@@ -71,7 +60,15 @@ class General(Plot):
         dims_of_variable = {name: dims[name] for name in variables[self.variable] if name in dims}
         places = self.axes | ({"by": self.by} if self.by is not None else {})
         for role, name in places.items():
-            yield from self._wrong_place(role, name, dims_of_variable)
+            values = dims_of_variable.get(name, ())
+            if name not in dims_of_variable:
+                yield Fault.of((role,), name, f"is no dimension of {self.variable}{suggestion(name, dims_of_variable)}")
+            elif role == "by" and len(values) > self.room:
+                yield Fault.of((role,), name, f"has {len(values)} values, and there is room for {self.room}")
+            elif role != "by" and any(isinstance(value, str | tuple) for value in values):
+                yield Fault.of((role,), name, "must be one parameter, and a number")
+            elif role != "by" and len(values) == 1:
+                yield Fault.of((role,), name, "must have two values or more")
         used = [*places.values()]
         for name in sorted({name for name in used if used.count(name) > 1}):
             role = "y" if self.axes.get("y") == name else "by"
@@ -91,17 +88,6 @@ class General(Plot):
         for word in self.names:
             if word not in known:
                 yield Fault.of(("names",), word, f"is no value of by{suggestion(word, known)}")
-
-    def _wrong_place(self, role: str, name: str, dims: Mapping[str, Sequence[Any]]) -> Iterator[Fault]:
-        if name not in dims:
-            yield Fault.of((role,), name, f"is no dimension of {self.variable}{suggestion(name, dims)}")
-        elif role == "by":
-            if len(dims[name]) > self.room:
-                yield Fault.of((role,), name, f"has {len(dims[name])} values, and there is room for {self.room}")
-        elif any(isinstance(value, str | tuple) for value in dims[name]):
-            yield Fault.of((role,), name, "must be one parameter, and a number")
-        elif len(dims[name]) == 1:
-            yield Fault.of((role,), name, "must have two values or more")
 
 
 def _same(value: Any, other: Any) -> bool:
@@ -123,53 +109,47 @@ def remaining(array: xr.DataArray, axes: Sequence[str]) -> str | None:
 
 def scale(name: str, values: np.ndarray) -> str:
     """Scale of an axis: that of the range of its values."""
-    steps = np.diff(np.log(values)) if values[0] > 0 else values
-    return "log" if len(values) > 2 and values[0] > 0 and np.allclose(steps, steps[0], rtol=1e-6) else "linear"
+    if len(values) < 3 or values[0] <= 0:
+        return "linear"
+    steps = np.diff(np.log(values))
+    return "log" if np.allclose(steps, steps[0], rtol=1e-6) else "linear"
 
 
 def in_steps(colours: Sequence[Any]) -> dict[str, Any]:
     """Colour map and scale for matplotlib: a colour for each of the numbers 0, 1, ..."""
-    from matplotlib.colors import from_levels_and_colors
-
-    cmap, norm = from_levels_and_colors((np.arange(len(colours) + 1) - 0.5).tolist(), colours)
+    cmap, norm = mpl.colors.from_levels_and_colors((np.arange(len(colours) + 1) - 0.5).tolist(), colours)
     return {"cmap": cmap, "norm": norm}
 
 
 def draw_maps(
     figure: FigureBase, axes: Sequence[Axes], study: xr.Dataset, variable: str, x: str, y: str, log: bool = False
-) -> list[Patch]:
-    """Draw a variable in colour over two dimensions, a panel for each value of a third; returns entries of a legend.
-    Growth rates and outcomes look as in all maps; variables of both signs are centred on 0. Missing values are
-    hatched."""
-    from cmcrameri import cm
-    from matplotlib.colors import ListedColormap
-    from matplotlib.patches import Patch
-
+) -> list[Artist]:
+    """Draw a variable in colour, a panel for each value of a third dimension; returns entries of a legend."""
     ruled = "status" in study and EXCLUDED in study["status"].attrs.get("flag_meanings", "")
     left_out = drawing.statuses(study) == EXCLUDED
     array = study[variable].where(~left_out) if ruled else study[variable]
     by = remaining(array, (x, y))
-    shown = [panel.transpose(y, x) for _, panel in drawing.slices(array, by)]
-    handles: list[Patch] = []
+    handles: list[Artist] = []
     if variable == "growth_rate" and not log:
         names = [name for name in ("growth_rate", "cycle", "status", "sliding_growth_rate") if name in study]
         grids = [plane.transpose(y, x, ...) for _, plane in drawing.slices(study[names], by)]
         handles = patches(CYCLE_LOOKS, growth_panels(figure, axes, grids))
     elif variable == "outcome":
+        shown = [panel.transpose(y, x) for _, panel in drawing.slices(array, by)]
         used = [outcome_cells(ax, panel) for ax, panel in zip(axes, shown, strict=True)]
         handles = patches(CELL_LOOKS, set().union(*used))
     else:
-        words, array = drawing.flags_of(array), drawing.as_numbers(array)
+        words, array = drawing.as_numbers(array)
         colours = _colours(array, words, log)
         if array.dtype.kind == "i" and not words and array.max() < FEW:  # a count
             words = [str(count) for count in range(int(array.max()) + 1)]
             colours = in_steps([cm.batlow(i / len(words)) for i in range(len(words))])
-        for ax, panel in zip(axes, shown, strict=True):
+        for ax, (_, panel) in zip(axes, drawing.slices(array, by), strict=True):
             ax.patch.set(linewidth=0, **HATCH)
-            mesh = _cells(ax, drawing.as_numbers(panel), **colours)
+            mesh = _cells(ax, panel.transpose(y, x), **colours)
         if ruled:
             for ax, (_, panel) in zip(axes, drawing.slices(left_out, by), strict=False):
-                _cells(ax, panel.where(panel).transpose(y, x), cmap=ListedColormap(["white"]))
+                _cells(ax, panel.where(panel).transpose(y, x), cmap=mpl.colors.ListedColormap(["white"]))
             handles += patches(CYCLE_LOOKS, {EXCLUDED})
         bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=drawing.label_of(array)[0])
         if "norm" in colours and log and colours["norm"].vmax < 10 * colours["norm"].vmin:
@@ -177,10 +157,9 @@ def draw_maps(
         if words:
             bar.set_ticks(range(len(words)), labels=words)
             bar.minorticks_off()
-        if not words and (gaps := drawing.gaps(study, array)):
-            handles.append(Patch(label=", ".join(gaps), **HATCH))
-    for axis, name in (("x", x), ("y", y)):  # axes are shared
-        axes[0].set(**{f"{axis}scale": scale(name, study[name].values)})
+        elif gaps := drawing.gaps(study, array):
+            handles.append(mpl.patches.Patch(label=", ".join(gaps), **HATCH))
+    axes[0].set(xscale=scale(x, study[x].values), yscale=scale(y, study[y].values))  # axes are shared
     for ax in axes:
         ax.set(xlabel=drawing.label_of(array[x])[0], ylabel=drawing.label_of(array[y])[0])
     return handles
@@ -193,7 +172,6 @@ class HeatMap(General):
     y: str
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw panels with a common colour scale."""
         study = self.named(drawing.picked(study, self.at))
         array = study[self.variable]
         shown = drawing.slices(array, remaining(array, [*self.axes.values()]))
@@ -205,11 +183,10 @@ class HeatMap(General):
             ax.remove()
         axes = axes[: len(shown)]
         handles = draw_maps(figure, axes, study, self.variable, self.x, self.y, self.log)
-        width = round(figure.get_figwidth() / columns / 0.08)
-        # a value stays on the line of its name
         for ax, letter, (text, _) in zip(axes, "abcdef", shown, strict=False):
-            name = fill(f"({letter}) " + text.replace(" = ", "\u00a0=\u00a0"), width)
-            ax.set_title(name if len(axes) > 1 else "", loc="left")
+            unbroken = text.replace(" = ", "\u00a0=\u00a0")  # a value stays on the line of its name
+            title = fill(f"({letter}) {unbroken}", round(width / columns / 0.08))
+            ax.set_title(title if len(axes) > 1 else "", loc="left")
             ax.label_outer()
         for ax in axes[-columns:]:  # below some of them there is none
             ax.set_xlabel(axes[-1].get_xlabel())
@@ -219,33 +196,28 @@ class HeatMap(General):
         return figure
 
 
-def _cells(ax: Axes, plane: xr.DataArray, **colours: Any) -> ScalarMappable:
+def _cells(ax: Axes, plane: xr.DataArray, **colours: Any) -> Any:
     """Draw the values of a panel in colour, where there are any."""
-    from matplotlib.colors import LogNorm
-
     values = np.ma.masked_invalid(plane.values.astype(float))
-    if isinstance(colours.get("norm"), LogNorm):
+    if isinstance(colours.get("norm"), mpl.colors.LogNorm):
         values = np.ma.masked_where(values <= 0, values)
     return ax.pcolormesh(*edges_of(plane, scale), values, rasterized=True, **colours)
 
 
 def _colours(array: xr.DataArray, words: Sequence[str], log: bool) -> dict[str, Any]:
     """Colour map and scale for matplotlib."""
-    from cmcrameri import cm
-    from matplotlib.colors import LogNorm, Normalize
-
     if words:
         return in_steps([COLOURS[i % len(COLOURS)] for i in range(len(words))])
     values = array.values[np.isfinite(array.values)]
     if log:
         above = values[values > 0]
         low, high = (above.min(), above.max()) if above.size else (1.0, 10.0)
-        return {"cmap": cm.batlow, "norm": LogNorm(low, high if high > low else 10 * low)}
+        return {"cmap": cm.batlow, "norm": mpl.colors.LogNorm(low, high if high > low else 10 * low)}
     low, high = (float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
     if low < 0 < high:
         most = max(-low, high)
-        return {"cmap": cm.vik, "norm": Normalize(-most, most)}
-    return {"cmap": cm.batlow, "norm": Normalize(low, high)}
+        return {"cmap": cm.vik, "norm": mpl.colors.Normalize(-most, most)}
+    return {"cmap": cm.batlow, "norm": mpl.colors.Normalize(low, high)}
 
 
 def scale_rates(ax: Axes) -> None:
@@ -263,27 +235,22 @@ def scale_rates(ax: Axes) -> None:
 
 
 def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = False) -> None:
-    """Draw a variable against one dimension, or a line for each value of a second one, with its label for a legend.
-    Its marks above the panel, in a row below the reason, stand for missing values."""
-    from cmcrameri import cm
-
-    array = study[variable]
-    by = remaining(array, [x])
-    label, factor = drawing.label_of(array[x])
-    along, words = array[x].values * factor, drawing.flags_of(array)
-    lines = drawing.slices(drawing.as_numbers(array), by)
+    """Draw a line, or one for each value of a second dimension; its marks above the panel stand for missing values."""
+    words, array = drawing.as_numbers(study[variable])
+    by, (label, along) = remaining(array, [x]), drawing.along(array[x])
+    lines = drawing.slices(array, by)
     colours = [cm.batlow(i / len(lines)) for i in range(len(lines))] if by else [BLACK]
-    jump = np.inf if log or variable != "growth_rate" else LINEAR
+    rates = variable == "growth_rate" and not log
     look: dict[str, Any] = {"markersize": 3, "markerfacecolor": "none", "markeredgewidth": 0.6, "linewidth": 0.7}
     # of lines without gaps some points are marked
-    every = 1 if words or jump < np.inf or array.isnull().any() else max(1, along.size // 12)
+    every = 1 if words or rates or array.isnull().any() else max(1, along.size // 12)
     for colour, (name, line), mark in zip(colours, lines, cycle(MARKS), strict=False):
+        shown = drawing.broken(along, line.values, LINEAR if rates else np.inf)
         style = mark + "-" * (not words)
-        shown = drawing.broken(along, line.values, jump)
         ax.plot(*shown, style, color=colour, label=name or None, markevery=every, **look)
     if log:
         ax.set_yscale("log")
-    elif variable == "growth_rate":
+    if rates:
         scale_rates(ax)
     ax.set_xscale(scale(x, along))
     ax.set(xlabel=label, ylabel=fill(drawing.label_of(array)[0], 32))
@@ -318,19 +285,14 @@ def name_ends(ax: Axes) -> bool:
 
 
 class CurvePlot(General):
-    """A variable against one dimension; a line for each value of a second, if wanted.
-
-    limits : ends of the variable's axis, so that figures can be compared
-    panels : values of `by` in each of several panels; "each": a panel for each value
-    """
+    """A variable against one dimension; a line for each value of a second, if wanted."""
 
     room = 12
     kind: Literal["curve"] = "curve"
-    limits: tuple[Finite, Finite] | None = None
-    panels: Literal["each"] | tuple[tuple[Finite | str, ...], ...] = ()
+    limits: tuple[Finite, Finite] | None = None  # ends of the variable's axis, so that figures can be compared
+    panels: Literal["each"] | tuple[tuple[Finite | str, ...], ...] = ()  # values of `by` in each panel
 
     def faults_among(self, dims: Mapping[str, Sequence[Any]], variables: Mapping[str, Any]) -> Iterator[Fault]:
-        """Faults as of any such figure, and values of panels that `by` does not have."""
         yield from super().faults_among(dims, variables)
         known = dims.get(self.by or "", ())
         for value in chain(*([] if self.panels == "each" else self.panels)):
@@ -338,7 +300,6 @@ class CurvePlot(General):
                 yield Fault.of(("panels",), value, f"must be a value of by, one of {_listed(known)}")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw a line, or one for each value of a second dimension."""
         study = drawing.picked(study, self.at)
         if self.panels == "each":
             parts = drawing.slices(self.named(study), self.by)
@@ -357,8 +318,8 @@ class CurvePlot(General):
         for ax in axes:
             handles, labels = ax.get_legend_handles_labels()
             if labels and not name_ends(ax):
-                # names of more letters do not fit there
+                # longer names do not fit beside the panel
                 beside = len(labels) > 4 and max(map(len, labels)) < 25 and not self.panels
-                look: dict[str, Any] = {"loc": "outside right upper" if beside else "outside lower right"}
-                figure.legend(handles, labels, ncols=1 if self.by else 2, **look)
+                corner: Any = "outside right upper" if beside else "outside lower right"
+                figure.legend(handles, labels, ncols=1 if self.by else 2, loc=corner)
         return figure

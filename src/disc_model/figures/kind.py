@@ -31,32 +31,26 @@ from disc_model.units import Strict, in_si
 
 Values = Mapping[str, Sequence[tuple[Any, ...]]]  # values of the parameters along each dimension of a grid
 NORM = "normalization"  # the dimension that a study may have beside those that a figure requires
-KINDS: dict[str, type[Kind]] = {}  # kinds by their names, as far as their modules are imported
 
 
 def kind_of(name: Any) -> type[Kind]:
     """The kind of a name, such as ``heat_map``, or ``paper.light_slider``; raises `ParameterError`."""
     try:
-        return _kinds_in(str(name).rpartition(".")[0])[name]
+        return kinds_in(str(name).rpartition(".")[0])[name]
     except (ModuleNotFoundError, KeyError, TypeError) as error:
         if isinstance(error, ModuleNotFoundError) and not str(error.name).startswith("disc_model"):
             raise  # a kind's own import, such as that of a library which is not installed
-        fault = Fault.of(("kind",), name, f"unknown kind of figure{suggestion(name, library_kinds())}")
+        fault = Fault.of(("kind",), name, f"unknown kind of figure{suggestion(name, kinds_in(''))}")
         raise ParameterError(fault) from None
 
 
-def library_kinds() -> dict[str, type[Kind]]:
-    """All kinds of this package, by their names."""
-    return _kinds_in("")
-
-
 @cache
-def _kinds_in(part: str) -> dict[str, type[Kind]]:
-    """Kinds of the figures of a part of the package such as ``paper``, or of this one."""
+def kinds_in(part: str) -> dict[str, type[Kind]]:
+    """All kinds by their names: of a part of the package such as ``paper``, or of this one, whose name is ""."""
     figures = import_module(".".join(filter(None, ["disc_model", part, "figures"])))
-    for module in iter_modules(getattr(figures, "__path__", [])):
-        import_module(f"{figures.__name__}.{module.name}")
-    return {name: kind for name, kind in KINDS.items() if name.rpartition(".")[0] == part}
+    modules = [import_module(f"{figures.__name__}.{x.name}") for x in iter_modules(getattr(figures, "__path__", []))]
+    classes = [x for module in modules for x in vars(module).values() if isinstance(x, type) and issubclass(x, Kind)]
+    return {name: x for x in classes if isinstance(name := x.model_fields["kind"].default, str)}
 
 
 def _joined(caption: Any) -> Any:
@@ -71,43 +65,27 @@ def _si_unit(name: str) -> str:
 def _known_units(units: dict[str, str]) -> dict[str, str]:
     """The units, if each is one of its parameter or variable; raises `ParameterError`."""
     faults: list[Fault] = []
+    known = [name for name in SHOWN if _si_unit(name) not in ("", "1")]
     for name, unit in units.items():
-        known = [shown for shown in SHOWN if _si_unit(shown) not in ("", "1")]
-        if name not in known:
-            faults.append(Fault.of((name,), unit, f"no parameter or variable with a unit{suggestion(name, known)}"))
+        wrong: list[Fault] = []
+        if name in known:
+            in_si(f"1 {unit}", _si_unit(name), wrong, ())
         else:
-            wrong: list[Fault] = []
-            in_si(f"1 {unit}", _si_unit(name), wrong, (name,))
-            faults += (Fault.of((name,), unit, fault.rule.replace("a number", "a unit", 1)) for fault in wrong)
+            wrong.append(Fault((), "", f"no parameter or variable with a unit{suggestion(name, known)}"))
+        faults += (Fault.of((name,), unit, fault.rule.replace("a number", "a unit", 1)) for fault in wrong)
     raise_faults(faults)
     return units
 
 
 class Kind(Strict):
-    """A figure: its fields are what a study file may say of it.
-
-    title : stands above the figure, and in lists
-    caption : stands below the figure in report, explorer and gallery, and then nothing above; as a text or its parts
-    section : heading under which report and explorer show it
-    units : units of axes and titles by parameter or sampled variable, such as ``{Omega: rpm, N: kN}``
-    """
+    """A figure: its fields are what a study file may say of it."""
 
     kind: str
-    title: str = ""
+    title: str = ""  # stands above the figure, and in lists
+    # stands below the figure in report, explorer and gallery, and then nothing above; as a text or its parts
     caption: Annotated[str, BeforeValidator(_joined, json_schema_input_type=str | list[str])] = ""
-    section: str = ""
-    units: Annotated[dict[str, str], AfterValidator(_known_units)] = Field({})
-
-    @classmethod
-    def __pydantic_init_subclass__(cls, **options: Any) -> None:
-        super().__pydantic_init_subclass__(**options)
-        if isinstance(name := cls.model_fields["kind"].default, str):
-            KINDS[name] = cls
-
-    @property
-    def module(self) -> str:
-        """Module that holds its kind."""
-        return type(self).__module__
+    section: str = ""  # heading under which report and explorer show it
+    units: Annotated[dict[str, str], AfterValidator(_known_units)] = Field({})  # by parameter or sampled variable
 
     @contextmanager
     def in_its_style(self) -> Iterator[None]:
@@ -120,16 +98,12 @@ class Kind(Strict):
         finally:
             drawing.UNITS.reset(token)
 
-    def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
-        """Draw it from its data in the common style.
-
-        inputs : the cases by their names; or the grid study as ``study``, and further ones by their roles
-        """
+    def draw(self, *inputs: Any, **options: Any) -> Figure:
+        """Draw the cases, or the study and further ones by their roles; raises `Missing` where a case lacks data."""
         raise NotImplementedError
 
     def write_head(self, figure: Figure, title: str, values: str) -> None:
-        """Write the figure's title, or else another one, and values of parameters above it, in lines that fit. A
-        caption says both. Axes get the units of the reader."""
+        """Write title and values above the figure, unless a caption says both; give axes the units of the reader."""
         drawing.restate_axes(figure)
         text = drawing.head_text(figure.get_figwidth(), self.title or title, values)
         if text and not self.caption:
@@ -145,8 +119,7 @@ class Kind(Strict):
 
 class Role(NamedTuple):
     """Requirements on an overlay: its quantity, or an alternative with the same data; its dimensions except `NORM`, if
-    they differ from the figure's; and some options.
-    """
+    they differ from the figure's; and some options."""
 
     quantity: str
     dims: tuple[str, ...] | None = None
@@ -161,46 +134,33 @@ CURVES = Role("stability_curves", (), {"x": "Omega", "y": "N"})
 
 
 class Plot(Kind):
-    """A figure of a grid study.
+    """A figure of a grid study."""
 
-    study : the grid study that it shows, if not the file's own
-    overlays : further studies it shows, by the role they play in it
-    quantities : those that it can show, the default first
-    needs : required dimensions, beside those that the file chooses as x and y
-    several : whether it can show several normalizations, or is drawn from the values for one
-    named_above : whether its panels name their normalizations
-    roles : the roles that overlays may play
-    """
-
-    quantities: ClassVar[tuple[str, ...]] = ()
-    needs: ClassVar[tuple[str, ...]] = ()
-    several: ClassVar[bool] = False
-    named_above: ClassVar[bool] = False
+    quantities: ClassVar[tuple[str, ...]] = ()  # those that it can show, the default first
+    needs: ClassVar[tuple[str, ...]] = ()  # dimensions, beside those that the file chooses as x and y
+    several: ClassVar[bool] = False  # whether it shows several normalizations, or is drawn from the values for one
+    named_above: ClassVar[bool] = False  # whether its panels name their normalizations
     roles: ClassVar[Roles] = {}
 
-    study: str = ""
-    overlays: dict[str, str] = Field({})
-
-    def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw the study, with further ones by their roles."""
-        raise NotImplementedError
+    study: str = ""  # the grid study that it shows, if not the file's own
+    overlays: dict[str, str] = Field({})  # further studies by the roles they play
 
     def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
+        """Draw it in the common style from its study, the first input, and further ones by their roles."""
         study, *others = (tree.to_dataset() for tree in inputs.values())
         if not self.several:
-            norm = getattr(self, "normalization", None) or drawing.normalizations(study)[0]
+            norm = getattr(self, NORM, None) or drawing.normalizations(study)[0]
             study, *others = (drawing.of(dataset, norm) for dataset in (study, *others))
         with self.in_its_style():
             figure = self.draw(study, dict(zip([*inputs][1:], others, strict=True)))
             base = json.loads(study.attrs.get("base", "{}"))
-            modes = drawing.normalizations(study) if "normalization" in study.coords else []
-            if self.named_above:
-                base.pop("normalization", None)
-                modes = []
             # 0 stands for N or Omega if the quantity varies it by itself
             varied = {*study.coords, *(name for name in ("N", "Omega") if not base.get(name))}
+            modes = drawing.normalizations(study) if NORM in study.coords and not self.named_above else []
+            if self.named_above:
+                varied.add(NORM)
             fixed = drawing.what_case({name: value for name, value in base.items() if name not in varied})
-            texts = [*self.chosen(study), fixed, *([drawing.MODES[modes[0]]] if len(modes) == 1 else [])]
+            texts = [*self.chosen(study), fixed, *(drawing.MODES[mode] for mode in modes if len(modes) == 1)]
             self.write_head(figure, study.attrs.get("title", ""), ", ".join(filter(None, texts)))
         return figure
 
@@ -220,31 +180,26 @@ class Plot(Kind):
 
     def faults(self, values: Values) -> Iterator[Fault]:
         """Faults that keep it from showing a study with these dimensions; those without values have faults already."""
-        yield from list(self._wrong_axes(values)) or self._wrong_dims(values)
+        wrong = []
+        for axis, name in self.axes.items():
+            if name not in values:
+                wrong.append(Fault.of((axis,), name, f"is no dimension of this study{suggestion(name, values)}"))
+            elif name not in (*PERTURBATIONS, *RATIOS) and not Parameters.unit(name):
+                wrong.append(Fault.of((axis,), name, "must be one parameter, and a number"))
+        if len({*self.axes.values()}) < len(self.axes):
+            wrong.append(Fault.of(("y",), self.axes["y"], "must differ from x"))
+        yield from wrong or self._wrong_dims(values)
         yield from self._wrong_overlays()
 
     def _wrong_overlays(self) -> Iterator[Fault]:
         """Roles that the figure does not have, and lacks."""
         for role, name in self.overlays.items():
             if role not in self.roles:
-                yield Fault.of(
-                    ("overlays", role),
-                    name,
-                    "unknown role" + (suggestion(role, self.roles) if self.roles else ", this kind has no overlays"),
-                )
+                rule = suggestion(role, self.roles) if self.roles else ", this kind has no overlays"
+                yield Fault.of(("overlays", role), name, f"unknown role{rule}")
         for role, wanted in self.roles.items():
             if wanted.required and role not in self.overlays:
                 yield Fault(("overlays", role), "", f"is required: a study of the quantity {wanted.quantity}")
-
-    def _wrong_axes(self, values: Values) -> Iterator[Fault]:
-        """Faults of the dimensions that the file chooses."""
-        for axis, name in self.axes.items():
-            if name not in values:
-                yield Fault.of((axis,), name, f"is no dimension of this study{suggestion(name, values)}")
-            elif name not in (*PERTURBATIONS, *RATIOS) and not Parameters.unit(name):
-                yield Fault.of((axis,), name, "must be one parameter, and a number")
-        if len({*self.axes.values()}) < len(self.axes):
-            yield Fault.of(("y",), self.axes["y"], "must differ from x")
 
     def _wrong_dims(self, values: Values) -> Iterator[Fault]:
         """Required dimensions that the study lacks, and dimensions of the study that the figure cannot show."""
@@ -260,18 +215,14 @@ class Plot(Kind):
 
 # ---- Of named cases
 Sampled = Literal["P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity"]
-"""Variables of samples beside times and phases."""
-Recorded = Mapping[str, Window | Poincare | None]  # of a case: windows by name, and the section as ``poincare``
+Recorded = Mapping[str, Window | Poincare]  # of a case: windows by name, and the section as ``poincare``
 Rule = Callable[[Window], Iterator[str]]  # rules that a window breaks, as ends of sentences
 SHORTEST_SPECTRUM = 1.1  # least length of a window for a spectrum in time, s: one window of the transform and two steps
 HIGHEST = 1000.0  # highest frequency of a spectrum in time, Hz
 
 
 class Need(NamedTuple):
-    """A record that a figure shows: the figure's key that names it, its case, its name, and the rules for a window.
-
-    Only the Poincaré section has no rules.
-    """
+    """A record that a figure shows: the figure's key that names it, its case and name, and rules if it is a window."""
 
     key: str
     case: str
@@ -303,21 +254,12 @@ def as_spectrum(window: Window, highest: float = HIGHEST) -> Iterator[str]:
 
 
 class CasePlot(Kind):
-    """A figure of one or several named cases.
+    """A figure of one or several named cases."""
 
-    case : name of the case, of the first one if there are several
-    shows : keys that name the windows that the figure shows of each case, with the rule for them
-    further : keys that name further cases
-    """
+    shows: ClassVar[tuple[tuple[str, Rule], ...]] = ()  # keys that name the windows shown of each case, and their rules
+    further: ClassVar[tuple[str, ...]] = ()  # keys that name further cases
 
-    shows: ClassVar[tuple[tuple[str, Rule], ...]] = ()
-    further: ClassVar[tuple[str, ...]] = ()
-
-    case: str
-
-    def draw(self, *cases: xr.DataTree) -> Figure:
-        """Draw the cases; raises `Missing` if they do not hold what the figure needs."""
-        raise NotImplementedError
+    case: str  # the first one if there are several
 
     def needs(self) -> Iterator[Need]:
         """The records that the figure shows."""
@@ -334,14 +276,15 @@ class CasePlot(Kind):
         return (self.case, *filter(None, further))
 
     def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
-        """Draw it as any figure; the reason instead, if a case does not hold what it needs."""
+        """Draw it in the common style from cases by their names; the reason instead, if one lacks what it needs."""
         first = next(iter(inputs.values()))
         with self.in_its_style():
             try:
                 figure = self.draw(*inputs.values())
-            except Missing as reason:
+            except Missing:
                 figure, [ax] = drawing.panels(drawing.COLUMN, 2)
-                drawing.say_missing(ax, reason)
+                with drawing.blank_if_missing(ax):
+                    raise
             self.write_head(figure, "", drawing.what_case(json.loads(first.attrs.get("parameters", "{}"))))
         return figure
 
@@ -350,16 +293,13 @@ class CasePlot(Kind):
         for case in self.cases:
             if case not in cases:
                 yield Fault.of(("case",), case, f"no such case (known: {', '.join(cases) or 'none'})")
-        for need in self.needs():
-            if (recorded := cases.get(need.case)) is None:
+        for key, case, name, rules in self.needs():
+            if (recorded := cases.get(case)) is None:
                 continue
-            window = recorded.get(need.name)
-            if window is None:
-                known = ", ".join(name for name, window in recorded.items() if window is not None)
-                rule = f"is not recorded by case {need.case} (known: {known or 'none'})"
-                yield Fault.of((need.key,), need.name, rule)
-            elif isinstance(window, Window):
-                for broken in (broken for rule in need.rules for broken in rule(window)):
-                    yield Fault.of((need.key,), need.name, broken)
-            elif need.rules:
-                yield Fault.of((need.key,), need.name, "must be a window, not the Poincaré section")
+            if name not in recorded:
+                broken = [f"is not recorded by case {case} (known: {', '.join(recorded) or 'none'})"]
+            elif isinstance(window := recorded[name], Window):
+                broken = [text for rule in rules for text in rule(window)]
+            else:
+                broken = ["must be a window, not the Poincaré section"] if rules else []
+            yield from (Fault.of((key,), name, text) for text in broken)

@@ -1,17 +1,23 @@
-"""What maps and charts draw: cells in flat colours, growth rates of the stick-slip cycle, neutral curves and folds."""
+"""Maps: cells in flat colours, growth rates of the stick-slip cycle, neutral curves and folds, regions of outcomes."""
 
-from collections.abc import Callable, Container, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
-from typing import Any, NamedTuple
+import math
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from dataclasses import fields
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+from pydantic import Field
 
-from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, axis_of, flag_names, typeset
+from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, axis_of, flag_names, stated_in, typeset
+from disc_model.errors import Fault
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, AsinhNorm, Axes, FigureBase, Line2D, Outline, Patch, edges, label_of
+from disc_model.figures.drawing import BLACK, GREY, PAGE, Artist, Axes, Figure, FigureBase, Normalize, cm, mpl, panels
+from disc_model.figures.kind import CURVES, Plot, Roles, Values
+from disc_model.parameters import Parameters
 from disc_model.stability.resonances import Resonance
+from disc_model.units import Finite, Strict, Units
 
 Array = NDArray[np.float64]
 Names = NDArray[np.str_]
@@ -28,9 +34,7 @@ class Look(NamedTuple):
     hatch: str = ""
 
 
-UNRESOLVED = Look("unresolved", "none", 8 * "/")
-"""Look of cells whose neighbours on both sides have another outcome: what is there is finer than the cells. A cell of
-a fiftieth of a panel has two lines of their hatch."""
+UNRESOLVED = Look("unresolved", "none", 8 * "/")  # two lines of its hatch fit into a fiftieth of a panel
 OUTCOME_LOOKS = {  # in all maps and charts, distinct in grey print by darkness or a hatch
     "quiet": Look("quiet", "#f3f6f8"),
     "steady_sliding": Look("steady sliding", "#e3d5ee", 3 * "|"),
@@ -41,7 +45,7 @@ OUTCOME_LOOKS = {  # in all maps and charts, distinct in grey print by darkness 
     "undecided": Look("undecided", "#43372a"),
     "failed": Look("failed", "#222222"),
 }
-CYCLE_LOOKS = {
+CYCLE_LOOKS = {  # where no cycle is followed; decay, whose sign a grey print does not show; rates of another cycle
     "steady_sliding": OUTCOME_LOOKS["steady_sliding"],
     "at_rest": OUTCOME_LOOKS["at_rest"],
     "separates": Look(WITHOUT_CYCLE["separates"], "#f3c9ae", 6 * "\\"),
@@ -52,11 +56,8 @@ CYCLE_LOOKS = {
     "failed": OUTCOME_LOOKS["failed"],
     EXCLUDED: Look("left out by the study's rule", "white"),
 }
-"""Looks of points where no cycle is followed, of decay, whose sign a grey print does not show, and of growth rates that
-may be another cycle's."""
 CELL_LOOKS = OUTCOME_LOOKS | {"fine": UNRESOLVED}
-GREYNESS, DARK = np.array([0.299, 0.587, 0.114]), 0.5
-"""Weights of red, green and blue in grey print, and the lightness below which a hatch is white."""
+GREYNESS = np.array([0.299, 0.587, 0.114])  # weights of red, green and blue in grey print
 
 
 def unresolved(words: Names) -> NDArray[np.bool_]:
@@ -69,9 +70,8 @@ def unresolved(words: Names) -> NDArray[np.bool_]:
 def scale_of(name: str, values: Array) -> str:
     """Scale of an axis: logarithmic for values over decades, most at the lower end; with a linear start from 0."""
     positive = values[values > 0]
-    if name in ("N", "Omega") or positive.size < 2 or positive[-1] / positive[0] <= 15:
-        return "linear"
-    if np.median(values) - values[0] > 0.25 * (values[-1] - values[0]):
+    decades = name not in ("N", "Omega") and positive.size > 1 and positive[-1] / positive[0] > 15
+    if not decades or np.median(values) - values[0] > 0.25 * (values[-1] - values[0]):
         return "linear"
     return "log" if values[0] > 0 else "symlog"
 
@@ -80,45 +80,31 @@ def edges_of(plane: xr.DataArray, scale: Callable[[str, Array], str] = scale_of)
     """Edges of the cells around the points, halfway between neighbours, in the units of the axes; across, then up."""
     sides = []
     for name in map(str, plane.dims):
-        values = plane[name].values * label_of(plane[name])[1]
+        values = plane[name].values * drawing.label_of(plane[name])[1]
         log = scale(name, values) == "log"
-        sides.append(np.exp(edges(np.log(values))) if log else edges(values))
+        sides.append(np.exp(drawing.edges(np.log(values))) if log else drawing.edges(values))
     return sides[1], sides[0]
 
 
 def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below: Array | None = None) -> None:
-    """Fill and hatch cells in the look of their word; cells whose word has no look remain unchanged.
-
-    A hatch is black over light colours and white over dark ones.
-
-    below : colours that are drawn there already, shape (rows, columns, 4)
-    """
-    from matplotlib.colors import to_rgba
-    from matplotlib.patches import PathPatch
-
+    """Fill cells in the look of their word, and hatch them, black over light colours and white over dark ones; cells
+    whose word has no look remain unchanged, as do colours drawn there before, shape (rows, columns, 4)."""
     colours = np.zeros((*words.shape, 4))
     for word, look in looks.items():
-        colours[words == word] = to_rgba(look.face)
+        colours[words == word] = mpl.colors.to_rgba(look.face)
     if colours.any():
         ax.pcolormesh(*sides, colours, rasterized=True)
-    light = np.ones(words.shape)  # that of the page
+    light, (x, y) = np.ones(words.shape), sides  # lightness of the page
     for layer in (colours if below is None else below, colours):
         light = np.where(layer[..., 3] > 0, layer[..., :3] @ GREYNESS, light)
-    dark = light < DARK
     for word, look in looks.items():
-        for ink, ground in ((BLACK, ~dark), ("white", dark)):
-            mask = ground & (words == word)
-            if look.hatch and mask.any():
-                ax.add_patch(PathPatch(_outline(sides, mask), fill=False, hatch=look.hatch, ec=ink, lw=0, zorder=1.1))
-
-
-def _outline(sides: Edges, mask: NDArray[np.bool_]) -> Outline:
-    """The outlines of all these cells as one path: a hatch of each cell would take a hundred times as long."""
-    from matplotlib.path import Path
-
-    (low, leftmost), (x, y) = np.nonzero(mask), sides
-    corners = [(x[leftmost + across], y[low + up]) for across, up in ((0, 0), (1, 0), (1, 1), (0, 1))]
-    return Path.make_compound_path_from_polys(np.moveaxis(np.array(corners), (0, 1, 2), (1, 2, 0)))
+        for ink, ground in ((BLACK, light >= 0.5), ("white", light < 0.5)):
+            row, column = np.nonzero(ground & (words == word))
+            if look.hatch and row.size:  # all as one path, since paths of each cell take a hundred times as long
+                corners = [(x[column + across], y[row + up]) for across, up in ((0, 0), (1, 0), (1, 1), (0, 1))]
+                polygons = np.moveaxis(np.array(corners), (0, 1, 2), (1, 2, 0))
+                outline = mpl.path.Path.make_compound_path_from_polys(polygons)
+                ax.add_patch(mpl.patches.PathPatch(outline, fill=False, hatch=look.hatch, ec=ink, lw=0, zorder=1.1))
 
 
 def outcome_cells(ax: Axes, outcome: xr.DataArray) -> set[str]:
@@ -129,43 +115,29 @@ def outcome_cells(ax: Axes, outcome: xr.DataArray) -> set[str]:
     return set(words.flat)
 
 
-def patches(looks: Mapping[str, Look], words: Container[str]) -> list[Patch]:
+def patches(looks: Mapping[str, Look], words: Container[str]) -> list[Artist]:
     """Legend entries of the looks that are among words."""
-    from matplotlib.patches import Patch
-
-    return [
-        Patch(fc=look.face, ec=BLACK if look.hatch else GREY, hatch=look.hatch, linewidth=0.4, label=look.label)
-        for name, look in looks.items()
-        if name in words
-    ]
+    used = [(look, {"ec": BLACK if look.hatch else GREY, "lw": 0.4}) for name, look in looks.items() if name in words]
+    return [mpl.patches.Patch(fc=x.face, hatch=x.hatch, label=x.label, **edge) for x, edge in used]
 
 
 # ---- The one scale of colours for growth rates of the stick-slip cycle
 GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates are larger
-LINEAR = 1 / 30  # fraction of the scale's end up to which the colours are nearly linear
 
 
-def growth_norm(rates: Array) -> AsinhNorm:
-    """A colour scale that is nearly linear near 0 and nearly logarithmic beyond."""
-    from matplotlib.colors import AsinhNorm
-
+def growth_norm(rates: Array) -> Normalize:
+    """A colour scale that is nearly linear near 0 and nearly logarithmic beyond a thirtieth of its end."""
     sizes = np.abs(rates[np.isfinite(rates)])
     greatest = float(sizes.max()) if sizes.size and np.median(sizes) > GREATEST else GREATEST
-    return AsinhNorm(linear_width=LINEAR * greatest, vmin=-greatest, vmax=greatest)
+    return mpl.colors.AsinhNorm(linear_width=1 / 30 * greatest, vmin=-greatest, vmax=greatest)
 
 
-def growth_panels(figure: FigureBase, axes: Sequence[Axes], panels: Sequence[xr.Dataset]) -> set[str]:
-    """Draw `growth_rate` (1/s) over two parameters on one scale of colours, or the status where no cycle is followed.
-
-    Cells of decay are dotted, isolated ones hatched. Returns the used keys of `CYCLE_LOOKS`, and "".
-
-    panels : of the quantity `regions` or `floquet`; without flags, points without a rate have no cycle
-    """
-    from cmcrameri import cm
-
-    norm = growth_norm(np.concatenate([panel["growth_rate"].values.ravel() for panel in panels]))
+def growth_panels(figure: FigureBase, axes: Sequence[Axes], planes: Sequence[xr.Dataset]) -> set[str]:
+    """Draw `growth_rate` (1/s) of `regions` or `floquet` on one scale of colours, dotted where it is negative, hatched
+    where isolated, or the status where no cycle is followed; returns the used keys of `CYCLE_LOOKS`, and ""."""
+    norm = growth_norm(np.concatenate([plane["growth_rate"].values.ravel() for plane in planes]))
     used: set[str] = set()
-    for ax, data in zip(axes, panels, strict=True):
+    for ax, data in zip(axes, planes, strict=True):
         sides, without = edges_of(data["growth_rate"]), cycles_of(data)
         rates = np.ma.masked_invalid(data["growth_rate"].values)
         mesh = ax.pcolormesh(*sides, rates, cmap=cm.vik, norm=norm, rasterized=True)
@@ -187,12 +159,6 @@ def stability_of(data: xr.Dataset) -> Names:
     return np.where(rate < 0, "stable", np.where(rate > 0, "unstable", flag_names(data["cycle"])))
 
 
-def isolated(data: xr.Dataset) -> NDArray[np.bool_]:
-    """Cells whose growth rate, or whose stability, differs from that around them."""
-    cells = alone(data["growth_rate"].values)
-    return cells | unresolved(stability_of(data)) if "cycle" in data else cells
-
-
 def cycles_of(data: xr.Dataset) -> Names:
     """Words where no cycle is followed, a key of `CYCLE_LOOKS`, otherwise ""; of `regions` or `floquet`."""
     rate = data["growth_rate"].values
@@ -210,28 +176,23 @@ def cycles_of(data: xr.Dataset) -> Names:
     return np.where(np.isfinite(rate), "", words)
 
 
-def alone(rate: Array) -> NDArray[np.bool_]:
-    """Cells whose growth rate differs from that of the eight around them: of another cycle, or a narrow resonance."""
+def isolated(data: xr.Dataset) -> NDArray[np.bool_]:
+    """Cells whose growth rate (of another cycle, or a narrow resonance) or stability differs from that around them."""
+    rate = data["growth_rate"].values
     share = np.where(np.isfinite(rate), growth_norm(rate)(np.nan_to_num(rate)), np.nan).clip(0, 1)
     padded = np.pad(share, 1, constant_values=np.nan)
     around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
-    like = np.abs(share[..., None, None] - around) < 0.1  # of the colour scale
-    # each cell equals itself
-    return (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)
+    like = np.abs(share[..., None, None] - around) < 0.1  # of the colour scale; each cell equals itself
+    cells = (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)
+    return cells | unresolved(stability_of(data)) if "cycle" in data else cells
 
 
 # ---- Neutral curves and folds of the cycle over speed and preload
 SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
 
 
-@dataclass(frozen=True, eq=False)
-class Curve:
-    """A line on a stability chart.
-
-    Omega, N : shape (n,), rad/s and N
-    kind : "neutral" or "fold"
-    label : text next to it, such as a resonance's "2 f_s = 135.42 Hz"; may be empty
-    """
+class Curve(NamedTuple):
+    """A line on a stability chart; "neutral" or "fold", with a label such as "2 f_s = 135.42 Hz"."""
 
     Omega: Array
     N: Array
@@ -246,15 +207,14 @@ def curves_of(data: xr.Dataset) -> list[Curve]:
     for i in np.flatnonzero(kinds != "none"):
         curve_data = data.isel(curve=int(i))
         border = (flag_names(curve_data["adjoins_stable_cycle"]) == "yes") & np.isfinite(curve_data["x"].values)
-        if border.sum() < 2:
-            continue
         x, y = (np.where(border, curve_data[name].values, np.nan) for name in ("x", "y"))
         label = ""
         # a resonance farther away, in Hz, is not named
         if kinds[i] == "fold" and abs(float(curve_data["resonance_detuning"])) < 3.0:
             values = (curve_data[f"resonance_{field.name}"].item() for field in fields(Resonance))
             label = Resonance(*values).label.replace(" - ", " − ").replace("Ω/2π", "f_Ω")
-        curves.append(Curve(x, y, str(kinds[i]), label))
+        if border.sum() > 1:
+            curves.append(Curve(x, y, str(kinds[i]), label))
     return curves
 
 
@@ -262,18 +222,13 @@ def passes(curve: Curve, cells: xr.DataArray) -> NDArray[np.bool_]:
     """Whether each point of a curve lies in one of these cells over N and Omega, or in one of the eight around it."""
     from scipy.ndimage import binary_dilation
 
-    i, j = (
-        np.abs(cells[name].values - np.nan_to_num(getattr(curve, name))[:, None]).argmin(axis=1)
-        for name in ("N", "Omega")
-    )
+    points = (("N", curve.N), ("Omega", curve.Omega))
+    i, j = (np.abs(cells[name].values - np.nan_to_num(x)[:, None]).argmin(axis=1) for name, x in points)
     return np.asarray(np.isfinite(curve.Omega) & binary_dilation(cells, np.ones((3, 3)))[i, j])
 
 
 def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], list[Curve]]:
-    """Split curves into the parts that bound the cycle of a map, and those that belong to another cycle.
-
-    cycle : `growth_rate` (1/s, nan without a cycle) over N and Omega
-    """
+    """Split curves into the parts that bound the cycle of a map over N and Omega, and those of another cycle."""
     rate = cycle["growth_rate"]
     beyond = {"neutral": rate > 0, "fold": ~(rate < 0)}
     shown: list[Curve] = []
@@ -289,7 +244,7 @@ def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], lis
                 # one point more at each end, so that the parts of a curve meet
                 joined = stretch | np.roll(stretch, 1) & (np.arange(stretch.size) > 0)
                 Omega, N = (np.where(joined, along, np.nan) for along in (curve.Omega, curve.N))
-                lines.append(replace(curve, Omega=Omega, N=N, label=curve.label if lines is shown else ""))
+                lines.append(Curve(Omega, N, curve.kind, curve.label if lines is shown else ""))
     return shown, other
 
 
@@ -302,28 +257,189 @@ def crossings(curve: Curve, load: float) -> Array:
     return np.unique(curve.Omega[indices] + share * (curve.Omega[indices + 1] - curve.Omega[indices]))
 
 
-def draw_curves(axes: Sequence[Axes], curves: Sequence[Sequence[Curve]]) -> list[Line2D]:
-    """Draw the curves of each panel, numbered if they have a label; returns legend entries of lines and numbers.
-
-    Numbers ascend with speed, equal labels share one, and they stand beyond the upper end, where they cover no line.
-    """
-    labelled = [curve for of_panel in curves for curve in of_panel if curve.label]
-    labelled.sort(key=lambda curve: float(np.nanmax(curve.Omega)))
+def draw_curves(ax: Axes, curves: Sequence[Curve]) -> list[Artist]:
+    """Draw curves, numbered if they have a label; returns legend entries of lines and numbers. Numbers ascend with
+    speed, equal labels share one, and they stand beyond the upper end, where they cover no line."""
+    labelled = sorted((x for x in curves if x.label), key=lambda curve: float(np.nanmax(curve.Omega)))
     numbers = {label: i for i, label in enumerate(dict.fromkeys(curve.label for curve in labelled), 1)}
-    for ax, of_panel in zip(axes, curves, strict=True):
-        for curve in of_panel:
-            ax.plot(curve.Omega, curve.N, **drawing.BORDERS[curve.kind] | {"label": "_nolegend_"})
-            if curve.label and np.isfinite(curve.N).any():
-                i = int(np.nanargmax(curve.N))
-                end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
-                look: dict[str, Any] = {"fontsize": 6, "annotation_clip": False, "path_effects": drawing.halo()}
-                drawing.say(ax, str(numbers[curve.label]), end, (0, 2), **look)
-    kinds = {curve.kind for of_panel in curves for curve in of_panel}
+    for curve in curves:
+        ax.plot(curve.Omega, curve.N, **drawing.BORDERS[curve.kind] | {"label": "_nolegend_"})
+        if curve.label and np.isfinite(curve.N).any():
+            i = int(np.nanargmax(curve.N))
+            end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
+            look: dict[str, Any] = {"fontsize": 6, "annotation_clip": False, "path_effects": drawing.halo()}
+            drawing.say(ax, str(numbers[curve.label]), end, (0, 2), **look)
+    kinds = {curve.kind for curve in curves}
     handles = [drawing.sample(**drawing.BORDERS[kind]) for kind in drawing.BORDERS if kind in kinds]
     mark: dict[str, Any] = {"linestyle": "", "color": BLACK, "markersize": 4, "markeredgewidth": 0}
     handles += [drawing.sample(marker=f"${i}$", label=typeset(label), **mark) for label, i in numbers.items()]
     return handles
 
 
-def span(values: Array) -> tuple[float, float]:
-    return float(values.min()), float(values.max())
+# ---- Regions of outcomes, and below them the growth rates of the cycle
+PAPER_MARKERS = {"quiet": "o", "growing": "^", "separation": "s"}  # the marker of each outcome of the paper
+
+
+class Mark(Strict):
+    """A case of the paper: where it lies, and what the paper says of it."""
+
+    x: Finite
+    y: Finite
+    paper_outcome: Literal["quiet", "growing", "separation"]
+    assumed: bool = False  # whether the paper does not state where, so that nothing is said of its start
+
+
+class RegionMap(Plot):
+    """Regions of outcomes over two parameters, and the growth rate of the cycle below."""
+
+    quantities = ("regions",)
+    several = True
+    named_above = True
+    roles: ClassVar[Roles] = {"curves": CURVES}
+    kind: Literal["region_map"] = "region_map"
+    x: str
+    y: str
+    marks: dict[str, Mark] = Field({})
+
+    @classmethod
+    def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
+        axes = {axis: Parameters.unit(str(data.get(axis))) for axis in ("x", "y")}
+        marks = data.get("marks")
+        return super()._units(data) | {"marks": dict.fromkeys(marks, axes) if isinstance(marks, dict) else ""}
+
+    def place_title(self, figure: Figure, text: str) -> None:
+        figure.legends[0].set_title(text)
+
+    def faults(self, values: Values) -> Iterator[Fault]:
+        yield from super().faults(values)
+        for name, mark in self.marks.items():
+            for axis, dim, value in (("x", self.x, mark.x), ("y", self.y, mark.y)):
+                along = [float(x) for x, *more in values.get(dim, ()) if not more and not isinstance(x, str)]
+                if along and not any(math.isclose(value, x, rel_tol=1e-12) for x in along):
+                    yield Fault.of(("marks", name, axis), value, f"must be a value of {dim}, such as an extra one")
+        if "curves" in self.overlays and (self.x, self.y) != ("Omega", "N"):
+            yield Fault.of(("overlays", "curves"), self.overlays["curves"], "needs x: Omega and y: N")
+
+    def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+        """Draw two panels for each normalization; lines are those of the study ``curves``, or lie between cells."""
+        norms = drawing.normalizations(study)
+        shown = [drawing.of(study, norm).transpose(self.y, self.x, ...) for norm in norms]
+        figure, axes = panels(PAGE, 5.6, 2, len(norms), sharex=True, sharey=True)
+        above, below = axes[: len(norms)], axes[len(norms) :]
+        drawing.letters(axes, [drawing.MODES[norm] for norm in norms])
+        gaps = growth_panels(figure, below, shown) - {"alone"}
+        # branches are continued along the study's first dimension, which may be either axis
+        upward = [name for name in study["outcome"].dims if name in (self.x, self.y)] == [self.y, self.x]
+        outcomes: set[str] = set()
+        lines: list[Artist] = []
+        for upper, lower, plane in zip(above, below, shown, strict=True):
+            outcomes |= outcome_cells(upper, plane["outcome"])
+            for ax in (upper, lower):
+                lines += _curves(ax, plane, overlays["curves"]) if "curves" in overlays else _borders(ax, plane, upward)
+        _set_scales(axes, study, self.axes)
+        named = {line.get_label(): line for line in lines}.values()
+        marks = _marks(axes[0], self) if norms[0] == "as_published" else []
+        handles = [*patches(CELL_LOOKS, outcomes), *named, *marks]
+        figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 4), title_fontsize=8)
+        without, said = patches(CYCLE_LOOKS, gaps), "\n".join(_captions(study, self))
+        figure.legend(handles=without, loc="outside lower center", ncols=max(len(without), 1), title=said)
+        return figure
+
+
+def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Artist]:
+    """Draw continued curves of the map's cycle, within its points."""
+    paths = []
+    for curve in parted(curves_of(drawing.of(curves, drawing.normalizations(data)[0])), data)[0]:
+        along = ((curve.Omega, data["Omega"].values), (curve.N, data["N"].values))
+        inside = [values == np.clip(values, points.min(), points.max()) for values, points in along]
+        paths.append(curve._replace(N=np.where(np.all(inside, axis=0), curve.N, np.nan), label=""))
+    return draw_curves(ax, paths)
+
+
+def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Artist]:
+    """Draw borders between cells, but not around unresolved ones: where the same cycle changes its stability, and where
+    a stable one ends, because the next cell has no cycle and does not stay quiet. A start that follows no cycle, or
+    another one, does not prove an end. Upward: the study's first dimension is the vertical one."""
+    x, y = edges_of(data["outcome"])
+    state = stability_of(data)
+    state[unresolved(state)] = "unresolved"
+    stable, unstable = state == "stable", state == "unstable"
+    gone = (flag_names(data["cycle"]) == "no_cycle") & (flag_names(data["outcome"]) != "quiet")
+    names = ("branch_continues_first", "branch_continues_second")
+    up, right = names if upward else names[::-1]
+    segments: dict[str, list[list[tuple[float, float]]]] = {"neutral": [], "fold": []}
+    for joined, ahead, current, ends in (
+        (up, np.s_[1:, :], np.s_[:-1, :], lambda i, j: [(x[j], y[i + 1]), (x[j + 1], y[i + 1])]),
+        (right, np.s_[:, 1:], np.s_[:, :-1], lambda i, j: [(x[j + 1], y[i]), (x[j + 1], y[i + 1])]),
+    ):
+        same = flag_names(data[joined])[current] == "yes"
+        changes = (stable[current] & unstable[ahead]) | (unstable[current] & stable[ahead])
+        stops = (stable[current] & gone[ahead]) | (gone[current] & stable[ahead])
+        segments["neutral"] += [ends(i, j) for i, j in np.argwhere(changes & same)]
+        segments["fold"] += [ends(i, j) for i, j in np.argwhere(stops)]
+    for kind, lines in segments.items():
+        capstyle = "projecting" if kind == "neutral" else None
+        ax.add_collection(mpl.collections.LineCollection(lines, capstyle=capstyle, **drawing.BORDERS[kind]))
+    return [drawing.sample(**drawing.BORDERS[kind]) for kind, lines in segments.items() if lines]
+
+
+def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
+    """The horizon, and disagreements between paper, start and cycle."""
+    horizon = stated_in(study, "options")["horizon"]
+    yield f"Within {horizon:g} s of the static start."
+    published = "as_published" in drawing.normalizations(study)
+    for name, mark in plot.marks.items() if published else ():
+        if mark.assumed:
+            continue
+        data = drawing.of(study, "as_published")
+        point = data.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")
+        outcome, rate = str(flag_names(point["outcome"])), float(point["growth_rate"])
+        label, of_paper = OUTCOME_LOOKS[outcome].label, OUTCOME_LOOKS[mark.paper_outcome].label
+        if label != of_paper:
+            still = f"still growing at {horizon:g} s" if outcome == "growing" else label
+            yield f"{name}: paper: “{of_paper}”, static start: {still}."
+        if (outcome == "quiet") != (rate < 0) and np.isfinite(rate):
+            kind = "stable" if rate < 0 else "unstable"
+            why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"
+            yield f"{name}: {label}, beside a cycle that is {kind} ({rate:.2g}/s): {why}."
+
+
+def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
+    """Mark cases by the shape of the paper's outcome, with names towards the middle; returns entries of a legend."""
+    edge: dict[str, Any] = {"edgecolor": drawing.PAPER, "linewidth": 1.4, "path_effects": drawing.halo(2.4, BLACK)}
+    look: dict[str, Any] = {"fontsize": 7, "zorder": 5, "annotation_clip": False, "path_effects": drawing.halo(2.0)}
+    outcomes = {mark.paper_outcome for mark in plot.marks.values()}
+    for name, mark in plot.marks.items():
+        point = (mark.x * drawing.axis_of(plot.x)[1], mark.y * drawing.axis_of(plot.y)[1])
+        shape = PAPER_MARKERS[mark.paper_outcome]
+        ax.scatter(*point, 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
+        across, up = (ax.transData + ax.transAxes.inverted()).transform(point)
+        drawing.say(ax, name, point, (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5), **look)
+    ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
+    ring |= {"markeredgecolor": drawing.PAPER, "path_effects": edge["path_effects"]}
+    said = [(f"paper: {OUTCOME_LOOKS[name].label}", shape) for name, shape in PAPER_MARKERS.items() if name in outcomes]
+    return [drawing.sample(marker=shape, label=label, **ring) for label, shape in said]
+
+
+def _set_scales(axes: Sequence[Axes], study: xr.Dataset, names: Mapping[str, str]) -> None:
+    """Set limits, labels and scales of shared axes; a logarithmic scale with a 0 is linear up to the second value."""
+    for which, name in names.items():
+        label, factor = drawing.axis_of(name)
+        values = study[name].values * factor
+        axis = getattr(axes[0], f"{which}axis")
+        if (scale := scale_of(name, values)) != "linear":
+            start = {"linthresh": values[1], "linscale": 0.4} if scale == "symlog" else {}
+            getattr(axes[0], f"set_{which}scale")(scale, **start)
+            ticks = [x for x in drawing.DECADES if 0.999 * values[values > 0][0] <= x <= 1.001 * values[-1]]
+            axis.set_major_locator(mpl.ticker.FixedLocator([0.0] * (scale == "symlog") + ticks))
+            axis.set_major_formatter("{x:g}")
+            axis.set_minor_formatter(mpl.ticker.NullFormatter())
+            if scale == "symlog":
+                axis.set_minor_locator(mpl.ticker.NullLocator())
+        to_axis = axis.get_transform()
+        low, high = to_axis.transform(values[[0, -1]])
+        margin = 0.02 * (high - low) or 0.02 * abs(high) or 1.0
+        axes[0].set(**{f"{which}lim": to_axis.inverted().transform([low - margin, high + margin])})
+        for ax in axes:
+            ax.set(**{f"{which}label": label})
+            ax.label_outer()

@@ -9,7 +9,7 @@ import xarray as xr
 from disc_model.data.variables import flag_names
 from disc_model.errors import Fault
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, PAGE, Figure, panels
+from disc_model.figures.drawing import BLACK, GREY, PAGE, Figure, cm, panels
 from disc_model.figures.general import LINEAR, scale_rates
 from disc_model.figures.kind import NORM, Plot, Role, Roles, Values
 from disc_model.figures.maps import Look, edges_of, fill, patches
@@ -22,25 +22,20 @@ HOLLOW: dict[str, Any] = {"markersize": 3.5, "markerfacecolor": "white", "marker
 
 
 class Campbell(Plot):
-    """Frequencies and growth rates against the speed, and where modes meet multiples of the stick-slip frequency.
-
-    normalization : the one that is shown, where the study has several
-    """
+    """Frequencies and growth rates against the speed, and where modes meet multiples of the stick-slip frequency."""
 
     quantities = ("campbell",)
     needs = ("Omega",)
     kind: Literal["campbell"] = "campbell"
-    normalization: Literal["as_published", "orthonormal"] | None = None
+    normalization: Literal["as_published", "orthonormal"] | None = None  # the one shown, where the study has several
 
     def _wrong_dims(self, values: Values) -> Iterator[Fault]:
-        """Allow several normalizations if the file chooses one."""
         yield from super()._wrong_dims(values if self.normalization is None else {**values, NORM: ()})
         known = [str(word) for (word,) in values.get(NORM, ())]
         if self.normalization is not None and known and self.normalization not in known:
             yield Fault.of((NORM,), self.normalization, f"is not computed (known: {', '.join(known)})")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw (a) frequencies of modes, and multiples that meet them at peaks of (b) the cycle's growth rate."""
         study = study.transpose("Omega", ...)
         speeds, rate = study["Omega"].values, study["growth_rate"].values
         figure, [top, bottom] = panels(PAGE, 5.4, 2, height_ratios=[3, 2], sharex=True)
@@ -56,21 +51,21 @@ class Campbell(Plot):
         for mask, look in ((~by_itself, {}), (by_itself, HOLLOW)):
             bottom.plot(speeds[mask], rate[mask], **DOT | {"markersize": 1.0} | look)
         scale_rates(bottom)
+        beside: dict[str, Any] = {"fontsize": 7, "path_effects": drawing.halo()}
         for i, crossing in peaks(study):
             for ax in (top, bottom):
                 ax.axvline(speeds[i], color=GREY, linewidth=0.4, zorder=0)
             bottom.plot(speeds[i], rate[i], **DOT | (HOLLOW if by_itself[i] else {}))
             if crossing is None:
                 continue
-            of_cycle = flag_names(crossing["crossing_line"]) == "stick_slip"
-            multiple = float(crossing["crossing_multiple"])
-            line = multiple * study["stick_slip_frequency" if of_cycle else "rotation_frequency"]
-            top.plot(speeds, line, color=GREY, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0)
+            multiple, symbol, line = float(crossing["crossing_multiple"]), "f_Ω", study["rotation_frequency"]
+            if flag_names(crossing["crossing_line"]) == "stick_slip":
+                symbol, line = "f_s", study["stick_slip_frequency"]
+            top.plot(speeds, multiple * line, color=GREY, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0)
             meeting = float(crossing["crossing_Omega"]), float(crossing["crossing_frequency"])
             top.plot(*meeting, **DOT)
-            name = rf"{multiple:g} ${'f_s' if of_cycle else 'f_Ω'}$"
-            drawing.say(top, name, meeting, (4, -3), fontsize=7, path_effects=drawing.halo())
-            drawing.say(bottom, name, (speeds[i], rate[i]), (2, 3), fontsize=7, path_effects=drawing.halo())
+            drawing.say(top, f"{multiple:g} ${symbol}$", meeting, (4, -3), **beside)
+            drawing.say(bottom, f"{multiple:g} ${symbol}$", (speeds[i], rate[i]), (2, 3), **beside)
         for ax in (top, bottom):
             for low, high in gaps(study):
                 ax.axvspan(low, high, color=GREY, alpha=0.25, linewidth=0)
@@ -83,9 +78,9 @@ class Campbell(Plot):
 
 
 def peaks(study: xr.Dataset) -> list[tuple[int, xr.Dataset | None]]:
-    """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on: index of the speed, and the crossing there.
-    Of several crossings it is one of the mode that leads, and the nearest; without one it is None. Points by themselves
-    beside speeds without a cycle are left out: there another cycle than the one followed is found."""
+    """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on: index of the speed, and the nearest
+    crossing, one of the mode that leads if there is any. Points by themselves beside speeds without a cycle are left
+    out: there another cycle than the one followed is found."""
     speeds, rate = study["Omega"].values, study["growth_rate"].values.copy()
     for first, after in drawing.stretches(unjoined(rate)):
         if np.isnan(rate[[max(first - 1, 0), min(after, rate.size - 1)]]).any():
@@ -98,9 +93,9 @@ def peaks(study: xr.Dataset) -> list[tuple[int, xr.Dataset | None]]:
         leads = study["mode"][int(np.nanargmax(study["cycle_growth_rate"].values[i]))]
         apart = np.abs(study["crossing_Omega"].values - speeds[i])
         other = np.where(study["crossing_mode"] == leads, 0.0, np.ptp(speeds))
-        known = np.flatnonzero(apart <= NEAR * np.ptp(speeds))
-        nearest = known[np.argsort((apart + other)[known])[:1]]
-        highest.append((int(i), study.isel(crossing=int(nearest[0])) if nearest.size else None))
+        distance = np.where(apart <= NEAR * np.ptp(speeds), apart + other, np.inf)
+        crossing = study.isel(crossing=int(distance.argmin())) if np.isfinite(distance).any() else None
+        highest.append((int(i), crossing))
     return highest
 
 
@@ -125,10 +120,9 @@ def named_modes(diameters: np.ndarray, heights: np.ndarray, apart: float) -> Ite
 
 def gaps(study: xr.Dataset) -> Iterator[tuple[float, float]]:
     """Ranges of speeds without a cycle, extended by half a step."""
-    speeds = study["Omega"].values
-    edges = drawing.edges(speeds)
-    for first, last in drawing.stretches(~np.isfinite(study["growth_rate"].values)):
-        yield float(edges[first]), float(edges[last])
+    edges = drawing.edges(study["Omega"].values)
+    for first, after in drawing.stretches(~np.isfinite(study["growth_rate"].values)):
+        yield float(edges[first]), float(edges[after])
 
 
 # ---- Modes of steady sliding along a parameter, root loci, and what the motion really does
@@ -136,38 +130,28 @@ THIN, THICK = 0.8, 2.4  # widths of the lines of modes that decay and grow
 ROUNDING = 1e-9  # 1/s, growth rates of undamped modes by rounding
 
 
-def modes_of(study: xr.Dataset) -> Iterator[tuple[int, xr.Dataset]]:
-    """Each mode of a study of one point, cut where its nodal diameters change: these, -1 in the plane, and its part."""
-    for _, mode in study[["frequency", "mode_growth_rate", "diameters"]].groupby("mode"):
-        mode = mode.squeeze("mode")
-        diameters = mode["diameters"].where(mode["frequency"].notnull())
-        for l in np.unique(diameters.dropna("value")):
-            yield int(l), mode.where(diameters == l)
-
-
 class SlidingModes(Plot):
-    """Frequencies and growth rates of steady sliding's modes along a parameter; where two meet, they coalesce.
-
-    highest : Hz, highest frequency shown
-    """
+    """Frequencies and growth rates of steady sliding's modes along a parameter; where two meet, they coalesce."""
 
     quantities = ("sliding",)
     kind: Literal["sliding_modes"] = "sliding_modes"
     highest: Annotated[Positive, Unit("Hz")] | None = None
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw (a) frequencies, named where they begin, (b) growth rates, named at their peaks; thick where a mode
-        grows. Growth at zero frequency belongs to no mode; it is drawn where it is the largest."""
+        """Draw lines, thick where a mode grows. Growth at 0 Hz is of no mode, and drawn where it is the largest."""
         study = study.squeeze()
-        label, factor = drawing.label_of(study["value"])
-        along = study["value"].values * factor
+        label, along = drawing.along(study["value"])
         figure, [top, bottom] = panels(PAGE, 5.6, 2, height_ratios=[5, 4], sharex=True)
         largest = study["largest_growth_rate"]
         diverging = (largest > study["mode_growth_rate"].max("mode") + ROUNDING).values
+        lines: list[tuple[Any, ...]] = []
+        for _, mode in study.groupby("mode"):
+            mode = mode.squeeze("mode")
+            frequency, rate = mode["frequency"].values, mode["mode_growth_rate"].values
+            diameters = np.where(np.isfinite(frequency), mode["diameters"], np.nan)
+            for l in np.unique(diameters[np.isfinite(diameters)]):  # the mode is cut where its nodal diameters change
+                lines.append((name_of(int(l)), *(np.where(diameters == l, x, np.nan) for x in (frequency, rate))))
         at_zero = [np.where(diverging, values, np.nan) for values in (0 * largest, largest)]
-        lines: list[tuple[Any, ...]] = [
-            (name_of(l), mode["frequency"].values, mode["mode_growth_rate"].values) for l, mode in modes_of(study)
-        ]
         for name, frequency, rate in (*lines, ("0 Hz", *at_zero)):
             grows = np.nan_to_num(rate) > ROUNDING
             for ax, values in ((top, frequency), (bottom, rate)):
@@ -198,19 +182,16 @@ class RootLocus(Plot):
     kind: Literal["root_locus"] = "root_locus"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw points for each mode, with a ring where it begins, and its name on the side from which it leads away."""
-        from cmcrameri import cm
-
+        """Draw points, with a ring where a mode begins, and its name on the side from which it leads away."""
         study = study.squeeze()
-        label, factor = drawing.label_of(study["value"])
-        along = study["value"].values * factor
+        label, along = drawing.along(study["value"])
         figure, [ax] = panels(PAGE, 4.8)
         for _, mode in study.groupby("mode"):
             rate, frequency = mode["mode_growth_rate"].values, mode["frequency"].values
             points = ax.scatter(rate, frequency, c=along, cmap=cm.batlow, vmin=along[0], vmax=along[-1], s=5, zorder=2)
         first = study.isel(value=0)
-        ax.plot(first["mode_growth_rate"], first["frequency"], "o", color=BLACK, markersize=4, markerfacecolor="white")
         rates, heights = first["mode_growth_rate"].values, first["frequency"].values
+        ax.plot(rates, heights, "o", color=BLACK, markersize=4, markerfacecolor="white")
         ahead = study["mode_growth_rate"].isel(value=1).values - rates
         for part, name in named_modes(first["diameters"].values, heights, 0.01 * float(study["frequency"].max())):
             side, ring = (-1, rates[part].min()) if ahead[part].mean() > 0 else (1, rates[part].max())
@@ -234,10 +215,7 @@ AGREEMENTS = {  # what linear analysis of steady sliding says, and what the moti
 
 
 class SlidingOutcome(Plot):
-    """What linear analysis says of steady sliding beside what the motion does, over two parameters.
-
-    x : the parameter along which modes are followed by the study ``sliding``
-    """
+    """What linear analysis says of steady sliding beside what the motion does, over two parameters."""
 
     quantities = ("regions", "outcome")
     several = True
@@ -248,11 +226,9 @@ class SlidingOutcome(Plot):
 
     @property
     def roles(self) -> Roles:  # type: ignore[override]
-        """Steady sliding along x, over y."""
         return {"sliding": Role("sliding", (self.y,), {"parameter": self.x}, required=True)}
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw a panel for each normalization; shares of the points of each are in the legend."""
         norms = drawing.normalizations(study)
         figure, axes = panels(PAGE, 3.4, 1, len(norms), sharex=True, sharey=True)
         each: list[np.ndarray] = []

@@ -1,7 +1,4 @@
-"""Figures of one motion: histories, phase portraits, Poincaré sections, spectra and spectrograms.
-
-A study's figures and the methods of a `disc_model.Result` draw with the same functions.
-"""
+"""Histories, phase portraits, Poincaré sections, spectra and spectrograms: of a study's cases, and of a `Result`."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -20,7 +17,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
 from disc_model.errors import Fault, ParameterError
 from disc_model.figures import drawing
-from disc_model.figures.drawing import COLUMN, GREY, PAGE, SEPARATED, Artist, Axes, Figure, FigureBase, QuadMesh, panels
+from disc_model.figures.drawing import COLUMN, GREY, PAGE, SEPARATED, Artist, Axes, Figure, FigureBase, cm, mpl, panels
 from disc_model.figures.kind import HIGHEST, CasePlot, Need, Recorded, Sampled, as_samples, as_spectrum
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
@@ -35,36 +32,25 @@ SHADES: dict[str, dict[str, Any]] = {  # behind a history, told apart by darknes
 }
 
 
-def shade_phases(axes: Sequence[Axes], window: xr.Dataset) -> list[Artist]:
-    """Shade stick and separation behind samples; returns the entries of a legend, none where they are too dense."""
-    from matplotlib.patches import Patch
-
-    if "phase" not in window:
-        return []
-    time, phase = window["time"].values, window["phase"].values
-    borders = np.concatenate([time[:1], (time[1:] + time[:-1]) / 2, time[-1:]])
-    spans = {name: drawing.stretches(phase == PHASES.index(name)) for name in SHADES}
-    if not 0 < max(map(len, spans.values())) <= MOST_SHADED:
-        return []
-    for name, colour_spans in spans.items():
-        bars = [(borders[first], borders[after] - borders[first]) for first, after in colour_spans]
-        for ax in axes:
-            ax.broken_barh(bars, (0, 1), transform=ax.get_xaxis_transform(), linewidth=0, zorder=0, **SHADES[name])
-    looks = SHADES | {"slip": {"facecolor": "white", "edgecolor": GREY, "linewidth": 0.5}}
-    present = {name for name in PHASES if (phase == PHASES.index(name)).any()}
-    return [Patch(label=name, **looks[name]) for name in PHASES if name in present]
-
-
 def draw_history(axes: Sequence[Axes], case: xr.DataTree, window: xr.Dataset, variables: Sequence[str]) -> list[Artist]:
-    """Draw variables against time, one above the other, over their shaded phases; an envelope as ranges. Returns the
-    entries of a legend of the phases; none where they are not shaded."""
+    """Draw variables against time, over shaded phases unless these are too dense; returns entries of a legend."""
     for ax, name in zip(axes, variables, strict=True):
         drawing.show(ax, case, window, name, named=ax is axes[0])
         ax.set_ylabel(fill(ax.get_ylabel(), 40 if "$" in ax.get_ylabel() else 20))  # markup is not shown
         ax.label_outer()
     axes[-1].locator_params(axis="x", nbins=6)
     axes[-1].ticklabel_format(axis="x", useOffset=False)
-    return shade_phases(axes, window)
+    phase = window["phase"].values if "phase" in window else np.array([])
+    spans = {name: drawing.stretches(phase == PHASES.index(name)) for name in SHADES}
+    if not 0 < max(map(len, spans.values())) <= MOST_SHADED:
+        return []
+    borders = drawing.edges(window["time"].values)
+    for name, of_phase in spans.items():
+        bars = [(borders[first], borders[after] - borders[first]) for first, after in of_phase]
+        for ax in axes:
+            ax.broken_barh(bars, (0, 1), transform=ax.get_xaxis_transform(), linewidth=0, zorder=0, **SHADES[name])
+    looks = SHADES | {"slip": {"facecolor": "white", "edgecolor": GREY, "linewidth": 0.5}}
+    return [mpl.patches.Patch(label=name, **looks[name]) for i, name in enumerate(PHASES) if i in phase]
 
 
 def _as_either(window: Window) -> Iterator[str]:
@@ -73,19 +59,15 @@ def _as_either(window: Window) -> Iterator[str]:
 
 
 class History(CasePlot):
-    """Variables against time, one above the other; a window with an envelope as ranges.
-
-    until : s, end of the part of the window that is shown
-    """
+    """Variables against time, one above the other; a window with an envelope as ranges."""
 
     shows = (("window", _as_either),)
     kind: Literal["history"] = "history"
     window: str
     variables: Annotated[tuple[Sampled, ...], Field(min_length=1)] = ("P", "w")
-    until: Annotated[Positive, Unit("s")] | None = None
+    until: Annotated[Positive, Unit("s")] | None = None  # end of the part of the window that is shown
 
     def faults(self, cases: Mapping[str, Recorded | None]) -> Iterator[Fault]:
-        """Faults as of any figure of a case, and variables that the window does not keep."""
         yield from super().faults(cases)
         window = (cases.get(self.case) or {}).get(self.window)
         if isinstance(window, Window) and window.envelope is not None:
@@ -104,9 +86,6 @@ class History(CasePlot):
             figure.legend(handles=handles, loc="outside lower right", ncols=3)
         figure.align_ylabels()
         return figure
-
-
-# ---- Phase portraits
 
 
 def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
@@ -143,27 +122,21 @@ class Portrait(CasePlot):
 
 # ---- Poincaré sections
 MARKS: dict[str, dict[str, Any]] = {  # by stage, told apart by shape as well as by colour
-    "early": {"marker": "x", "color": drawing.BEFORE, "s": 9, "linewidths": 0.5},
-    "later": {"marker": "o", "color": drawing.AFTER, "s": 3.5, "linewidths": 0},
+    "early": {"marker": "x", "color": drawing.SKY, "s": 9, "linewidths": 0.5},
+    "later": {"marker": "o", "color": drawing.BLACK, "s": 3.5, "linewidths": 0},
     "separated": {"marker": "^", "color": SEPARATED, "s": 8, "linewidths": 0},
 }
 SMALL = 0.2  # share of both axes below which a section has an inset
-BY_SEPARATION = {"early": "in contact, before", "later": "in contact, after", "separated": "separated"}
-BY_SETTLING = {"early": "not shown to have settled", "later": "settled", "separated": "separated"}
+BY_SEPARATION = ("in contact, before", "in contact, after", "separated")
+BY_SETTLING = ("not shown to have settled", "settled", "separated")
 
 
-def draw_sections(
-    axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, compared: Sequence[xr.Dataset] = ()
-) -> list[Artist]:
-    """Draw velocity over displacement of slider and disc, once a turn of the drive; returns the entries of a legend.
-
-    compared : sections that the axes fit too; one that is small on them is drawn again in an inset
-    """
-    first, time = float(case["first_separation"]), samples["time"].values
-    since = _settled_since(case, samples)
-    masks = stages(time, samples["phase"].values, first, float(since))
-    slider, disc = axes
-    for ax, name in ((slider, "psi"), (disc, "w_point")):
+def draw_sections(axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, compared: Any = ()) -> list[Artist]:
+    """Draw velocity over displacement, what is small in insets too, on axes that fit several sections; returns entries
+    of a legend."""
+    first = float(case["first_separation"])
+    masks = stages(samples["time"].values, samples["phase"].values, first, _settled_since(case, samples))
+    for ax, name in zip(axes, ("psi", "w_point"), strict=True):
         coordinates, shares, units = [], [], []
         for axis, variable in (("x", name), ("y", f"{name}_velocity")):
             label, factor, _ = drawing.sampled(variable, samples)
@@ -184,20 +157,19 @@ def draw_sections(
             look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(mask.sum() > 2000)}
             for panel in (ax, *closer):
                 panel.scatter(*(values[mask] for values in coordinates), **look)
-    names = BY_SEPARATION if masks.divided_by_separation else BY_SETTLING
-    names = {stage: name for stage, name in names.items() if getattr(masks, stage).any()}
-    drawing.show_thickness(disc, case, "x")
+    drawing.show_thickness(ax, case, "x")
     bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bilateral"
-    title = "Separation ignored:" if bonded else "No separation:"
+    title, names = "Separation ignored:" if bonded else "No separation:", BY_SETTLING
     if masks.divided_by_separation:
-        title = f"First separation at {first:.2f} s:"
-    marks = [disc.scatter([], [], label=name, **(MARKS[stage] | {"s": 14})) for stage, name in names.items()]
-    return [disc.scatter([], [], s=0, label=title), *marks]
+        title, names = f"First separation at {first:.2f} s:", BY_SEPARATION
+    present = [(MARKS[stage], name) for stage, name in zip(MARKS, names, strict=True) if getattr(masks, stage).any()]
+    marks = [ax.scatter([], [], label=name, **(look | {"s": 14})) for look, name in present]
+    return [ax.scatter([], [], s=0, label=title), *marks]
 
 
 def _settled_since(case: xr.DataTree, samples: xr.Dataset) -> float:
-    """Time from which a motion has settled, s, by its section; by the ranges of a window where that does not show it.
-    Points of a section may come near each other again for longer than the record. From then on all lie on its end."""
+    """Time from which a motion has settled, s: all later points of its section lie on its end, to which they may return
+    after longer than the record. By the ranges of a window where the section does not show it."""
     window = next((node.to_dataset() for node in case.children.values() if "w_point_min" in node), None)
     since = []
     for name in ("psi", "w_point"):
@@ -215,14 +187,11 @@ def _settled_since(case: xr.DataTree, samples: xr.Dataset) -> float:
 
 
 class PoincareSections(CasePlot):
-    """The Poincaré sections of slider and disc: psi' over psi, and velocity over displacement of the disc at r_0.
-
-    below : further cases, each in a row of its own on the same axes
-    """
+    """The Poincaré sections of slider and disc: psi' over psi, and velocity over displacement of the disc at r_0."""
 
     further = ("below",)
     kind: Literal["poincare"] = "poincare"
-    below: tuple[str, ...] = ()
+    below: tuple[str, ...] = ()  # further cases, each in a row of its own on the same axes
 
     def needs(self) -> Iterator[Need]:
         for case in self.cases:
@@ -248,44 +217,38 @@ FLOOR = -100.0  # least power shown, dB below the reference
 def draw_spectrum(ax: Axes, samples: xr.Dataset, variable: str, highest: float) -> None:
     """Draw the amplitude of a variable over the frequency, up to one in Hz; raises `Missing` if it does not vibrate."""
     label, factor, colour = drawing.sampled(variable, samples)
-    count, least = samples["time"].size, 4 * RESOLVED
-    if count < least:
-        raise Missing(f"recorded {count} samples, and a spectrum takes {least}: a line is {least // 2} bins wide")
+    time, values, least = samples["time"].values, samples[variable].values, 4 * RESOLVED
+    if time.size < least:
+        raise Missing(f"recorded {time.size} samples, and a spectrum takes {least}: a line is {least // 2} bins wide")
     try:
-        frequency, amplitude = amplitude_spectrum(samples["time"].values, samples[variable].values)
+        frequency, amplitude = amplitude_spectrum(time, values)
     except ParameterError as error:
         raise Missing(f"recorded too little: {error}") from None
     shown = (frequency > 0) & (frequency <= highest)
-    if not amplitude[shown].any():
+    frequency, amplitude = frequency[shown], factor * amplitude[shown]
+    if not amplitude.any():
         raise Missing("did not vibrate")
-    amplitude = factor * amplitude[shown]
-    ax.semilogy(frequency[shown], amplitude, color=colour, linewidth=0.7)
-    largest = amplitude.max()
-    name, _, unit = label.rpartition(" (")
-    ax.set(
-        xlabel="Frequency (Hz)", ylabel=f"Amplitude ({unit}" if name else "Amplitude",
-        xlim=(0, frequency[shown][-1]), ylim=(max(amplitude.min(), 10 ** (FLOOR / 20) * largest) / 2, 3 * largest),
-    )  # fmt: skip
+    ax.semilogy(frequency, amplitude, color=colour, linewidth=0.7)
+    largest, (name, _, unit) = amplitude.max(), label.rpartition(" (")
+    ax.set(xlabel="Frequency (Hz)", ylabel=f"Amplitude ({unit}" if name else "Amplitude", xlim=(0, frequency[-1]))
+    ax.set_ylim(max(amplitude.min(), 10 ** (FLOOR / 20) * largest) / 2, 3 * largest)
     ax.set_title(name or label, loc="left")
-    strong = lines(samples["time"].values, samples[variable].values, below=highest)
     named: list[float] = []
-    for line in sorted(strong, key=lambda line: -line.amplitude):  # the strongest, where there is room for their names
-        if len(named) < 5 and all(abs(line.frequency - other) > 0.09 * frequency[shown][-1] for other in named):
+    # the strongest, where there is room for their names
+    for line in sorted(lines(time, values, below=highest), key=lambda line: -line.amplitude):
+        if len(named) < 5 and all(abs(line.frequency - other) > 0.09 * frequency[-1] for other in named):
             named.append(line.frequency)
             drawing.say(ax, f"{line.frequency:.1f} Hz", (line.frequency, factor * line.amplitude), (3, 2), fontsize=7)
 
 
 class Spectrum(CasePlot):
-    """Amplitude of a variable over the frequency, in the whole of a window.
-
-    highest : Hz, frequency up to which it is shown; a window of a lower rate shows half of that
-    """
+    """Amplitude of a variable over the frequency, in the whole of a window."""
 
     shows = (("window", as_samples),)
     kind: Literal["spectrum"] = "spectrum"
     window: str
     variable: Sampled = "w_point"
-    highest: Annotated[Positive, Unit("Hz")] = HIGHEST
+    highest: Annotated[Positive, Unit("Hz")] = HIGHEST  # a window of a lower rate shows half of that
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         figure, [ax] = panels(COLUMN, 2.4)
@@ -294,10 +257,7 @@ class Spectrum(CasePlot):
 
 
 class Spectrogram(CasePlot):
-    """Power of a variable over time and frequency, in dB below its strongest line.
-
-    highest : Hz, frequency up to which it is shown
-    """
+    """Power of a variable over time and frequency, in dB below its strongest line."""
 
     kind: Literal["spectrogram"] = "spectrogram"
     window: str
@@ -328,15 +288,13 @@ def spectrum_of(case: xr.DataTree, window: str, variable: str, **options: float)
     return spectrum
 
 
-def draw_power(ax: Axes, case: xr.DataTree, spectrum: TimeFrequency, reference: float, highest: float) -> QuadMesh:
+def draw_power(ax: Axes, case: xr.DataTree, spectrum: TimeFrequency, reference: float, highest: float) -> Any:
     """Draw power in dB relative to a reference, up to a frequency in Hz; the first separation is marked."""
-    from cmcrameri.cm import lipari
-
     shown = spectrum.frequency <= highest
     power = 10 * np.log10(np.maximum(spectrum.power[shown] / reference, 10 ** (FLOOR / 10 - 2)))
-    look = {"cmap": lipari, "vmin": FLOOR, "vmax": 0, "shading": "nearest", "rasterized": True}
+    look = {"cmap": cm.lipari, "vmin": FLOOR, "vmax": 0, "shading": "nearest", "rasterized": True}
     mesh = ax.pcolormesh(spectrum.time, spectrum.frequency[shown], power, **look)
-    ax.set_facecolor(lipari(0.0))
+    ax.set_facecolor(cm.lipari(0.0))
     ax.set(xlim=span_of(spectrum), ylim=(0, highest))
     drawing.mark_first_separation(ax, case, named=False, color="white", linewidth=0.9)
     return mesh
@@ -348,8 +306,7 @@ def span_of(spectrum: TimeFrequency) -> tuple[float, float]:
     return (0.0 if start < 1 else start), stop
 
 
-def draw_scale(figure: FigureBase, mesh: QuadMesh, axes: Axes | Sequence[Axes]) -> None:
+def draw_scale(figure: FigureBase, mesh: Any, axes: Axes | Sequence[Axes]) -> None:
     """Draw the colour scale of power beside the panels that share it."""
-    label = "Power (dB re strongest line)"
-    bar = figure.colorbar(mesh, ax=axes, pad=0.02, aspect=30, fraction=0.06, label=label)
-    bar.outline.set_visible(False)
+    look: dict[str, Any] = {"pad": 0.02, "aspect": 30, "fraction": 0.06}
+    figure.colorbar(mesh, ax=axes, label="Power (dB re strongest line)", **look).outline.set_visible(False)

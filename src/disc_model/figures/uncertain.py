@@ -35,18 +35,15 @@ class BasinShares(Plot):
     x: str
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw the fractions of starts of each energy above, and the range of each attractor and the energies below.
-        The size of an attractor's mark is its fraction of all starts."""
+        """Draw the fractions for each energy; below, attractors by range, as large as their fractions, and energies."""
         study = study.transpose(self.x, ...)
-        label, factor = drawing.label_of(study[self.x])
-        along, energies = study[self.x].values * factor, study["energy"].values
+        (label, along), energies = drawing.along(study[self.x]), study["energy"].values
         figure = drawing.new_figure(PAGE, 4.6)
         above, below = np.asarray(figure.subfigures(2, 1))
         axes = [*above.subplots(1, len(energies), sharey=True, squeeze=False)[0], *below.subplots(1, 2)]
         classes = outcomes_in(study["basin_fraction"])
-        width = 0.9 * np.diff(along).min(initial=1.0)
         for ax, energy in zip(axes, energies, strict=False):
-            draw_shares(ax, study["basin_fraction_by_energy"].sel(energy=energy), classes, along, width)
+            draw_shares(ax, study["basin_fraction_by_energy"].sel(energy=energy), classes, along)
         axes[0].set_ylabel(f"Fraction of {study.sizes['start']} starts")
         _attractors(axes[-2], study, along)
         _kicks(axes[-1], study, along)
@@ -67,8 +64,9 @@ def outcomes_in(shares: xr.DataArray) -> list[str]:
     return [class_ for class_ in LOOKS if (shares.sel(attractor_class=class_) > 0).any()]
 
 
-def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: np.ndarray, width: float) -> None:
+def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: np.ndarray) -> None:
     """Draw the shares of outcomes along another dimension, stacked, as bars at the places `along`."""
+    width = 0.9 * np.diff(along).min(initial=1.0)
     shares = shares.sel(attractor_class=[*classes]).transpose("attractor_class", ...)
     below = shares.cumsum("attractor_class") - shares.fillna(0)
     for class_, heights, bottoms in zip(classes, shares, below, strict=True):
@@ -78,9 +76,9 @@ def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: n
 
 
 def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
-    kinds = flag_names(study["attractor_kind"].transpose(..., "attractor"))
-    starts = study["attractor_starts"].transpose(..., "attractor").values
-    ranges = 1e3 * study["attractor_range"].transpose(..., "attractor").values
+    study = study.transpose(..., "attractor")
+    kinds, starts = flag_names(study["attractor_kind"]), study["attractor_starts"].values
+    ranges = 1e3 * study["attractor_range"].values
     total = study.sizes["energy"] * study.sizes["start"]
     for class_, look in LOOKS.items():
         point, number = np.nonzero((kinds == class_) & (starts > 0))
@@ -131,18 +129,15 @@ class Sensitivity(Plot):
             yield Fault.of(("kind",), self.kind, rule)
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw a panel for each point and a row for each parameter, those above that change most somewhere. Bars are 95
-        % intervals; the dashed line is the probability at all values."""
+        """Draw rows with 95 % intervals, those above that change most; the line is the probability at all values."""
         cells = list(cells_of(study))
         names = [str(name) for name in study["parameter"].values]
-        names.sort(
-            key=lambda name: max(abs(float(np.diff(probabilities(cell, name)[[0, -1], 0])[0])) for _, cell in cells)
-        )
+        each = np.array([[probabilities(cell, name) for name in names] for _, cell in cells])
+        order = np.abs(each[:, :, -1, 0] - each[:, :, 0, 0]).max(axis=0).argsort(kind="stable")
+        names, rows = [names[i] for i in order], np.arange(len(names), dtype=float)
         figure, axes = panels(PAGE, 1.2 + 0.2 * len(names), 1, len(cells), sharey=True)
-        for ax, (title, cell) in zip(axes, cells, strict=True):
+        for ax, (title, cell), thirds in zip(axes, cells, each[:, order], strict=True):
             ax.axvline(float(cell["probability_unstable"]), color=BLACK, linewidth=0.7, linestyle=(0, (3, 2)))
-            thirds = np.array([probabilities(cell, name) for name in names])
-            rows = np.arange(len(names), dtype=float)
             ax.hlines(rows, thirds[:, 0, 0], thirds[:, -1, 0], color=GREY, linewidth=0.8)
             for end, up, face, label in ((0, -0.12, "white", "lowest third"), (-1, 0.12, BLUE, "highest third")):
                 value, low, high = thirds[:, end].T
@@ -171,10 +166,9 @@ def probabilities(cell: xr.Dataset, name: str) -> np.ndarray:
 def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
     """Name and values of each point of the grid that has samples left, without the dimension of samples."""
     dims = [str(dim) for dim in study["status"].dims if dim != SAMPLE]
+    names = [str(name) for name, values in study.coords.items() if values.dims and {*values.dims} <= {*dims}]
     for index in product(*(range(study.sizes[dim]) for dim in dims)):
         cell = study.isel(dict(zip(dims, index, strict=True)))
         cell = cell.isel({SAMPLE: flag_names(cell["status"]) != EXCLUDED})
-        if not cell.sizes[SAMPLE]:
-            continue
-        names = [str(name) for name in study.coords if study[name].dims and set(study[name].dims) <= set(dims)]
-        yield ", ".join(drawing.coordinate_text(cell[name], name) for name in names), cell
+        if cell.sizes[SAMPLE]:
+            yield ", ".join(drawing.coordinate_text(cell[name], name) for name in names), cell

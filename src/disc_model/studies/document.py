@@ -10,7 +10,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, Tag
 
 from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, SCALARS, START, attributes
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults
-from disc_model.figures.kind import Kind, kind_of, library_kinds
+from disc_model.figures.kind import Kind, kind_of, kinds_in
 from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeRequest, by_frequencies, read_asked
 from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
 from disc_model.simulation.case import CaseSpec, Poincare, Ramp, SomeParameters, Span, Start, Window, ramp_faults
@@ -220,7 +220,7 @@ def _figure(raw: Any) -> Kind:
 
 _OTHER_NAME = {"kind": {"type": "string", "pattern": r"^\w+\.\w+$"}}
 _OTHER_KIND = Annotated[Any, WithJsonSchema({"type": "object", "properties": _OTHER_NAME, "required": ["kind"]})]
-_KIND: Any = Annotated[Union[*(kind for _, kind in sorted(library_kinds().items()))], Field(discriminator="kind")]
+_KIND: Any = Annotated[Union[*(kind for _, kind in sorted(kinds_in("").items()))], Field(discriminator="kind")]
 Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND | _OTHER_KIND)]
 """A figure of any kind; the schema for editors knows the keys of the library's kinds, and not those of the paper's."""
 

@@ -21,7 +21,7 @@ from disc_model.disc.plausibility import RULES
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.general import General
 from disc_model.figures.kind import Kind, Plot
-from disc_model.figures.region_map import RegionMap
+from disc_model.figures.maps import RegionMap
 from disc_model.mode_choice import ModeRequest, asked_modes
 from disc_model.parameters import AUTO, PLATE, RATIOS, RELATED, RESIDUAL, SURFACE, Parameters, case_of
 from disc_model.simulation.case import SomeParameters, Start
