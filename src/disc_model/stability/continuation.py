@@ -1,20 +1,18 @@
 """Continuation of a cycle in one parameter, and of its stability borders in two, by pseudo-arclength.
 
-A cycle is a zero of F(x, q) = R(x, q) - x, in scaled unknowns.  R is the return map, x the point of the section and q
-the free parameters; the Jacobian of F by both comes from the variational equations.  Distances mix the point, over the
-norm of the static deflection, with the parameters, over their scales.
-
-`continue_cycle` follows the cycle along F = 0; a fold, where two cycles meet, is a regular point of that curve.
-`continue_border` follows neutral curves and folds in the plane of two parameters.
+A cycle is a zero of F(x, q) = R(x, q) - x.  R is the return map, x the point of the section and q the free parameters;
+the Jacobian of F by both comes from the variational equations.  A fold, where two cycles meet, is a regular point of
+the curve F = 0.  Distances mix x, over the norm of the static deflection, with q, over the parameters' scales.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import partial
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,15 +53,11 @@ are of order one."""
 
 
 class CorrectorFailed(Exception):
-    """The corrector found no cycle, or the motion did not return; the message says which."""
+    """No next cycle was found; `reordered` are the unknowns z from which events come in another order, or None."""
 
-
-class Reordered(CorrectorFailed):
-    """The order of events changes, in the flight from the unknowns z; the message says how often each event occurs."""
-
-    def __init__(self, message: str, z: Array) -> None:
-        super().__init__(f"the order of events changes: {message}")
-        self.z = z
+    def __init__(self, message: str, reordered: Array | None = None) -> None:
+        super().__init__(message)
+        self.reordered = reordered
 
 
 @dataclass(frozen=True)
@@ -74,9 +68,15 @@ class CyclePoint:
     flight: Flight
     jacobian: Array
 
+    @cached_property
+    def basis(self) -> Array:
+        """Orthonormal basis of the null space of F's Jacobian: (number of parameters, n + number of parameters)."""
+        return np.asarray(np.linalg.svd(self.by)[2][len(self.residual) :], dtype=float)
+
 
 class CycleProblem:
-    """F(x, q) in scaled unknowns z = (x / size, q / scales); ``scale`` replaces the usual scales.
+    """F(x, q) in scaled unknowns z = (x / size, q / scales); a `scale` replaces a parameter's value, or a fifth of a
+    typical one, which weighs as much as the static deflection.
 
     Derivatives by `PARAMETERS` come from the variational equations, those by other numbers from differences. With an
     `order` cycles may lose contact, and must have these numbers of events: elsewhere the map has a corner.
@@ -88,15 +88,14 @@ class CycleProblem:
         self.base, self.names, self.tol, self.order = p, names, tol, order
         self._analytic = tuple(name for name in names if name in PARAMETERS)
         self._reference = reference = ReturnMap(p, tol)
-        self.n = reference.size
-        self.scale = reference.scale
-        self.size = reference.deflection
-        self.scales = np.array([scale or default_scale(p, name) for name in names])
+        self.n, self.scale, self.size = reference.size, reference.scale, reference.deflection
+        usual = DEFAULTS | USUAL
+        self.scales = np.array([scale or max(abs(p.numbers[name]), 0.2 * usual.get(name, 0.0)) for name in names])
 
     def case(self, z: Array) -> Parameters:
-        values = z[self.n :] * self.scales
+        values = (z[self.n :] * self.scales).tolist()
         try:
-            return self.base.replace(**dict(zip(self.names, map(float, values), strict=True)))
+            return self.base.replace(**dict(zip(self.names, values, strict=True)))
         except ParameterError as error:
             raise CorrectorFailed(str(error)) from None
 
@@ -118,7 +117,7 @@ class CycleProblem:
         if self.order and flight.counts != self.order:
             counts = zip(Counts._fields, self.order, flight.counts, strict=True)
             changes = (f"{name.replace('_', ' ')} {before} to {two}" for name, before, two in counts if before != two)
-            raise Reordered(", ".join(changes), z)
+            raise CorrectorFailed(f"the order of events changes: {', '.join(changes)}", z)
         jacobian = flight.jacobian * turn[:, None] / turn[None, :]
         if not (np.all(np.isfinite(jacobian)) and np.all(np.isfinite(flight.by)) and np.all(np.isfinite(residual))):
             raise CorrectorFailed("the variational equations are singular: a switch is grazed")
@@ -167,11 +166,6 @@ class CycleProblem:
         energy = np.abs(vectors[: len(self._reference.diameters), np.argmax(np.abs(values))]) ** 2
         return int(np.argmax(np.bincount(self._reference.diameters, energy)))
 
-    def tangents(self, point: CyclePoint) -> Array:
-        """Orthonormal basis of the null space of F's Jacobian: (number of parameters, n + number of parameters)."""
-        _, _, rows = np.linalg.svd(point.by)
-        return np.asarray(rows[self.n :], dtype=float)
-
 
 def newton_step(matrix: Array, right: Array) -> Array:
     """Solution of a linear system; raises `CorrectorFailed` if it has none, or more than one."""
@@ -179,12 +173,6 @@ def newton_step(matrix: Array, right: Array) -> Array:
         return np.asarray(np.linalg.solve(matrix, right), dtype=float)
     except np.linalg.LinAlgError:
         raise CorrectorFailed("Newton's method does not converge: its matrix is singular") from None
-
-
-def default_scale(p: Parameters, name: str) -> float:
-    """Change of a parameter that weighs as much as the static deflection: its value, or a fifth of a typical one."""
-    usual = USUAL.get(name, DEFAULTS.get(name, 0.0))
-    return max(abs(p.numbers[name]), 0.2 * usual)
 
 
 def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
@@ -262,14 +250,10 @@ class Branch(Summarised):
         return [bifurcation_type(complex(m[0])) for m in self.multipliers]
 
 
-def bounds_in_si(name: Any, bounds: Any) -> Any:
-    """Bounds of a parameter, of which texts with units are converted; what cannot be is left for `is_interval`."""
-    return in_si(bounds, Parameters.unit(name) if isinstance(name, str) else "", [], ())
-
-
-def is_interval(bounds: Any) -> bool:
-    """Whether an argument is two ascending finite numbers."""
-    return is_finite_array(bounds, 2) and bool(bounds[0] < bounds[1])
+def interval_in_si(name: Any, bounds: Any) -> Any:
+    """Bounds of a parameter in SI units, from texts with units too; None unless they are two ascending numbers."""
+    ends = in_si(bounds, Parameters.unit(name) if isinstance(name, str) else "", [], ())
+    return ends if is_finite_array(ends, 2) and ends[0] < ends[1] else None
 
 
 def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:
@@ -305,17 +289,6 @@ def branch_of(problem: CycleProblem, points: Sequence[CyclePoint], folds: Array,
 
 
 @dataclass(frozen=True)
-class Place:
-    """A point of a curve and the curve's unit tangent at that point."""
-
-    point: CyclePoint
-    tangent: Array
-
-
-AnyPlace = TypeVar("AnyPlace", bound=Place)
-
-
-@dataclass(frozen=True)
 class StepControl:
     """Step lengths and limits of a continuation.
 
@@ -348,52 +321,48 @@ class StepControl:
         require(*rules, (counts, "max_points", self.max_points, "must be a whole number >= 1"))
 
 
-def continue_curve(
-    start: AnyPlace,
-    take: Callable[[AnyPlace, float], AnyPlace],
-    steps: StepControl,
-    ends: Callable[[list[AnyPlace], AnyPlace, float], str],
-) -> tuple[list[AnyPlace], str | CorrectorFailed]:
-    """Places along a curve, and the reason for which the curve ends: a text, or the corrector's failure.
+@dataclass(frozen=True)
+class Place:
+    """A point of a curve and the curve's unit tangent there; on a border also the multiplier `mu` that is followed, and
+    the gradients of the test function and of that multiplier within the surface, in the unknowns z."""
 
-    Parameters
-    ----------
+    point: CyclePoint
+    tangent: Array
+    mu: complex = 1.0
+    gradient: Array = field(default_factory=lambda: np.zeros(0))
+    turning: ComplexArray = field(default_factory=lambda: np.zeros(0, complex))
+
+    def predicted(self, move: Array) -> complex:
+        """The multiplier after a move, to first order."""
+        return self.mu + complex(self.turning @ move)
+
+
+def follow_curve(
+    start: Place, take: Callable[[Place, float], Place], steps: StepControl
+) -> Iterator[tuple[Place, float]]:
+    """Places along a curve and the arclengths of the steps to them, until it raises `CorrectorFailed`.
+
     take : returns the place at an arclength, with either sign of the tangent; raises `CorrectorFailed` if a shorter
         step may succeed
-    ends : receives the places so far, a new one and the arclength between; returns why the curve ends at the new one,
-        "" if it continues; raises `CorrectorFailed` if it has to end before
     """
-    places, ds = [start], steps.step
-    while len(places) < steps.max_points:
-        last = places[-1]
-        try:
-            new, ds = _step(take, last, ds, steps)
-            reason = ends(places, new, ds)
-        except CorrectorFailed as lost:
-            return places, lost
-        places.append(new)
-        if reason:
-            return places, reason
-        if new.tangent @ last.tangent > steps.easy:
+    last, ds = start, steps.step
+    for _ in range(steps.max_points - 1):
+        while True:
+            try:
+                new = take(last, ds)
+                cosine = float(new.tangent @ last.tangent)
+                if abs(cosine) < steps.sharpest:
+                    raise CorrectorFailed("the curve bends too sharply")
+                break
+            except CorrectorFailed:
+                ds /= 2
+                if ds < steps.shortest:
+                    raise
+        last = new if cosine > 0 else replace(new, tangent=-new.tangent)
+        yield last, ds
+        if abs(cosine) > steps.easy:
             ds = min(steps.longest, steps.growth * ds)
-    return places, "the number of points allowed is reached"
-
-
-def _step(
-    take: Callable[[AnyPlace, float], AnyPlace], point: AnyPlace, ds: float, steps: StepControl
-) -> tuple[AnyPlace, float]:
-    """The next place at arclength ``ds``, which is halved after each failure, and the arclength taken."""
-    while True:
-        try:
-            new = take(point, ds)
-            cosine = float(new.tangent @ point.tangent)
-            if abs(cosine) < steps.sharpest:
-                raise CorrectorFailed("the curve bends too sharply")
-            return (new if cosine > 0 else replace(new, tangent=-new.tangent)), ds
-        except CorrectorFailed:
-            ds /= 2
-            if ds < steps.shortest:
-                raise
+    raise CorrectorFailed("the number of points allowed is reached")
 
 
 # ---- One parameter
@@ -452,7 +421,7 @@ def continue_cycle(
     Branch(17 cycles, Omega from 14.8 to 15.0949, 1 fold; ended: Omega has left 14.8 .. 15.2)
     """
     wrong = violations(
-        (is_interval(span := bounds_in_si(name, bounds)), "bounds", bounds, "must be two ascending finite numbers"),
+        ((span := interval_in_si(name, bounds)) is not None, "bounds", bounds, "must be two ascending finite numbers"),
         (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
         (is_number(direction) and direction in (-1, 0, 1), "direction", direction, "must be -1, 0 or 1"),
     )
@@ -465,8 +434,7 @@ def continue_cycle(
     order = None if guess is None else Counts(*(getattr(cycle, name) for name in Counts._fields))
     problem = CycleProblem(p, (name,), steps.scale, tol, order)
     point = starting_point(problem, cycle)
-    tangent = problem.tangents(point)[0]
-    tangent *= 1.0 if tangent[-1] >= 0 else -1.0
+    tangent = point.basis[0] * (1.0 if point.basis[0, -1] >= 0 else -1.0)
     follow = partial(_one_way, problem, point, span, steps)
     if direction:
         points, folds, ended = follow(direction * tangent)
@@ -482,44 +450,37 @@ def _one_way(
     """The cycles along a tangent until the parameter leaves the span, the folds between them, and why they end."""
     (name,), scale = problem.names, problem.scales[0]
     low, high = (bound / scale for bound in span)
-    left = f"{name} has left {span[0]:g} .. {span[1]:g}"
-    folds: list[float] = []
-
-    def ends(places: list[Place], new: Place, ds: float) -> str:
-        before = places[-1]
-        if new.tangent[-1] * before.tangent[-1] < 0:
-            try:
-                fold = _locate_fold(problem, before.point, new.point, before.tangent)
-            except CorrectorFailed as lost:
-                raise CorrectorFailed(f"{UNLOCATED} near {name}={before.point.z[-1] * scale:.6g}: {lost}") from None
-            if not (steps.beyond or low <= fold <= high):
-                return left
-            folds.append(fold * scale)
-        return "" if low <= new.point.z[-1] <= high else left
-
-    places, ended = continue_curve(Place(point, tangent), partial(_next, problem), steps, ends)
-    points = [place.point for place in places]
-    if ended == left and not steps.beyond:
-        inside = low <= points[-1].z[-1] <= high  # after a fold beyond the bound
-        along = places[-2].tangent if inside else points[-1].z - points[-2].z
-        points = points[:-1] + _at_bound(problem, points[-2], along, high if along[-1] > 0 else low)
-    if isinstance(ended, Reordered):
-        duration = 2 * points[-1].flight.period  # an event may be missing at the end of a period
-        ends_of = ((problem.case(z), problem.state(z)) for z in (points[-1].z, ended.z))
-        motions = (simulate(case, duration, tol=problem.tol, initial_state=state) for case, state in ends_of)
-        ended = f"{ended}; {changed_event(*motions)}"
-    return points, folds, str(ended)
-
-
-def _at_bound(problem: CycleProblem, last: CyclePoint, along: Array, bound: float) -> list[CyclePoint]:
-    """The cycle at a bound in a direction from the last one; none if that is there already, or if none is found."""
-    if last.z[-1] == bound:
-        return []
-    guess = last.z + (bound - last.z[-1]) / along[-1] * along
+    ended = f"{name} has left {span[0]:g} .. {span[1]:g}"
+    places, folds = [Place(point, tangent)], list[float]()
     try:
-        return [problem.correct(guess, np.eye(len(guess))[-1:], np.array([bound]))]
-    except CorrectorFailed:
-        return []
+        for new, _ in follow_curve(places[0], partial(_next, problem), steps):
+            if new.tangent[-1] * places[-1].tangent[-1] < 0:
+                fold = _locate_fold(problem, places[-1], new.point)
+                if not (steps.beyond or low <= fold <= high):
+                    places.append(new)
+                    break
+                folds.append(fold * scale)
+            places.append(new)
+            if not low <= new.point.z[-1] <= high:
+                break
+    except CorrectorFailed as lost:
+        points, ended = [place.point for place in places], str(lost)
+        if lost.reordered is not None:
+            duration = 2 * points[-1].flight.period  # an event may be missing at the end of a period
+            ends = ((problem.case(z), problem.state(z)) for z in (points[-1].z, lost.reordered))
+            motions = (simulate(case, duration, tol=problem.tol, initial_state=state) for case, state in ends)
+            ended += f"; {changed_event(*motions)}"
+        return points, folds, ended
+    points = [place.point for place in places]
+    if not steps.beyond:  # the last cycle is that at the bound, if it is found
+        z, beyond = points[-2].z, points.pop().z
+        along = places[-2].tangent if low <= beyond[-1] <= high else beyond - z  # the former after a fold
+        bound = high if along[-1] > 0 else low
+        if z[-1] != bound:
+            guess = z + (bound - z[-1]) / along[-1] * along
+            with suppress(CorrectorFailed):
+                points.append(problem.correct(guess, np.eye(len(guess))[-1:], np.array([bound])))
+    return points, folds, ended
 
 
 def changed_event(cycle: Result, other: Result) -> str:
@@ -537,27 +498,32 @@ def changed_event(cycle: Result, other: Result) -> str:
 
 def _next(problem: CycleProblem, current: Place, ds: float) -> Place:
     """The place at arclength ds along the tangent."""
-    tangent = current.tangent
-    new = problem.correct(current.point.z + ds * tangent, tangent[None, :], np.array([tangent @ current.point.z + ds]))
-    return Place(new, problem.tangents(new)[0])
+    tangent, z = current.tangent, current.point.z
+    new = problem.correct(z + ds * tangent, tangent[None, :], np.array([tangent @ z + ds]))
+    return Place(new, new.basis[0])
 
 
-def _locate_fold(problem: CycleProblem, before: CyclePoint, after: CyclePoint, tangent: Array) -> float:
+def _locate_fold(problem: CycleProblem, before: Place, after: CyclePoint) -> float:
     """Scaled parameter at the fold between two points, where the tangent has no component along the parameter."""
-    length = float(tangent @ (after.z - before.z))
-    chord = (after.z - before.z) / length
+    start, tangent = before.point.z, before.tangent
+    length = float(tangent @ (after.z - start))
+    chord = (after.z - start) / length
 
-    def at(s: float) -> CyclePoint:
-        return problem.correct(before.z + s * chord, tangent[None, :], np.array([tangent @ before.z + s]))
+    def point_at(s: float) -> CyclePoint:
+        return problem.correct(start + s * chord, tangent[None, :], np.array([tangent @ start + s]))
 
     def turned(s: float) -> float:
         """The parameter's component of the curve's tangent."""
-        tangent_there = problem.tangents(at(s))[0]
+        tangent_there = point_at(s).basis[0]
         return float(tangent_there[-1] / (tangent_there @ tangent))
 
     from scipy.optimize import brentq
 
-    return float(at(brentq(turned, 0.0, length, xtol=1e-12, rtol=1e-12)).z[-1])
+    try:
+        return float(point_at(brentq(turned, 0.0, length, xtol=1e-12, rtol=1e-12)).z[-1])
+    except CorrectorFailed as lost:
+        where = f"{problem.names[0]}={start[-1] * problem.scales[0]:.6g}"
+        raise CorrectorFailed(f"{UNLOCATED} near {where}: {lost}") from None
 
 
 # ---- Two parameters
@@ -588,24 +554,15 @@ def continue_border(
     tol: float = 1e-12,
     steps: StepControl = BORDER,
 ) -> Branch:
-    """Follow a border of stability in two parameters, in both directions from a place near a case.
+    """Follow a border of stability in two parameters from a place near a case, both ways until the curve leaves the
+    bounds, closes or ends.
 
-    The arguments are those that `disc_model.stability.curves.neutral_curves` has checked.
-
-    Parameters
-    ----------
-    kind : "neutral", the curve on which the leading multiplier of the first cycle has modulus one; or "fold", the
-        curve on which a multiplier is one, starting from the point of a branch nearest to its fold
-    p, guess : a case near the curve, and the point of the section near which its cycle is sought; by default the
-        static equilibrium
-    names : the free parameters, two of `Parameters.numbers`
-    bounds : bounds of both parameters; the curve is followed until it leaves them, closes or ends
+    kind : "neutral", on which the leading multiplier of the first cycle has modulus one; or "fold", on which a
+        multiplier is one, starting from the point of a branch nearest to its fold
+    guess : the point of the section near which the cycle of `p` is sought; by default the static equilibrium
     tol, steps : as in `continue_cycle`; the number of points is that in each direction
 
-    Raises
-    ------
-    ParameterError
-        If no cycle is found to start from, or no curve of this kind is near it.
+    Raises `ParameterError` if no cycle is found to start from, or no curve of this kind is near it.
     """
     problem = CycleProblem(p, names, None, tol)
     point = starting_point(problem, find_cycle(p, tol, guess))
@@ -616,44 +573,36 @@ def continue_border(
         raise ParameterError(f"p: must be near a curve of this kind, but {lost}") from None
     lead = first.tangent[problem.n] if abs(first.tangent[problem.n]) > 1e-12 else first.tangent[problem.n + 1]
     onward = first.tangent * math.copysign(1.0, lead)
-    limits = np.array([bounds[name] for name in names]) / problem.scales[:, None]
+    low, high = np.array([bounds[name] for name in names]).T / problem.scales
 
-    def ends(places: list[_OnBorder], new: _OnBorder, ds: float) -> str:
-        q = new.point.z[problem.n :]
-        if np.any(q < limits[:, 0]) or np.any(q > limits[:, 1]):
-            return f"{' or '.join(names)} has left the bounds"
-        if len(places) >= 8 and np.linalg.norm(new.point.z - first.point.z) < 0.6 * ds:
-            return CLOSED
-        return ""
+    def follow(tangent: Array) -> tuple[list[CyclePoint], str]:
+        points = [first.point]
+        try:
+            take = partial(_next_on_border, problem, kind)
+            for new, ds in follow_curve(replace(first, tangent=tangent), take, steps):
+                points.append(new.point)
+                q = new.point.z[problem.n :]
+                if np.any(q < low) or np.any(q > high):
+                    return points, f"{' or '.join(names)} has left the bounds"
+                if len(points) > 8 and np.linalg.norm(new.point.z - first.point.z) < 0.6 * ds:
+                    break
+        except CorrectorFailed as lost:
+            return points, str(lost)
+        return points, CLOSED
 
-    take = partial(_next_on_border, problem, kind)
-    places, ended = continue_curve(replace(first, tangent=-onward), take, steps, ends)
+    points, ended = follow(-onward)
     if ended != CLOSED:
-        ahead, ended = continue_curve(replace(first, tangent=onward), take, steps, ends)
-        places = [*places[:0:-1], *ahead]
-    return branch_of(problem, [place.point for place in places], np.zeros((0, 2)), str(ended))
+        ahead, ended = follow(onward)
+        points = [*points[:0:-1], *ahead]
+    return branch_of(problem, points, np.zeros((0, 2)), ended)
 
 
 _DIFFERENCE = 1e-4  # arclength of the finite difference for a multiplier's gradient along the surface
 
 
-@dataclass(frozen=True)
-class _OnBorder(Place):
-    """A place with the multiplier that is followed, and the gradients of the test function and of that multiplier
-    within the surface, in the unknowns z."""
-
-    mu: complex
-    gradient: Array
-    turning: ComplexArray
-
-    def predicted(self, move: Array) -> complex:
-        """The multiplier after a move, to first order."""
-        return self.mu + complex(self.turning @ move)
-
-
-def _place(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> _OnBorder:
+def _place(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> Place:
     """A cycle on the surface, with the tangent of the curve on which the test function keeps its value."""
-    basis = problem.tangents(point)
+    basis = point.basis
     slopes, turns = np.zeros(2), np.zeros(2, complex)
     for i, unit in enumerate(basis):
         ends = [_evaluate_test(kind, problem.evaluate(point.z + s * _DIFFERENCE * unit).jacobian, mu) for s in (-1, 1)]
@@ -663,14 +612,14 @@ def _place(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) ->
     if not size > 0:
         raise CorrectorFailed("the multiplier does not depend on the parameters")
     along = np.array([-slopes[1], slopes[0]]) / size
-    return _OnBorder(point, along @ basis, mu, slopes @ basis, np.asarray(turns @ basis, dtype=complex))
+    return Place(point, along @ basis, mu, slopes @ basis, np.asarray(turns @ basis, dtype=complex))
 
 
 LONGEST_REACH, LARGEST_TURN, REACHES = 0.1, 0.1, 60
 """On the way to a curve: longest step, largest change of the multiplier in a step, and number of steps."""
 
 
-def _reach(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> _OnBorder:
+def _reach(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> Place:
     """Move from a cycle near the curve onto the curve, by the shortest way on the surface."""
     value, mu = _evaluate_test(kind, point.jacobian, mu)
     for _ in range(REACHES):
@@ -693,7 +642,7 @@ def _reach(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) ->
     raise CorrectorFailed("no point of the curve was found near the first cycle")
 
 
-def _next_on_border(problem: CycleProblem, kind: Kind, start: _OnBorder, ds: float) -> _OnBorder:
+def _next_on_border(problem: CycleProblem, kind: Kind, start: Place, ds: float) -> Place:
     """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
     expected = start.predicted(ds * start.tangent)
     if abs(expected - start.mu) > 2 * LARGEST_TURN:
