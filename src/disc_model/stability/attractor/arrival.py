@@ -21,7 +21,7 @@ from disc_model.stability.attractor.linear_motion import NearCycle, find_cycle_n
 from disc_model.stability.attractor.outcome import Segment, final_segment, find_calm, switch_angles
 from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
-from disc_model.stability.return_map import RETURNED, ReturnMap, case_faults
+from disc_model.stability.return_map import RETURNED, ReturnMap
 
 
 class Arrival(NamedTuple):
@@ -64,7 +64,7 @@ def cycle_reached(p: Parameters, leg: Result, most: int = sys.maxsize) -> NearCy
     to half the releases of the last `FIRST_LEG` are tried, and of up to `most` releases."""
     last = leg.events[leg.events["time"] > leg.final_state.time - thresholds.FIRST_LEG]
     releases = int((last["kind"] == "stick_to_slip").sum())
-    if not releases or not may_stick_and_slip(p) or case_faults(p, "a cycle"):
+    if not releases or not may_stick_and_slip(p) or p.n_diameters < 0:
         return None
     map_ = ReturnMap(p, patient=True)
     code, x = map_.next_release(leg.final_state)
