@@ -1,9 +1,8 @@
 """Lyapunov exponents of a motion through all its events, in particular after a loss of contact.
 
-Columns of the variational equations follow the motion and are orthonormalised at equal intervals (Benettin's method);
-their mean growth rates are the largest exponents.  The exponent along the motion is zero, unless the motion comes to
-rest.  It carries no information, and columns turn towards that direction slowly, so that it can be left out. The first
-column is then the velocity of the motion, which stays so, and the others are kept orthogonal to it.
+Columns of the variational equations are orthonormalised at equal intervals (Benettin's method).  The exponent along the
+motion is zero, unless the motion comes to rest; columns turn towards that direction slowly, so that it can be left out.
+The first column is then the velocity of the motion, which stays so, and the others are kept orthogonal to it.
 """
 
 from __future__ import annotations
@@ -193,13 +192,11 @@ def lyapunov_exponents(
 def _orthonormalise(
     columns: Array, rows: NDArray[np.intp], metric: Array, remaining: NDArray[np.intp], vanished: float
 ) -> tuple[Array, NDArray[np.intp]]:
-    """Orthonormalise the remaining columns, and set those to zero that depend on the others.
+    """Orthonormalise the remaining columns, of indices `remaining`, and set those to zero that depend on the others:
+    whose orthogonal part is shorter than `vanished`, relative to the column. Returns logarithms of growth, and the
+    indices that remain.
 
     rows, metric : rows of the coordinates, (n,), and their `energy_scale`, (n, 1)
-    left : indices of the remaining columns
-    vanished : length of an orthogonal part, relative to the column, below which it counts as zero
-
-    Returns logarithms of growth and indices of the columns that remain, of one shape (at most as many as before,).
     """
     while True:
         q, r = np.linalg.qr(columns[np.ix_(rows, remaining)] * metric)

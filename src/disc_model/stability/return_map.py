@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from disc_model.engine import event_loop, layout, transitions
 from disc_model.engine import tangent as columns
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
+from disc_model.errors import raise_faults, violations
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.simulation.states import State, engine_case, read_state, series_order, series_tolerance, write_state
 
@@ -27,7 +27,6 @@ ComplexArray = NDArray[np.complex128]
 
 PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
 """Parameters with respect to which the map can be differentiated."""
-
 RETURNED = transitions.RETURNED
 ENDS = {
     transitions.RETURNED: "returned",
@@ -63,21 +62,20 @@ def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
 
 def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
     """Derivative of the equations with respect to one of `PARAMETERS`: a column of `Tangent.parameters`."""
-    if name in ("E", "D_star") and (p.disc is not None or (name == "D_star" and p.damping_ratio is not None)):
-        raise ParameterError(Fault(("parameter",), as_text(name), "must be a parameter that the case has"))
+    if name not in PARAMETERS:
+        raise ValueError(f"parameter={name!r}: must be one of {', '.join(PARAMETERS)}")
     width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     change = np.zeros(columns.N_SCALARS + 2 * width + 2 * n0)
     ends = columns.N_SCALARS + np.cumsum([0, width, width, n0])
     scalars, stiffness, damping, stiffness0, damping0 = np.split(change, ends)
-    if name == "N":
-        # u_0 is proportional to N
+    own = {"Omega": columns.D_OMEGA, "c": columns.D_C, "m": columns.D_M, "k": columns.D_K}
+    own |= {"k_p": columns.D_K_P, "c_p": columns.D_C_P}
+    if name in own:
+        scalars[own[name]] = 1.0
+    if name == "k":
+        scalars[columns.LOAD] = -model.u_0
+    elif name == "N":  # u_0 is proportional to N
         scalars[columns.LOAD] = 1.0 - model.k * model.u_0 / model.N
-    elif name == "Omega":
-        scalars[columns.D_OMEGA] = 1.0
-    elif name == "k":
-        scalars[columns.D_K], scalars[columns.LOAD] = 1.0, -model.u_0
-    elif name in ("c", "m", "k_p", "c_p"):
-        scalars[{"c": columns.D_C, "m": columns.D_M, "k_p": columns.D_K_P, "c_p": columns.D_C_P}[name]] = 1.0
     elif name == "E":
         # omega^2 is proportional to E; the damping (D_star / D) omega^2 does not depend on it, but 2 xi omega does
         stiffness[:], stiffness0[:] = model.stiffness / p.E, model.stiffness0 / p.E
@@ -89,8 +87,6 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
         scalars[columns.D_COMPLIANCE] = -1.0 / p.E if residual else 0.0
     elif name == "D_star":
         damping[:], damping0[:] = model.stiffness / p.D, model.stiffness0 / p.D
-    else:
-        raise ValueError(f"parameter={name!r}: must be one of {', '.join(PARAMETERS)}")
     return change
 
 
@@ -122,17 +118,9 @@ class Counts(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Flight:
-    """The motion between two returns to the section.
-
-    Attributes
-    ----------
-    outcome : exit code, one of `ENDS`
-    period, stick_time : s
-    counts : numbers of events
-    start, end : shape (n,), points of the section
-    jacobian, by : shapes (n, n) and (n, number of the map's parameters), derivatives of the end by the start and by the
-        parameters; meaningless if the flight did not return, or was followed without them
-    """
+    """The motion between two returns to the section: exit code, one of `ENDS`, durations (s) and points of the section
+    (n,). The derivatives of the end by the start (n, n) and by the map's parameters (n, their number) mean nothing if
+    the motion did not return, or was followed without them."""
 
     outcome: int
     period: float
@@ -145,7 +133,6 @@ class Flight:
 
     @property
     def returned(self) -> bool:
-        """Whether the motion came back to the section."""
         return self.outcome == RETURNED
 
     @property
@@ -158,13 +145,11 @@ class Flight:
 class ReturnMap:
     """The return map of one case; it owns the engine's arrays, so that one object serves one thread.
 
-    Attributes
-    ----------
     size : dimension n of the section: four for each pair of modes, two for each axisymmetric one, and on a compliant
         contact two for the slider's u, u'
-    scale : shape (n,), factor from modal displacements and velocities to coordinates: omega, or 1; u and u' likewise
+    scale : (n,), factor from modal displacements and velocities to coordinates: omega, or 1; u and u' likewise
     diameters : nodal diameters of the mode of each coordinate, without the slider's coordinates, which come last
-    static : shape (n,), static equilibrium under the preload: the static start, and the first guess of Newton's method
+    static : (n,), static equilibrium under the preload: the static start, and the first guess of Newton's method
     deflection : norm of `static`, the unit of distances on the section
     tol : tolerance of cycles: residual over deflection
     patient : whether a return may take 60 times as long, about 5 s: after a separation the slider may slip for long

@@ -25,14 +25,8 @@ from disc_model.stability.return_map import RETURNED, ReturnMap
 
 
 class Arrival(NamedTuple):
-    """What a motion has come to.
-
-    Attributes
-    ----------
-    settling : whether it has settled
-    calm : `AT_REST` or `STEADY_SLIDING` if that is what it has come to, else None
-    near : the stable cycle that it follows, by its multipliers, else None
-    """
+    """What a motion has come to: whether it has settled; rest or steady sliding, if it has come to that; the stable
+    cycle that it follows by its multipliers, if there is one."""
 
     settling: Settling
     calm: Outcome | None = None

@@ -1,8 +1,7 @@
 """Motions near a cycle, or near steady sliding: whether they depart or approach as its multipliers predict.
 
-Near a cycle the return map is linear, and the distance d from the cycle after n periods is J^n d.  This is tested, not
-assumed: the motion is followed over some seconds and compared with J^n d. The comparison covers the size and the
-growth rate of the leading multiplier's part.  Near repetition alone proves nothing, because a torus shows it as well.
+Near a cycle the return map is linear, and the distance d from the cycle after n periods is J^n d.  This is tested by
+following the motion over some seconds: near repetition alone proves nothing, because a torus shows it as well.
 """
 
 import math
@@ -34,14 +33,9 @@ from disc_model.stability.sliding import SteadySliding, energy_weights, join_row
 
 @dataclass(frozen=True, eq=False)
 class NearCycle:
-    """A motion near a cycle.
-
-    Attributes
-    ----------
-    follows_cycle : whether the motion follows the linear map, and so stays on the cycle if that is stable
-    x, distance, jacobian : the cycle, the motion's distance from it, and the map's Jacobian, on the section of `map`
-    waited : s, until the motion follows the linear map; `distance` is taken at that time
-    """
+    """A motion near a cycle: whether it follows the linear map, and so stays on the cycle if that is stable; the cycle,
+    the motion's distance from it and the map's Jacobian, on the section of `map`; the time waited (s) until the motion
+    follows the linear map, at which the distance is taken."""
 
     cycle: FloquetResult
     follows_cycle: bool
@@ -53,7 +47,6 @@ class NearCycle:
 
     @cached_property
     def leading(self) -> ComplexArray:
-        """See `_left_vector`."""
         return _left_vector(self.jacobian)
 
     @property
@@ -114,10 +107,7 @@ def find_cycle_near(
 ) -> NearCycle | None:
     """The cycle near a motion at a point of the section, and whether the motion follows it; None if there is none.
 
-    Parameters
-    ----------
     near_return : of the motion, by `find_near_return`
-    may_separate : whether the cycle may lose contact
     unstable : times at which the test begins on an unstable cycle, s; with none, no motion follows it
     """
     if near_return is None or not near_return.change <= thresholds.NEAR / 2:
@@ -135,11 +125,9 @@ def find_near_return(
     """The nearest return of a motion to its point of the section; None if it does not return at all."""
     later = map_.returns(x, most, may_separate=may_separate, coarse=True)
     changes = [float(np.linalg.norm(point - x) / map_.deflection) for point in later]
-    if not changes:
-        return None
     # the shortest of those with about the least change
-    releases = next(i for i, change in enumerate(changes, 1) if change <= 2 * min(changes))
-    return NearReturn(changes[releases - 1], releases)
+    returns = (NearReturn(change, i) for i, change in enumerate(changes, 1) if change <= 2 * min(changes))
+    return next(returns, None)
 
 
 def follows_multipliers(near: NearCycle, x: Array) -> bool:
@@ -213,10 +201,8 @@ def _grows_at_rate(parts: Sequence[float], time: float, rate: float, least: floa
 
 
 def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs) -> ComplexArray:
-    """Left eigenvector of the leading eigenvalue: its product with a distance is that eigenvalue's part of it.
-
-    size : function that ranks eigenvalues: the modulus for a map, the real part for differential equations
-    """
+    """Left eigenvector of the leading eigenvalue: its product with a distance is that eigenvalue's part of it. Leading
+    has most `size`: the modulus for a map, the real part for differential equations."""
     values, vectors = np.linalg.eig(jacobian.T)
     return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
 
