@@ -61,17 +61,29 @@ class CorrectorFailed(Exception):
 
 
 @dataclass(frozen=True)
-class CyclePoint:
+class Place:
+    """A point of the surface F = 0 in the unknowns z, with F's derivative `by` them; of a curve also its unit tangent;
+    of a border the multiplier `mu` that is followed, and the gradients of the test function and of `mu` within the
+    surface."""
+
     z: Array
     residual: Array
     by: Array
     flight: Flight
     jacobian: Array
+    tangent: Array = field(default_factory=lambda: np.zeros(0))
+    mu: complex = 1.0
+    gradient: Array = field(default_factory=lambda: np.zeros(0))
+    turning: ComplexArray = field(default_factory=lambda: np.zeros(0, complex))
 
     @cached_property
     def basis(self) -> Array:
-        """Orthonormal basis of the null space of F's Jacobian: (number of parameters, n + number of parameters)."""
+        """Orthonormal basis of the null space of `by`: (number of parameters, n + number of parameters)."""
         return np.asarray(np.linalg.svd(self.by)[2][len(self.residual) :], dtype=float)
+
+    def predicted(self, move: Array) -> complex:
+        """The multiplier after a move, to first order."""
+        return self.mu + complex(self.turning @ move)
 
 
 class CycleProblem:
@@ -109,7 +121,7 @@ class CycleProblem:
         q = np.array([self.base.numbers[name] for name in self.names]) / self.scales
         return np.concatenate([self._reference.point(state) / self.size, q])
 
-    def evaluate(self, z: Array) -> CyclePoint:
+    def evaluate(self, z: Array) -> Place:
         p = self.case(z)
         if min(p.Omega, p.N, p.k_p) <= 0:
             raise CorrectorFailed("the drive, the preload or the in-plane spring vanishes")
@@ -128,7 +140,7 @@ class CycleProblem:
             move = DIFFERENCE * np.eye(len(z))[self.n + i]
             ends = [self._fly(self.case(z + side * move), z, tangent=False)[2] for side in (1, -1)]
             parameters[:, i] = (ends[0] - ends[1]) / (2 * DIFFERENCE)
-        return CyclePoint(z, residual, np.hstack([jacobian - np.eye(self.n), parameters]), flight, jacobian)
+        return Place(z, residual, np.hstack([jacobian - np.eye(self.n), parameters]), flight, jacobian)
 
     def _fly(
         self, p: Parameters, z: Array, names: tuple[str, ...] = (), *, tangent: bool = True
@@ -143,7 +155,7 @@ class CycleProblem:
         turn = self.scale / map_.scale  # they differ where frequencies of the disc are not those of the reference
         return flight, turn, (flight.end - x) * turn / self.size
 
-    def correct(self, z: Array, rows: Array, targets: Array) -> CyclePoint:
+    def correct(self, z: Array, rows: Array, targets: Array) -> Place:
         """Solve F = 0 with `rows` z = `targets`, in at most seven steps of Newton's method."""
         point = self.evaluate(z)
         last = math.inf
@@ -256,7 +268,7 @@ def interval_in_si(name: Any, bounds: Any) -> Any:
     return ends if is_finite_array(ends, 2) and ends[0] < ends[1] else None
 
 
-def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:
+def starting_point(problem: CycleProblem, cycle: FloquetResult) -> Place:
     """A cycle as a point of the curve; raises `ParameterError` if it cannot be followed."""
     rule = "p: must have a cycle to start from"
     rule = "guess: must lie near a cycle that can be followed" if problem.order else rule
@@ -270,7 +282,7 @@ def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:
         raise ParameterError(f"{rule}, but {lost}") from None
 
 
-def branch_of(problem: CycleProblem, points: Sequence[CyclePoint], folds: Array, ended: str) -> Branch:
+def branch_of(problem: CycleProblem, points: Sequence[Place], folds: Array, ended: str) -> Branch:
     values = [multipliers(point.jacobian) for point in points]
     period = np.array([point.flight.period for point in points])
     return Branch(
@@ -319,22 +331,6 @@ class StepControl:
         counts = is_whole(self.max_points) and self.max_points >= 1
         rules.append((isinstance(self.beyond, bool), "beyond", self.beyond, "must be True or False"))
         require(*rules, (counts, "max_points", self.max_points, "must be a whole number >= 1"))
-
-
-@dataclass(frozen=True)
-class Place:
-    """A point of a curve and the curve's unit tangent there; on a border also the multiplier `mu` that is followed, and
-    the gradients of the test function and of that multiplier within the surface, in the unknowns z."""
-
-    point: CyclePoint
-    tangent: Array
-    mu: complex = 1.0
-    gradient: Array = field(default_factory=lambda: np.zeros(0))
-    turning: ComplexArray = field(default_factory=lambda: np.zeros(0, complex))
-
-    def predicted(self, move: Array) -> complex:
-        """The multiplier after a move, to first order."""
-        return self.mu + complex(self.turning @ move)
 
 
 def follow_curve(
@@ -445,36 +441,36 @@ def continue_cycle(
 
 
 def _one_way(
-    problem: CycleProblem, point: CyclePoint, span: tuple[float, float], steps: StepControl, tangent: Array
-) -> tuple[list[CyclePoint], list[float], str]:
+    problem: CycleProblem, point: Place, span: tuple[float, float], steps: StepControl, tangent: Array
+) -> tuple[list[Place], list[float], str]:
     """The cycles along a tangent until the parameter leaves the span, the folds between them, and why they end."""
     (name,), scale = problem.names, problem.scales[0]
     low, high = (bound / scale for bound in span)
     ended = f"{name} has left {span[0]:g} .. {span[1]:g}"
-    places, folds = [Place(point, tangent)], list[float]()
+    points, folds = [replace(point, tangent=tangent)], list[float]()
     try:
-        for new, _ in follow_curve(places[0], partial(_next, problem), steps):
-            if new.tangent[-1] * places[-1].tangent[-1] < 0:
-                fold = _locate_fold(problem, places[-1], new.point)
+        for new, _ in follow_curve(points[0], partial(_next, problem), steps):
+            if new.tangent[-1] * points[-1].tangent[-1] < 0:
+                fold = _locate_fold(problem, points[-1], new)
                 if not (steps.beyond or low <= fold <= high):
-                    places.append(new)
+                    points.append(new)
                     break
                 folds.append(fold * scale)
-            places.append(new)
-            if not low <= new.point.z[-1] <= high:
+            points.append(new)
+            if not low <= new.z[-1] <= high:
                 break
     except CorrectorFailed as lost:
-        points, ended = [place.point for place in places], str(lost)
+        ended = str(lost)
         if lost.reordered is not None:
             duration = 2 * points[-1].flight.period  # an event may be missing at the end of a period
             ends = ((problem.case(z), problem.state(z)) for z in (points[-1].z, lost.reordered))
             motions = (simulate(case, duration, tol=problem.tol, initial_state=state) for case, state in ends)
             ended += f"; {changed_event(*motions)}"
         return points, folds, ended
-    points = [place.point for place in places]
     if not steps.beyond:  # the last cycle is that at the bound, if it is found
-        z, beyond = points[-2].z, points.pop().z
-        along = places[-2].tangent if low <= beyond[-1] <= high else beyond - z  # the former after a fold
+        beyond = points.pop().z
+        z, tangent = points[-1].z, points[-1].tangent
+        along = tangent if low <= beyond[-1] <= high else beyond - z  # the former after a fold
         bound = high if along[-1] > 0 else low
         if z[-1] != bound:
             guess = z + (bound - z[-1]) / along[-1] * along
@@ -498,18 +494,18 @@ def changed_event(cycle: Result, other: Result) -> str:
 
 def _next(problem: CycleProblem, current: Place, ds: float) -> Place:
     """The place at arclength ds along the tangent."""
-    tangent, z = current.tangent, current.point.z
+    tangent, z = current.tangent, current.z
     new = problem.correct(z + ds * tangent, tangent[None, :], np.array([tangent @ z + ds]))
-    return Place(new, new.basis[0])
+    return replace(new, tangent=new.basis[0])
 
 
-def _locate_fold(problem: CycleProblem, before: Place, after: CyclePoint) -> float:
+def _locate_fold(problem: CycleProblem, before: Place, after: Place) -> float:
     """Scaled parameter at the fold between two points, where the tangent has no component along the parameter."""
-    start, tangent = before.point.z, before.tangent
+    start, tangent = before.z, before.tangent
     length = float(tangent @ (after.z - start))
     chord = (after.z - start) / length
 
-    def point_at(s: float) -> CyclePoint:
+    def point_at(s: float) -> Place:
         return problem.correct(start + s * chord, tangent[None, :], np.array([tangent @ start + s]))
 
     def turned(s: float) -> float:
@@ -575,16 +571,16 @@ def continue_border(
     onward = first.tangent * math.copysign(1.0, lead)
     low, high = np.array([bounds[name] for name in names]).T / problem.scales
 
-    def follow(tangent: Array) -> tuple[list[CyclePoint], str]:
-        points = [first.point]
+    def follow(tangent: Array) -> tuple[list[Place], str]:
+        points = [first]
         try:
             take = partial(_next_on_border, problem, kind)
             for new, ds in follow_curve(replace(first, tangent=tangent), take, steps):
-                points.append(new.point)
-                q = new.point.z[problem.n :]
+                points.append(new)
+                q = new.z[problem.n :]
                 if np.any(q < low) or np.any(q > high):
                     return points, f"{' or '.join(names)} has left the bounds"
-                if len(points) > 8 and np.linalg.norm(new.point.z - first.point.z) < 0.6 * ds:
+                if len(points) > 8 and np.linalg.norm(new.z - first.z) < 0.6 * ds:
                     break
         except CorrectorFailed as lost:
             return points, str(lost)
@@ -600,7 +596,7 @@ def continue_border(
 _DIFFERENCE = 1e-4  # arclength of the finite difference for a multiplier's gradient along the surface
 
 
-def _place(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> Place:
+def _place(problem: CycleProblem, point: Place, kind: Kind, mu: complex) -> Place:
     """A cycle on the surface, with the tangent of the curve on which the test function keeps its value."""
     basis = point.basis
     slopes, turns = np.zeros(2), np.zeros(2, complex)
@@ -612,14 +608,15 @@ def _place(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) ->
     if not size > 0:
         raise CorrectorFailed("the multiplier does not depend on the parameters")
     along = np.array([-slopes[1], slopes[0]]) / size
-    return Place(point, along @ basis, mu, slopes @ basis, np.asarray(turns @ basis, dtype=complex))
+    turning = np.asarray(turns @ basis, dtype=complex)
+    return replace(point, tangent=along @ basis, mu=mu, gradient=slopes @ basis, turning=turning)
 
 
 LONGEST_REACH, LARGEST_TURN, REACHES = 0.1, 0.1, 60
 """On the way to a curve: longest step, largest change of the multiplier in a step, and number of steps."""
 
 
-def _reach(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> Place:
+def _reach(problem: CycleProblem, point: Place, kind: Kind, mu: complex) -> Place:
     """Move from a cycle near the curve onto the curve, by the shortest way on the surface."""
     value, mu = _evaluate_test(kind, point.jacobian, mu)
     for _ in range(REACHES):
@@ -631,7 +628,7 @@ def _reach(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) ->
         move *= min(1.0, LONGEST_REACH / float(np.linalg.norm(move)), LARGEST_TURN / max(turn, 1e-300))
         rows = np.vstack([new.tangent, new.gradient / np.linalg.norm(new.gradient)])
         for halvings in range(6):
-            guess = new.point.z + move * 0.5**halvings
+            guess = new.z + move * 0.5**halvings
             try:
                 point = problem.correct(guess, rows, rows @ guess)
                 value, mu = _evaluate_test(kind, point.jacobian, new.predicted(move * 0.5**halvings))
@@ -647,7 +644,7 @@ def _next_on_border(problem: CycleProblem, kind: Kind, start: Place, ds: float) 
     expected = start.predicted(ds * start.tangent)
     if abs(expected - start.mu) > 2 * LARGEST_TURN:
         raise CorrectorFailed("the multiplier turns too fast")
-    guess = start.point.z + ds * start.tangent
+    guess = start.z + ds * start.tangent
     rows = start.tangent[None, :]
     point = problem.evaluate(guess)
     value, mu = _evaluate_test(kind, point.jacobian, expected)
