@@ -132,18 +132,16 @@ def lyapunov_exponents(
     Lyapunov(ok, over 5 s: -0.143 and -0.166 1/s)
     """
     faults = case_faults(p, "lyapunov_exponents")
-    lasts = _is_within(duration, sys.float_info.min)
     most = layout.WIDTH if faults else min(layout.WIDTH, len(coordinate_rows(engine_case(p).model)))
     leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
     most -= leaves_out and bool(leave_out_trivial)
-    counts = is_whole(count) and 1 <= count <= most
+    lasts = _is_within(duration, sys.float_info.min)
     shortest = max(duration / MOST_INTERVALS if lasts else 0.0, sys.float_info.min)
-    starts = initial_state is None or isinstance(initial_state, State)
     faults += violations(
         (lasts, "duration", duration, "must be finite and > 0"),
-        (counts, "count", count, f"must be a whole number from 1 to {most}"),
+        (is_whole(count) and 1 <= count <= most, "count", count, f"must be a whole number from 1 to {most}"),
         (_is_within(interval, shortest), "interval", interval, f"must be finite and >= {as_text(shortest)}"),
-        (starts, "initial_state", initial_state, "must be a State"),
+        (isinstance(initial_state, State | None), "initial_state", initial_state, "must be a State"),
         (leaves_out, "leave_out_trivial", leave_out_trivial, "must be True or False"),
     )
     raise_faults(faults + limits_faults("tol", tol, TOLERANCES))
@@ -169,11 +167,9 @@ def lyapunov_exponents(
         if np.any(along):
             columns[:, 0] = along
     steps = max(_BLOCKS, math.ceil(duration / interval))
-    longest = longest_step(model, order, 10 * tolerance)
-    length = duration / steps
+    longest, length = longest_step(model, order, 10 * tolerance), duration / steps
     course = event_loop.IntegrationLimits(order, tolerance, longest, length, 0, may_separate=True, tangent=True)
-    logs, status = np.full((steps, count), -math.inf), Status.OK
-    done = 0
+    logs, status, done = np.full((steps, count), -math.inf), Status.OK, 0
     for i in range(-steps, steps):
         if i == 0:
             t.log[:] = 0.0
@@ -186,7 +182,7 @@ def lyapunov_exponents(
         if i >= 0:
             logs[i, remaining] = growth
             done = i + 1
-    return _summary(status, logs[:done], duration / steps, wanted, t.log, read_state(case, state), leave_out_trivial)
+    return _averaged(status, logs[:done], length, wanted, t.log, read_state(case, state), leave_out_trivial)
 
 
 def _orthonormalise(
@@ -210,7 +206,7 @@ def _orthonormalise(
         remaining = np.delete(remaining, dependent[0])
 
 
-def _summary(
+def _averaged(
     status: Status, logs: Array, interval: float, count: int, log: Array, end: State, leave_out_trivial: bool
 ) -> Lyapunov:
     """The `count` largest exponents from logarithms of growth over equal times, shape (n, count or one more)."""
