@@ -178,6 +178,102 @@ class CycleProblem:
         energy = np.abs(vectors[: len(self._reference.diameters), np.argmax(np.abs(values))]) ** 2
         return int(np.argmax(np.bincount(self._reference.diameters, energy)))
 
+    def start(self, cycle: FloquetResult) -> Place:
+        """A cycle as a point of the curve; raises `ParameterError` if it cannot be followed."""
+        rule = "p: must have a cycle to start from"
+        rule = "guess: must lie near a cycle that can be followed" if self.order else rule
+        if cycle.releases > 1 and not self.order:
+            raise ParameterError("p: must have a cycle with a single release to start from")
+        if cycle.state is None:
+            raise ParameterError(f"{rule}, but {cycle.message.removeprefix(f'{cycle.status}: ')}")
+        try:
+            return self.evaluate(self.unknowns(cycle.state))
+        except CorrectorFailed as lost:
+            raise ParameterError(f"{rule}, but {lost}") from None
+
+    def branch(self, points: Sequence[Place], folds: Array, ended: str) -> Branch:
+        values = [multipliers(point.jacobian) for point in points]
+        period = np.array([point.flight.period for point in points])
+        return Branch(
+            parameters=self.names,
+            values=np.array([point.z[self.n :] * self.scales for point in points]),
+            period=period,
+            stick_fraction=np.array([point.flight.stick_time for point in points]) / period,
+            growth_rate=np.array([math.log(abs(v[0])) for v in values]) / period,
+            multipliers=np.array(values),
+            diameters=np.array([self.leading_diameters(point.jacobian) for point in points]),
+            points=np.array([point.z[: self.n] * self.size for point in points]),
+            folds=folds,
+            ended=ended,
+            case=self.base,
+        )
+
+    def follow(
+        self, point: Place, span: tuple[float, float], steps: StepControl, tangent: Array
+    ) -> tuple[list[Place], list[float], str]:
+        """The cycles along a tangent until the parameter leaves the span, the folds between them, and why they end."""
+        (name,), scale = self.names, self.scales[0]
+        low, high = (bound / scale for bound in span)
+        ended = f"{name} has left {span[0]:g} .. {span[1]:g}"
+        points, folds = [replace(point, tangent=tangent)], list[float]()
+        try:
+            for new, _ in follow_curve(points[0], self.next_place, steps):
+                if new.tangent[-1] * points[-1].tangent[-1] < 0:
+                    fold = self._locate_fold(points[-1], new)
+                    if not (steps.beyond or low <= fold <= high):
+                        points.append(new)
+                        break
+                    folds.append(fold * scale)
+                points.append(new)
+                if not low <= new.z[-1] <= high:
+                    break
+        except CorrectorFailed as lost:
+            ended = str(lost)
+            if lost.reordered is not None:
+                duration = 2 * points[-1].flight.period  # an event may be missing at the end of a period
+                ends = ((self.case(z), self.state(z)) for z in (points[-1].z, lost.reordered))
+                motions = (simulate(case, duration, tol=self.tol, initial_state=state) for case, state in ends)
+                ended += f"; {changed_event(*motions)}"
+            return points, folds, ended
+        if not steps.beyond:  # the last cycle is that at the bound, if it is found
+            beyond = points.pop().z
+            z, tangent = points[-1].z, points[-1].tangent
+            along = tangent if low <= beyond[-1] <= high else beyond - z  # the former after a fold
+            bound = high if along[-1] > 0 else low
+            if z[-1] != bound:
+                guess = z + (bound - z[-1]) / along[-1] * along
+                with suppress(CorrectorFailed):
+                    points.append(self.correct(guess, np.eye(len(guess))[-1:], np.array([bound])))
+        return points, folds, ended
+
+    def next_place(self, current: Place, ds: float) -> Place:
+        """The place at arclength ds along the tangent."""
+        tangent, z = current.tangent, current.z
+        new = self.correct(z + ds * tangent, tangent[None, :], np.array([tangent @ z + ds]))
+        return replace(new, tangent=new.basis[0])
+
+    def _locate_fold(self, before: Place, after: Place) -> float:
+        """Scaled parameter at the fold between two points, where the tangent has no component along the parameter."""
+        start, tangent = before.z, before.tangent
+        length = float(tangent @ (after.z - start))
+        chord = (after.z - start) / length
+
+        def point_at(s: float) -> Place:
+            return self.correct(start + s * chord, tangent[None, :], np.array([tangent @ start + s]))
+
+        def turned(s: float) -> float:
+            """The parameter's component of the curve's tangent."""
+            tangent_there = point_at(s).basis[0]
+            return float(tangent_there[-1] / (tangent_there @ tangent))
+
+        from scipy.optimize import brentq
+
+        try:
+            return float(point_at(brentq(turned, 0.0, length, xtol=1e-12, rtol=1e-12)).z[-1])
+        except CorrectorFailed as lost:
+            where = f"{self.names[0]}={start[-1] * self.scales[0]:.6g}"
+            raise CorrectorFailed(f"{UNLOCATED} near {where}: {lost}") from None
+
 
 def newton_step(matrix: Array, right: Array) -> Array:
     """Solution of a linear system; raises `CorrectorFailed` if it has none, or more than one."""
@@ -266,38 +362,6 @@ def interval_in_si(name: Any, bounds: Any) -> Any:
     """Bounds of a parameter in SI units, from texts with units too; None unless they are two ascending numbers."""
     ends = in_si(bounds, Parameters.unit(name) if isinstance(name, str) else "", [], ())
     return ends if is_finite_array(ends, 2) and ends[0] < ends[1] else None
-
-
-def starting_point(problem: CycleProblem, cycle: FloquetResult) -> Place:
-    """A cycle as a point of the curve; raises `ParameterError` if it cannot be followed."""
-    rule = "p: must have a cycle to start from"
-    rule = "guess: must lie near a cycle that can be followed" if problem.order else rule
-    if cycle.releases > 1 and not problem.order:
-        raise ParameterError("p: must have a cycle with a single release to start from")
-    if cycle.state is None:
-        raise ParameterError(f"{rule}, but {cycle.message.removeprefix(f'{cycle.status}: ')}")
-    try:
-        return problem.evaluate(problem.unknowns(cycle.state))
-    except CorrectorFailed as lost:
-        raise ParameterError(f"{rule}, but {lost}") from None
-
-
-def branch_of(problem: CycleProblem, points: Sequence[Place], folds: Array, ended: str) -> Branch:
-    values = [multipliers(point.jacobian) for point in points]
-    period = np.array([point.flight.period for point in points])
-    return Branch(
-        parameters=problem.names,
-        values=np.array([point.z[problem.n :] * problem.scales for point in points]),
-        period=period,
-        stick_fraction=np.array([point.flight.stick_time for point in points]) / period,
-        growth_rate=np.array([math.log(abs(v[0])) for v in values]) / period,
-        multipliers=np.array(values),
-        diameters=np.array([problem.leading_diameters(point.jacobian) for point in points]),
-        points=np.array([point.z[: problem.n] * problem.size for point in points]),
-        folds=folds,
-        ended=ended,
-        case=problem.base,
-    )
 
 
 @dataclass(frozen=True)
@@ -429,54 +493,15 @@ def continue_cycle(
     cycle = find_cycle(p, tol, guess, releases)
     order = None if guess is None else Counts(*(getattr(cycle, name) for name in Counts._fields))
     problem = CycleProblem(p, (name,), steps.scale, tol, order)
-    point = starting_point(problem, cycle)
+    point = problem.start(cycle)
     tangent = point.basis[0] * (1.0 if point.basis[0, -1] >= 0 else -1.0)
-    follow = partial(_one_way, problem, point, span, steps)
+    follow = partial(problem.follow, point, span, steps)
     if direction:
         points, folds, ended = follow(direction * tangent)
     else:
         (down, below, first), (up, above, last) = follow(-tangent), follow(tangent)
         points, folds, ended = down[::-1] + up[1:], below[::-1] + above, first if first == last else f"{first}; {last}"
-    return branch_of(problem, points, np.array(folds).reshape(-1, 1), ended)
-
-
-def _one_way(
-    problem: CycleProblem, point: Place, span: tuple[float, float], steps: StepControl, tangent: Array
-) -> tuple[list[Place], list[float], str]:
-    """The cycles along a tangent until the parameter leaves the span, the folds between them, and why they end."""
-    (name,), scale = problem.names, problem.scales[0]
-    low, high = (bound / scale for bound in span)
-    ended = f"{name} has left {span[0]:g} .. {span[1]:g}"
-    points, folds = [replace(point, tangent=tangent)], list[float]()
-    try:
-        for new, _ in follow_curve(points[0], partial(_next, problem), steps):
-            if new.tangent[-1] * points[-1].tangent[-1] < 0:
-                fold = _locate_fold(problem, points[-1], new)
-                if not (steps.beyond or low <= fold <= high):
-                    points.append(new)
-                    break
-                folds.append(fold * scale)
-            points.append(new)
-            if not low <= new.z[-1] <= high:
-                break
-    except CorrectorFailed as lost:
-        ended = str(lost)
-        if lost.reordered is not None:
-            duration = 2 * points[-1].flight.period  # an event may be missing at the end of a period
-            ends = ((problem.case(z), problem.state(z)) for z in (points[-1].z, lost.reordered))
-            motions = (simulate(case, duration, tol=problem.tol, initial_state=state) for case, state in ends)
-            ended += f"; {changed_event(*motions)}"
-        return points, folds, ended
-    if not steps.beyond:  # the last cycle is that at the bound, if it is found
-        beyond = points.pop().z
-        z, tangent = points[-1].z, points[-1].tangent
-        along = tangent if low <= beyond[-1] <= high else beyond - z  # the former after a fold
-        bound = high if along[-1] > 0 else low
-        if z[-1] != bound:
-            guess = z + (bound - z[-1]) / along[-1] * along
-            with suppress(CorrectorFailed):
-                points.append(problem.correct(guess, np.eye(len(guess))[-1:], np.array([bound])))
-    return points, folds, ended
+    return problem.branch(points, np.array(folds).reshape(-1, 1), ended)
 
 
 def changed_event(cycle: Result, other: Result) -> str:
@@ -492,52 +517,95 @@ def changed_event(cycle: Result, other: Result) -> str:
     return "what grazes was not found"
 
 
-def _next(problem: CycleProblem, current: Place, ds: float) -> Place:
-    """The place at arclength ds along the tangent."""
-    tangent, z = current.tangent, current.z
-    new = problem.correct(z + ds * tangent, tangent[None, :], np.array([tangent @ z + ds]))
-    return replace(new, tangent=new.basis[0])
-
-
-def _locate_fold(problem: CycleProblem, before: Place, after: Place) -> float:
-    """Scaled parameter at the fold between two points, where the tangent has no component along the parameter."""
-    start, tangent = before.z, before.tangent
-    length = float(tangent @ (after.z - start))
-    chord = (after.z - start) / length
-
-    def point_at(s: float) -> Place:
-        return problem.correct(start + s * chord, tangent[None, :], np.array([tangent @ start + s]))
-
-    def turned(s: float) -> float:
-        """The parameter's component of the curve's tangent."""
-        tangent_there = point_at(s).basis[0]
-        return float(tangent_there[-1] / (tangent_there @ tangent))
-
-    from scipy.optimize import brentq
-
-    try:
-        return float(point_at(brentq(turned, 0.0, length, xtol=1e-12, rtol=1e-12)).z[-1])
-    except CorrectorFailed as lost:
-        where = f"{problem.names[0]}={start[-1] * problem.scales[0]:.6g}"
-        raise CorrectorFailed(f"{UNLOCATED} near {where}: {lost}") from None
-
-
 # ---- Two parameters
 
 Kind = Literal["neutral", "fold"]
 CLOSED = "the curve is closed"
+_DIFFERENCE = 1e-4  # arclength of the finite difference for a multiplier's gradient along the surface
+LONGEST_REACH, LARGEST_TURN, REACHES = 0.1, 0.1, 60
+"""On the way to a curve: longest step, largest change of the multiplier in a step, and number of steps."""
 
 
-def _evaluate_test(kind: Kind, jacobian: Array, former: complex) -> tuple[float, complex]:
-    """Value of a test function that vanishes on the curve, and the multiplier nearest to `former`, which gives it. For
-    a neutral curve it is the logarithm of the multiplier's modulus, for a fold the real multiplier less one."""
-    values = np.linalg.eigvals(jacobian).astype(complex)
-    if kind == "fold":
-        values = values[values.imag == 0]
-        if len(values) == 0:
-            raise CorrectorFailed("no multiplier is real any more")
-    mu = complex(values[np.argmin(np.abs(values - former))])
-    return (mu.real - 1.0 if kind == "fold" else math.log(abs(mu))), mu
+class BorderProblem(CycleProblem):
+    """With a test function that vanishes on the border: the logarithm of a multiplier's modulus on a neutral curve, a
+    real multiplier less one on a fold."""
+
+    def __init__(self, kind: Kind, p: Parameters, names: tuple[str, ...], tol: float) -> None:
+        super().__init__(p, names, None, tol)
+        self.kind = kind
+
+    def _evaluate_test(self, jacobian: Array, former: complex) -> tuple[float, complex]:
+        """Value of the test function, and the multiplier nearest to `former`, which gives it."""
+        values = np.linalg.eigvals(jacobian).astype(complex)
+        if self.kind == "fold":
+            values = values[values.imag == 0]
+            if len(values) == 0:
+                raise CorrectorFailed("no multiplier is real any more")
+        mu = complex(values[np.argmin(np.abs(values - former))])
+        return (mu.real - 1.0 if self.kind == "fold" else math.log(abs(mu))), mu
+
+    def _place(self, point: Place, mu: complex) -> Place:
+        """A cycle on the surface, with the tangent of the curve on which the test function keeps its value."""
+        basis = point.basis
+        slopes, turns = np.zeros(2), np.zeros(2, complex)
+        for i, unit in enumerate(basis):
+            ends = [self._evaluate_test(self.evaluate(point.z + s * _DIFFERENCE * unit).jacobian, mu) for s in (-1, 1)]
+            slopes[i] = (ends[1][0] - ends[0][0]) / (2 * _DIFFERENCE)
+            turns[i] = (ends[1][1] - ends[0][1]) / (2 * _DIFFERENCE)
+        size = float(np.linalg.norm(slopes))
+        if not size > 0:
+            raise CorrectorFailed("the multiplier does not depend on the parameters")
+        along = np.array([-slopes[1], slopes[0]]) / size
+        turning = np.asarray(turns @ basis, dtype=complex)
+        return replace(point, tangent=along @ basis, mu=mu, gradient=slopes @ basis, turning=turning)
+
+    def reach(self, point: Place, mu: complex) -> Place:
+        """Move from a cycle near the curve onto the curve, by the shortest way on the surface."""
+        value, mu = self._evaluate_test(point.jacobian, mu)
+        for _ in range(REACHES):
+            new = self._place(point, mu)
+            if abs(value) < 1e-10:
+                return new
+            move = -value * new.gradient / (new.gradient @ new.gradient)
+            turn = abs(complex(new.turning @ move))
+            move *= min(1.0, LONGEST_REACH / float(np.linalg.norm(move)), LARGEST_TURN / max(turn, 1e-300))
+            rows = np.vstack([new.tangent, new.gradient / np.linalg.norm(new.gradient)])
+            for halvings in range(6):
+                guess = new.z + move * 0.5**halvings
+                try:
+                    point = self.correct(guess, rows, rows @ guess)
+                    value, mu = self._evaluate_test(point.jacobian, new.predicted(move * 0.5**halvings))
+                    break
+                except CorrectorFailed:
+                    if halvings == 5:
+                        raise
+        raise CorrectorFailed("no point of the curve was found near the first cycle")
+
+    def next_place(self, start: Place, ds: float) -> Place:
+        """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
+        expected = start.predicted(ds * start.tangent)
+        if abs(expected - start.mu) > 2 * LARGEST_TURN:
+            raise CorrectorFailed("the multiplier turns too fast")
+        guess = start.z + ds * start.tangent
+        rows = start.tangent[None, :]
+        point = self.evaluate(guess)
+        value, mu = self._evaluate_test(point.jacobian, expected)
+        gradient = start.gradient
+        errors = [math.inf, math.inf]
+        for _ in range(12):
+            right = np.concatenate([point.residual, [value], rows @ point.z - rows @ guess])
+            errors.append(float(np.linalg.norm(right)))
+            if errors[-1] < 1e-10:
+                return self._place(point, mu)
+            if errors[-1] > 0.9 * errors[-3]:
+                break
+            before, last = point, value
+            point = self.evaluate(before.z - newton_step(np.vstack([before.by, gradient, rows]), right))
+            value, mu = self._evaluate_test(point.jacobian, mu)
+            # Broyden's update: a gradient by differences would take four flights at each correction
+            move = point.z - before.z
+            gradient = gradient + (value - last - gradient @ move) / (move @ move) * move
+        raise CorrectorFailed("Newton's method does not converge")
 
 
 def continue_border(
@@ -560,11 +628,11 @@ def continue_border(
 
     Raises `ParameterError` if no cycle is found to start from, or no curve of this kind is near it.
     """
-    problem = CycleProblem(p, names, None, tol)
-    point = starting_point(problem, find_cycle(p, tol, guess))
+    problem = BorderProblem(kind, p, names, tol)
+    point = problem.start(find_cycle(p, tol, guess))
     mu = complex(multipliers(point.jacobian)[0]) if kind == "neutral" else 1.0 + 0j
     try:
-        first = _reach(problem, point, kind, mu)
+        first = problem.reach(point, mu)
     except CorrectorFailed as lost:
         raise ParameterError(f"p: must be near a curve of this kind, but {lost}") from None
     lead = first.tangent[problem.n] if abs(first.tangent[problem.n]) > 1e-12 else first.tangent[problem.n + 1]
@@ -574,8 +642,7 @@ def continue_border(
     def follow(tangent: Array) -> tuple[list[Place], str]:
         points = [first]
         try:
-            take = partial(_next_on_border, problem, kind)
-            for new, ds in follow_curve(replace(first, tangent=tangent), take, steps):
+            for new, ds in follow_curve(replace(first, tangent=tangent), problem.next_place, steps):
                 points.append(new)
                 q = new.z[problem.n :]
                 if np.any(q < low) or np.any(q > high):
@@ -590,77 +657,4 @@ def continue_border(
     if ended != CLOSED:
         ahead, ended = follow(onward)
         points = [*points[:0:-1], *ahead]
-    return branch_of(problem, points, np.zeros((0, 2)), ended)
-
-
-_DIFFERENCE = 1e-4  # arclength of the finite difference for a multiplier's gradient along the surface
-
-
-def _place(problem: CycleProblem, point: Place, kind: Kind, mu: complex) -> Place:
-    """A cycle on the surface, with the tangent of the curve on which the test function keeps its value."""
-    basis = point.basis
-    slopes, turns = np.zeros(2), np.zeros(2, complex)
-    for i, unit in enumerate(basis):
-        ends = [_evaluate_test(kind, problem.evaluate(point.z + s * _DIFFERENCE * unit).jacobian, mu) for s in (-1, 1)]
-        slopes[i] = (ends[1][0] - ends[0][0]) / (2 * _DIFFERENCE)
-        turns[i] = (ends[1][1] - ends[0][1]) / (2 * _DIFFERENCE)
-    size = float(np.linalg.norm(slopes))
-    if not size > 0:
-        raise CorrectorFailed("the multiplier does not depend on the parameters")
-    along = np.array([-slopes[1], slopes[0]]) / size
-    turning = np.asarray(turns @ basis, dtype=complex)
-    return replace(point, tangent=along @ basis, mu=mu, gradient=slopes @ basis, turning=turning)
-
-
-LONGEST_REACH, LARGEST_TURN, REACHES = 0.1, 0.1, 60
-"""On the way to a curve: longest step, largest change of the multiplier in a step, and number of steps."""
-
-
-def _reach(problem: CycleProblem, point: Place, kind: Kind, mu: complex) -> Place:
-    """Move from a cycle near the curve onto the curve, by the shortest way on the surface."""
-    value, mu = _evaluate_test(kind, point.jacobian, mu)
-    for _ in range(REACHES):
-        new = _place(problem, point, kind, mu)
-        if abs(value) < 1e-10:
-            return new
-        move = -value * new.gradient / (new.gradient @ new.gradient)
-        turn = abs(complex(new.turning @ move))
-        move *= min(1.0, LONGEST_REACH / float(np.linalg.norm(move)), LARGEST_TURN / max(turn, 1e-300))
-        rows = np.vstack([new.tangent, new.gradient / np.linalg.norm(new.gradient)])
-        for halvings in range(6):
-            guess = new.z + move * 0.5**halvings
-            try:
-                point = problem.correct(guess, rows, rows @ guess)
-                value, mu = _evaluate_test(kind, point.jacobian, new.predicted(move * 0.5**halvings))
-                break
-            except CorrectorFailed:
-                if halvings == 5:
-                    raise
-    raise CorrectorFailed("no point of the curve was found near the first cycle")
-
-
-def _next_on_border(problem: CycleProblem, kind: Kind, start: Place, ds: float) -> Place:
-    """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
-    expected = start.predicted(ds * start.tangent)
-    if abs(expected - start.mu) > 2 * LARGEST_TURN:
-        raise CorrectorFailed("the multiplier turns too fast")
-    guess = start.z + ds * start.tangent
-    rows = start.tangent[None, :]
-    point = problem.evaluate(guess)
-    value, mu = _evaluate_test(kind, point.jacobian, expected)
-    gradient = start.gradient
-    errors = [math.inf, math.inf]
-    for _ in range(12):
-        right = np.concatenate([point.residual, [value], rows @ point.z - rows @ guess])
-        errors.append(float(np.linalg.norm(right)))
-        if errors[-1] < 1e-10:
-            return _place(problem, point, kind, mu)
-        if errors[-1] > 0.9 * errors[-3]:
-            break
-        before, last = point, value
-        point = problem.evaluate(before.z - newton_step(np.vstack([before.by, gradient, rows]), right))
-        value, mu = _evaluate_test(kind, point.jacobian, mu)
-        # Broyden's update: a gradient by differences would take four flights at each correction
-        move = point.z - before.z
-        gradient = gradient + (value - last - gradient @ move) / (move @ move) * move
-    raise CorrectorFailed("Newton's method does not converge")
+    return problem.branch(points, np.zeros((0, 2)), ended)

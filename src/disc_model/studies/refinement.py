@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.data.variables import CycleStatus, Outcome
-from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start, stays_linear_until
+from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start
 from disc_model.stability.attractor.outcome import OutcomeResult, Stage, find_outcome
 from disc_model.stability.attractor.thresholds import AMPLITUDES, SAME_POINT
 from disc_model.stability.cycle import FloquetResult
@@ -129,7 +129,7 @@ class Tile:
             return ""
         if start.cycle.stable:
             return Outcome.QUIET
-        return Outcome.GROWING if stays_linear_until(start, self.horizon) else ""
+        return Outcome.GROWING if start.stays_linear_until(self.horizon) else ""
 
     def _refine(self, rows: Index, columns: Index) -> None:
         """Divide a cell, given by the indices of its edges, or fill it."""

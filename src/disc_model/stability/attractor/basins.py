@@ -23,7 +23,7 @@ from disc_model.simulation.result import Result
 from disc_model.simulation.states import State, perturb, static_start
 from disc_model.stability.attractor import thresholds
 from disc_model.stability.attractor.arrival import cycle_reached, regularity
-from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start, follows_multipliers
+from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start
 from disc_model.stability.attractor.outcome import (
     Attractor,
     OutcomeResult,
@@ -78,7 +78,7 @@ class Basins:
             if self.near:
                 # tested only nearer to the quiet cycle than ever before
                 x, distance = self._near_quiet_cycle(segments, state)
-                if self.cycle is not None and distance < least_tested and follows_multipliers(self.cycle, x):
+                if self.cycle is not None and distance < least_tested and self.cycle.follows_multipliers(x):
                     attractor = self.known[0]
                 else:
                     attractor = self._approached([segment.range for segment in segments[-thresholds.NEARING :]])

@@ -24,12 +24,9 @@ from disc_model.stability.attractor.linear_motion import (
     NearCycle,
     approaches_sliding,
     cycle_of_static_start,
-    extrapolate_departure,
     find_cycle_near,
     find_near_return,
     first_release,
-    follows_multipliers,
-    periods_left,
 )
 from disc_model.stability.cycle import FloquetResult, may_stick_and_slip, never_pulls
 from disc_model.stability.return_map import RETURNED, Array, ReturnMap
@@ -231,7 +228,7 @@ class _OutcomeSearch:
         self.departed_from = near
         if result.time >= self.horizon:
             return
-        departure = extrapolate_departure(near, periods_left(near, result.time, self.horizon), self.furthest)
+        departure = near.extrapolate_departure(near.periods_left(result.time, self.horizon), self.furthest)
         time, distance = departure or (0.0, near.distance)
         slowest = result.extrapolated
         if departure and (slowest is None or near.cycle.growth_rate < slowest.cycle.growth_rate):
@@ -297,7 +294,7 @@ class _OutcomeSearch:
                 size = near.map.deflection
                 close = np.linalg.norm(x - near.x) <= thresholds.NEAR * size
                 another = np.linalg.norm(last.x - near.x) > thresholds.SAME_POINT * size
-                if close and another and follows_multipliers(near, x):
+                if close and another and near.follows_multipliers(x):
                     self.cycle_to_come = self.result.near = None
                     return replace(near, follows_cycle=True, distance=x - near.x)
             # a motion that comes near a cycle then changes less and less, down to errors of the simulation
