@@ -194,9 +194,6 @@ def separation_location(time: Array, height: Array, starts: NDArray[np.int64], b
     return Location(kind, where, drop)
 
 
-# ---- Shares of samples
-
-
 class Share(NamedTuple):
     """A share and the ends of its interval."""
 

@@ -42,7 +42,6 @@ from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, is_whole, limit
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# ---- The equation
 
 USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5, "contact_compliance": 1e-8}
 USUAL |= {"damping_ratio": 1e-3, "friction_decay": 1.0}
@@ -288,9 +287,6 @@ def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
     known = p.numbers
     wrong = [name for name in names if not (isinstance(name, str) and name in known)]
     return [Fault.of(("name",), name, f"must be a number of the case{suggestion(name, known)}") for name in wrong]
-
-
-# ---- The curve
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -172,8 +172,10 @@ def neutral_curves(
     if lines is None and within:
         low, high = [*plane.values()][1]
         lines = [low + share * (high - low) for share in (0.25, 0.5, 0.75)]
+    counts = is_whole(points) and 2 <= points <= MOST_POINTS
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
-        (is_finite_array(lines), "lines", lines, "must be finite numbers"), _count_rule(points)
+        (is_finite_array(lines), "lines", lines, "must be finite numbers"),
+        (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
     raise_faults(foreign_case(p) + wrong)
     assert lines is not None
@@ -201,12 +203,6 @@ def neutral_curves(
             if not _known(curves, seed.kind, branch.values[i], float(branch.period[i]), span):
                 curves.append(_curve(seed, branch))
     return NeutralCurves(p, plane, tuple(curves), tuple(notes))
-
-
-def _count_rule(points: Any) -> tuple[bool, str, Any, str]:
-    """The rule for a number of points along a line, as `violations` takes it."""
-    counts = is_whole(points) and 2 <= points <= MOST_POINTS
-    return counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"
 
 
 def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str]) -> Iterator[_Seed]:
@@ -394,10 +390,11 @@ def critical(
     >>> dm.critical(case, "mu_s", (0.3, 0.42), points=7)
     Critical(mu_s: unstable from 0.3, 1 crossing, ... cycles, tongues down to ... seen)
     """
+    counts = is_whole(points) and 2 <= points <= MOST_POINTS
     good = precision is None or (is_number(precision) and precision > 0)
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
         ((ends := interval_in_si(name, bounds)) is not None, "bounds", bounds, "must be two ascending finite numbers"),
-        _count_rule(points),
+        (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
         (good, "precision", precision, "must be a number > 0"),
     )
     raise_faults(case_faults(p, "critical") or wrong + free_faults(p, [name, *others]))

@@ -250,9 +250,6 @@ class ReturnMap:
             yield (x := flight.end)
 
 
-# ---- Fixed points of the map, by Newton's method
-
-
 def rounding(tol: float, factor: float) -> float:
     """Relative residual accepted when it stops decreasing; a rough `tol` does not allow more than 1e-8."""
     return max(tol, min(factor * tol, 1e-8))
@@ -302,9 +299,6 @@ def _solve(matrix: Array, right: Array) -> Array:
         return np.asarray(np.linalg.solve(matrix, right), dtype=float)
     except np.linalg.LinAlgError:
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0], dtype=float)
-
-
-# ---- Multipliers of a cycle, and the stability that follows from them
 
 
 def multipliers(jacobian: Array) -> ComplexArray:

@@ -261,9 +261,6 @@ def join_rows(modes: Modes, disc: Sequence[Any], slider: Sequence[Any], height: 
     return np.concatenate([a, alpha, b[pairs], beta[pairs], slider, *([height] if len(height) else [])])
 
 
-# ---- Modes
-
-
 @dataclass(frozen=True, eq=False)
 class SlidingModes:
     """Oscillating modes of steady sliding; eigenvalues without oscillation are left out.

@@ -127,10 +127,9 @@ def regularity(p: Parameters, state: State, tol: float) -> Regularity:
     periodic = Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE
     if n := shortest_period(intervals, CLOSES):
         return Regularity(periodic, n, closure(intervals, n))
-    duration = thresholds.SETTLING * thresholds.FIRST_LEG / 2
     # exponents below -90/s are not resolved by this interval; such a motion repeats
-    how: Any = {"count": 1, "interval": 0.25, "leave_out_trivial": True}
-    largest = lyapunov_exponents(p, duration, initial_state=state, tol=tol, **how)
+    how: Any = {"count": 1, "interval": 0.25, "leave_out_trivial": True, "initial_state": state, "tol": tol}
+    largest = lyapunov_exponents(p, thresholds.SETTLING * thresholds.FIRST_LEG / 2, **how)
     rate, error = float(largest.exponents[0]), float(largest.errors[0])
     if not (math.isfinite(rate) and math.isfinite(error)):
         return Regularity(Outcome.UNDECIDED)

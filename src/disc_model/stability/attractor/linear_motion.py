@@ -181,7 +181,6 @@ def find_cycle_near(
     map_: ReturnMap,
     x: Array,
     near_return: NearReturn | None,
-    *,
     may_separate: bool = False,
     unstable: Sequence[float] = (),
 ) -> NearCycle | None:
@@ -246,8 +245,6 @@ def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs
     values, vectors = np.linalg.eig(jacobian.T)
     return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
 
-
-# ---- Steady sliding
 
 _sliding = lru_cache(maxsize=1)(steady_sliding)  # asked at the end of each leg of a motion
 

@@ -334,9 +334,6 @@ def growing(changes: Sequence[float]) -> bool:
     return bool(np.any((later > thresholds.ARRIVED) & (later > thresholds.RISE * least)))
 
 
-# ---- Description of segments
-
-
 def final_segment(
     p: Parameters, state: State | None, duration: float, late: float, tol: float
 ) -> tuple[Result, Segment | None]:
