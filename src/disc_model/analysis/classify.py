@@ -98,9 +98,8 @@ def closure(intervals: Array, period: int) -> float:
 def shortest_period(intervals: Array, tolerance: float, near_return: float = NEAR_RETURN) -> int:
     """Least number of releases after which intervals repeat to `tolerance` s; 0 if there is none.
 
-    The period is at most half the intervals, because it must occur twice. A period that closes no better than the near
-    returns of a quasi-periodic motion does not count (see `NEAR_RETURN`, or another share). A period of 1 is exempt:
-    from one release to the next there is only a slow transient, which `tolerance` allows.
+    The period is at most half the intervals. One that closes no better than the near returns of a quasi-periodic motion
+    does not count (see `NEAR_RETURN`), but for a period of 1, where there is only a slow transient.
     """
     extent = float(np.ptp(intervals)) if intervals.size else 0.0
     for n in range(1, intervals.size // 2 + 1):

@@ -1,8 +1,8 @@
 """Lyapunov exponents of a motion through all its events, in particular after a loss of contact.
 
-Columns of the variational equations are orthonormalised at equal intervals (Benettin's method).  The exponent along the
-motion is zero, unless the motion comes to rest; columns turn towards that direction slowly, so that it can be left out.
-The first column is then the velocity of the motion, which stays so, and the others are kept orthogonal to it.
+Columns of the variational equations are orthonormalised at equal intervals (Benettin's method).  Columns turn slowly
+towards the motion, whose exponent is zero unless it comes to rest.  To leave it out, the first column is the motion's
+velocity, which stays so, and the others are kept orthogonal to it.
 """
 
 from __future__ import annotations

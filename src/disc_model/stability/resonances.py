@@ -35,13 +35,12 @@ class Resonance:
 
 
 def nearest_resonance(p: Parameters, period: float, multiplier: complex, diameters: int | None = None) -> Resonance:
-    """The resonance to which a cycle's multiplier belongs, among modes with so many nodal diameters; by default among
-    all, when a coincidence may decide.
+    """The resonance to which a cycle's multiplier belongs, among modes of so many nodal diameters, or among all.
 
-    Over a period (s) the slider turns by Omega T against the disc.  In its frame a free mode of frequency f and
-    l diameters therefore has the frequency f -/+ l Omega / 2 pi; a mode that is bound to the slider has f itself.
-    Modulo f_s that is the multiplier's angle over 2 pi T.  The harmonic is the nearest multiple of f_s (of f_s / 2 for
-    a negative real multiplier).
+    Over a period the slider turns by Omega T against the disc.  In its frame a free mode of frequency f and l diameters
+    therefore has the frequency f -/+ l Omega / 2 pi; a mode that is bound to the slider has f itself.  Modulo f_s that
+    is the multiplier's angle over 2 pi T.  The harmonic is the nearest multiple of f_s (of f_s / 2 for a negative real
+    multiplier).
     """
     rate = 1 / float(period)
     angle = math.atan2(multiplier.imag, multiplier.real) / (2 * math.pi)

@@ -1,9 +1,8 @@
 """The return map of the stick-slip cycle, its fixed points and their multipliers.
 
 The section is the instant before a forward release: f = 0 and r_0 F = mu_s P.  A point of it consists of the modal
-coordinates alone, because psi follows from the release condition. They are scaled to the norm of the disc's energy:
-omega a, omega b, alpha, beta.  The map's Jacobian and its derivatives with respect to parameters come from the
-variational equations (`disc_model.engine.event_loop`).
+coordinates alone, because psi follows from the release condition, scaled to the norm of the disc's energy: omega a,
+omega b, alpha, beta.  Derivatives come from the variational equations (`disc_model.engine.event_loop`).
 """
 
 import math
@@ -48,9 +47,8 @@ def case_faults(p: object, analysis: str) -> list[str]:
 
 
 def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
-    """Longest step of columns, time units: as `disc_model.engine.tangent.longest_step`, but shorter on a stiff system.
-    That function takes the time unit for one radian of the fastest oscillation. Strong dampers, springs that act
-    together and a fast drive make faster ones, which do not show in the steps of a steady motion."""
+    """Longest step of columns, time units: as `disc_model.engine.tangent.longest_step`, but shorter where dampers, springs
+    that act together or a fast drive make oscillations faster than that function assumes."""
     damping = max(model.damping.max(), model.damping0.max(initial=0.0), max(model.c, model.c_p) / model.m)
     contact = (1 / model.m + model.inverse_effective_mass) / model.compliance if model.compliant else 0.0
     stiffness = max((model.unit * model.free_unit) ** -2, max(model.k, model.k_p) / model.m) + contact

@@ -38,9 +38,8 @@ class Arrival(NamedTuple):
 
 
 def arrival(p: Parameters, legs: Sequence[Result], tol: float) -> Arrival:
-    """What a motion has come to at the end of its successive legs, recorded with their events. Rest, eigenvalues of
-    steady sliding and multipliers of a stable cycle prove it. Otherwise the record of all legs decides, by the angles
-    at releases and at losses of contact."""
+    """What a motion has come to at the end of its successive legs: what rest, eigenvalues of steady sliding or
+    multipliers of a stable cycle prove; otherwise what the record of angles at releases and separations shows."""
     leg = legs[-1]
     if (calm := find_calm(p, leg, tol)) is not None:
         return Arrival(Settling(Settled.SETTLED, least=0.0, since=leg.final_state.time), calm)
@@ -82,8 +81,7 @@ def sweep(
 
     It stays ``dwell`` s at each value, then up to twice as long again and again until it has settled, ``longest`` s at
     most; from a stable cycle that it follows it continues exactly. Yields the direction (0 up, 1 down) and the index of
-    the value, the last run there, its last segment of ``late`` s, and what the motion has come to. If a run ends early,
-    the segment is None and the sweep ends.
+    the value, the last run there, its last segment of ``late`` s, or None if a run ends early, and the arrival.
     """
     state: State | None = None
     for step in [(0, i) for i in range(lowest, len(values))] + [(1, i) for i in reversed(range(len(values)))]:
@@ -115,9 +113,8 @@ class Regularity(NamedTuple):
 
 
 def regularity(p: Parameters, state: State, tol: float) -> Regularity:
-    """Regularity of the motion from a state, by its separations, or else its releases, and by its largest exponent. The
-    exponent along the motion is excluded. The largest one is zero on a torus and positive in chaos. If it is negative,
-    all neighbouring motions converge to one cycle, even if its period is too long to be observed."""
+    """Regularity of the motion from a state, by its separations, or else its releases, and by its largest exponent but
+    that along the motion: zero on a torus, positive in chaos, negative on a cycle, however long its period."""
     run = simulate(p, state.time + thresholds.SETTLING * thresholds.FIRST_LEG, tol=tol, initial_state=state)
     times, kinds = run.events["time"].to_numpy(dtype=float), run.events["kind"].to_numpy()
     separates = bool((kinds == "separation").any())

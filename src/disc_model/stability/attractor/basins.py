@@ -1,8 +1,7 @@
 """Assignment of many motions of a case to attractors: the quiet cycle, a known attractor, or a new one.
 
-docs/method.md, Settled motions, describes the legs and tests.  A motion that stays near an unstable cycle has not
-settled. A new attractor that is not periodic must persist to the horizon, and the record must show that the motion has
-settled, because it might only be passing an unstable one.
+docs/method.md, Settled motions, describes the legs and tests.  A new attractor that is not periodic must persist to the
+horizon, in a record that has settled, because the motion might only be passing an unstable one.
 """
 
 import math
@@ -36,8 +35,8 @@ from disc_model.stability.return_map import RETURNED, Array, ReturnMap
 
 
 class Basins:
-    """The attractors of a case: the quiet cycle, and those reached from `OWN_STARTS` and from later starts; `known` has
-    them in the order in which they were found.
+    """The attractors of a case, `known` in the order in which they were found: the quiet cycle, and those reached from
+    `OWN_STARTS` and from later starts.
 
     horizon : s, longest simulated time of a motion
     near : relative difference in range from an attractor within which an approaching motion counts as being on it;
@@ -146,11 +145,8 @@ class Basins:
         return stays or _rest_of_drift(ranges) <= thresholds.SAME / 2 * ranges[-1]
 
     def _settled_on(self, leg: Result, steady: bool, settled: bool) -> Attractor | None:
-        """The attractor on which a motion is; None near an unstable cycle, and as long as it is uncertain.
-
-        steady : whether the last legs differ as little as those on a known attractor may
-        settled : whether the record shows that the motion has settled
-        """
+        """The attractor on which a motion is, if that is proven, the record has settled, or the last legs are as steady as
+        those on a known attractor; None near an unstable cycle."""
         attractor, near = Attractor(Outcome.UNDECIDED, segment_of(leg)), None
         if (calm := find_calm(self.p, leg, self.tol)) is not None:
             attractor = replace(attractor, kind=calm)
@@ -186,8 +182,7 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
     """A state after a perturbation of given energy (J) in a random direction, by whole numbers, its `key`.
 
     The direction is uniform in the energy norm of the disc's modes: omega a, omega b, alpha, beta of each.  The slider
-    moves with the disc; f and psi are unchanged.  The energy is that of the perturbation alone: of the modes, of the
-    slider's mass m and of its spring k.
+    moves with the disc; f and psi are unchanged.  The energy is that of modes, slider's mass m and its spring k.
     """
     if energy == 0:
         return state

@@ -81,19 +81,14 @@ class OutcomeResult:
 
     outcome : None if the simulation failed
     simulated : s, simulated time; 0 if multipliers decide
-    attractor : one of the attractors of `disc_model.stability.attractor.basins.Basins`, or None
-    near : the stable cycle that the motion approaches, or else the first unstable cycle from which it departs, or None
-    extrapolated : the unstable cycle of slowest growth from which a departure was computed by multipliers; None if all
-        was simulated
-    first_separation : s, nan if there was none
+    near : the stable cycle that the motion approaches, or else the first unstable cycle from which it departs
+    extrapolated : the unstable cycle of slowest growth from which a departure was computed by multipliers
     time : s, at which the outcome was known
-    state : last state of the simulation; None if there was none
+    state : last state of the simulation
     failed : the simulation that ended early
-    changes : changes from one period to the next, over the static deflection, at the end of each leg
-    times : times of these ends, s
+    changes, times : changes from one period to the next, over the static deflection, and times of these (s)
     distance : distance from the cycle, over the static deflection, at the end of the search
     segment : the last segment before the horizon, if it was requested and reached
-    stage : how the search of `find_outcome` ended
     """
 
     outcome: Outcome | None = None
