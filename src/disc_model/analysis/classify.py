@@ -295,13 +295,12 @@ def first_settled(points: Array, start: int = 0) -> int:
 # cycle or a sudden end of a chaotic transient.
 
 WINDOWS, LEAST_SAMPLES = 8, 8  # number of windows into which a record is cut, and least number of samples in each
-PARTS = 1 - np.geomspace(1, 0.05, 40)
-"""Starts of the later parts of a record that are tried, relative to its length: each leaves out 7 % of the rest."""
-QUANTILE = 3.707
-"""Of Student's t with `WINDOWS` - 2 degrees of freedom, 99 % on both sides: half-width of a slope, in its errors."""
+PARTS = 1 - np.geomspace(1, 0.05, 40)  # starts of later parts of a record, over its length: each omits 7 % of the rest
+QUANTILE = (
+    3.707  # of Student's t, `WINDOWS` - 2 degrees of freedom, 99 % on both sides: half-width in errors of a slope
+)
 RESOLUTION = 0.01  # least change over a record that counts as visible, relative to the width of the motion
-SLOWEST = 5e-5
-"""1/s: a motion has settled if its width changes by less than 5 % in 1000 s, and the record is able to show that."""
+SLOWEST = 5e-5  # 1/s: a settled motion's width changes by less than 5 % in 1000 s, and the record can show that
 STILL = 1e-3  # width, over the mean, below which a signal counts as constant: changes are then relative to this width
 
 

@@ -46,9 +46,7 @@ if TYPE_CHECKING:
 USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5, "contact_compliance": 1e-8}
 USUAL |= {"damping_ratio": 1e-3, "friction_decay": 1.0}
 """Typical values of parameters whose value in Table 1 is missing or 0."""
-DIFFERENCE = 1e-5
-"""Step of finite differences, over a parameter's scale: flights are accurate to 1e-13, and their second derivatives
-are of order one."""
+DIFFERENCE = 1e-5  # over a parameter's scale: flights are accurate to 1e-13, their second derivatives of order one
 
 
 class CorrectorFailed(Exception):

@@ -459,8 +459,7 @@ def _with(p: Parameters, **values: float) -> Parameters:
         raise ParameterError(*faults) from None
 
 
-NO_CYCLES: tuple[float, ...] = (0.5,)
-"""Where nothing is known of an interval, because one of its ends has no cycle: its middle is computed."""
+NO_CYCLES: tuple[float, ...] = (0.5,)  # of an interval one of whose ends has no cycle the middle is computed
 
 
 def _resonances(first: FloquetResult, second: FloquetResult) -> Sequence[float]:

@@ -29,11 +29,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _BLOCKS = 16
-MOST_INTERVALS = 10_000_000
-"""Orthonormalisations in the time over which rates are averaged: hours of work, and 600 MB of logarithms."""
+MOST_INTERVALS = 10_000_000  # orthonormalisations in the averaging time: hours of work, and 600 MB of logarithms
 CLEAR = 4.0  # an exponent differs from zero if it exceeds this many of its errors
-CONVERGED = 0.05, 0.002
-"""An exponent has converged if both halves of the time agree to this share of it, or to this difference in 1/s."""
+CONVERGED = 0.05, 0.002  # share of an exponent, or difference in 1/s, to which both halves of the time agree
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -24,8 +24,7 @@ from disc_model.simulation.states import State, engine_case, read_state, series_
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
-"""Parameters with respect to which the map can be differentiated."""
+PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")  # by which the map can be differentiated
 RETURNED = transitions.RETURNED
 ENDS = {
     transitions.RETURNED: "returned",
@@ -47,8 +46,8 @@ def case_faults(p: object, analysis: str) -> list[str]:
 
 
 def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
-    """Longest step of columns, time units: as `disc_model.engine.tangent.longest_step`, but shorter where dampers, springs
-    that act together or a fast drive make oscillations faster than that function assumes."""
+    """Longest step of columns, time units: as `disc_model.engine.tangent.longest_step`, but shorter where dampers,
+    springs that act together or a fast drive make oscillations faster than that assumes."""
     damping = max(model.damping.max(), model.damping0.max(initial=0.0), max(model.c, model.c_p) / model.m)
     contact = (1 / model.m + model.inverse_effective_mass) / model.compliance if model.compliant else 0.0
     stiffness = max((model.unit * model.free_unit) ** -2, max(model.k, model.k_p) / model.m) + contact

@@ -145,8 +145,8 @@ class Basins:
         return stays or _rest_of_drift(ranges) <= thresholds.SAME / 2 * ranges[-1]
 
     def _settled_on(self, leg: Result, steady: bool, settled: bool) -> Attractor | None:
-        """The attractor on which a motion is, if that is proven, the record has settled, or the last legs are as steady as
-        those on a known attractor; None near an unstable cycle."""
+        """The attractor on which a motion is, if that is proven, the record has settled, or the last legs are as steady
+        as those on a known attractor; None near an unstable cycle."""
         attractor, near = Attractor(Outcome.UNDECIDED, segment_of(leg)), None
         if (calm := find_calm(self.p, leg, self.tol)) is not None:
             attractor = replace(attractor, kind=calm)

@@ -165,7 +165,6 @@ class _OutcomeSearch:
     """A search for the outcome of a motion, with the arguments of `find_outcome`.
 
     start_cycle : the cycle near the static start, if that may decide
-    furthest : it is reduced if the search starts anew
     """
 
     p: Parameters
@@ -177,44 +176,36 @@ class _OutcomeSearch:
     map: ReturnMap | None
     start_cycle: NearCycle | None
     furthest: float
-    simulated_before: float = 0.0
 
     def run(self) -> OutcomeResult:
         """Follow the motion, from cycle to cycle by multipliers and between them by simulation."""
-        near = self._begin()
+        start = self.start_cycle
+        near = start if start is not None and start.follows_cycle else None
+        # an unstable one near the start, until the motion follows it
+        self.cycle_to_come = None if start is None or start is near or start.cycle.stable else start
+        self.departed_from: NearCycle | None = None  # the last unstable cycle that it followed
+        self.result = OutcomeResult(state=self.start, time=0.0 if near is None else first_release(self.p))
+        self.leg, self.angles = thresholds.FIRST_LEG, list[Array]()
         while self.result.stage is None:
             if near is None:
                 near = self._simulate_on()
             elif near.cycle.stable:
-                near = self._settle(near)
+                self._settle(near)
             else:
                 self._depart(near)
                 near = None
-        self.result.simulated += self.simulated_before
         return self.result
 
-    def _begin(self) -> NearCycle | None:
-        """The cycle that the motion follows from its start, if it is known to follow one."""
-        near = self.start_cycle
-        follows = near is not None and near.follows_cycle
-        self.result = OutcomeResult(state=self.start, time=first_release(self.p) if follows else 0.0)
-        self.leg = thresholds.FIRST_LEG
-        self.departed_from: NearCycle | None = None  # the last unstable cycle that it followed
-        # an unstable one near the start, until the motion follows it
-        self.cycle_to_come = None if near is None or follows or near.cycle.stable else near
-        self.angles: list[Array] = []
-        return near if follows else None
-
-    def _settle(self, near: NearCycle) -> NearCycle | None:
-        """End on a stable cycle, or start anew if a departure that may decide was not simulated."""
+    def _settle(self, near: NearCycle) -> None:
+        """End on a stable cycle, after a new search if a departure that may decide was not simulated."""
         result = self.result
         if result.extrapolated is not None and self.furthest > thresholds.CERTAIN:
-            self.furthest, self.simulated_before = thresholds.CERTAIN, result.simulated
-            return self._begin()
+            self.result = replace(self, furthest=thresholds.CERTAIN).run()
+            self.result.simulated += result.simulated
+            return
         result.near, result.outcome, result.stage = near, near.kind, Stage.SETTLED
         result.time += near.waited
         result.distance = float(np.linalg.norm(near.distance)) / near.map.deflection
-        return None
 
     def _depart(self, near: NearCycle) -> None:
         """Follow the linear map away from an unstable cycle, as far as it is valid."""
