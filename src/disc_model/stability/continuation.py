@@ -441,9 +441,9 @@ def continue_cycle(
 ) -> Branch:
     """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
 
-    The branch goes both ways from the case. From a state `guess` the cycle may lose contact. It is followed with its
-    impacts as long as its events keep their order. If an event would appear or vanish, the return map has a corner: the
-    branch ends and names that event.
+    The branch goes both ways from the case. From a state `guess` the cycle may lose contact; with its impacts it is
+    followed as long as its events keep their order. Where an event would appear or vanish, the return map has a corner:
+    the branch ends and names that event.
 
     Parameters
     ----------

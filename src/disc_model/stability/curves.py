@@ -317,11 +317,9 @@ class Critical(Summarised):
     @property
     def unstable(self) -> Array:
         """The intervals in which that motion is unstable, shape (n_intervals, 2). Another one may be stable there."""
-        ends = [*self.crossings, self.values[-1]]
-        begins = [self.values[0], *self.crossings]
+        edges = np.array([self.values[0], *self.crossings, self.values[-1]])
         grows = [not self.unstable_above[0] if len(self.crossings) else math.isfinite(self.value), *self.unstable_above]
-        intervals = [pair for pair, unstable in zip(zip(begins, ends, strict=True), grows, strict=True) if unstable]
-        return np.array(intervals, dtype=float).reshape(-1, 2)
+        return np.column_stack([edges[:-1], edges[1:]])[np.array(grows)]
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         values = self.parameters.replace(**{self.name: self.value if self.value > 0 else self.values[0]}).stated

@@ -65,10 +65,10 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
     change = np.zeros(columns.N_SCALARS + 2 * width + 2 * n0)
     ends = columns.N_SCALARS + np.cumsum([0, width, width, n0])
     scalars, stiffness, damping, stiffness0, damping0 = np.split(change, ends)
-    own = {"Omega": columns.D_OMEGA, "c": columns.D_C, "m": columns.D_M, "k": columns.D_K}
-    own |= {"k_p": columns.D_K_P, "c_p": columns.D_C_P}
-    if name in own:
-        scalars[own[name]] = 1.0
+    entries = {"Omega": columns.D_OMEGA, "c": columns.D_C, "m": columns.D_M, "k": columns.D_K}
+    entries |= {"k_p": columns.D_K_P, "c_p": columns.D_C_P}
+    if name in entries:
+        scalars[entries[name]] = 1.0
     if name == "k":
         scalars[columns.LOAD] = -model.u_0
     elif name == "N":  # u_0 is proportional to N
