@@ -1,16 +1,10 @@
 """Classification of motions by numerical criteria, whether they have settled, and sections at the drive's period.
 
-The in-plane motion is classified by the times between successive releases of stick, T_1, T_2, ...: a motion that
-repeats after n of them is periodic with period n, however large n is, if the record holds two periods. A motion that
-does not repeat within half the record is quasi-periodic or irregular. The 0-1 test for chaos decides between the two
-(Gottwald and Melbourne, SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009).
-
-`motion_of` judges recorded intervals. Claims use it, because a case stores events and no state. Grids and diagrams have
-a state: `disc_model.stability.attractor.arrival.regularity` finds the period alike, and then decides by the
-largest Lyapunov exponent. The two may differ where only jumps part neighbouring motions, such as a release that one of
-them has. The exponent is that of small disturbances and does not see jumps. With E = 100 GPa, N = 200 N and 11 rad/s it
-is zero within 3e-4/s. A disturbance of 1e-8 keeps its size there for a minute, then parts the motions. The 0-1 test
-gives 0.99. So neither decision can replace the other.
+A motion that does not repeat within half the record is quasi-periodic or irregular: `motion_of` decides by the 0-1 test
+for chaos (Gottwald and Melbourne, SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009), since a case stores events and no state.
+`disc_model.stability.attractor.arrival.regularity` has a state, and decides by the largest Lyapunov exponent. Neither
+can replace the other: an exponent does not see jumps that part neighbouring motions, such as a release that one of them
+has. With E = 100 GPa, N = 200 N and 11 rad/s it is zero within 3e-4/s, and the test gives 0.99.
 """
 
 import math
@@ -82,13 +76,12 @@ def motion_of(intervals: Array, tolerance: float = CLOSES) -> Motion:
     """
     if intervals.size < FEWEST:
         raise ValueError(f"{intervals.size} intervals: at least {FEWEST} are needed")
-    spread = irregularity(intervals)
-    longest = intervals.size // 2
+    spread, longest = irregularity(intervals), intervals.size // 2
     if period := shortest_period(intervals, tolerance):
         return Motion(Outcome.OTHER_CYCLE, period, spread, closure(intervals, period), np.nan, longest)
     chaos = zero_one(intervals)
-    kind = Outcome.IRREGULAR if chaos > 1 - REGULAR else Outcome.UNDECIDED
-    kind = Outcome.QUASI_PERIODIC if chaos < REGULAR else kind
+    kind = Outcome.QUASI_PERIODIC if chaos < REGULAR else Outcome.UNDECIDED
+    kind = Outcome.IRREGULAR if chaos > 1 - REGULAR else kind
     return Motion(kind, 0, spread, closure(intervals, 1), chaos, longest)
 
 
@@ -105,9 +98,8 @@ def closure(intervals: Array, period: int) -> float:
 def shortest_period(intervals: Array, tolerance: float, near_return: float = NEAR_RETURN) -> int:
     """Least number of releases after which intervals repeat to `tolerance` s; 0 if there is none.
 
-    The period is at most half the intervals, because it must occur twice. A period that closes no better than the near
-    returns of a quasi-periodic motion does not count (see `NEAR_RETURN`, or another share). A period of 1 is exempt:
-    from one release to the next there is only a slow transient, which `tolerance` allows.
+    The period is at most half the intervals. One that closes no better than the near returns of a quasi-periodic motion
+    does not count (see `NEAR_RETURN`), but for a period of 1, where there is only a slow transient.
     """
     extent = float(np.ptp(intervals)) if intervals.size else 0.0
     for n in range(1, intervals.size // 2 + 1):
@@ -133,29 +125,22 @@ def zero_one(values: Array) -> float:
     float
         Near 0 if (p, q) stays bounded (periodic, quasi-periodic); near 1 if it diffuses (chaotic).
     """
-    signal = np.asarray(values, dtype=float)
-    signal = (signal - signal.mean()) / (signal.std() or 1.0)
-    n, n_cut = signal.size, max(2, signal.size // 10)
-    steps = np.arange(1, n_cut + 1)
-    drawn = np.random.default_rng(0).uniform(np.pi / 5, 4 * np.pi / 5, 101)
-    growths = [_growth(signal, float(c), steps, n - n_cut) for c in drawn]
-    return float(np.median(growths))
-
-
-def _growth(signal: Array, c: float, steps: NDArray[np.int64], count: int) -> float:
-    """Correlation of the mean square displacement with time, after its oscillating part is subtracted."""
     # imported here: it takes longer than most jobs, which do without this test
     from scipy.signal import correlate
 
-    path = np.cumsum(signal * np.exp(1j * c * np.arange(1, signal.size + 1)))
-    sums = np.append(0.0, np.cumsum(np.abs(path) ** 2))
-    # mean of |path[i + j] - path[i]|^2 over i < count
-    together = correlate(path, path[:count], mode="valid", method="fft").real
-    square = (sums[count + steps] - sums[steps] + sums[count] - 2 * together[steps]) / count
-    square -= signal.mean() ** 2 * (1 - np.cos(c * steps)) / (1 - np.cos(c))
-    if np.ptp(square) == 0:
-        return 0.0
-    return float(np.corrcoef(steps, square)[0, 1])
+    signal = np.asarray(values, dtype=float)
+    signal = (signal - signal.mean()) / (signal.std() or 1.0)
+    steps = np.arange(1, max(2, signal.size // 10) + 1)
+    count, growths = signal.size - steps.size, []
+    for c in np.random.default_rng(0).uniform(np.pi / 5, 4 * np.pi / 5, 101):
+        path = np.cumsum(signal * np.exp(1j * c * np.arange(1, signal.size + 1)))
+        sums = np.append(0.0, np.cumsum(np.abs(path) ** 2))
+        # mean of |path[i + j] - path[i]|^2 over i < count, without its oscillating part; it grows with j in chaos
+        together = correlate(path, path[:count], mode="valid", method="fft").real
+        square = (sums[count + steps] - sums[steps] + sums[count] - 2 * together[steps]) / count
+        square -= signal.mean() ** 2 * (1 - np.cos(c * steps)) / (1 - np.cos(c))
+        growths.append(np.corrcoef(steps, square)[0, 1] if np.ptp(square) else 0.0)
+    return float(np.median(growths))
 
 
 def stick_disappears(before: float, after: float, bound: float = 1e-3) -> bool:
@@ -167,8 +152,6 @@ def stick_disappears(before: float, after: float, bound: float = 1e-3) -> bool:
 class Location(NamedTuple):
     """Position in the oscillation of the height at which contact is lost; shares are relative to its range.
 
-    Attributes
-    ----------
     kind : "at the lowest position", "falling", "rising" or "at the highest position"
     height : median share of the range, 0 at the lowest and 1 at the highest point
     to_lowest : median share of the range between the loss of contact and the next lowest point
@@ -186,35 +169,28 @@ def separation_location(time: Array, height: Array, starts: NDArray[np.int64], b
     ----------
     time, height : uniform samples, shape (n,)
     starts : indices of the first samples of the separations
-    bound : share of the range within which a point counts as the lowest (or the highest) one
-
-    Notes
-    -----
-    "At the lowest position" means that the height at the loss exceeds the lowest point of its cycle by at most `bound`
-    of the range, before or after that point. The cycle is one dominant period around the loss.
+    bound : "at the lowest position" means that the height at the loss exceeds the lowest point of its cycle, one
+        dominant period around the loss, by at most this share of the range, before or after that point; likewise for
+        the highest
     """
+    if not len(starts):
+        raise ValueError("no separation")
     velocity = np.gradient(height, time)
     # half a period of the dominant oscillation
     amplitude = np.abs(np.fft.rfft(height - np.mean(height)))
     half = max(2, round(len(height) / max(1, int(np.argmax(amplitude[1:]) + 1))) // 2)
-    if not len(starts):
-        raise ValueError("no separation")
     measured = []
     for i in starts:
         cycle, ahead = height[max(0, i - half) : i + half + 1], height[i : i + half + 1]
         swing = float(np.ptp(cycle)) or 1.0
         measured.append(((height[i] - cycle.min()) / swing, (height[i] - ahead.min()) / swing, velocity[i]))
     where, drop, moving = np.median(measured, axis=0).tolist()
+    kind = "rising" if moving > 0 else "falling"
     if where <= bound:
         kind = "at the lowest position"
     elif where >= 1 - bound:
         kind = "at the highest position"
-    else:
-        kind = "rising" if moving > 0 else "falling"
     return Location(kind, where, drop)
-
-
-# ---- Shares of samples
 
 
 class Share(NamedTuple):
@@ -226,17 +202,14 @@ class Share(NamedTuple):
 
 
 def share(hits: int, trials: int, unknown: int = 0, confidence: float = 0.95) -> Share:
-    """Share of hits among trials with a known result, with its Wilson interval.
-
-    unknown : number of further trials; they count as misses at the lower end of the interval and as hits at the upper
-    """
+    """Share of hits among trials, with its Wilson interval. Further trials with an unknown result count as misses at
+    the lower end of the interval and as hits at the upper."""
     from scipy.stats import binomtest
 
     if trials == 0:
         return Share(np.nan, 0.0, 1.0)
-    low = binomtest(hits, trials + unknown).proportion_ci(confidence, "wilson").low
-    high = binomtest(hits + unknown, trials + unknown).proportion_ci(confidence, "wilson").high
-    return Share(hits / trials, float(low), float(high))
+    low, high = (binomtest(h, trials + unknown).proportion_ci(confidence, "wilson") for h in (hits, hits + unknown))
+    return Share(hits / trials, float(low.low), float(high.high))
 
 
 # ---- Poincare sections: one sample every 2 pi/Omega. A motion whose period is n drive periods shows n points, a
@@ -317,25 +290,21 @@ def first_settled(points: Array, start: int = 0) -> int:
 
 # ---- Whether a motion has settled: the rate at which a record of it still changes, and the least rate that it shows
 #
-# This is the one test behind "settled" in studies, figures and verdicts. A stable cycle that the motion follows
-# (`disc_model.stability.attractor.arrival`) proves more, since its multipliers know every rate. A
-# record shows no rate far below one over its length: what stays unseen, such as a slow departure from an unstable cycle
-# or a sudden end of a chaotic transient, is excluded by no record.
+# The one test behind "settled" in studies, figures and verdicts, unless the motion follows a stable cycle, whose
+# multipliers know every rate. A record does not exclude what stays unseen, such as a slow departure from an unstable
+# cycle or a sudden end of a chaotic transient.
 
 WINDOWS, LEAST_SAMPLES = 8, 8  # number of windows into which a record is cut, and least number of samples in each
-PARTS = 1 - np.geomspace(1, 0.05, 40)
-"""Starts of the later parts of a record that are tried, relative to its length: each leaves out 7 % of the rest."""
-QUANTILE = 3.707
-"""Of Student's t with `WINDOWS` - 2 degrees of freedom, 99 % on both sides: half-width of a slope, in its errors."""
+PARTS = 1 - np.geomspace(1, 0.05, 40)  # starts of later parts of a record, over its length: each omits 7 % of the rest
+QUANTILE = (
+    3.707  # of Student's t, `WINDOWS` - 2 degrees of freedom, 99 % on both sides: half-width in errors of a slope
+)
 RESOLUTION = 0.01  # least change over a record that counts as visible, relative to the width of the motion
-SLOWEST = 5e-5
-"""1/s: a motion has settled if its width changes by less than 5 % in 1000 s, and the record is able to show that."""
+SLOWEST = 5e-5  # 1/s: a settled motion's width changes by less than 5 % in 1000 s, and the record can show that
 STILL = 1e-3  # width, over the mean, below which a signal counts as constant: changes are then relative to this width
 
 
 class Settled(StrEnum):
-    """Answers."""
-
     UNDECIDED = "undecided"
     CHANGING = "changing"
     SETTLED = "settled"
@@ -378,7 +347,6 @@ def settling(time: ArrayLike, values: ArrayLike, slowest: float = SLOWEST, still
     t, x = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
     if not t.size or not np.isfinite(x).all():
         return Settling()
-
     whole = _drift(t, x, slowest, still)
     # shorter parts cannot show that little
     starts = [start for start in t[0] + PARTS * (t[-1] - t[0]) if t[-1] - start >= RESOLUTION / slowest]

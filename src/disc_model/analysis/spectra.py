@@ -70,9 +70,8 @@ def amplitude_spectrum(time: Array, values: Array) -> tuple[Array, Array]:
 
     window = blackmanharris(len(time), sym=False)
     transform = np.fft.rfft((values - np.mean(values)) * window)
-    amplitude: Array = 2 * np.abs(transform) / window.sum()
-    frequency: Array = np.asarray(np.fft.rfftfreq(len(time), 1 / rate), dtype=np.float64)
-    return frequency, amplitude
+    frequency = np.asarray(np.fft.rfftfreq(len(time), 1 / rate), dtype=np.float64)
+    return frequency, 2 * np.abs(transform) / window.sum()
 
 
 def lines(
@@ -102,11 +101,15 @@ def lines(
     frequency, amplitude = amplitude_spectrum(time, values)
     step = float(frequency[1])
     peaks = _maxima(amplitude, RESOLVED if apart is None else max(1, round(apart / step)))
-    frequencies, heights = _interpolated(frequency, amplitude, peaks)
+    # vertices of parabolas through the logarithms of the maxima and their neighbours
+    low, mid, high = (np.log(np.maximum(amplitude[peaks + i], np.finfo(float).tiny)) for i in (-1, 0, 1))
+    curvature = low - 2 * mid + high
+    shift = np.divide(0.5 * (low - high), curvature, out=np.zeros(len(peaks)), where=curvature < 0)
+    frequencies, heights = frequency[peaks] + shift * frequency[1], np.exp(mid - 0.25 * (low - high) * shift)
     inside = (frequencies > above) & (frequencies < below)
     bins = np.where(inside, amplitude[peaks], 0.0)
-    high = inside & (bins >= floor * bins.max(initial=0.0))
-    return [Line(float(f), float(a)) for f, a in zip(frequencies[high], heights[high], strict=True)]
+    lasting = inside & (bins >= floor * bins.max(initial=0.0))
+    return [Line(float(f), float(a)) for f, a in zip(frequencies[lasting], heights[lasting], strict=True)]
 
 
 def strongest(time: Array, values: Array, near: float, within: float) -> Line:
@@ -146,10 +149,9 @@ def chance(time: Array, values: Array, line: Line, searched: float) -> float:
     levels = [float(np.median(amplitude[part] ** 2)) for part in parts if part.any()]
     if not levels:
         raise ValueError(f"no bin of the spectrum is {near:g} to {far:g} Hz from {line.frequency:g} Hz")
-    seen = lines(time, values, above=line.frequency - step / 2, below=line.frequency + step / 2)
+    seen, level = lines(time, values, above=line.frequency - step / 2, below=line.frequency + step / 2), max(levels)
     if not seen:
         return 1.0
-    level = max(levels)
     if not level > 0:
         return 0.0
     power = min(line.amplitude, seen[0].amplitude) ** 2
@@ -224,11 +226,3 @@ def _maxima(amplitude: Array, distance: int) -> NDArray[np.int64]:
 
     peaks, _ = find_peaks(amplitude, height=SIDE_LOBES * amplitude.max(), distance=distance)
     return np.asarray(peaks, dtype=np.int64)
-
-
-def _interpolated(frequency: Array, amplitude: Array, peaks: NDArray[np.int64]) -> tuple[Array, Array]:
-    """Frequencies and amplitudes at the vertices of parabolas through the logarithms of maxima and their neighbours."""
-    low, mid, high = (np.log(np.maximum(amplitude[peaks + i], np.finfo(float).tiny)) for i in (-1, 0, 1))
-    curvature = low - 2 * mid + high
-    shift = np.divide(0.5 * (low - high), curvature, out=np.zeros(len(peaks)), where=curvature < 0)
-    return frequency[peaks] + shift * frequency[1], np.exp(mid - 0.25 * (low - high) * shift)

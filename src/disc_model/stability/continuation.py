@@ -1,20 +1,18 @@
 """Continuation of a cycle in one parameter, and of its stability borders in two, by pseudo-arclength.
 
-A cycle is a zero of F(x, q) = R(x, q) - x, in scaled unknowns.  R is the return map, x the point of the section and q
-the free parameters; the Jacobian of F by both comes from the variational equations.  Distances mix the point, over the
-norm of the static deflection, with the parameters, over their scales.
-
-`continue_cycle` follows the cycle along F = 0; a fold, where two cycles meet, is a regular point of that curve.
-`continue_border` follows neutral curves and folds in the plane of two parameters.
+A cycle is a zero of F(x, q) = R(x, q) - x.  R is the return map, x the point of the section and q the free parameters;
+the Jacobian of F by both comes from the variational equations.  A fold, where two cycles meet, is a regular point of
+the curve F = 0.  Distances mix x, over the norm of the static deflection, with q, over the parameters' scales.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import partial
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,39 +42,50 @@ from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, is_whole, limit
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# ---- The equation
 
 USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5, "contact_compliance": 1e-8}
 USUAL |= {"damping_ratio": 1e-3, "friction_decay": 1.0}
 """Typical values of parameters whose value in Table 1 is missing or 0."""
-DIFFERENCE = 1e-5
-"""Step of finite differences, over a parameter's scale: flights are accurate to 1e-13, and their second derivatives
-are of order one."""
+DIFFERENCE = 1e-5  # over a parameter's scale: flights are accurate to 1e-13, their second derivatives of order one
 
 
 class CorrectorFailed(Exception):
-    """The corrector found no cycle, or the motion did not return; the message says which."""
+    """No next cycle was found; `reordered` are the unknowns z from which events come in another order, or None."""
 
-
-class Reordered(CorrectorFailed):
-    """The order of events changes, in the flight from the unknowns z; the message says how often each event occurs."""
-
-    def __init__(self, message: str, z: Array) -> None:
-        super().__init__(f"the order of events changes: {message}")
-        self.z = z
+    def __init__(self, message: str, reordered: Array | None = None) -> None:
+        super().__init__(message)
+        self.reordered = reordered
 
 
 @dataclass(frozen=True)
-class CyclePoint:
+class Place:
+    """A point of the surface F = 0 in the unknowns z, with F's derivative `by` them; of a curve also its unit tangent;
+    of a border the multiplier `mu` that is followed, and the gradients of the test function and of `mu` within the
+    surface."""
+
     z: Array
     residual: Array
     by: Array
     flight: Flight
     jacobian: Array
+    tangent: Array = field(default_factory=lambda: np.zeros(0))
+    mu: complex = 1.0
+    gradient: Array = field(default_factory=lambda: np.zeros(0))
+    turning: ComplexArray = field(default_factory=lambda: np.zeros(0, complex))
+
+    @cached_property
+    def basis(self) -> Array:
+        """Orthonormal basis of the null space of `by`: (number of parameters, n + number of parameters)."""
+        return np.asarray(np.linalg.svd(self.by)[2][len(self.residual) :], dtype=float)
+
+    def predicted(self, move: Array) -> complex:
+        """The multiplier after a move, to first order."""
+        return self.mu + complex(self.turning @ move)
 
 
 class CycleProblem:
-    """F(x, q) in scaled unknowns z = (x / size, q / scales); ``scale`` replaces the usual scales.
+    """F(x, q) in scaled unknowns z = (x / size, q / scales); a `scale` replaces a parameter's value, or a fifth of a
+    typical one, which weighs as much as the static deflection.
 
     Derivatives by `PARAMETERS` come from the variational equations, those by other numbers from differences. With an
     `order` cycles may lose contact, and must have these numbers of events: elsewhere the map has a corner.
@@ -88,15 +97,14 @@ class CycleProblem:
         self.base, self.names, self.tol, self.order = p, names, tol, order
         self._analytic = tuple(name for name in names if name in PARAMETERS)
         self._reference = reference = ReturnMap(p, tol)
-        self.n = reference.size
-        self.scale = reference.scale
-        self.size = reference.deflection
-        self.scales = np.array([scale or default_scale(p, name) for name in names])
+        self.n, self.scale, self.size = reference.size, reference.scale, reference.deflection
+        usual = DEFAULTS | USUAL
+        self.scales = np.array([scale or max(abs(p.numbers[name]), 0.2 * usual.get(name, 0.0)) for name in names])
 
     def case(self, z: Array) -> Parameters:
-        values = z[self.n :] * self.scales
+        values = (z[self.n :] * self.scales).tolist()
         try:
-            return self.base.replace(**dict(zip(self.names, map(float, values), strict=True)))
+            return self.base.replace(**dict(zip(self.names, values, strict=True)))
         except ParameterError as error:
             raise CorrectorFailed(str(error)) from None
 
@@ -110,7 +118,7 @@ class CycleProblem:
         q = np.array([self.base.numbers[name] for name in self.names]) / self.scales
         return np.concatenate([self._reference.point(state) / self.size, q])
 
-    def evaluate(self, z: Array) -> CyclePoint:
+    def evaluate(self, z: Array) -> Place:
         p = self.case(z)
         if min(p.Omega, p.N, p.k_p) <= 0:
             raise CorrectorFailed("the drive, the preload or the in-plane spring vanishes")
@@ -118,7 +126,7 @@ class CycleProblem:
         if self.order and flight.counts != self.order:
             counts = zip(Counts._fields, self.order, flight.counts, strict=True)
             changes = (f"{name.replace('_', ' ')} {before} to {two}" for name, before, two in counts if before != two)
-            raise Reordered(", ".join(changes), z)
+            raise CorrectorFailed(f"the order of events changes: {', '.join(changes)}", z)
         jacobian = flight.jacobian * turn[:, None] / turn[None, :]
         if not (np.all(np.isfinite(jacobian)) and np.all(np.isfinite(flight.by)) and np.all(np.isfinite(residual))):
             raise CorrectorFailed("the variational equations are singular: a switch is grazed")
@@ -129,7 +137,7 @@ class CycleProblem:
             move = DIFFERENCE * np.eye(len(z))[self.n + i]
             ends = [self._fly(self.case(z + side * move), z, tangent=False)[2] for side in (1, -1)]
             parameters[:, i] = (ends[0] - ends[1]) / (2 * DIFFERENCE)
-        return CyclePoint(z, residual, np.hstack([jacobian - np.eye(self.n), parameters]), flight, jacobian)
+        return Place(z, residual, np.hstack([jacobian - np.eye(self.n), parameters]), flight, jacobian)
 
     def _fly(
         self, p: Parameters, z: Array, names: tuple[str, ...] = (), *, tangent: bool = True
@@ -144,7 +152,7 @@ class CycleProblem:
         turn = self.scale / map_.scale  # they differ where frequencies of the disc are not those of the reference
         return flight, turn, (flight.end - x) * turn / self.size
 
-    def correct(self, z: Array, rows: Array, targets: Array) -> CyclePoint:
+    def correct(self, z: Array, rows: Array, targets: Array) -> Place:
         """Solve F = 0 with `rows` z = `targets`, in at most seven steps of Newton's method."""
         point = self.evaluate(z)
         last = math.inf
@@ -167,10 +175,101 @@ class CycleProblem:
         energy = np.abs(vectors[: len(self._reference.diameters), np.argmax(np.abs(values))]) ** 2
         return int(np.argmax(np.bincount(self._reference.diameters, energy)))
 
-    def tangents(self, point: CyclePoint) -> Array:
-        """Orthonormal basis of the null space of F's Jacobian: (number of parameters, n + number of parameters)."""
-        _, _, rows = np.linalg.svd(point.by)
-        return np.asarray(rows[self.n :], dtype=float)
+    def start(self, cycle: FloquetResult) -> Place:
+        """A cycle as a point of the curve; raises `ParameterError` if it cannot be followed."""
+        rule = "p: must have a cycle to start from"
+        rule = "guess: must lie near a cycle that can be followed" if self.order else rule
+        if cycle.releases > 1 and not self.order:
+            raise ParameterError("p: must have a cycle with a single release to start from")
+        if cycle.state is None:
+            raise ParameterError(f"{rule}, but {cycle.message.removeprefix(f'{cycle.status}: ')}")
+        try:
+            return self.evaluate(self.unknowns(cycle.state))
+        except CorrectorFailed as lost:
+            raise ParameterError(f"{rule}, but {lost}") from None
+
+    def branch(self, points: Sequence[Place], folds: Array, ended: str) -> Branch:
+        values = [multipliers(point.jacobian) for point in points]
+        period = np.array([point.flight.period for point in points])
+        return Branch(
+            parameters=self.names,
+            values=np.array([point.z[self.n :] * self.scales for point in points]),
+            period=period,
+            stick_fraction=np.array([point.flight.stick_time for point in points]) / period,
+            growth_rate=np.array([math.log(abs(v[0])) for v in values]) / period,
+            multipliers=np.array(values),
+            diameters=np.array([self.leading_diameters(point.jacobian) for point in points]),
+            points=np.array([point.z[: self.n] * self.size for point in points]),
+            folds=folds,
+            ended=ended,
+            case=self.base,
+        )
+
+    def follow(
+        self, point: Place, span: tuple[float, float], steps: StepControl, tangent: Array
+    ) -> tuple[list[Place], list[float], str]:
+        """The cycles along a tangent until the parameter leaves the span, the folds between them, and why they end."""
+        (name,), scale = self.names, self.scales[0]
+        low, high = (bound / scale for bound in span)
+        ended = f"{name} has left {span[0]:g} .. {span[1]:g}"
+        points, folds = [replace(point, tangent=tangent)], list[float]()
+        try:
+            for new, _ in follow_curve(points[0], self.next_place, steps):
+                if new.tangent[-1] * points[-1].tangent[-1] < 0:
+                    fold = self._locate_fold(points[-1], new)
+                    if not (steps.beyond or low <= fold <= high):
+                        points.append(new)
+                        break
+                    folds.append(fold * scale)
+                points.append(new)
+                if not low <= new.z[-1] <= high:
+                    break
+        except CorrectorFailed as lost:
+            ended = str(lost)
+            if lost.reordered is not None:
+                duration = 2 * points[-1].flight.period  # an event may be missing at the end of a period
+                ends = ((self.case(z), self.state(z)) for z in (points[-1].z, lost.reordered))
+                motions = (simulate(case, duration, tol=self.tol, initial_state=state) for case, state in ends)
+                ended += f"; {changed_event(*motions)}"
+            return points, folds, ended
+        if not steps.beyond:  # the last cycle is that at the bound, if it is found
+            beyond = points.pop().z
+            z, tangent = points[-1].z, points[-1].tangent
+            along = tangent if low <= beyond[-1] <= high else beyond - z  # the former after a fold
+            bound = high if along[-1] > 0 else low
+            if z[-1] != bound:
+                guess = z + (bound - z[-1]) / along[-1] * along
+                with suppress(CorrectorFailed):
+                    points.append(self.correct(guess, np.eye(len(guess))[-1:], np.array([bound])))
+        return points, folds, ended
+
+    def next_place(self, current: Place, ds: float) -> Place:
+        """The place at arclength ds along the tangent."""
+        tangent, z = current.tangent, current.z
+        new = self.correct(z + ds * tangent, tangent[None, :], np.array([tangent @ z + ds]))
+        return replace(new, tangent=new.basis[0])
+
+    def _locate_fold(self, before: Place, after: Place) -> float:
+        """Scaled parameter at the fold between two points, where the tangent has no component along the parameter."""
+        start, tangent = before.z, before.tangent
+        length = float(tangent @ (after.z - start))
+        chord = (after.z - start) / length
+
+        def point_at(s: float) -> Place:
+            return self.correct(start + s * chord, tangent[None, :], np.array([tangent @ start + s]))
+
+        def turned(s: float) -> float:
+            """The parameter's component of the curve's tangent."""
+            tangent_there = point_at(s).basis[0]
+            return float(tangent_there[-1] / (tangent_there @ tangent))
+
+        from scipy.optimize import brentq
+
+        try:
+            return float(point_at(brentq(turned, 0.0, length, xtol=1e-12, rtol=1e-12)).z[-1])
+        except CorrectorFailed as lost:
+            where = f"{self.names[0]}={start[-1] * self.scales[0]:.6g}"
+            raise CorrectorFailed(f"{UNLOCATED} near {where}: {lost}") from None
 
 
 def newton_step(matrix: Array, right: Array) -> Array:
@@ -181,20 +280,11 @@ def newton_step(matrix: Array, right: Array) -> Array:
         raise CorrectorFailed("Newton's method does not converge: its matrix is singular") from None
 
 
-def default_scale(p: Parameters, name: str) -> float:
-    """Change of a parameter that weighs as much as the static deflection: its value, or a fifth of a typical one."""
-    usual = USUAL.get(name, DEFAULTS.get(name, 0.0))
-    return max(abs(p.numbers[name]), 0.2 * usual)
-
-
 def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
     """Faults of the names of free parameters."""
     known = p.numbers
     wrong = [name for name in names if not (isinstance(name, str) and name in known)]
     return [Fault.of(("name",), name, f"must be a number of the case{suggestion(name, known)}") for name in wrong]
-
-
-# ---- The curve
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -262,57 +352,10 @@ class Branch(Summarised):
         return [bifurcation_type(complex(m[0])) for m in self.multipliers]
 
 
-def bounds_in_si(name: Any, bounds: Any) -> Any:
-    """Bounds of a parameter, of which texts with units are converted; what cannot be is left for `is_interval`."""
-    return in_si(bounds, Parameters.unit(name) if isinstance(name, str) else "", [], ())
-
-
-def is_interval(bounds: Any) -> bool:
-    """Whether an argument is two ascending finite numbers."""
-    return is_finite_array(bounds, 2) and bool(bounds[0] < bounds[1])
-
-
-def starting_point(problem: CycleProblem, cycle: FloquetResult) -> CyclePoint:
-    """A cycle as a point of the curve; raises `ParameterError` if it cannot be followed."""
-    rule = "p: must have a cycle to start from"
-    rule = "guess: must lie near a cycle that can be followed" if problem.order else rule
-    if cycle.releases > 1 and not problem.order:
-        raise ParameterError("p: must have a cycle with a single release to start from")
-    if cycle.state is None:
-        raise ParameterError(f"{rule}, but {cycle.message.removeprefix(f'{cycle.status}: ')}")
-    try:
-        return problem.evaluate(problem.unknowns(cycle.state))
-    except CorrectorFailed as lost:
-        raise ParameterError(f"{rule}, but {lost}") from None
-
-
-def branch_of(problem: CycleProblem, points: Sequence[CyclePoint], folds: Array, ended: str) -> Branch:
-    values = [multipliers(point.jacobian) for point in points]
-    period = np.array([point.flight.period for point in points])
-    return Branch(
-        parameters=problem.names,
-        values=np.array([point.z[problem.n :] * problem.scales for point in points]),
-        period=period,
-        stick_fraction=np.array([point.flight.stick_time for point in points]) / period,
-        growth_rate=np.array([math.log(abs(v[0])) for v in values]) / period,
-        multipliers=np.array(values),
-        diameters=np.array([problem.leading_diameters(point.jacobian) for point in points]),
-        points=np.array([point.z[: problem.n] * problem.size for point in points]),
-        folds=folds,
-        ended=ended,
-        case=problem.base,
-    )
-
-
-@dataclass(frozen=True)
-class Place:
-    """A point of a curve and the curve's unit tangent at that point."""
-
-    point: CyclePoint
-    tangent: Array
-
-
-AnyPlace = TypeVar("AnyPlace", bound=Place)
+def interval_in_si(name: Any, bounds: Any) -> Any:
+    """Bounds of a parameter in SI units, from texts with units too; None unless they are two ascending numbers."""
+    ends = in_si(bounds, Parameters.unit(name) if isinstance(name, str) else "", [], ())
+    return ends if is_finite_array(ends, 2) and ends[0] < ends[1] else None
 
 
 @dataclass(frozen=True)
@@ -348,52 +391,32 @@ class StepControl:
         require(*rules, (counts, "max_points", self.max_points, "must be a whole number >= 1"))
 
 
-def continue_curve(
-    start: AnyPlace,
-    take: Callable[[AnyPlace, float], AnyPlace],
-    steps: StepControl,
-    ends: Callable[[list[AnyPlace], AnyPlace, float], str],
-) -> tuple[list[AnyPlace], str | CorrectorFailed]:
-    """Places along a curve, and the reason for which the curve ends: a text, or the corrector's failure.
+def follow_curve(
+    start: Place, take: Callable[[Place, float], Place], steps: StepControl
+) -> Iterator[tuple[Place, float]]:
+    """Places along a curve and the arclengths of the steps to them, until it raises `CorrectorFailed`.
 
-    Parameters
-    ----------
     take : returns the place at an arclength, with either sign of the tangent; raises `CorrectorFailed` if a shorter
         step may succeed
-    ends : receives the places so far, a new one and the arclength between; returns why the curve ends at the new one,
-        "" if it continues; raises `CorrectorFailed` if it has to end before
     """
-    places, ds = [start], steps.step
-    while len(places) < steps.max_points:
-        last = places[-1]
-        try:
-            new, ds = _step(take, last, ds, steps)
-            reason = ends(places, new, ds)
-        except CorrectorFailed as lost:
-            return places, lost
-        places.append(new)
-        if reason:
-            return places, reason
-        if new.tangent @ last.tangent > steps.easy:
+    last, ds = start, steps.step
+    for _ in range(steps.max_points - 1):
+        while True:
+            try:
+                new = take(last, ds)
+                cosine = float(new.tangent @ last.tangent)
+                if abs(cosine) < steps.sharpest:
+                    raise CorrectorFailed("the curve bends too sharply")
+                break
+            except CorrectorFailed:
+                ds /= 2
+                if ds < steps.shortest:
+                    raise
+        last = new if cosine > 0 else replace(new, tangent=-new.tangent)
+        yield last, ds
+        if abs(cosine) > steps.easy:
             ds = min(steps.longest, steps.growth * ds)
-    return places, "the number of points allowed is reached"
-
-
-def _step(
-    take: Callable[[AnyPlace, float], AnyPlace], point: AnyPlace, ds: float, steps: StepControl
-) -> tuple[AnyPlace, float]:
-    """The next place at arclength ``ds``, which is halved after each failure, and the arclength taken."""
-    while True:
-        try:
-            new = take(point, ds)
-            cosine = float(new.tangent @ point.tangent)
-            if abs(cosine) < steps.sharpest:
-                raise CorrectorFailed("the curve bends too sharply")
-            return (new if cosine > 0 else replace(new, tangent=-new.tangent)), ds
-        except CorrectorFailed:
-            ds /= 2
-            if ds < steps.shortest:
-                raise
+    raise CorrectorFailed("the number of points allowed is reached")
 
 
 # ---- One parameter
@@ -418,9 +441,9 @@ def continue_cycle(
 ) -> Branch:
     """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
 
-    The branch goes both ways from the case. From a state `guess` the cycle may lose contact. It is followed with its
-    impacts as long as its events keep their order. If an event would appear or vanish, the return map has a corner: the
-    branch ends and names that event.
+    The branch goes both ways from the case. From a state `guess` the cycle may lose contact; with its impacts it is
+    followed as long as its events keep their order. Where an event would appear or vanish, the return map has a corner:
+    the branch ends and names that event.
 
     Parameters
     ----------
@@ -452,7 +475,7 @@ def continue_cycle(
     Branch(17 cycles, Omega from 14.8 to 15.0949, 1 fold; ended: Omega has left 14.8 .. 15.2)
     """
     wrong = violations(
-        (is_interval(span := bounds_in_si(name, bounds)), "bounds", bounds, "must be two ascending finite numbers"),
+        ((span := interval_in_si(name, bounds)) is not None, "bounds", bounds, "must be two ascending finite numbers"),
         (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
         (is_number(direction) and direction in (-1, 0, 1), "direction", direction, "must be -1, 0 or 1"),
     )
@@ -464,62 +487,15 @@ def continue_cycle(
     cycle = find_cycle(p, tol, guess, releases)
     order = None if guess is None else Counts(*(getattr(cycle, name) for name in Counts._fields))
     problem = CycleProblem(p, (name,), steps.scale, tol, order)
-    point = starting_point(problem, cycle)
-    tangent = problem.tangents(point)[0]
-    tangent *= 1.0 if tangent[-1] >= 0 else -1.0
-    follow = partial(_one_way, problem, point, span, steps)
+    point = problem.start(cycle)
+    tangent = point.basis[0] * (1.0 if point.basis[0, -1] >= 0 else -1.0)
+    follow = partial(problem.follow, point, span, steps)
     if direction:
         points, folds, ended = follow(direction * tangent)
     else:
         (down, below, first), (up, above, last) = follow(-tangent), follow(tangent)
         points, folds, ended = down[::-1] + up[1:], below[::-1] + above, first if first == last else f"{first}; {last}"
-    return branch_of(problem, points, np.array(folds).reshape(-1, 1), ended)
-
-
-def _one_way(
-    problem: CycleProblem, point: CyclePoint, span: tuple[float, float], steps: StepControl, tangent: Array
-) -> tuple[list[CyclePoint], list[float], str]:
-    """The cycles along a tangent until the parameter leaves the span, the folds between them, and why they end."""
-    (name,), scale = problem.names, problem.scales[0]
-    low, high = (bound / scale for bound in span)
-    left = f"{name} has left {span[0]:g} .. {span[1]:g}"
-    folds: list[float] = []
-
-    def ends(places: list[Place], new: Place, ds: float) -> str:
-        before = places[-1]
-        if new.tangent[-1] * before.tangent[-1] < 0:
-            try:
-                fold = _locate_fold(problem, before.point, new.point, before.tangent)
-            except CorrectorFailed as lost:
-                raise CorrectorFailed(f"{UNLOCATED} near {name}={before.point.z[-1] * scale:.6g}: {lost}") from None
-            if not (steps.beyond or low <= fold <= high):
-                return left
-            folds.append(fold * scale)
-        return "" if low <= new.point.z[-1] <= high else left
-
-    places, ended = continue_curve(Place(point, tangent), partial(_next, problem), steps, ends)
-    points = [place.point for place in places]
-    if ended == left and not steps.beyond:
-        inside = low <= points[-1].z[-1] <= high  # after a fold beyond the bound
-        along = places[-2].tangent if inside else points[-1].z - points[-2].z
-        points = points[:-1] + _at_bound(problem, points[-2], along, high if along[-1] > 0 else low)
-    if isinstance(ended, Reordered):
-        duration = 2 * points[-1].flight.period  # an event may be missing at the end of a period
-        ends_of = ((problem.case(z), problem.state(z)) for z in (points[-1].z, ended.z))
-        motions = (simulate(case, duration, tol=problem.tol, initial_state=state) for case, state in ends_of)
-        ended = f"{ended}; {changed_event(*motions)}"
-    return points, folds, str(ended)
-
-
-def _at_bound(problem: CycleProblem, last: CyclePoint, along: Array, bound: float) -> list[CyclePoint]:
-    """The cycle at a bound in a direction from the last one; none if that is there already, or if none is found."""
-    if last.z[-1] == bound:
-        return []
-    guess = last.z + (bound - last.z[-1]) / along[-1] * along
-    try:
-        return [problem.correct(guess, np.eye(len(guess))[-1:], np.array([bound]))]
-    except CorrectorFailed:
-        return []
+    return problem.branch(points, np.array(folds).reshape(-1, 1), ended)
 
 
 def changed_event(cycle: Result, other: Result) -> str:
@@ -535,47 +511,95 @@ def changed_event(cycle: Result, other: Result) -> str:
     return "what grazes was not found"
 
 
-def _next(problem: CycleProblem, current: Place, ds: float) -> Place:
-    """The place at arclength ds along the tangent."""
-    tangent = current.tangent
-    new = problem.correct(current.point.z + ds * tangent, tangent[None, :], np.array([tangent @ current.point.z + ds]))
-    return Place(new, problem.tangents(new)[0])
-
-
-def _locate_fold(problem: CycleProblem, before: CyclePoint, after: CyclePoint, tangent: Array) -> float:
-    """Scaled parameter at the fold between two points, where the tangent has no component along the parameter."""
-    length = float(tangent @ (after.z - before.z))
-    chord = (after.z - before.z) / length
-
-    def at(s: float) -> CyclePoint:
-        return problem.correct(before.z + s * chord, tangent[None, :], np.array([tangent @ before.z + s]))
-
-    def turned(s: float) -> float:
-        """The parameter's component of the curve's tangent."""
-        tangent_there = problem.tangents(at(s))[0]
-        return float(tangent_there[-1] / (tangent_there @ tangent))
-
-    from scipy.optimize import brentq
-
-    return float(at(brentq(turned, 0.0, length, xtol=1e-12, rtol=1e-12)).z[-1])
-
-
 # ---- Two parameters
 
 Kind = Literal["neutral", "fold"]
 CLOSED = "the curve is closed"
+_DIFFERENCE = 1e-4  # arclength of the finite difference for a multiplier's gradient along the surface
+LONGEST_REACH, LARGEST_TURN, REACHES = 0.1, 0.1, 60
+"""On the way to a curve: longest step, largest change of the multiplier in a step, and number of steps."""
 
 
-def _evaluate_test(kind: Kind, jacobian: Array, former: complex) -> tuple[float, complex]:
-    """Value of a test function that vanishes on the curve, and the multiplier nearest to `former`, which gives it. For
-    a neutral curve it is the logarithm of the multiplier's modulus, for a fold the real multiplier less one."""
-    values = np.linalg.eigvals(jacobian).astype(complex)
-    if kind == "fold":
-        values = values[values.imag == 0]
-        if len(values) == 0:
-            raise CorrectorFailed("no multiplier is real any more")
-    mu = complex(values[np.argmin(np.abs(values - former))])
-    return (mu.real - 1.0 if kind == "fold" else math.log(abs(mu))), mu
+class BorderProblem(CycleProblem):
+    """With a test function that vanishes on the border: the logarithm of a multiplier's modulus on a neutral curve, a
+    real multiplier less one on a fold."""
+
+    def __init__(self, kind: Kind, p: Parameters, names: tuple[str, ...], tol: float) -> None:
+        super().__init__(p, names, None, tol)
+        self.kind = kind
+
+    def _evaluate_test(self, jacobian: Array, former: complex) -> tuple[float, complex]:
+        """Value of the test function, and the multiplier nearest to `former`, which gives it."""
+        values = np.linalg.eigvals(jacobian).astype(complex)
+        if self.kind == "fold":
+            values = values[values.imag == 0]
+            if len(values) == 0:
+                raise CorrectorFailed("no multiplier is real any more")
+        mu = complex(values[np.argmin(np.abs(values - former))])
+        return (mu.real - 1.0 if self.kind == "fold" else math.log(abs(mu))), mu
+
+    def _place(self, point: Place, mu: complex) -> Place:
+        """A cycle on the surface, with the tangent of the curve on which the test function keeps its value."""
+        basis = point.basis
+        slopes, turns = np.zeros(2), np.zeros(2, complex)
+        for i, unit in enumerate(basis):
+            ends = [self._evaluate_test(self.evaluate(point.z + s * _DIFFERENCE * unit).jacobian, mu) for s in (-1, 1)]
+            slopes[i] = (ends[1][0] - ends[0][0]) / (2 * _DIFFERENCE)
+            turns[i] = (ends[1][1] - ends[0][1]) / (2 * _DIFFERENCE)
+        size = float(np.linalg.norm(slopes))
+        if not size > 0:
+            raise CorrectorFailed("the multiplier does not depend on the parameters")
+        along = np.array([-slopes[1], slopes[0]]) / size
+        turning = np.asarray(turns @ basis, dtype=complex)
+        return replace(point, tangent=along @ basis, mu=mu, gradient=slopes @ basis, turning=turning)
+
+    def reach(self, point: Place, mu: complex) -> Place:
+        """Move from a cycle near the curve onto the curve, by the shortest way on the surface."""
+        value, mu = self._evaluate_test(point.jacobian, mu)
+        for _ in range(REACHES):
+            new = self._place(point, mu)
+            if abs(value) < 1e-10:
+                return new
+            move = -value * new.gradient / (new.gradient @ new.gradient)
+            turn = abs(complex(new.turning @ move))
+            move *= min(1.0, LONGEST_REACH / float(np.linalg.norm(move)), LARGEST_TURN / max(turn, 1e-300))
+            rows = np.vstack([new.tangent, new.gradient / np.linalg.norm(new.gradient)])
+            for halvings in range(6):
+                guess = new.z + move * 0.5**halvings
+                try:
+                    point = self.correct(guess, rows, rows @ guess)
+                    value, mu = self._evaluate_test(point.jacobian, new.predicted(move * 0.5**halvings))
+                    break
+                except CorrectorFailed:
+                    if halvings == 5:
+                        raise
+        raise CorrectorFailed("no point of the curve was found near the first cycle")
+
+    def next_place(self, start: Place, ds: float) -> Place:
+        """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
+        expected = start.predicted(ds * start.tangent)
+        if abs(expected - start.mu) > 2 * LARGEST_TURN:
+            raise CorrectorFailed("the multiplier turns too fast")
+        guess = start.z + ds * start.tangent
+        rows = start.tangent[None, :]
+        point = self.evaluate(guess)
+        value, mu = self._evaluate_test(point.jacobian, expected)
+        gradient = start.gradient
+        errors = [math.inf, math.inf]
+        for _ in range(12):
+            right = np.concatenate([point.residual, [value], rows @ point.z - rows @ guess])
+            errors.append(float(np.linalg.norm(right)))
+            if errors[-1] < 1e-10:
+                return self._place(point, mu)
+            if errors[-1] > 0.9 * errors[-3]:
+                break
+            before, last = point, value
+            point = self.evaluate(before.z - newton_step(np.vstack([before.by, gradient, rows]), right))
+            value, mu = self._evaluate_test(point.jacobian, mu)
+            # Broyden's update: a gradient by differences would take four flights at each correction
+            move = point.z - before.z
+            gradient = gradient + (value - last - gradient @ move) / (move @ move) * move
+        raise CorrectorFailed("Newton's method does not converge")
 
 
 def continue_border(
@@ -588,133 +612,43 @@ def continue_border(
     tol: float = 1e-12,
     steps: StepControl = BORDER,
 ) -> Branch:
-    """Follow a border of stability in two parameters, in both directions from a place near a case.
+    """Follow a border of stability in two parameters from a place near a case, both ways until the curve leaves the
+    bounds, closes or ends.
 
-    The arguments are those that `disc_model.stability.curves.neutral_curves` has checked.
-
-    Parameters
-    ----------
-    kind : "neutral", the curve on which the leading multiplier of the first cycle has modulus one; or "fold", the
-        curve on which a multiplier is one, starting from the point of a branch nearest to its fold
-    p, guess : a case near the curve, and the point of the section near which its cycle is sought; by default the
-        static equilibrium
-    names : the free parameters, two of `Parameters.numbers`
-    bounds : bounds of both parameters; the curve is followed until it leaves them, closes or ends
+    kind : "neutral", on which the leading multiplier of the first cycle has modulus one; or "fold", on which a
+        multiplier is one, starting from the point of a branch nearest to its fold
+    guess : the point of the section near which the cycle of `p` is sought; by default the static equilibrium
     tol, steps : as in `continue_cycle`; the number of points is that in each direction
 
-    Raises
-    ------
-    ParameterError
-        If no cycle is found to start from, or no curve of this kind is near it.
+    Raises `ParameterError` if no cycle is found to start from, or no curve of this kind is near it.
     """
-    problem = CycleProblem(p, names, None, tol)
-    point = starting_point(problem, find_cycle(p, tol, guess))
+    problem = BorderProblem(kind, p, names, tol)
+    point = problem.start(find_cycle(p, tol, guess))
     mu = complex(multipliers(point.jacobian)[0]) if kind == "neutral" else 1.0 + 0j
     try:
-        first = _reach(problem, point, kind, mu)
+        first = problem.reach(point, mu)
     except CorrectorFailed as lost:
         raise ParameterError(f"p: must be near a curve of this kind, but {lost}") from None
     lead = first.tangent[problem.n] if abs(first.tangent[problem.n]) > 1e-12 else first.tangent[problem.n + 1]
     onward = first.tangent * math.copysign(1.0, lead)
-    limits = np.array([bounds[name] for name in names]) / problem.scales[:, None]
+    low, high = np.array([bounds[name] for name in names]).T / problem.scales
 
-    def ends(places: list[_OnBorder], new: _OnBorder, ds: float) -> str:
-        q = new.point.z[problem.n :]
-        if np.any(q < limits[:, 0]) or np.any(q > limits[:, 1]):
-            return f"{' or '.join(names)} has left the bounds"
-        if len(places) >= 8 and np.linalg.norm(new.point.z - first.point.z) < 0.6 * ds:
-            return CLOSED
-        return ""
+    def follow(tangent: Array) -> tuple[list[Place], str]:
+        points = [first]
+        try:
+            for new, ds in follow_curve(replace(first, tangent=tangent), problem.next_place, steps):
+                points.append(new)
+                q = new.z[problem.n :]
+                if np.any(q < low) or np.any(q > high):
+                    return points, f"{' or '.join(names)} has left the bounds"
+                if len(points) > 8 and np.linalg.norm(new.z - first.z) < 0.6 * ds:
+                    break
+        except CorrectorFailed as lost:
+            return points, str(lost)
+        return points, CLOSED
 
-    take = partial(_next_on_border, problem, kind)
-    places, ended = continue_curve(replace(first, tangent=-onward), take, steps, ends)
+    points, ended = follow(-onward)
     if ended != CLOSED:
-        ahead, ended = continue_curve(replace(first, tangent=onward), take, steps, ends)
-        places = [*places[:0:-1], *ahead]
-    return branch_of(problem, [place.point for place in places], np.zeros((0, 2)), str(ended))
-
-
-_DIFFERENCE = 1e-4  # arclength of the finite difference for a multiplier's gradient along the surface
-
-
-@dataclass(frozen=True)
-class _OnBorder(Place):
-    """A place with the multiplier that is followed, and the gradients of the test function and of that multiplier
-    within the surface, in the unknowns z."""
-
-    mu: complex
-    gradient: Array
-    turning: ComplexArray
-
-    def predicted(self, move: Array) -> complex:
-        """The multiplier after a move, to first order."""
-        return self.mu + complex(self.turning @ move)
-
-
-def _place(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> _OnBorder:
-    """A cycle on the surface, with the tangent of the curve on which the test function keeps its value."""
-    basis = problem.tangents(point)
-    slopes, turns = np.zeros(2), np.zeros(2, complex)
-    for i, unit in enumerate(basis):
-        ends = [_evaluate_test(kind, problem.evaluate(point.z + s * _DIFFERENCE * unit).jacobian, mu) for s in (-1, 1)]
-        slopes[i] = (ends[1][0] - ends[0][0]) / (2 * _DIFFERENCE)
-        turns[i] = (ends[1][1] - ends[0][1]) / (2 * _DIFFERENCE)
-    size = float(np.linalg.norm(slopes))
-    if not size > 0:
-        raise CorrectorFailed("the multiplier does not depend on the parameters")
-    along = np.array([-slopes[1], slopes[0]]) / size
-    return _OnBorder(point, along @ basis, mu, slopes @ basis, np.asarray(turns @ basis, dtype=complex))
-
-
-LONGEST_REACH, LARGEST_TURN, REACHES = 0.1, 0.1, 60
-"""On the way to a curve: longest step, largest change of the multiplier in a step, and number of steps."""
-
-
-def _reach(problem: CycleProblem, point: CyclePoint, kind: Kind, mu: complex) -> _OnBorder:
-    """Move from a cycle near the curve onto the curve, by the shortest way on the surface."""
-    value, mu = _evaluate_test(kind, point.jacobian, mu)
-    for _ in range(REACHES):
-        new = _place(problem, point, kind, mu)
-        if abs(value) < 1e-10:
-            return new
-        move = -value * new.gradient / (new.gradient @ new.gradient)
-        turn = abs(complex(new.turning @ move))
-        move *= min(1.0, LONGEST_REACH / float(np.linalg.norm(move)), LARGEST_TURN / max(turn, 1e-300))
-        rows = np.vstack([new.tangent, new.gradient / np.linalg.norm(new.gradient)])
-        for halvings in range(6):
-            guess = new.point.z + move * 0.5**halvings
-            try:
-                point = problem.correct(guess, rows, rows @ guess)
-                value, mu = _evaluate_test(kind, point.jacobian, new.predicted(move * 0.5**halvings))
-                break
-            except CorrectorFailed:
-                if halvings == 5:
-                    raise
-    raise CorrectorFailed("no point of the curve was found near the first cycle")
-
-
-def _next_on_border(problem: CycleProblem, kind: Kind, start: _OnBorder, ds: float) -> _OnBorder:
-    """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
-    expected = start.predicted(ds * start.tangent)
-    if abs(expected - start.mu) > 2 * LARGEST_TURN:
-        raise CorrectorFailed("the multiplier turns too fast")
-    guess = start.point.z + ds * start.tangent
-    rows = start.tangent[None, :]
-    point = problem.evaluate(guess)
-    value, mu = _evaluate_test(kind, point.jacobian, expected)
-    gradient = start.gradient
-    errors = [math.inf, math.inf]
-    for _ in range(12):
-        right = np.concatenate([point.residual, [value], rows @ point.z - rows @ guess])
-        errors.append(float(np.linalg.norm(right)))
-        if errors[-1] < 1e-10:
-            return _place(problem, point, kind, mu)
-        if errors[-1] > 0.9 * errors[-3]:
-            break
-        before, last = point, value
-        point = problem.evaluate(before.z - newton_step(np.vstack([before.by, gradient, rows]), right))
-        value, mu = _evaluate_test(kind, point.jacobian, mu)
-        # Broyden's update: a gradient by differences would take four flights at each correction
-        move = point.z - before.z
-        gradient = gradient + (value - last - gradient @ move) / (move @ move) * move
-    raise CorrectorFailed("Newton's method does not converge")
+        ahead, ended = follow(onward)
+        points = [*points[:0:-1], *ahead]
+    return problem.branch(points, np.zeros((0, 2)), ended)

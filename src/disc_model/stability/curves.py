@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,11 +24,10 @@ from disc_model.stability.continuation import (
     Branch,
     Kind,
     StepControl,
-    bounds_in_si,
     continue_border,
     continue_cycle,
     free_faults,
-    is_interval,
+    interval_in_si,
 )
 from disc_model.stability.cycle import FloquetResult, find_cycle
 from disc_model.stability.resonances import Resonance, nearest_resonance
@@ -112,8 +111,7 @@ class NeutralCurves(Summarised):
         return draw("plot_neutral_curves", self, ax=ax)
 
 
-@dataclass(frozen=True)
-class _Seed:
+class _Seed(NamedTuple):
     kind: Kind
     case: Parameters
     point: Array
@@ -165,8 +163,8 @@ def neutral_curves(
     # a curve ends where a shorter step would be needed, as where an event grazes
     steps = replace(BORDER, longest=longest, shortest=1e-4, max_points=max_points)
     free = isinstance(bounds, Mapping) and len(bounds) == 2
-    plane: Any = {name: bounds_in_si(name, ends) for name, ends in bounds.items()} if free else {}
-    within = free and all(map(is_interval, plane.values()))
+    plane: Any = {name: interval_in_si(name, ends) for name, ends in bounds.items()} if free else {}
+    within = free and all(ends is not None for ends in plane.values())
     rule = "must be two ascending finite numbers, by the names of two parameters"
     wrong = violations((within, "bounds", bounds, rule))
     if free and isinstance(p, Parameters):
@@ -181,14 +179,12 @@ def neutral_curves(
     )
     raise_faults(foreign_case(p) + wrong)
     assert lines is not None
-    x, y = plane
-    names = x, y
-    curves: list[StabilityCurve] = []
-    notes: list[str] = []
-    span = np.array([plane[name][1] - plane[name][0] for name in names])
+    names = x, y = tuple(plane)
+    curves, notes = list[StabilityCurve](), list[str]()
+    span = np.array([high - low for low, high in plane.values()])
     for line in map(float, lines):
-        along = np.linspace(plane[x][0], plane[x][1], points)
-        for seed in _seeds([_with(p, **{y: line, x: float(value)}) for value in along], x, tol, notes):
+        along = np.linspace(plane[x][0], plane[x][1], points).tolist()
+        for seed in _seeds([_with(p, **{y: line, x: value}) for value in along], x, tol, notes):
             point = np.array([seed.case.numbers[name] for name in names])
             if _known(curves, seed.kind, point, seed.period, span):
                 continue
@@ -201,12 +197,11 @@ def neutral_curves(
             if len(branch) == 1:
                 notes.append(f"{seed.kind} near {where}: no step along the curve succeeds")
                 continue
-            curve = _trace(seed, branch)
             # the place halfway along the curve, since places are dense where two borders meet
-            length = np.cumsum(np.linalg.norm(np.diff(curve.values / span, axis=0), axis=1))
+            length = np.cumsum(np.linalg.norm(np.diff(branch.values / span, axis=0), axis=1))
             i = int(np.searchsorted(length, length[-1] / 2)) + 1
-            if not _known(curves, curve.kind, curve.values[i], float(curve.period[i]), span):
-                curves.append(curve)
+            if not _known(curves, seed.kind, branch.values[i], float(branch.period[i]), span):
+                curves.append(_curve(seed, branch))
     return NeutralCurves(p, plane, tuple(curves), tuple(notes))
 
 
@@ -219,12 +214,10 @@ def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str])
         for begin, end in ((i, i + 1), (i + 1, i)):
             if np.isnan(growth[begin]):
                 continue
-            seed = _first_event(cases[begin], name, cases[end].numbers[name], tol, notes)
-            if seed is None:
-                continue
-            yield seed
-            if seed.kind == "neutral":
-                break
+            if seed := _first_event(cases[begin], name, cases[end].numbers[name], tol, notes):
+                yield seed
+                if seed.kind == "neutral":
+                    break
 
 
 def _first_event(case: Parameters, name: str, end: float, tol: float, notes: list[str]) -> _Seed | None:
@@ -241,10 +234,10 @@ def _first_event(case: Parameters, name: str, end: float, tol: float, notes: lis
     turns = np.flatnonzero(np.diff(values)[:-1] * np.diff(values)[1:] < 0) + 1
     crossings = np.flatnonzero(growth[:-1] * growth[1:] < 0)
     fold = int(turns[0]) if len(turns) else len(values)
-    kind: Kind
     if len(crossings) and crossings[0] + 1 < fold:
+        kind: Kind = "neutral"
         i = int(crossings[0])
-        kind, j = "neutral", i if abs(growth[i]) < abs(growth[i + 1]) else i + 1
+        j = i if abs(growth[i]) < abs(growth[i + 1]) else i + 1
     elif len(turns):
         kind, j = "fold", fold
     else:
@@ -261,9 +254,7 @@ def _first_event(case: Parameters, name: str, end: float, tol: float, notes: lis
 
 def _known(curves: Sequence[StabilityCurve], kind: str, point: Array, period: float, span: Array) -> bool:
     """Whether a known curve of this kind, with cycles of this period, passes through a place of the plane."""
-    for curve in curves:
-        if curve.kind != kind:
-            continue
+    for curve in (curve for curve in curves if curve.kind == kind):
         corners = (curve.values - point) / span
         steps = np.diff(corners, axis=0)
         size = np.sum(steps**2, axis=1)
@@ -277,7 +268,7 @@ def _known(curves: Sequence[StabilityCurve], kind: str, point: Array, period: fl
     return False
 
 
-def _trace(seed: _Seed, branch: Branch) -> StabilityCurve:
+def _curve(seed: _Seed, branch: Branch) -> StabilityCurve:
     """The curve through a seed, as it was followed."""
     border = branch.growth_rate < 1e-3  # 1/s; no other multiplier grows
     middle = int(np.flatnonzero(border)[border.sum() // 2]) if border.any() else len(branch) // 2
@@ -326,11 +317,9 @@ class Critical(Summarised):
     @property
     def unstable(self) -> Array:
         """The intervals in which that motion is unstable, shape (n_intervals, 2). Another one may be stable there."""
-        ends = [*self.crossings, self.values[-1]]
-        begins = [self.values[0], *self.crossings]
+        edges = np.array([self.values[0], *self.crossings, self.values[-1]])
         grows = [not self.unstable_above[0] if len(self.crossings) else math.isfinite(self.value), *self.unstable_above]
-        intervals = [pair for pair, unstable in zip(zip(begins, ends, strict=True), grows, strict=True) if unstable]
-        return np.array(intervals, dtype=float).reshape(-1, 2)
+        return np.column_stack([edges[:-1], edges[1:]])[np.array(grows)]
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         values = self.parameters.replace(**{self.name: self.value if self.value > 0 else self.values[0]}).stated
@@ -402,7 +391,7 @@ def critical(
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
     good = precision is None or (is_number(precision) and precision > 0)
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
-        (is_interval(ends := bounds_in_si(name, bounds)), "bounds", bounds, "must be two ascending finite numbers"),
+        ((ends := interval_in_si(name, bounds)) is not None, "bounds", bounds, "must be two ascending finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
         (good, "precision", precision, "must be a number > 0"),
     )
@@ -423,12 +412,12 @@ def critical(
         sliding = cycle.status is CycleStatus.NO_STICK_SLIP and cycle.sliding.stable
         return sliding or cycle.status is CycleStatus.AT_REST
 
-    def located(interval: tuple[float, float]) -> tuple[float, bool]:
-        """The upper end of a short interval within which stability changes, and whether the motion is stable below."""
+    def located(interval: tuple[float, float]) -> float:
+        """The upper end of a short interval within which stability changes."""
         (a, b), before = interval, stable(interval[0])
         while b - a > shortest and a < (middle := 0.5 * (a + b)) < b:
             a, b = (middle, b) if stable(middle) == before else (a, middle)
-        return b, before
+        return b
 
     computed(stable, values, f"values of {name}")
     resolution = math.inf
@@ -442,16 +431,16 @@ def critical(
         computed(stable, far, f"further values of {name}")
     changes = [(a, b) for a, b in pairwise(sorted(cycles)) if stable(a) != stable(b)]
     crossings = computed(located, changes, f"crossings of {name}")
-    begin = float(ends[0])
-    first = [] if stable(begin) else [begin]
-    first += [x for x, was_stable in crossings if was_stable]
+    unstable_above = [stable(a) for a, _ in changes]
+    first = [] if stable(values[0]) else [float(ends[0])]
+    first += [x for x, grows in zip(crossings, unstable_above, strict=True) if grows]
     values = sorted(cycles)
     return Critical(
         parameters=p,
         name=name,
         value=first[0] if first else math.nan,
-        crossings=np.array([x for x, _ in crossings]),
-        unstable_above=np.array([was_stable for _, was_stable in crossings], dtype=bool),
+        crossings=np.array(crossings),
+        unstable_above=np.array(unstable_above, dtype=bool),
         values=np.array(values),
         growth_rate=np.array([cycles[x].growth_rate for x in values]),
         resolution=resolution,
@@ -464,14 +453,11 @@ def _with(p: Parameters, **values: float) -> Parameters:
         return p.replace(**values)
     except ParameterError as error:
         ways = {a: f"; give {ratio} instead, and it follows" for ratio, (a, b) in RATIOS.items() if b in values}
-        faults = (
-            Fault(fault.path, fault.value, fault.rule + ways.get("".join(fault.path), "")) for fault in error.faults
-        )
+        faults = (Fault(each.path, each.value, each.rule + ways.get("".join(each.path), "")) for each in error.faults)
         raise ParameterError(*faults) from None
 
 
-NO_CYCLES: tuple[float, ...] = (0.5,)
-"""Where nothing is known of an interval, because one of its ends has no cycle: its middle is computed."""
+NO_CYCLES: tuple[float, ...] = (0.5,)  # of an interval one of whose ends has no cycle the middle is computed
 
 
 def _resonances(first: FloquetResult, second: FloquetResult) -> Sequence[float]:

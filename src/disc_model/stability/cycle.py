@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -196,10 +196,10 @@ def find_cycle(
         if never_pulls(p):
             return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
         return _none(p, tol, CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc")
+    if guess is None:
+        return cycle_from_rest(ReturnMap(p, tol))
     near_state = isinstance(guess, State)
     map_ = ReturnMap(p, tol, patient=near_state)
-    if guess is None:
-        return cycle_from_rest(map_)
     if isinstance(guess, State):
         outcome, x = map_.next_release(guess)
         if ENDS[outcome] == "time_over":
@@ -216,9 +216,8 @@ def find_cycle(
 
 
 def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
-    """The cycle that Newton's method finds from the static equilibrium. If it finds none, the motion from there is
-    simulated for some returns. Cycles of up to three releases are then sought from the end of that motion; without one,
-    the status is the kind of the motion."""
+    """The cycle that Newton's method finds from the static equilibrium, or else after some returns of the motion from
+    there; without one, the status is the kind of that motion."""
     p, tol, x = map_.parameters, map_.tol, map_.static
     solution = newton(map_, x)
     if solution is not None:
@@ -282,7 +281,7 @@ def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
     for array in (values, exponents):
         array.setflags(write=False)
     named = zip(flight.counts[:-1], ("release", "backward release", "slip reversal", "separation"), strict=True)
-    events = ", ".join(f"{count} {name}{'s' if count > 1 else ''}" for count, name in named if count)
+    events = ", ".join(counted(count, name) for count, name in named if count)
     return FloquetResult(
         parameters=map_.parameters,
         tol=map_.tol,
@@ -302,24 +301,16 @@ def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
 
 # ---- Frequencies of the cycle's multipliers, beside those of steady sliding
 #
-# A multiplier's angle gives a frequency modulo that of the cycle, f = (angle / 2 pi + n) / T. Its sign is undetermined,
-# because multipliers come in conjugate pairs.  One assignment matches all multipliers to the modes of sliding by the
-# modal assurance criterion. Of two conjugates, the one that resembles the mode of positive frequency counts. The whole
-# number n brings f nearest to the frequency of the mode.
+# A multiplier's angle gives a frequency modulo that of the cycle, f = (angle / 2 pi + n) / T, and up to its sign, since
+# multipliers come in conjugate pairs.  One assignment matches all multipliers to the modes of sliding by the modal
+# assurance criterion; of two conjugates, the one that resembles the mode of positive frequency counts.  The number n
+# brings f nearest to the frequency of the mode.
 
 
-@dataclass(frozen=True, eq=False)
-class Frequencies:
-    """Modes of steady sliding, by ascending frequency in the slider's frame, and the multipliers that match them.
-
-    Attributes
-    ----------
-    cycle : the stick-slip cycle of the case
-    modes : of steady sliding, by ascending frequency
-    cycle_frequency, cycle_growth_rate : Hz, 1/s, (n,), of the multipliers matched to each mode, the larger growth rate
-        of two; nan without a cycle, and for the slider's in-plane motion, which stick resets
-    mac : (n,), modal assurance criterion between the shapes of the mode and of its multiplier
-    """
+class Frequencies(NamedTuple):
+    """The stick-slip cycle of a case; modes of steady sliding, by ascending frequency in the slider's frame; and of the
+    multipliers matched to each mode, all (n,): frequency (Hz), the larger growth rate of two (1/s), and modal assurance
+    criterion between the shapes. These are nan without a cycle, and for the slider's in-plane motion."""
 
     cycle: FloquetResult
     modes: SlidingModes

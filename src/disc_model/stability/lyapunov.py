@@ -1,9 +1,8 @@
 """Lyapunov exponents of a motion through all its events, in particular after a loss of contact.
 
-Columns of the variational equations follow the motion and are orthonormalised at equal intervals (Benettin's method);
-their mean growth rates are the largest exponents.  The exponent along the motion is zero, unless the motion comes to
-rest.  It carries no information, and columns turn towards that direction slowly, so that it can be left out. The first
-column is then the velocity of the motion, which stays so, and the others are kept orthogonal to it.
+Columns of the variational equations are orthonormalised at equal intervals (Benettin's method).  Columns turn slowly
+towards the motion, whose exponent is zero unless it comes to rest.  To leave it out, the first column is the motion's
+velocity, which stays so, and the others are kept orthogonal to it.
 """
 
 from __future__ import annotations
@@ -30,11 +29,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _BLOCKS = 16
-MOST_INTERVALS = 10_000_000
-"""Orthonormalisations in the time over which rates are averaged: hours of work, and 600 MB of logarithms."""
+MOST_INTERVALS = 10_000_000  # orthonormalisations in the averaging time: hours of work, and 600 MB of logarithms
 CLEAR = 4.0  # an exponent differs from zero if it exceeds this many of its errors
-CONVERGED = 0.05, 0.002
-"""An exponent has converged if both halves of the time agree to this share of it, or to this difference in 1/s."""
+CONVERGED = 0.05, 0.002  # share of an exponent, or difference in 1/s, to which both halves of the time agree
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -133,18 +130,16 @@ def lyapunov_exponents(
     Lyapunov(ok, over 5 s: -0.143 and -0.166 1/s)
     """
     faults = case_faults(p, "lyapunov_exponents")
-    lasts = _is_within(duration, sys.float_info.min)
     most = layout.WIDTH if faults else min(layout.WIDTH, len(coordinate_rows(engine_case(p).model)))
     leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
     most -= leaves_out and bool(leave_out_trivial)
-    counts = is_whole(count) and 1 <= count <= most
+    lasts = _is_within(duration, sys.float_info.min)
     shortest = max(duration / MOST_INTERVALS if lasts else 0.0, sys.float_info.min)
-    starts = initial_state is None or isinstance(initial_state, State)
     faults += violations(
         (lasts, "duration", duration, "must be finite and > 0"),
-        (counts, "count", count, f"must be a whole number from 1 to {most}"),
+        (is_whole(count) and 1 <= count <= most, "count", count, f"must be a whole number from 1 to {most}"),
         (_is_within(interval, shortest), "interval", interval, f"must be finite and >= {as_text(shortest)}"),
-        (starts, "initial_state", initial_state, "must be a State"),
+        (isinstance(initial_state, State | None), "initial_state", initial_state, "must be a State"),
         (leaves_out, "leave_out_trivial", leave_out_trivial, "must be True or False"),
     )
     raise_faults(faults + limits_faults("tol", tol, TOLERANCES))
@@ -170,11 +165,9 @@ def lyapunov_exponents(
         if np.any(along):
             columns[:, 0] = along
     steps = max(_BLOCKS, math.ceil(duration / interval))
-    longest = longest_step(model, order, 10 * tolerance)
-    length = duration / steps
+    longest, length = longest_step(model, order, 10 * tolerance), duration / steps
     course = event_loop.IntegrationLimits(order, tolerance, longest, length, 0, may_separate=True, tangent=True)
-    logs, status = np.full((steps, count), -math.inf), Status.OK
-    done = 0
+    logs, status, done = np.full((steps, count), -math.inf), Status.OK, 0
     for i in range(-steps, steps):
         if i == 0:
             t.log[:] = 0.0
@@ -187,19 +180,17 @@ def lyapunov_exponents(
         if i >= 0:
             logs[i, remaining] = growth
             done = i + 1
-    return _summary(status, logs[:done], duration / steps, wanted, t.log, read_state(case, state), leave_out_trivial)
+    return _averaged(status, logs[:done], length, wanted, t.log, read_state(case, state), leave_out_trivial)
 
 
 def _orthonormalise(
     columns: Array, rows: NDArray[np.intp], metric: Array, remaining: NDArray[np.intp], vanished: float
 ) -> tuple[Array, NDArray[np.intp]]:
-    """Orthonormalise the remaining columns, and set those to zero that depend on the others.
+    """Orthonormalise the remaining columns, of indices `remaining`, and set those to zero that depend on the others:
+    whose orthogonal part is shorter than `vanished`, relative to the column. Returns logarithms of growth, and the
+    indices that remain.
 
     rows, metric : rows of the coordinates, (n,), and their `energy_scale`, (n, 1)
-    left : indices of the remaining columns
-    vanished : length of an orthogonal part, relative to the column, below which it counts as zero
-
-    Returns logarithms of growth and indices of the columns that remain, of one shape (at most as many as before,).
     """
     while True:
         q, r = np.linalg.qr(columns[np.ix_(rows, remaining)] * metric)
@@ -213,7 +204,7 @@ def _orthonormalise(
         remaining = np.delete(remaining, dependent[0])
 
 
-def _summary(
+def _averaged(
     status: Status, logs: Array, interval: float, count: int, log: Array, end: State, leave_out_trivial: bool
 ) -> Lyapunov:
     """The `count` largest exponents from logarithms of growth over equal times, shape (n, count or one more)."""

@@ -15,11 +15,8 @@ from disc_model.parameters import Parameters
 class Resonance:
     """A resonance n f_s = f -/+ l Omega / 2 pi of a cycle.
 
-    Attributes
-    ----------
     harmonic : n; half-integer for a period doubling
-    frequency : Hz, f, of a mode of disc and slider at rest
-    diameters : l, the mode's
+    frequency, diameters : f (Hz) and l, of a mode of disc and slider at rest
     sign : -1 or 1, of l Omega / 2 pi; 0 if the mode stands in the slider's frame
     detuning : Hz, n f_s less the right side
     """
@@ -38,17 +35,12 @@ class Resonance:
 
 
 def nearest_resonance(p: Parameters, period: float, multiplier: complex, diameters: int | None = None) -> Resonance:
-    """The resonance to which a cycle's multiplier belongs.
+    """The resonance to which a cycle's multiplier belongs, among modes of so many nodal diameters, or among all.
 
-    Over a period the slider turns by Omega T against the disc.  In the slider's frame a free mode of frequency f and l
-    diameters therefore has the frequency f -/+ l Omega / 2 pi; a mode that is bound to the slider has f itself.
-    Modulo f_s that is the multiplier's angle over 2 pi T.  The harmonic is the nearest multiple of f_s (of f_s / 2 for
-    a negative real multiplier).
-
-    Parameters
-    ----------
-    period : s
-    diameters : l of the candidate modes, as in `Branch.diameters`; all by default, when a coincidence may decide
+    Over a period the slider turns by Omega T against the disc.  In its frame a free mode of frequency f and l diameters
+    therefore has the frequency f -/+ l Omega / 2 pi; a mode that is bound to the slider has f itself.  Modulo f_s that
+    is the multiplier's angle over 2 pi T.  The harmonic is the nearest multiple of f_s (of f_s / 2 for a negative real
+    multiplier).
     """
     rate = 1 / float(period)
     angle = math.atan2(multiplier.imag, multiplier.real) / (2 * math.pi)
@@ -65,7 +57,7 @@ def nearest_resonance(p: Parameters, period: float, multiplier: complex, diamete
             resonances.append((miss, Resonance(harmonic, frequency, l, sign, float((harmonic - seen) * rate))))
     if not resonances:
         raise ParameterError(f"diameters={diameters!r}: must be those of a mode")
-    return min(resonances, key=lambda one: one[0])[1]
+    return min(resonances, key=lambda pair: pair[0])[1]
 
 
 def modes_at_rest(p: Parameters) -> list[tuple[float, int, bool]]:

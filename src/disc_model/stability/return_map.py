@@ -1,9 +1,8 @@
 """The return map of the stick-slip cycle, its fixed points and their multipliers.
 
 The section is the instant before a forward release: f = 0 and r_0 F = mu_s P.  A point of it consists of the modal
-coordinates alone, because psi follows from the release condition. They are scaled to the norm of the disc's energy:
-omega a, omega b, alpha, beta.  The map's Jacobian and its derivatives with respect to parameters come from the
-variational equations (`disc_model.engine.event_loop`).
+coordinates alone, because psi follows from the release condition, scaled to the norm of the disc's energy: omega a,
+omega b, alpha, beta.  Derivatives come from the variational equations (`disc_model.engine.event_loop`).
 """
 
 import math
@@ -18,16 +17,14 @@ from numpy.typing import NDArray
 
 from disc_model.engine import event_loop, layout, transitions
 from disc_model.engine import tangent as columns
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
+from disc_model.errors import raise_faults, violations
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.simulation.states import State, engine_case, read_state, series_order, series_tolerance, write_state
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")
-"""Parameters with respect to which the map can be differentiated."""
-
+PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")  # by which the map can be differentiated
 RETURNED = transitions.RETURNED
 ENDS = {
     transitions.RETURNED: "returned",
@@ -49,9 +46,8 @@ def case_faults(p: object, analysis: str) -> list[str]:
 
 
 def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
-    """Longest step of columns, time units: as `disc_model.engine.tangent.longest_step`, but shorter on a stiff system.
-    That function takes the time unit for one radian of the fastest oscillation. Strong dampers, springs that act
-    together and a fast drive make faster ones, which do not show in the steps of a steady motion."""
+    """Longest step of columns, time units: as `disc_model.engine.tangent.longest_step`, but shorter where dampers,
+    springs that act together or a fast drive make oscillations faster than that assumes."""
     damping = max(model.damping.max(), model.damping0.max(initial=0.0), max(model.c, model.c_p) / model.m)
     contact = (1 / model.m + model.inverse_effective_mass) / model.compliance if model.compliant else 0.0
     stiffness = max((model.unit * model.free_unit) ** -2, max(model.k, model.k_p) / model.m) + contact
@@ -63,21 +59,20 @@ def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
 
 def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
     """Derivative of the equations with respect to one of `PARAMETERS`: a column of `Tangent.parameters`."""
-    if name in ("E", "D_star") and (p.disc is not None or (name == "D_star" and p.damping_ratio is not None)):
-        raise ParameterError(Fault(("parameter",), as_text(name), "must be a parameter that the case has"))
+    if name not in PARAMETERS:
+        raise ValueError(f"parameter={name!r}: must be one of {', '.join(PARAMETERS)}")
     width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     change = np.zeros(columns.N_SCALARS + 2 * width + 2 * n0)
     ends = columns.N_SCALARS + np.cumsum([0, width, width, n0])
     scalars, stiffness, damping, stiffness0, damping0 = np.split(change, ends)
-    if name == "N":
-        # u_0 is proportional to N
+    entries = {"Omega": columns.D_OMEGA, "c": columns.D_C, "m": columns.D_M, "k": columns.D_K}
+    entries |= {"k_p": columns.D_K_P, "c_p": columns.D_C_P}
+    if name in entries:
+        scalars[entries[name]] = 1.0
+    if name == "k":
+        scalars[columns.LOAD] = -model.u_0
+    elif name == "N":  # u_0 is proportional to N
         scalars[columns.LOAD] = 1.0 - model.k * model.u_0 / model.N
-    elif name == "Omega":
-        scalars[columns.D_OMEGA] = 1.0
-    elif name == "k":
-        scalars[columns.D_K], scalars[columns.LOAD] = 1.0, -model.u_0
-    elif name in ("c", "m", "k_p", "c_p"):
-        scalars[{"c": columns.D_C, "m": columns.D_M, "k_p": columns.D_K_P, "c_p": columns.D_C_P}[name]] = 1.0
     elif name == "E":
         # omega^2 is proportional to E; the damping (D_star / D) omega^2 does not depend on it, but 2 xi omega does
         stiffness[:], stiffness0[:] = model.stiffness / p.E, model.stiffness0 / p.E
@@ -89,8 +84,6 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
         scalars[columns.D_COMPLIANCE] = -1.0 / p.E if residual else 0.0
     elif name == "D_star":
         damping[:], damping0[:] = model.stiffness / p.D, model.stiffness0 / p.D
-    else:
-        raise ValueError(f"parameter={name!r}: must be one of {', '.join(PARAMETERS)}")
     return change
 
 
@@ -122,17 +115,9 @@ class Counts(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Flight:
-    """The motion between two returns to the section.
-
-    Attributes
-    ----------
-    outcome : exit code, one of `ENDS`
-    period, stick_time : s
-    counts : numbers of events
-    start, end : shape (n,), points of the section
-    jacobian, by : shapes (n, n) and (n, number of the map's parameters), derivatives of the end by the start and by the
-        parameters; meaningless if the flight did not return, or was followed without them
-    """
+    """The motion between two returns to the section: exit code, one of `ENDS`, durations (s) and points of the section
+    (n,). The derivatives of the end by the start (n, n) and by the map's parameters (n, their number) mean nothing if
+    the motion did not return, or was followed without them."""
 
     outcome: int
     period: float
@@ -145,7 +130,6 @@ class Flight:
 
     @property
     def returned(self) -> bool:
-        """Whether the motion came back to the section."""
         return self.outcome == RETURNED
 
     @property
@@ -158,13 +142,11 @@ class Flight:
 class ReturnMap:
     """The return map of one case; it owns the engine's arrays, so that one object serves one thread.
 
-    Attributes
-    ----------
     size : dimension n of the section: four for each pair of modes, two for each axisymmetric one, and on a compliant
         contact two for the slider's u, u'
-    scale : shape (n,), factor from modal displacements and velocities to coordinates: omega, or 1; u and u' likewise
+    scale : (n,), factor from modal displacements and velocities to coordinates: omega, or 1; u and u' likewise
     diameters : nodal diameters of the mode of each coordinate, without the slider's coordinates, which come last
-    static : shape (n,), static equilibrium under the preload: the static start, and the first guess of Newton's method
+    static : (n,), static equilibrium under the preload: the static start, and the first guess of Newton's method
     deflection : norm of `static`, the unit of distances on the section
     tol : tolerance of cycles: residual over deflection
     patient : whether a return may take 60 times as long, about 5 s: after a separation the slider may slip for long
@@ -265,9 +247,6 @@ class ReturnMap:
             yield (x := flight.end)
 
 
-# ---- Fixed points of the map, by Newton's method
-
-
 def rounding(tol: float, factor: float) -> float:
     """Relative residual accepted when it stops decreasing; a rough `tol` does not allow more than 1e-8."""
     return max(tol, min(factor * tol, 1e-8))
@@ -317,9 +296,6 @@ def _solve(matrix: Array, right: Array) -> Array:
         return np.asarray(np.linalg.solve(matrix, right), dtype=float)
     except np.linalg.LinAlgError:
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0], dtype=float)
-
-
-# ---- Multipliers of a cycle, and the stability that follows from them
 
 
 def multipliers(jacobian: Array) -> ComplexArray:

@@ -171,10 +171,10 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     alpha, beta = -modes.diameters * p.Omega * b, modes.diameters * p.Omega * a
     height = (modes.psi @ a - compliance * vertical, 0.0) if compliance else ()
 
-    def at(psi: float) -> Array:
+    def rows_at(psi: float) -> Array:
         return join_rows(modes, (a, alpha, b, beta), (psi, p.Omega), height)
 
-    i, _ = _slip(p, at(0.0)[:, None])
+    i, _ = _slip(p, rows_at(0.0)[:, None])
     friction = float(_LAWS.friction_coefficient(model, 1.0, p.Omega))
     if _LAWS.slip_denominator(model, p.m, friction, i.dw_dtheta[0]) <= 1e-6:
         return _absent(SlidingStatus.PARADOX)
@@ -182,7 +182,7 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     share, slowing = (float(part[0]) for part in _LAWS.slip_rates(model, i, friction, np.ones(1)))
     force = vertical / share
     psi = -p.m * slowing * force / p.k_p if p.k_p > 0 else math.nan
-    rows = at(psi if p.k_p > 0 else 0.0)
+    rows = rows_at(psi if p.k_p > 0 else 0.0)
     _, rates = _slip(p, rows[:, None] + 1j * laws.TINY * np.eye(len(rows)))
     jacobian = rates.imag / laws.TINY
     eigenvalues = np.linalg.eigvals(jacobian).astype(complex)
@@ -202,31 +202,25 @@ def _equilibrium(p: Parameters, modes: Modes, compliance: float) -> tuple[Array,
     turned = modes.diameters * p.Omega
     gap, lag = turned**2 - modes.omega**2, modal_damping(p) * turned
     with np.errstate(divide="ignore", invalid="ignore"):
-        along, across = (modes.psi * part / (gap**2 + lag**2) for part in (gap, lag))
+        along, across = (modes.psi * part / (gap**2 + lag**2) for part in (gap, lag))  # a, b under V = 1 N
         static = float(np.sum(modes.psi**2 / modes.omega**2)) + compliance
-        force = p.N * (1 + p.k * static) / (1 - p.k * (float(np.sum(modes.psi * along)) - compliance))
-        if (arm := tangential_amplitudes(p)).any():
-            twist = arm * lag / (gap**2 + lag**2), -arm * gap / (gap**2 + lag**2)
-            return _with_couple(p, modes, (along, across), twist, p.N * (1 + p.k * static), compliance)
-    return along * force, across * force, force
-
-
-def _with_couple(
-    p: Parameters, modes: Modes, bend: tuple[Array, Array], twist: tuple[Array, Array], load: float, compliance: float
-) -> tuple[Array, Array, float]:
-    """As `_equilibrium`, from a, b under V = 1 N (``bend``) and under T = 1 N (``twist``); load: N - k u_0."""
-    slope = modes.diameters * modes.psi / p.r_0 if p.contact_force == "normal" else np.zeros_like(modes.psi)
-    # V = stiff_0 + stiff_1 R, and V = R (1 - mu beta) with beta = lean_0 V + lean_1 R
-    share = 1 - p.k * (float(modes.psi @ bend[0]) - compliance)
-    mu = float(_LAWS.friction_coefficient(engine_case(p).model, 1.0, p.Omega))
-    start, rise = load / share, p.k * mu * float(modes.psi @ twist[0]) / share
-    lean = mu * float(slope @ bend[1]), mu**2 * float(slope @ twist[1])
-    # start + rise R = R (1 - lean_0 (start + rise R) - lean_1 R): the root that is start / (1 - rise) for a flat disc
-    square, linear = lean[0] * rise + lean[1], 1 - rise - lean[0] * start
-    R = 2 * start / (linear + math.sqrt(max(linear**2 - 4 * square * start, 0.0)))
-    V = start + rise * R
-    a, b = (of_V * V + of_T * mu * R for of_V, of_T in zip(bend, twist, strict=True))
-    return a, b, V
+        load = p.N * (1 + p.k * static)  # N - k u_0
+        force = load / (1 - p.k * (float(np.sum(modes.psi * along)) - compliance))
+        if not (arm := tangential_amplitudes(p)).any():
+            return along * force, across * force, force
+        twist = arm * lag / (gap**2 + lag**2), -arm * gap / (gap**2 + lag**2)  # a, b under T = 1 N
+        slope = modes.diameters * modes.psi / p.r_0 if p.contact_force == "normal" else np.zeros_like(modes.psi)
+        # V = start + rise R, and V = R (1 - mu beta) with beta = lean_0 V + lean_1 R
+        share = 1 - p.k * (float(modes.psi @ along) - compliance)
+        mu = float(_LAWS.friction_coefficient(engine_case(p).model, 1.0, p.Omega))
+        start, rise = load / share, p.k * mu * float(modes.psi @ twist[0]) / share
+        lean = mu * float(slope @ across), mu**2 * float(slope @ twist[1])
+        # start + rise R = R (1 - lean_0 (start + rise R) - lean_1 R): the root that is start / (1 - rise) if it is flat
+        square, linear = lean[0] * rise + lean[1], 1 - rise - lean[0] * start
+        R = 2 * start / (linear + math.sqrt(max(linear**2 - 4 * square * start, 0.0)))
+        V = start + rise * R
+        a, b = (of_V * V + of_T * mu * R for of_V, of_T in zip((along, across), twist, strict=True))
+        return a, b, V
 
 
 def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
@@ -265,9 +259,6 @@ def join_rows(modes: Modes, disc: Sequence[Any], slider: Sequence[Any], height: 
     a, alpha, b, beta = disc
     pairs = modes.diameters > 0
     return np.concatenate([a, alpha, b[pairs], beta[pairs], slider, *([height] if len(height) else [])])
-
-
-# ---- Modes
 
 
 @dataclass(frozen=True, eq=False)
@@ -342,11 +333,9 @@ def follow_modes(cases: Sequence[Parameters]) -> list[FollowedModes]:
     Modes keep the numbers that they have by frequency, from 0 on, in the first case; modes that appear later have the
     next ones. Further cases between two are computed until it is clear which mode is which.
     """
-    followed: list[FollowedModes] = []
-    shapes: list[ComplexArray] = []  # the last one of each number
+    followed, shapes = list[FollowedModes](), list[ComplexArray]()  # of each number, the last one
     for before, p in zip([None, *cases], cases, strict=False):
-        sliding = steady_sliding(p)
-        modes = sliding_modes(p, sliding)
+        modes = sliding_modes(p, sliding := steady_sliding(p))
         followed.append(FollowedModes(sliding, modes, *_numbered(shapes, before, p, modes, HALVINGS)))
     return followed
 
@@ -373,7 +362,7 @@ def _numbered(
     matched, likeness = np.full(len(modes.frequency), -1), np.full(len(modes.frequency), math.nan)
     matched[places], likeness[places] = numbers, mac[numbers, places]
     matched[matched < 0] = len(shapes) + np.arange(np.sum(matched < 0))
-    for number, shape in sorted(zip(matched, scaled.T, strict=True), key=lambda one: one[0]):
+    for number, shape in sorted(zip(matched, scaled.T, strict=True), key=lambda pair: pair[0]):
         shapes[number : number + 1] = [shape]
     return matched, likeness
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.data.variables import CycleStatus, Outcome
-from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start, stays_linear_until
+from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start
 from disc_model.stability.attractor.outcome import OutcomeResult, Stage, find_outcome
 from disc_model.stability.attractor.thresholds import AMPLITUDES, SAME_POINT
 from disc_model.stability.cycle import FloquetResult
@@ -112,7 +112,7 @@ class Tile:
         start = self._own(index)
         if start is not None and start.cycle.stable:
             return Outcome.QUIET
-        return Outcome.GROWING if start is not None and stays_linear_until(start, self.options.horizon) else ""
+        return Outcome.GROWING if start is not None and start.stays_linear_until(self.options.horizon) else ""
 
     def _refine(self, rows: Index, columns: Index) -> None:
         """Divide a cell, given by the indices of its edges, or fill it."""

@@ -21,18 +21,12 @@ from disc_model.stability.attractor.linear_motion import NearCycle, find_cycle_n
 from disc_model.stability.attractor.outcome import Segment, final_segment, find_calm, switch_angles
 from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
-from disc_model.stability.return_map import RETURNED, ReturnMap, case_faults
+from disc_model.stability.return_map import RETURNED, ReturnMap
 
 
 class Arrival(NamedTuple):
-    """What a motion has come to.
-
-    Attributes
-    ----------
-    settling : whether it has settled
-    calm : `AT_REST` or `STEADY_SLIDING` if that is what it has come to, else None
-    near : the stable cycle that it follows, by its multipliers, else None
-    """
+    """What a motion has come to: whether it has settled; rest or steady sliding, if it has come to that; the stable
+    cycle that it follows by its multipliers, if there is one."""
 
     settling: Settling
     calm: Outcome | None = None
@@ -44,9 +38,8 @@ class Arrival(NamedTuple):
 
 
 def arrival(p: Parameters, legs: Sequence[Result], tol: float) -> Arrival:
-    """What a motion has come to at the end of its successive legs, recorded with their events. Rest, eigenvalues of
-    steady sliding and multipliers of a stable cycle prove it. Otherwise the record of all legs decides, by the angles
-    at releases and at losses of contact."""
+    """What a motion has come to at the end of its successive legs: what rest, eigenvalues of steady sliding or
+    multipliers of a stable cycle prove; otherwise what the record of angles at releases and separations shows."""
     leg = legs[-1]
     if (calm := find_calm(p, leg, tol)) is not None:
         return Arrival(Settling(Settled.SETTLED, least=0.0, since=leg.final_state.time), calm)
@@ -64,7 +57,7 @@ def cycle_reached(p: Parameters, leg: Result, most: int = sys.maxsize) -> NearCy
     to half the releases of the last `FIRST_LEG` are tried, and of up to `most` releases."""
     last = leg.events[leg.events["time"] > leg.final_state.time - thresholds.FIRST_LEG]
     releases = int((last["kind"] == "stick_to_slip").sum())
-    if not releases or not may_stick_and_slip(p) or case_faults(p, "a cycle"):
+    if not releases or not may_stick_and_slip(p) or p.n_diameters < 0:
         return None
     map_ = ReturnMap(p, patient=True)
     code, x = map_.next_release(leg.final_state)
@@ -88,8 +81,7 @@ def sweep(
 
     It stays ``dwell`` s at each value, then up to twice as long again and again until it has settled, ``longest`` s at
     most; from a stable cycle that it follows it continues exactly. Yields the direction (0 up, 1 down) and the index of
-    the value, the last run there, its last segment of ``late`` s, and what the motion has come to. If a run ends early,
-    the segment is None and the sweep ends.
+    the value, the last run there, its last segment of ``late`` s, or None if a run ends early, and the arrival.
     """
     state: State | None = None
     for step in [(0, i) for i in range(lowest, len(values))] + [(1, i) for i in reversed(range(len(values)))]:
@@ -121,9 +113,8 @@ class Regularity(NamedTuple):
 
 
 def regularity(p: Parameters, state: State, tol: float) -> Regularity:
-    """Regularity of the motion from a state, by its separations, or else its releases, and by its largest exponent. The
-    exponent along the motion is excluded. The largest one is zero on a torus and positive in chaos. If it is negative,
-    all neighbouring motions converge to one cycle, even if its period is too long to be observed."""
+    """Regularity of the motion from a state, by its separations, or else its releases, and by its largest exponent but
+    that along the motion: zero on a torus, positive in chaos, negative on a cycle, however long its period."""
     run = simulate(p, state.time + thresholds.SETTLING * thresholds.FIRST_LEG, tol=tol, initial_state=state)
     times, kinds = run.events["time"].to_numpy(dtype=float), run.events["kind"].to_numpy()
     separates = bool((kinds == "separation").any())
@@ -133,10 +124,9 @@ def regularity(p: Parameters, state: State, tol: float) -> Regularity:
     periodic = Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE
     if n := shortest_period(intervals, CLOSES):
         return Regularity(periodic, n, closure(intervals, n))
-    duration = thresholds.SETTLING * thresholds.FIRST_LEG / 2
     # exponents below -90/s are not resolved by this interval; such a motion repeats
-    how: Any = {"count": 1, "interval": 0.25, "leave_out_trivial": True}
-    largest = lyapunov_exponents(p, duration, initial_state=state, tol=tol, **how)
+    how: Any = {"count": 1, "interval": 0.25, "leave_out_trivial": True, "initial_state": state, "tol": tol}
+    largest = lyapunov_exponents(p, thresholds.SETTLING * thresholds.FIRST_LEG / 2, **how)
     rate, error = float(largest.exponents[0]), float(largest.errors[0])
     if not (math.isfinite(rate) and math.isfinite(error)):
         return Regularity(Outcome.UNDECIDED)

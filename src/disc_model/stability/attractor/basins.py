@@ -1,9 +1,7 @@
 """Assignment of many motions of a case to attractors: the quiet cycle, a known attractor, or a new one.
 
-A motion is followed in legs of some seconds, as docs/method.md, Settled motions, describes.  A motion that
-stays near an unstable cycle has not settled. A new attractor that is not periodic must persist to the horizon, because
-the motion might only be passing an unstable one, and the record must show that the motion has settled
-(`disc_model.analysis.classify`).
+docs/method.md, Settled motions, describes the legs and tests.  A new attractor that is not periodic must persist to the
+horizon, in a record that has settled, because the motion might only be passing an unstable one.
 """
 
 import math
@@ -24,7 +22,7 @@ from disc_model.simulation.result import Result
 from disc_model.simulation.states import State, perturb, static_start
 from disc_model.stability.attractor import thresholds
 from disc_model.stability.attractor.arrival import cycle_reached, regularity
-from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start, follows_multipliers
+from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start
 from disc_model.stability.attractor.outcome import (
     Attractor,
     OutcomeResult,
@@ -37,17 +35,12 @@ from disc_model.stability.return_map import RETURNED, Array, ReturnMap
 
 
 class Basins:
-    """The attractors of a case: the quiet cycle, and those reached from `OWN_STARTS` and from later starts.
+    """The attractors of a case, `known` in the order in which they were found: the quiet cycle, and those reached from
+    `OWN_STARTS` and from later starts.
 
-    Parameters
-    ----------
     horizon : s, longest simulated time of a motion
     near : relative difference in range from an attractor within which an approaching motion counts as being on it;
         with 0 all motions are followed to the horizon
-
-    Attributes
-    ----------
-    known : attractors in the order in which they were found
     """
 
     def __init__(self, p: Parameters, horizon: float, *, near: float = 0.1, tol: float = 1e-10) -> None:
@@ -84,7 +77,7 @@ class Basins:
             if self.near:
                 # tested only nearer to the quiet cycle than ever before
                 x, distance = self._near_quiet_cycle(segments, state)
-                if self.cycle is not None and distance < least_tested and follows_multipliers(self.cycle, x):
+                if self.cycle is not None and distance < least_tested and self.cycle.follows_multipliers(x):
                     attractor = self.known[0]
                 else:
                     attractor = self._approached([segment.range for segment in segments[-thresholds.NEARING :]])
@@ -108,9 +101,12 @@ class Basins:
         """Largest relative difference of ranges, shares of the phases and separations per second. Differences of shares
         below `SAME`, and of less than two separations in a leg, are relative to these limits."""
         ranges = [max(segment.range, self.smallest) for segment in (first, second)]
-        compared = [(*ranges, self.smallest), (first.separation_rate, second.separation_rate, 2 / thresholds.FIRST_LEG)]
-        compared.append((first.stick_fraction, second.stick_fraction, thresholds.SAME))
-        compared.append((first.separation_fraction, second.separation_fraction, thresholds.SAME))
+        compared = [
+            (*ranges, self.smallest),
+            (first.separation_rate, second.separation_rate, 2 / thresholds.FIRST_LEG),
+            (first.stick_fraction, second.stick_fraction, thresholds.SAME),
+            (first.separation_fraction, second.separation_fraction, thresholds.SAME),
+        ]
         return max(abs(a - b) / max(a, b, floor) for a, b, floor in compared)
 
     def _near_quiet_cycle(self, segments: Sequence[Segment], state: State) -> tuple[Array, float]:
@@ -149,13 +145,14 @@ class Basins:
         return stays or _rest_of_drift(ranges) <= thresholds.SAME / 2 * ranges[-1]
 
     def _settled_on(self, leg: Result, steady: bool, settled: bool) -> Attractor | None:
-        """The attractor on which a motion is; None as long as it is uncertain.
-
-        steady : whether the last legs differ as little as those on a known attractor may
-        settled : whether the record shows that the motion has settled
-        """
-        attractor = self._described(leg)
-        if attractor is None:
+        """The attractor on which a motion is, if that is proven, the record has settled, or the last legs are as steady
+        as those on a known attractor; None near an unstable cycle."""
+        attractor, near = Attractor(Outcome.UNDECIDED, segment_of(leg)), None
+        if (calm := find_calm(self.p, leg, self.tol)) is not None:
+            attractor = replace(attractor, kind=calm)
+        elif (near := cycle_reached(self.p, leg, thresholds.LARGEST_PERIOD)) is not None and near.follows_cycle:
+            attractor = self._periodic(near, attractor.segment)  # of stable cycles only
+        elif near is not None and near.lingers:
             return None
         same = next((known for known in self.known if self._same(attractor, known)), None)
         proven = attractor.kind is not Outcome.UNDECIDED
@@ -167,19 +164,6 @@ class Basins:
             self.known.append(attractor)
             return attractor
         return same
-
-    def _described(self, leg: Result) -> Attractor | None:
-        """The attractor of a motion, undecided if it is neither a cycle nor rest; None near an unstable cycle."""
-        segment = segment_of(leg)
-        calm = find_calm(self.p, leg, self.tol)
-        if calm is not None:
-            return Attractor(calm, segment)
-        near = cycle_reached(self.p, leg, thresholds.LARGEST_PERIOD)
-        if near is not None and near.follows_cycle:  # of stable cycles only
-            return self._periodic(near, segment)
-        if near is not None and near.lingers:
-            return None
-        return Attractor(Outcome.UNDECIDED, segment)
 
     def _same(self, first: Attractor, second: Attractor) -> bool:
         """Whether two attractors are the same: periodic ones by their fixed points, others by their segments."""
@@ -195,15 +179,10 @@ class Basins:
 
 
 def random_perturbation(p: Parameters, state: State, energy: float, key: Sequence[int]) -> State:
-    """A state after a perturbation of given energy in a random direction.
+    """A state after a perturbation of given energy (J) in a random direction, by whole numbers, its `key`.
 
     The direction is uniform in the energy norm of the disc's modes: omega a, omega b, alpha, beta of each.  The slider
-    moves with the disc; f and psi are unchanged.  The energy (J) is that of the perturbation alone: of the modes, of
-    the slider's mass m and of its spring k.
-
-    Parameters
-    ----------
-    key : whole numbers that determine the direction
+    moves with the disc; f and psi are unchanged.  The energy is that of modes, slider's mass m and its spring k.
     """
     if energy == 0:
         return state
@@ -214,15 +193,9 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
     u, velocity = float(modes.psi @ a), float(modes.psi @ alpha)
     energy_drawn = 0.5 * (float(np.sum(draw**2)) + p.k * u**2 + p.m * velocity**2)
     size = math.sqrt(energy / energy_drawn)
-    slope = float(np.sum(modes.diameters * modes.psi * b))
-    return state.replace(
-        a=state.a + size * a,
-        b=state.b + size * b,
-        alpha=state.alpha + size * alpha,
-        beta=state.beta + size * beta,
-        u=state.u + size * u,
-        u_velocity=state.u_velocity + size * (velocity + state.f * slope),
-    )
+    velocity_of_u = velocity + state.f * float(np.sum(modes.diameters * modes.psi * b))
+    changes = {"a": a, "b": b, "alpha": alpha, "beta": beta, "u": u, "u_velocity": velocity_of_u}
+    return state.replace(**{name: getattr(state, name) + size * change for name, change in changes.items()})
 
 
 def _rest_of_drift(values: Sequence[float]) -> float:

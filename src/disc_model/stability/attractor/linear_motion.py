@@ -1,8 +1,7 @@
 """Motions near a cycle, or near steady sliding: whether they depart or approach as its multipliers predict.
 
-Near a cycle the return map is linear, and the distance d from the cycle after n periods is J^n d.  This is tested, not
-assumed: the motion is followed over some seconds and compared with J^n d. The comparison covers the size and the
-growth rate of the leading multiplier's part.  Near repetition alone proves nothing, because a torus shows it as well.
+Near a cycle the return map is linear, and the distance d from the cycle after n periods is J^n d.  This is tested by
+following the motion over some seconds: near repetition alone proves nothing, because a torus shows it as well.
 """
 
 import math
@@ -34,14 +33,9 @@ from disc_model.stability.sliding import SteadySliding, energy_weights, join_row
 
 @dataclass(frozen=True, eq=False)
 class NearCycle:
-    """A motion near a cycle.
-
-    Attributes
-    ----------
-    follows_cycle : whether the motion follows the linear map, and so stays on the cycle if that is stable
-    x, distance, jacobian : the cycle, the motion's distance from it, and the map's Jacobian, on the section of `map`
-    waited : s, until the motion follows the linear map; `distance` is taken at that time
-    """
+    """A motion near a cycle: whether it follows the linear map, and so stays on the cycle if that is stable; the cycle,
+    the motion's distance from it and the map's Jacobian, on the section of `map`; the time waited (s) until the motion
+    follows the linear map, at which the distance is taken."""
 
     cycle: FloquetResult
     follows_cycle: bool
@@ -53,7 +47,6 @@ class NearCycle:
 
     @cached_property
     def leading(self) -> ComplexArray:
-        """See `_left_vector`."""
         return _left_vector(self.jacobian)
 
     @property
@@ -87,6 +80,86 @@ class NearCycle:
             yield count - done, flight
             x, done = flight.end, count
 
+    def follows_multipliers(self, x: Array) -> bool:
+        """Whether the motion at a point of the section departs or approaches as the multipliers predict."""
+        return any(self._is_linear(x - self.x, times) for times in thresholds.TEST_TIMES)
+
+    def stays_linear_until(self, horizon: float) -> bool:
+        """Whether the static start, near an unstable cycle, follows the linear map until the horizon (s)."""
+        room = self.periods_left(first_release(self.cycle.parameters), horizon)
+        # the leading part alone excludes most motions at once
+        right = _left_vector(self.jacobian.T)
+        part = float(abs(self.leading @ self.distance)) / float(abs(self.leading @ right))
+        grown = math.log(max(part / self.map.deflection, 1e-300)) + room * math.log(abs(self.cycle.multipliers[0]))
+        if not grown <= math.log(2 * thresholds.AMPLITUDES[0]):
+            return False
+        departure = self.extrapolate_departure(room)
+        return room <= 1 or (departure is not None and departure[0] >= (room - 1) * self.cycle.period)
+
+    def periods_left(self, time: float, horizon: float) -> int:
+        """Periods of a cycle until the horizon (s), for a motion that follows it `waited` after a time (s)."""
+        return max(0, math.ceil((horizon - (time + self.waited)) / self.cycle.period))
+
+    @np.errstate(over="ignore", invalid="ignore")  # powers of a strongly unstable cycle's Jacobian
+    def _is_linear(self, distance: Array, times: tuple[float, float]) -> bool:
+        """Whether the motion at that distance departs from the cycle, or approaches it, as its multipliers predict."""
+        cycle, deflection = self.cycle, self.map.deflection
+        least = thresholds.ARRIVED * deflection if cycle.stable else 0.0
+        # the errors of coarse flights would matter at a smaller distance
+        coarse = bool(np.linalg.norm(distance) > thresholds.SAME_POINT * deflection)
+        expected, parts, periods = distance, list[float](), 0
+        for periods, flight in self.flights(self.x + distance, times, coarse):
+            expected = np.linalg.matrix_power(self.jacobian, periods) @ expected
+            error = float(np.linalg.norm(flight.end - self.x - expected))
+            largest = max(thresholds.LARGEST_ERROR * float(np.linalg.norm(expected)), least)
+            if not (flight.returned and error <= largest):
+                return False
+            parts.append(float(abs(self.leading @ (flight.end - self.x))))
+        return _grows_at_rate(parts, periods * cycle.period, cycle.growth_rate, least)
+
+    def extrapolate_departure(self, room: int, furthest: float = thresholds.NEAR) -> tuple[float, Array] | None:
+        """Time (s) over which multipliers represent the departure, at most `room` periods, and the distance at its end
+        from the cycle; None if they do not represent it."""
+        period = self.cycle.period
+        powers = [self.jacobian]
+        most = math.log(1e100) / max(math.log(abs(self.cycle.multipliers[0])), 1e-300)
+        while 2 ** len(powers) <= min(room, most):  # `most` keeps the powers from overflow
+            powers.append(powers[-1] @ powers[-1])
+        for amplitude in (a for a in thresholds.AMPLITUDES if a <= furthest):
+            n, distance = 0, self.distance
+            for i in reversed(range(len(powers))):
+                ahead = powers[i] @ distance
+                if n + 2**i <= room and np.linalg.norm(ahead) <= amplitude * self.map.deflection:
+                    n, distance = n + 2**i, ahead
+            if n == 0:
+                break
+            excess = self._excess_rate(distance)
+            if excess is not None and abs(excess) <= thresholds.LARGEST_OUTSIDE:
+                # the rate changes with the square of the amplitude: a' = rate a (1 + excess a^2 / amplitude^2)
+                sooner = math.log1p(excess) / (2 * self.cycle.growth_rate)
+                return max(n * period - sooner, period), distance
+            if self._is_linear(distance, thresholds.TEST_TIMES[0]):
+                return n * period, distance
+        return None
+
+    def _excess_rate(self, distance: Array) -> float | None:
+        """Relative excess of the growth rate over the leading multiplier's; None unless the motion departs. Its phase,
+        which drifts with the amplitude long before the growth rate does and matters only near borders, is ignored."""
+        leading_left, right = self.leading, _left_vector(self.jacobian.T)
+        right = right / (leading_left @ right)
+        real = self.cycle.multipliers[0].imag == 0
+        part, count = leading_left @ distance, 0
+        before = float(abs(part))
+        for periods, flight in self.flights(self.x + distance, thresholds.TEST_TIMES[-1]):
+            if not flight.returned:
+                return None
+            apart, count = flight.end - self.x, count + periods
+            part = leading_left @ apart
+            plane = np.real(part * right) * (1 if real else 2)
+            if not np.linalg.norm(apart - plane) <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(apart):
+                return None
+        return float(math.log(abs(part) / before) / (count * self.cycle.period) / self.cycle.growth_rate - 1)
+
 
 class NearReturn(NamedTuple):
     """Least change from a release to a later one, relative to the static deflection, and the number of releases."""
@@ -108,16 +181,12 @@ def find_cycle_near(
     map_: ReturnMap,
     x: Array,
     near_return: NearReturn | None,
-    *,
     may_separate: bool = False,
     unstable: Sequence[float] = (),
 ) -> NearCycle | None:
     """The cycle near a motion at a point of the section, and whether the motion follows it; None if there is none.
 
-    Parameters
-    ----------
     near_return : of the motion, by `find_near_return`
-    may_separate : whether the cycle may lose contact
     unstable : times at which the test begins on an unstable cycle, s; with none, no motion follows it
     """
     if near_return is None or not near_return.change <= thresholds.NEAR / 2:
@@ -135,34 +204,9 @@ def find_near_return(
     """The nearest return of a motion to its point of the section; None if it does not return at all."""
     later = map_.returns(x, most, may_separate=may_separate, coarse=True)
     changes = [float(np.linalg.norm(point - x) / map_.deflection) for point in later]
-    if not changes:
-        return None
     # the shortest of those with about the least change
-    releases = next(i for i, change in enumerate(changes, 1) if change <= 2 * min(changes))
-    return NearReturn(changes[releases - 1], releases)
-
-
-def follows_multipliers(near: NearCycle, x: Array) -> bool:
-    """Whether the motion at a point of the section departs from a cycle or approaches it as its multipliers predict."""
-    return any(_is_linear(near, x - near.x, times) for times in thresholds.TEST_TIMES)
-
-
-def stays_linear_until(near: NearCycle, horizon: float) -> bool:
-    """Whether the static start, near an unstable cycle, follows the linear map until the horizon (s)."""
-    room = periods_left(near, first_release(near.cycle.parameters), horizon)
-    # the leading part alone excludes most motions at once
-    right = _left_vector(near.jacobian.T)
-    part = float(abs(near.leading @ near.distance)) / float(abs(near.leading @ right))
-    grown = math.log(max(part / near.map.deflection, 1e-300)) + room * math.log(abs(near.cycle.multipliers[0]))
-    if not grown <= math.log(2 * thresholds.AMPLITUDES[0]):
-        return False
-    departure = extrapolate_departure(near, room)
-    return room <= 1 or (departure is not None and departure[0] >= (room - 1) * near.cycle.period)
-
-
-def periods_left(near: NearCycle, time: float, horizon: float) -> int:
-    """Periods of a cycle until the horizon (s), for a motion that follows it ``near.waited`` after a time (s)."""
-    return max(0, math.ceil((horizon - (time + near.waited)) / near.cycle.period))
+    returns = (NearReturn(change, i) for i, change in enumerate(changes, 1) if change <= 2 * min(changes))
+    return next(returns, None)
 
 
 def first_release(p: Parameters) -> float:
@@ -183,26 +227,9 @@ def _relate(map_: ReturnMap, cycle: FloquetResult, x: Array, waits: Sequence[flo
             if not flight.returned:
                 break
             x, waited = flight.end, waited + flight.period
-        if follows_multipliers(near, x):
+        if near.follows_multipliers(x):
             return replace(near, follows_cycle=True, distance=x - fixed_point, waited=waited)
     return near
-
-
-@np.errstate(over="ignore", invalid="ignore")  # powers of a strongly unstable cycle's Jacobian
-def _is_linear(near: NearCycle, distance: Array, times: tuple[float, float]) -> bool:
-    """Whether the motion at that distance departs from the cycle, or approaches it, as its multipliers predict."""
-    cycle, deflection = near.cycle, near.map.deflection
-    least = thresholds.ARRIVED * deflection if cycle.stable else 0.0
-    # the errors of coarse flights would matter at a smaller distance
-    coarse = bool(np.linalg.norm(distance) > thresholds.SAME_POINT * deflection)
-    expected, parts, periods = distance, list[float](), 0
-    for periods, flight in near.flights(near.x + distance, times, coarse):
-        expected = np.linalg.matrix_power(near.jacobian, periods) @ expected
-        error = float(np.linalg.norm(flight.end - near.x - expected))
-        if not flight.returned or not error <= max(thresholds.LARGEST_ERROR * float(np.linalg.norm(expected)), least):
-            return False
-        parts.append(float(abs(near.leading @ (flight.end - near.x))))
-    return _grows_at_rate(parts, periods * cycle.period, cycle.growth_rate, least)
 
 
 def _grows_at_rate(parts: Sequence[float], time: float, rate: float, least: float) -> bool:
@@ -213,62 +240,11 @@ def _grows_at_rate(parts: Sequence[float], time: float, rate: float, least: floa
 
 
 def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs) -> ComplexArray:
-    """Left eigenvector of the leading eigenvalue: its product with a distance is that eigenvalue's part of it.
-
-    size : function that ranks eigenvalues: the modulus for a map, the real part for differential equations
-    """
+    """Left eigenvector of the leading eigenvalue: its product with a distance is that eigenvalue's part of it. Leading
+    has most `size`: the modulus for a map, the real part for differential equations."""
     values, vectors = np.linalg.eig(jacobian.T)
     return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
 
-
-def extrapolate_departure(
-    near: NearCycle, room: int, furthest: float = thresholds.AMPLITUDES[0]
-) -> tuple[float, Array] | None:
-    """Time over which multipliers represent a motion's departure, at most `room` periods, and the distance at its end.
-    The time is in s, the distance that from the cycle, on the section. None if multipliers do not represent it."""
-    period = near.cycle.period
-    powers = [near.jacobian]
-    most = math.log(1e100) / max(math.log(abs(near.cycle.multipliers[0])), 1e-300)
-    while 2 ** len(powers) <= min(room, most):  # `most` keeps the powers from overflow
-        powers.append(powers[-1] @ powers[-1])
-    for amplitude in (a for a in thresholds.AMPLITUDES if a <= furthest):
-        n, distance = 0, near.distance
-        for i in reversed(range(len(powers))):
-            ahead = powers[i] @ distance
-            if n + 2**i <= room and np.linalg.norm(ahead) <= amplitude * near.map.deflection:
-                n, distance = n + 2**i, ahead
-        if n == 0:
-            break
-        excess = _excess_rate(near, distance)
-        if excess is not None and abs(excess) <= thresholds.LARGEST_OUTSIDE:
-            # the rate changes with the square of the amplitude: a' = rate a (1 + excess a^2 / amplitude^2)
-            sooner = math.log1p(excess) / (2 * near.cycle.growth_rate)
-            return max(n * period - sooner, period), distance
-        if _is_linear(near, distance, thresholds.TEST_TIMES[0]):
-            return n * period, distance
-    return None
-
-
-def _excess_rate(near: NearCycle, distance: Array) -> float | None:
-    """Relative excess of a departing motion's growth rate over the leading multiplier's; None for another motion. The
-    phase is ignored: it drifts with the amplitude long before the growth rate does, and matters only near borders."""
-    leading_left, right = near.leading, _left_vector(near.jacobian.T)
-    right = right / (leading_left @ right)
-    real = near.cycle.multipliers[0].imag == 0
-    part, count = leading_left @ distance, 0
-    before = float(abs(part))
-    for periods, flight in near.flights(near.x + distance, thresholds.TEST_TIMES[-1]):
-        if not flight.returned:
-            return None
-        apart, count = flight.end - near.x, count + periods
-        part = leading_left @ apart
-        plane = np.real(part * right) * (1 if real else 2)
-        if not np.linalg.norm(apart - plane) <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(apart):
-            return None
-    return float(math.log(abs(part) / before) / (count * near.cycle.period) / near.cycle.growth_rate - 1)
-
-
-# ---- Steady sliding
 
 _sliding = lru_cache(maxsize=1)(steady_sliding)  # asked at the end of each leg of a motion
 

@@ -1,8 +1,7 @@
 """The outcome of one motion within a horizon: from multipliers if they prove it, otherwise by simulation.
 
-The search is a machine whose `Stage` says what is known of the motion; docs/method.md, Regions, describes the
-conclusions and the simulations. The static start is a point of the section of `disc_model.stability.return_map`, and
-usually lies near the cycle that Newton's method finds from it.
+docs/method.md, Regions, describes the conclusions and the simulations. The static start is a point of the section of
+the return map, and usually lies near the cycle that Newton's method finds from it.
 """
 
 import math
@@ -25,26 +24,18 @@ from disc_model.stability.attractor.linear_motion import (
     NearCycle,
     approaches_sliding,
     cycle_of_static_start,
-    extrapolate_departure,
     find_cycle_near,
     find_near_return,
     first_release,
-    follows_multipliers,
-    periods_left,
 )
 from disc_model.stability.cycle import FloquetResult, may_stick_and_slip, never_pulls
-from disc_model.stability.return_map import RETURNED, Array, ReturnMap, case_faults
+from disc_model.stability.return_map import RETURNED, Array, ReturnMap
 
 
 @dataclass(frozen=True)
 class Segment:
-    """Description of a segment of a motion.
-
-    P_min, P_max : N, range of the contact force
-    u_min, u_max : m, range of the slider's height over static equilibrium
-    stick_fraction, slip_fraction, separation_fraction : shares of the time
-    separation_rate : 1/s, separations per time
-    """
+    """Description of a segment of a motion: ranges of the contact force (N) and of the slider's height over static
+    equilibrium (m), shares of the phases in the time, and separations per second."""
 
     P_min: float
     P_max: float
@@ -63,15 +54,8 @@ class Segment:
 
 @dataclass(frozen=True, eq=False)
 class Attractor:
-    """An attractor.
-
-    Attributes
-    ----------
-    kind : outcome of motions on it
-    segment : segment of a motion on it
-    period, releases, growth_rate : s, 1 and 1/s, of a periodic attractor; nan, 0 and nan otherwise
-    points : shape (releases, n), its points on the section; None if none are known
-    """
+    """An attractor: the outcome of motions on it, a segment of one; period (s), releases and growth rate (1/s) of a
+    periodic attractor; and its points on the section, shape (releases, n), if they are known."""
 
     kind: Outcome
     segment: Segment
@@ -82,12 +66,8 @@ class Attractor:
 
 
 class Stage(Enum):
-    """Stage of a search for the outcome of a motion: what is known of it. From `SETTLED` on, the search has ended."""
+    """What is known of a motion at the end of a search for its outcome."""
 
-    START = "at its initial state"
-    NEAR_CYCLE = "follows the linear map near a cycle"
-    DEPARTING = "departs from an unstable cycle"
-    ON_ITS_WAY = "follows no cycle as far as is known"
     SETTLED = "approaches a stable cycle or steady sliding, or is at rest"
     STEADY = "has settled in contact after growth, by its record"
     SEPARATED = "has lost contact"
@@ -99,23 +79,16 @@ class Stage(Enum):
 class OutcomeResult:
     """The outcome of a motion; while it is sought, what is known so far.
 
-    Attributes
-    ----------
     outcome : None if the simulation failed
     simulated : s, simulated time; 0 if multipliers decide
-    attractor : one of the attractors of `disc_model.stability.attractor.basins.Basins`, or None
-    near : the stable cycle that the motion approaches, or else the first unstable cycle from which it departs, or None
-    extrapolated : the unstable cycle of slowest growth from which a departure was computed by multipliers; None if all
-        was simulated
-    first_separation : s, nan if there was none
+    near : the stable cycle that the motion approaches, or else the first unstable cycle from which it departs
+    extrapolated : the unstable cycle of slowest growth from which a departure was computed by multipliers
     time : s, at which the outcome was known
-    state : last state of the simulation; None if there was none
+    state : last state of the simulation
     failed : the simulation that ended early
-    changes : changes from one period to the next, over the static deflection, at the end of each leg
-    times : times of these ends, s
+    changes, times : changes from one period to the next, over the static deflection, and times of these (s)
     distance : distance from the cycle, over the static deflection, at the end of the search
     segment : the last segment before the horizon, if it was requested and reached
-    stage : stage in which the search of `find_outcome` ended
     """
 
     outcome: Outcome | None = None
@@ -167,9 +140,6 @@ def find_outcome(
 ) -> OutcomeResult:
     """Find the outcome of a motion within a horizon (s), or its separation if that comes first.
 
-    Parameters
-    ----------
-    tol : tolerance of simulations, as in `simulate`
     near : result of `cycle_of_static_start`, if it is known
     furthest : distance from a cycle, over the static deflection, up to which multipliers may represent a departure. A
         shorter one makes the time of the first separation more accurate; with 0 all of the departure is simulated.
@@ -181,8 +151,7 @@ def find_outcome(
     if isinstance(near, NearCycle):
         map_: ReturnMap | None = near.map  # a new one takes as long as a return to the section ten times over
     else:
-        has_section = not case_faults(p, "the return map") and may_stick_and_slip(p)
-        map_ = ReturnMap(p) if has_section else None
+        map_ = ReturnMap(p) if p.n_diameters >= 0 and may_stick_and_slip(p) else None
     if not early or start is not None or map_ is None:
         near = None
     elif near is None:
@@ -193,10 +162,9 @@ def find_outcome(
 
 @dataclass
 class _OutcomeSearch:
-    """A search for the outcome of a motion: one method a stage, each of which returns the next stage.
+    """A search for the outcome of a motion, with the arguments of `find_outcome`.
 
     start_cycle : the cycle near the static start, if that may decide
-    furthest : see `find_outcome`; it is reduced if the search starts anew
     """
 
     p: Parameters
@@ -208,58 +176,45 @@ class _OutcomeSearch:
     map: ReturnMap | None
     start_cycle: NearCycle | None
     furthest: float
-    simulated_before: float = 0.0
 
     def run(self) -> OutcomeResult:
-        """Pass from stage to stage, until the outcome is known."""
-        stages = {
-            Stage.START: self._begin,
-            Stage.NEAR_CYCLE: self._judge_cycle,
-            Stage.DEPARTING: self._depart,
-            Stage.ON_ITS_WAY: self._simulate_on,
-        }
-        stage = Stage.START
-        while stage in stages:
-            stage = stages[stage]()
-        self.result.stage = stage
-        self.result.simulated = self.simulated_before + self.result.simulated
+        """Follow the motion, from cycle to cycle by multipliers and between them by simulation."""
+        start = self.start_cycle
+        near = start if start is not None and start.follows_cycle else None
+        # an unstable one near the start, until the motion follows it
+        self.cycle_to_come = None if start is None or start is near or start.cycle.stable else start
+        self.departed_from: NearCycle | None = None  # the last unstable cycle that it followed
+        self.result = OutcomeResult(state=self.start, time=0.0 if near is None else first_release(self.p))
+        self.leg, self.angles = thresholds.FIRST_LEG, list[Array]()
+        while self.result.stage is None:
+            if near is None:
+                near = self._simulate_on()
+            elif near.cycle.stable:
+                self._settle(near)
+            else:
+                self._depart(near)
+                near = None
         return self.result
 
-    def _begin(self) -> Stage:
-        self.result = OutcomeResult(state=self.start)
-        self.leg = thresholds.FIRST_LEG
-        self.departed_from: NearCycle | None = None  # the last unstable cycle that it followed
-        self.cycle_to_come: NearCycle | None = None  # an unstable one near the start, until the motion follows it
-        self.angles: list[Array] = []
-        self.section_point: Array | None = None  # at the end of the last leg
-        if self.start_cycle is None:
-            return Stage.ON_ITS_WAY
-        if not self.start_cycle.follows_cycle:
-            self.cycle_to_come = None if self.start_cycle.cycle.stable else self.start_cycle
-            return Stage.ON_ITS_WAY
-        self.cycle, self.result.time = self.start_cycle, first_release(self.p)
-        return Stage.NEAR_CYCLE
-
-    def _judge_cycle(self) -> Stage:
-        near, result = self.cycle, self.result
-        result.near = result.near or near
-        if not near.cycle.stable:
-            return Stage.DEPARTING
+    def _settle(self, near: NearCycle) -> None:
+        """End on a stable cycle, after a new search if a departure that may decide was not simulated."""
+        result = self.result
         if result.extrapolated is not None and self.furthest > thresholds.CERTAIN:
-            self.furthest, self.simulated_before = thresholds.CERTAIN, result.simulated
-            return Stage.START
-        result.near, result.outcome = near, near.kind
+            self.result = replace(self, furthest=thresholds.CERTAIN).run()
+            self.result.simulated += result.simulated
+            return
+        result.near, result.outcome, result.stage = near, near.kind, Stage.SETTLED
         result.time += near.waited
         result.distance = float(np.linalg.norm(near.distance)) / near.map.deflection
-        return Stage.SETTLED
 
-    def _depart(self) -> Stage:
+    def _depart(self, near: NearCycle) -> None:
         """Follow the linear map away from an unstable cycle, as far as it is valid."""
-        near, result = self.cycle, self.result
+        result = self.result
+        result.near = result.near or near
         self.departed_from = near
         if result.time >= self.horizon:
-            return Stage.ON_ITS_WAY
-        departure = extrapolate_departure(near, periods_left(near, result.time, self.horizon), self.furthest)
+            return
+        departure = near.extrapolate_departure(near.periods_left(result.time, self.horizon), self.furthest)
         time, distance = departure or (0.0, near.distance)
         slowest = result.extrapolated
         if departure and (slowest is None or near.cycle.growth_rate < slowest.cycle.growth_rate):
@@ -267,32 +222,27 @@ class _OutcomeSearch:
         if departure or result.state is None:
             result.time = result.time + near.waited + time
             result.state = near.map.state(near.x + distance).replace(time=result.time)
-        return Stage.ON_ITS_WAY
 
-    def _simulate_on(self) -> Stage:
-        """Simulate a leg, and examine the motion at its end."""
+    def _simulate_on(self) -> NearCycle | None:
+        """Simulate a leg, and examine the motion at its end; the cycle that it then follows, if it follows one."""
         result = self.result
         if result.time >= self.horizon:
-            result.outcome = Outcome.GROWING if self._grows else Outcome.UNDECIDED
-            return Stage.HORIZON
+            result.outcome, result.stage = Outcome.GROWING if self._grows else Outcome.UNDECIDED, Stage.HORIZON
+            return None
         leg = self._simulate_leg()
-        if leg.status is Status.STOPPED:
-            result.outcome, result.first_separation = Outcome.SEPARATION, leg.first_separation
-            return Stage.SEPARATED
-        if not leg.status.complete:
-            result.failed = leg
-            return Stage.FAILED
         examined = self.early or result.time >= self.horizon
-        if examined and (calm := find_calm(self.p, leg, self.tol)) is not None:
-            result.outcome, result.near = calm, None
-            return Stage.SETTLED
-        if self._returns_to_section(leg.final_state) and examined and (near := self._find_followed_cycle()) is not None:
-            self.cycle = near
-            return Stage.NEAR_CYCLE
-        if self._has_settled():
-            result.outcome = Outcome.GROWING
-            return Stage.STEADY
-        return Stage.ON_ITS_WAY
+        if leg.status is Status.STOPPED:
+            result.outcome, result.stage = Outcome.SEPARATION, Stage.SEPARATED
+            result.first_separation = leg.first_separation
+        elif not leg.status.complete:
+            result.failed, result.stage = leg, Stage.FAILED
+        elif examined and (calm := find_calm(self.p, leg, self.tol)) is not None:
+            result.outcome, result.near, result.stage = calm, None, Stage.SETTLED
+        elif (near := self._followed_cycle(leg.final_state, examined)) is not None:
+            return near
+        elif self._has_settled():
+            result.outcome, result.stage = Outcome.GROWING, Stage.STEADY
+        return None
 
     def _simulate_leg(self) -> Result:
         """Simulate a leg, or to the first separation; the segment to be described is a leg of its own."""
@@ -311,41 +261,35 @@ class _OutcomeSearch:
         result.state, result.time = leg.final_state, leg.final_state.time
         return leg
 
-    def _returns_to_section(self, state: State) -> bool:
-        """Whether the motion comes to the section again; its nearest return is then measured."""
-        code, x = self.map.next_release(state) if self.map is not None else (None, None)
-        self.section_point = x if code == RETURNED else None
-        if self.map is None or self.section_point is None:
-            return False
-        self.near_return = find_near_return(self.map, self.section_point)
+    def _followed_cycle(self, state: State, examined: bool) -> NearCycle | None:
+        """Measure the nearest return of the motion to the section. If it is examined: the cycle that it follows
+        linearly, the one near its start, if it comes back to that, or another."""
+        if self.map is None:
+            return None
+        code, x = self.map.next_release(state)
+        if code != RETURNED:
+            return None
+        near_return = find_near_return(self.map, x)
         self.result.times.append(self.result.time)
-        self.result.changes.append(math.nan if self.near_return is None else self.near_return.change)
-        return True
-
-    def _find_followed_cycle(self) -> NearCycle | None:
-        """The cycle that the motion follows linearly: the one near its start, if it comes back to that, or another."""
-        x, near, waits = self.section_point, self.cycle_to_come, len(thresholds.WAITS)
-        assert self.map is not None
-        assert x is not None
-        if self.departed_from is not None:
-            if near is not None and self._comes_to(near, x, self.departed_from):
-                self.cycle_to_come = self.result.near = None
-                return replace(near, follows_cycle=True, distance=x - near.x)
+        self.result.changes.append(math.nan if near_return is None else near_return.change)
+        if not examined:
+            return None
+        near, last, waits = self.cycle_to_come, self.departed_from, len(thresholds.WAITS)
+        if last is not None:
+            if near is not None:
+                size = near.map.deflection
+                close = np.linalg.norm(x - near.x) <= thresholds.NEAR * size
+                another = np.linalg.norm(last.x - near.x) > thresholds.SAME_POINT * size
+                if close and another and near.follows_multipliers(x):
+                    self.cycle_to_come = self.result.near = None
+                    return replace(near, follows_cycle=True, distance=x - near.x)
             # a motion that comes near a cycle then changes less and less, down to errors of the simulation
             known = [change for change in self.result.changes if not math.isnan(change)]
             if known and known[-1] > max(known[-2:][0], thresholds.ARRIVED, thresholds.ERROR_OF_TOL * self.tol):
                 return None
             waits = 1
-        near = find_cycle_near(self.map, x, self.near_return, unstable=thresholds.WAITS[:waits])
+        near = find_cycle_near(self.map, x, near_return, unstable=thresholds.WAITS[:waits])
         return near if near is not None and near.follows_cycle else None
-
-    @staticmethod
-    def _comes_to(near: NearCycle, x: Array, last: NearCycle) -> bool:
-        """Whether the motion at a point of the section follows a cycle, after it has departed from another one."""
-        size = near.map.deflection
-        if not np.linalg.norm(x - near.x) <= thresholds.NEAR * size:
-            return False
-        return bool(np.linalg.norm(last.x - near.x) > thresholds.SAME_POINT * size) and follows_multipliers(near, x)
 
     @property
     def _grows(self) -> bool:
@@ -374,9 +318,6 @@ def growing(changes: Sequence[float]) -> bool:
     least = np.fmin.accumulate(d[:-2])
     later = np.fmin(d[1:-1], d[2:])
     return bool(np.any((later > thresholds.ARRIVED) & (later > thresholds.RISE * least)))
-
-
-# ---- Description of segments
 
 
 def final_segment(

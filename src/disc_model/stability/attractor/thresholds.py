@@ -5,20 +5,16 @@ Distances and changes are on the section of the return map, relative to the norm
 
 # ---- Simulated legs
 
-FIRST_LEG = 5.0
-"""s, first simulated time before a motion is examined: dozens of cycles, and some turns of the disc at paper speeds."""
-LONGEST_LEG = 160.0
-"""s, of later legs. The tests after each cost little beside so much simulation."""
+FIRST_LEG = 5.0  # s, before a motion is examined: dozens of cycles, and some turns of the disc at paper speeds
+LONGEST_LEG = 160.0  # s, of later legs: the tests after each cost little beside so much simulation
 SAMPLING_RATE = 4000.0  # Hz, of described segments: above twice the highest modal frequency
 
 # ---- Linear motion near a cycle, or near steady sliding
 
+# distances from the cycle up to which multipliers may represent a departure
 AMPLITUDES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
-"""Distances from the cycle up to which multipliers may represent a departure."""
 NEAR = AMPLITUDES[0]  # distance from a cycle within which a motion counts as near it: none is linear beyond
-SAME_POINT = 1e-4
-"""Fixed points nearer than this are the same. Distinct known cycles differ a thousand times as much, and residuals are
-a million times smaller."""
+SAME_POINT = 1e-4  # nearer fixed points are the same: known cycles differ by 0.1, and residuals are 1e-10
 ARRIVED = 1e-8  # a motion as near to a stable cycle is on it: the limit is 10,000 times the rounding
 ERROR_OF_TOL = 100  # errors of a long simulation, over its tolerance: 12 were seen on a cycle that attracts at 0.008/s
 TEST_TIMES = ((0.3, 1.2), (1.5, 6.0))
@@ -30,8 +26,7 @@ the strongly damped modes have decayed."""
 LARGEST_ERROR = 0.1
 """Largest difference between the two motions, relative to the linear one. The error of the linear map is of second
 order in the distance, which is at most a tenth of the static deflection."""
-LARGEST_RATE_ERROR = 0.5
-"""Largest difference between their growth rates, relative to the linear one: it decides the sign of the rate."""
+LARGEST_RATE_ERROR = 0.5  # of the growth rate, relative to the linear motion's: it decides the sign of the rate
 LARGEST_OUTSIDE = 0.25
 """Largest share of a departing motion outside the leading eigenspace. It also bounds the relative difference between
 the growth rate and the multiplier's, for which the departure is corrected."""
@@ -39,23 +34,16 @@ CERTAIN = 0.02
 """Distance from a cycle from which a departure that came to a stable cycle is simulated: farther away, its phase may
 decide between that cycle and separation."""
 LINGERS = 1e-3  # largest change over a period of a motion that stays near an unstable cycle: on a torus it would move
-LARGEST_PERIOD = 8
-"""Largest number of releases in a period of cycles that are sought from the section alone, to limit the time."""
-RISE = 1.5
-"""Factor between changes from period to period that shows growth: rounding and beats with decaying modes cause less."""
-
+LARGEST_PERIOD = 8  # releases in a period of cycles that are sought from the section alone, to limit the time
+RISE = 1.5  # factor between changes of periods that shows growth: rounding and beats with decaying modes cause less
 STEADY_FOR = 360.0
 """s for which a motion must have settled in contact until it is left. Of about 190 such motions of
 `map_N`, 2 lost contact before 1000 s, both in the last 30 s; after 200 s about 5 would have."""
 
 # ---- Attractors of many motions of a case
 
-NEARING, SETTLING = 4, 8
-"""Legs over which a motion must approach a known attractor, and over which it must be steady on another one."""
-STEADY = 1e-3
-"""Largest relative change of the range over those legs without a drift: that of a periodic motion is a tenth of it."""
-SAME = 0.05
-"""Segments that differ by less belong to one attractor; the extrapolated rest of a drift may reach half of it."""
+NEARING, SETTLING = 4, 8  # legs over which a motion approaches a known attractor, and is steady on another one
+STEADY = 1e-3  # largest relative change of the range over these without a drift: a periodic one's is a tenth of it
+SAME = 0.05  # segments that differ by less are of one attractor; the extrapolated rest of a drift may reach half of it
 SMALLEST = 1e-3  # range, over the static deflection, below which ranges count as equal: the slider's height is constant
-OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
-"""Downward perturbations of the static start from which attractors are sought, over the static deflection."""
+OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)  # downward, over the static deflection, from which attractors are sought
