@@ -2,7 +2,7 @@
 
 A batch is a tile of the plane. At each of its points the multipliers of the cycle give the outcome if the start stays
 quiet, or grows too slowly for anything else within the horizon. Elsewhere the start is simulated at the corners of
-coarse cells, which are divided as docs/method.md, Regions, describes. In an undivided cell, points not decided by
+coarse cells, which are divided as docs/study_method.md, Regions, describes. In an undivided cell, points not decided by
 multipliers take the outcome of the simulated ones.
 """
 

@@ -1,7 +1,7 @@
 """Assignment of many motions of a case to attractors: the quiet cycle, a known attractor, or a new one.
 
-docs/method.md, Settled motions, describes the legs and tests.  A new attractor that is not periodic must persist to the
-horizon, in a record that has settled, because the motion might only be passing an unstable one.
+docs/study_method.md, Settled motions, describes the legs and tests. A new attractor that is not periodic must persist
+to the horizon, in a record that has settled, because the motion might only be passing an unstable one.
 """
 
 import math

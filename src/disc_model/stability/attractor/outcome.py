@@ -1,7 +1,7 @@
 """The outcome of one motion within a horizon: from multipliers if they prove it, otherwise by simulation.
 
-docs/method.md, Regions, describes the conclusions and the simulations. The static start is a point of the section of
-the return map, and usually lies near the cycle that Newton's method finds from it.
+The search is a machine whose `Stage` says what is known of the motion; docs/study_method.md, Regions, describes it. The
+static start is a point of the section of the return map, and usually lies near the cycle that Newton's method finds.
 """
 
 import math
@@ -66,8 +66,12 @@ class Attractor:
 
 
 class Stage(Enum):
-    """What is known of a motion at the end of a search for its outcome."""
+    """Stage of a search for the outcome of a motion: what is known of it. From `SETTLED` on, the search has ended."""
 
+    START = "at its initial state"
+    NEAR_CYCLE = "follows the linear map near a cycle"
+    DEPARTING = "departs from an unstable cycle"
+    ON_ITS_WAY = "follows no cycle as far as is known"
     SETTLED = "approaches a stable cycle or steady sliding, or is at rest"
     STEADY = "has settled in contact after growth, by its record"
     SEPARATED = "has lost contact"
@@ -162,9 +166,10 @@ def find_outcome(
 
 @dataclass
 class _OutcomeSearch:
-    """A search for the outcome of a motion, with the arguments of `find_outcome`.
+    """A search for the outcome of a motion: one method a stage, each of which returns the next stage.
 
     start_cycle : the cycle near the static start, if that may decide
+    furthest : see `find_outcome`; it is reduced if the search starts anew
     """
 
     p: Parameters
@@ -176,44 +181,57 @@ class _OutcomeSearch:
     map: ReturnMap | None
     start_cycle: NearCycle | None
     furthest: float
+    simulated_before: float = 0.0
 
     def run(self) -> OutcomeResult:
-        """Follow the motion, from cycle to cycle by multipliers and between them by simulation."""
-        start = self.start_cycle
-        near = start if start is not None and start.follows_cycle else None
-        # an unstable one near the start, until the motion follows it
-        self.cycle_to_come = None if start is None or start is near or start.cycle.stable else start
-        self.departed_from: NearCycle | None = None  # the last unstable cycle that it followed
-        self.result = OutcomeResult(state=self.start, time=0.0 if near is None else first_release(self.p))
-        self.leg, self.angles = thresholds.FIRST_LEG, list[Array]()
-        while self.result.stage is None:
-            if near is None:
-                near = self._simulate_on()
-            elif near.cycle.stable:
-                self._settle(near)
-            else:
-                self._depart(near)
-                near = None
+        """Pass from stage to stage, until the outcome is known."""
+        stages = {
+            Stage.START: self._begin,
+            Stage.NEAR_CYCLE: self._judge_cycle,
+            Stage.DEPARTING: self._depart,
+            Stage.ON_ITS_WAY: self._simulate_on,
+        }
+        stage = Stage.START
+        while stage in stages:
+            stage = stages[stage]()
+        self.result.stage = stage
+        self.result.simulated = self.simulated_before + self.result.simulated
         return self.result
 
-    def _settle(self, near: NearCycle) -> None:
-        """End on a stable cycle, after a new search if a departure that may decide was not simulated."""
-        result = self.result
+    def _begin(self) -> Stage:
+        self.result = OutcomeResult(state=self.start)
+        self.leg = thresholds.FIRST_LEG
+        self.departed_from: NearCycle | None = None  # the last unstable cycle that it followed
+        self.cycle_to_come: NearCycle | None = None  # an unstable one near the start, until the motion follows it
+        self.angles: list[Array] = []
+        self.section_point: Array | None = None  # at the end of the last leg
+        if self.start_cycle is None:
+            return Stage.ON_ITS_WAY
+        if not self.start_cycle.follows_cycle:
+            self.cycle_to_come = None if self.start_cycle.cycle.stable else self.start_cycle
+            return Stage.ON_ITS_WAY
+        self.cycle, self.result.time = self.start_cycle, first_release(self.p)
+        return Stage.NEAR_CYCLE
+
+    def _judge_cycle(self) -> Stage:
+        near, result = self.cycle, self.result
+        result.near = result.near or near
+        if not near.cycle.stable:
+            return Stage.DEPARTING
         if result.extrapolated is not None and self.furthest > thresholds.CERTAIN:
-            self.result = replace(self, furthest=thresholds.CERTAIN).run()
-            self.result.simulated += result.simulated
-            return
-        result.near, result.outcome, result.stage = near, near.kind, Stage.SETTLED
+            self.furthest, self.simulated_before = thresholds.CERTAIN, result.simulated
+            return Stage.START
+        result.near, result.outcome = near, near.kind
         result.time += near.waited
         result.distance = float(np.linalg.norm(near.distance)) / near.map.deflection
+        return Stage.SETTLED
 
-    def _depart(self, near: NearCycle) -> None:
+    def _depart(self) -> Stage:
         """Follow the linear map away from an unstable cycle, as far as it is valid."""
-        result = self.result
-        result.near = result.near or near
+        near, result = self.cycle, self.result
         self.departed_from = near
         if result.time >= self.horizon:
-            return
+            return Stage.ON_ITS_WAY
         departure = near.extrapolate_departure(near.periods_left(result.time, self.horizon), self.furthest)
         time, distance = departure or (0.0, near.distance)
         slowest = result.extrapolated
@@ -222,27 +240,32 @@ class _OutcomeSearch:
         if departure or result.state is None:
             result.time = result.time + near.waited + time
             result.state = near.map.state(near.x + distance).replace(time=result.time)
+        return Stage.ON_ITS_WAY
 
-    def _simulate_on(self) -> NearCycle | None:
-        """Simulate a leg, and examine the motion at its end; the cycle that it then follows, if it follows one."""
+    def _simulate_on(self) -> Stage:
+        """Simulate a leg, and examine the motion at its end."""
         result = self.result
         if result.time >= self.horizon:
-            result.outcome, result.stage = Outcome.GROWING if self._grows else Outcome.UNDECIDED, Stage.HORIZON
-            return None
+            result.outcome = Outcome.GROWING if self._grows else Outcome.UNDECIDED
+            return Stage.HORIZON
         leg = self._simulate_leg()
-        examined = self.early or result.time >= self.horizon
         if leg.status is Status.STOPPED:
-            result.outcome, result.stage = Outcome.SEPARATION, Stage.SEPARATED
-            result.first_separation = leg.first_separation
-        elif not leg.status.complete:
-            result.failed, result.stage = leg, Stage.FAILED
-        elif examined and (calm := find_calm(self.p, leg, self.tol)) is not None:
-            result.outcome, result.near, result.stage = calm, None, Stage.SETTLED
-        elif (near := self._followed_cycle(leg.final_state, examined)) is not None:
-            return near
-        elif self._has_settled():
-            result.outcome, result.stage = Outcome.GROWING, Stage.STEADY
-        return None
+            result.outcome, result.first_separation = Outcome.SEPARATION, leg.first_separation
+            return Stage.SEPARATED
+        if not leg.status.complete:
+            result.failed = leg
+            return Stage.FAILED
+        examined = self.early or result.time >= self.horizon
+        if examined and (calm := find_calm(self.p, leg, self.tol)) is not None:
+            result.outcome, result.near = calm, None
+            return Stage.SETTLED
+        if self._returns_to_section(leg.final_state) and examined and (near := self._find_followed_cycle()) is not None:
+            self.cycle = near
+            return Stage.NEAR_CYCLE
+        if self._has_settled():
+            result.outcome = Outcome.GROWING
+            return Stage.STEADY
+        return Stage.ON_ITS_WAY
 
     def _simulate_leg(self) -> Result:
         """Simulate a leg, or to the first separation; the segment to be described is a leg of its own."""
@@ -261,35 +284,41 @@ class _OutcomeSearch:
         result.state, result.time = leg.final_state, leg.final_state.time
         return leg
 
-    def _followed_cycle(self, state: State, examined: bool) -> NearCycle | None:
-        """Measure the nearest return of the motion to the section. If it is examined: the cycle that it follows
-        linearly, the one near its start, if it comes back to that, or another."""
-        if self.map is None:
-            return None
-        code, x = self.map.next_release(state)
-        if code != RETURNED:
-            return None
-        near_return = find_near_return(self.map, x)
+    def _returns_to_section(self, state: State) -> bool:
+        """Whether the motion comes to the section again; its nearest return is then measured."""
+        code, x = self.map.next_release(state) if self.map is not None else (None, None)
+        self.section_point = x if code == RETURNED else None
+        if self.map is None or self.section_point is None:
+            return False
+        self.near_return = find_near_return(self.map, self.section_point)
         self.result.times.append(self.result.time)
-        self.result.changes.append(math.nan if near_return is None else near_return.change)
-        if not examined:
-            return None
-        near, last, waits = self.cycle_to_come, self.departed_from, len(thresholds.WAITS)
-        if last is not None:
-            if near is not None:
-                size = near.map.deflection
-                close = np.linalg.norm(x - near.x) <= thresholds.NEAR * size
-                another = np.linalg.norm(last.x - near.x) > thresholds.SAME_POINT * size
-                if close and another and near.follows_multipliers(x):
-                    self.cycle_to_come = self.result.near = None
-                    return replace(near, follows_cycle=True, distance=x - near.x)
+        self.result.changes.append(math.nan if self.near_return is None else self.near_return.change)
+        return True
+
+    def _find_followed_cycle(self) -> NearCycle | None:
+        """The cycle that the motion follows linearly: the one near its start, if it comes back to that, or another."""
+        x, near, waits = self.section_point, self.cycle_to_come, len(thresholds.WAITS)
+        assert self.map is not None
+        assert x is not None
+        if self.departed_from is not None:
+            if near is not None and self._comes_to(near, x, self.departed_from):
+                self.cycle_to_come = self.result.near = None
+                return replace(near, follows_cycle=True, distance=x - near.x)
             # a motion that comes near a cycle then changes less and less, down to errors of the simulation
             known = [change for change in self.result.changes if not math.isnan(change)]
             if known and known[-1] > max(known[-2:][0], thresholds.ARRIVED, thresholds.ERROR_OF_TOL * self.tol):
                 return None
             waits = 1
-        near = find_cycle_near(self.map, x, near_return, unstable=thresholds.WAITS[:waits])
+        near = find_cycle_near(self.map, x, self.near_return, unstable=thresholds.WAITS[:waits])
         return near if near is not None and near.follows_cycle else None
+
+    @staticmethod
+    def _comes_to(near: NearCycle, x: Array, last: NearCycle) -> bool:
+        """Whether the motion at a point of the section follows a cycle, after it has departed from another one."""
+        size = near.map.deflection
+        if not np.linalg.norm(x - near.x) <= thresholds.NEAR * size:
+            return False
+        return bool(np.linalg.norm(last.x - near.x) > thresholds.SAME_POINT * size) and near.follows_multipliers(x)
 
     @property
     def _grows(self) -> bool:
