@@ -87,12 +87,12 @@ def raise_faults(faults: Collection[str]) -> None:
 
 
 def violations(*rules: tuple[object, str, object, str]) -> list[str]:
-    """Faults of arguments: one for each ``(holds, name, value, rule)`` whose rule does not hold; dots join a path."""
+    """Faults of those rules ``(holds, name, value, rule)`` that do not hold; dots in a name join a path."""
     return [Fault.of(tuple(name.split(".")), value, rule) for holds, name, value, rule in rules if not holds]
 
 
 def require(*rules: tuple[object, str, object, str]) -> None:
-    """Raise one `ParameterError` that lists the `violations` of the rules, if there are any."""
+    """Raise the `violations` of rules, if there are any."""
     raise_faults(violations(*rules))
 
 

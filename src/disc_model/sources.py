@@ -122,7 +122,7 @@ def cache_folder() -> Path:
 
 class _WithoutDocstrings(ast.NodeTransformer):
     def visit_Expr(self, node: ast.Expr) -> ast.Expr | None:
-        return None if isinstance(node.value, ast.Constant) else node
+        return None if isinstance(node.value, ast.Constant) and isinstance(node.value.value, str) else node
 
 
 def _parse(tree: ast.Module) -> tuple[str, list[tuple[str, str]], list[str]]:
