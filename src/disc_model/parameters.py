@@ -131,8 +131,8 @@ class Disc(Checked):
     circles: tuple[Annotated[Count, Field(ge=0)], ...] = Field((), validate_default=True)
     tangential: tuple[Finite, ...] = ()
     static_compliance: Positive | None = None
-    radii: tuple[Positive, ...] = Field((), repr=False)
-    shapes: tuple[tuple[Finite, ...], ...] = Field((), repr=False)
+    radii: tuple[Positive, ...] = ()
+    shapes: tuple[tuple[Finite, ...], ...] = ()
 
     _columns: ClassVar = ("diameters", "omega", "amplitude", "damping_ratio", "circles", "tangential", "shapes")
 

@@ -17,7 +17,6 @@ import platform
 import re
 import subprocess
 import sys
-import zlib
 from importlib.util import resolve_name
 from pathlib import Path
 
@@ -103,12 +102,12 @@ def _read(path: Path) -> tuple[str, list[tuple[str, str]], list[str]]:
     name = hashlib.sha256(b"\0".join((source, sys.version.encode(), _PARSER))).hexdigest()
     cache = cache_folder() / "sources" / name
     try:
-        return json.loads(zlib.decompress(cache.read_bytes()))
-    except (OSError, zlib.error):  # also if another process is writing it: the compression contains a checksum
+        return json.loads(cache.read_text(encoding="utf-8"))
+    except (OSError, ValueError):  # also if another process is writing it: only the whole text is JSON
         known = _parse(ast.parse(source, str(path)))
         with contextlib.suppress(OSError):
             cache.parent.mkdir(parents=True, exist_ok=True)
-            cache.write_bytes(zlib.compress(json.dumps(known).encode()))
+            cache.write_text(json.dumps(known), encoding="utf-8")
         return known
 
 

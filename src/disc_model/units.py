@@ -16,10 +16,9 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Fie
 
 from disc_model.errors import Fault, ParameterError, as_text, faults_of, raise_faults
 
-TOLERANCES = (1e-15, 1e-2)
-"""Least and greatest tolerance of a simulation: error of event times after a second of motion, s."""
-CYCLE_TOLERANCES = (1e-14, 1e-6)
-"""Least and greatest tolerance of the search for a cycle: relative residual of the return map."""
+# Least and greatest tolerance
+TOLERANCES = (1e-15, 1e-2)  # of a simulation: error of event times after a second of motion, s
+CYCLE_TOLERANCES = (1e-14, 1e-6)  # of the search for a cycle: relative residual of the return map
 
 # ---- Numbers
 

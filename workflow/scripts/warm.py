@@ -46,10 +46,8 @@ def prepare():
     for name in ("simulation.api", "studies.run", "data.texts", "figures.kind"):
         import_module(f"disc_model.{name}")
     yield 0
-    for name in ("special", "signal"):
-        import_module(f"scipy.{name}")
-        yield 0
-    for name in ("pint", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf", "cmcrameri.cm"):
+    backends = [f"matplotlib.backends.backend_{form}" for form in ("agg", "pdf")]
+    for name in ("scipy.special", "scipy.signal", "pint", "cmcrameri.cm", *backends):
         import_module(name)
         yield 0
     from disc_model.figures.drawing import panels, styled
