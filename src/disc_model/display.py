@@ -6,11 +6,13 @@ import logging
 import math
 import re
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from html import escape
 from importlib import import_module
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -47,16 +49,15 @@ def counted(number: int, noun: str) -> str:
 
 
 def draw(picture: str, *inputs: Any, **options: Any) -> Any:
-    """Draw by a function of `disc_model.figures.results`, which is above all that it draws. It is imported by its name,
-    so that no result depends on how it is drawn. Raises ModuleNotFoundError without matplotlib; the message names the
-    extra that brings it."""
+    """Draw by a function of `disc_model.figures.results`, imported by its name, so that no result depends on it. Raises
+    ModuleNotFoundError without matplotlib."""
     try:
         return getattr(import_module("disc_model.figures.results"), picture)(*inputs, **options)
     except ModuleNotFoundError as error:
         if str(error.name).startswith("disc_model"):
             raise
-        text = f"pictures need {error.name}: pip install 'disc_model[plot]' brings it"
-        raise ModuleNotFoundError(text, name=error.name) from None
+        error.msg = f"pictures need {error.name}: pip install 'disc_model[plot]' brings it"
+        raise
 
 
 # ---- Progress on stderr: a bar, or a line where there is no terminal
@@ -65,13 +66,12 @@ Progress = Callable[[float], object] | bool | None
 """Argument `progress` of callers: a function that receives the time reached, or False for silence."""
 PATIENCE = 2.0  # s, after which the progress of a simulation is shown
 
-_shown = False  # whether a bar is shown: what it stands for may simulate as well, also in other threads
+_SHOWN = threading.Lock()  # of a bar: what it stands for may simulate as well, also in other threads
 
 
 @contextmanager
 def simulating(progress: Progress, t_end: float, text: str = "") -> Iterator[Callable[[float], object]]:
     """Yield a function that receives the time reached (s) and by default displays the progress of a long run."""
-    global _shown
     if callable(progress) or progress is False:
         yield progress or (lambda _: None)
         return
@@ -79,9 +79,8 @@ def simulating(progress: Progress, t_end: float, text: str = "") -> Iterator[Cal
 
     def tell(now: float) -> None:
         nonlocal bar
-        global _shown
-        if bar is None and not _shown and time.perf_counter() - began > PATIENCE:
-            bar, _shown = _open_bar(text or f"simulating {t_end:g} s", t_end), True
+        if bar is None and time.perf_counter() - began > PATIENCE and _SHOWN.acquire(blocking=False):
+            bar = _open_bar(text or f"simulating {t_end:g} s", t_end)
         if bar is not None:
             bar.update(bar.task_ids[0], completed=min(now, t_end))
 
@@ -90,7 +89,7 @@ def simulating(progress: Progress, t_end: float, text: str = "") -> Iterator[Cal
     finally:
         if bar is not None:
             bar.stop()
-            _shown = False
+            _SHOWN.release()
 
 
 def computed(function: Callable[[Any], Any], values: Sequence[Any], what: str) -> list[Any]:
@@ -132,13 +131,10 @@ _LAST = 10  # lines at the end of a log that are shown
 
 
 class StudyProgress(logging.Handler):
-    """Shows how much of a study is done and how long the rest takes, and at the end which jobs failed, by reason.
+    """Stands in for Snakemake's handler of the terminal: shows how much of a study is done and how long the rest takes,
+    and at the end which jobs failed, by reason; what concerns no job is passed on.
 
-    It stands in for the handler by which Snakemake writes to the terminal, and passes on what concerns no job.
-
-    own : Snakemake's handler
-    durations : function that returns the expected durations (s) of the jobs that are to run, by the job's number, and
-        how many run at the same time
+    durations : returns the expected durations (s) of the jobs that are to run, by number, and how many run at a time
     """
 
     def __init__(self, own: Any, durations: Callable[[], tuple[Mapping[int, float], int]]) -> None:
@@ -178,18 +174,16 @@ class StudyProgress(logging.Handler):
     @property
     def failures(self) -> str:
         """The failed jobs by reason, the last line of a log but for its numbers, with what their logs end with."""
-        reasons: dict[str, list[tuple[str, list[str]]]] = {}
+        reasons: dict[str, tuple[list[str], dict[str, None]]] = {}
         for record in self.failed.values():
             logs = [Path(log) for log in record.log if Path(log).is_file()]
             text = "\n".join([*(log.read_text(errors="replace") for log in logs), record.rule_msg or ""])
-            ends = [line for line in text.splitlines() if line.strip()][-_LAST:]
-            job = f"{record.rule_name}: {', '.join(map(str, logs or record.output))}"
-            reasons.setdefault(re.sub(r"\d[\d.e+-]*", "", "".join(ends[-1:])), []).append((job, ends))
-        parts = [f"failed jobs: {len(self.failed)}"]
-        for jobs in reasons.values():
-            ends = [*dict.fromkeys(f"    {line}" for _, lines in jobs for line in lines)]
-            parts += [*(job for job, _ in jobs), *ends[-3 * _LAST :]]
-        return "\n".join(parts)
+            ends = [f"    {line}" for line in text.splitlines() if line.strip()][-_LAST:]
+            jobs, lines = reasons.setdefault(re.sub(r"\d[\d.e+-]*", "", "".join(ends[-1:])), ([], {}))
+            jobs.append(f"{record.rule_name}: {', '.join(map(str, logs or record.output))}")
+            lines.update(dict.fromkeys(ends))
+        parts = [[*jobs, *[*lines][-3 * _LAST :]] for jobs, lines in reasons.values()]
+        return "\n".join([f"failed jobs: {len(self.failed)}", *chain.from_iterable(parts)])
 
     def _show(self, done: int, total: int) -> None:
         """Move the bar; where there is no terminal, write a line after each tenth of the work or each minute."""

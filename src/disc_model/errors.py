@@ -11,38 +11,30 @@ from typing import Any, Self
 
 from pydantic import BaseModel, ValidationError
 
-# ---- Exceptions
-
 
 class DiscModelError(Exception):
     """Base class of the exceptions of this package."""
 
 
 def script(main: Callable[..., None]) -> Callable[..., None]:
-    """Call the main function of a script with the command's arguments, unless the script is only imported. An error of
-    this package, or Ctrl-C, ends the script with a message and without a traceback."""
+    """Call the main function of a script, unless it is only imported; errors of this package and Ctrl-C end it without
+    a traceback."""
     if main.__module__ == "__main__":
         logging.basicConfig(level=logging.INFO, format="%(name)s: %(message)s")
         try:
             main(*sys.argv[1:])
-        except DiscModelError as error:
-            raise SystemExit(str(error)) from None
-        except KeyboardInterrupt:
-            raise SystemExit("interrupted") from None
+        except (DiscModelError, KeyboardInterrupt) as error:
+            raise SystemExit(str(error) or "interrupted") from None
     return main
 
 
 class Fault(str):
-    """A fault of one value: the text ``path=value: rule``, with its parts as attributes.
+    """A fault of one value: the text ``path=value: rule``.
 
-    Attributes
-    ----------
     path : names and indices that lead to the value; empty if the fault concerns the whole input
     value : the value as messages show it; "" if it is not shown
-    rule : the rule that the value breaks
     """
 
-    __slots__ = ("path", "rule", "value")
     path: tuple[str, ...]
     value: str
     rule: str
@@ -62,7 +54,7 @@ class Fault(str):
         return cls(path, as_text(value), rule)
 
     def inside(self, path: tuple[str, ...]) -> Fault:
-        """The same fault, with its path extended by the place of the part in the whole."""
+        """The same fault of the whole, of which the part has this path."""
         return Fault((*path, *self.path), self.value, self.rule)
 
     @property
@@ -95,12 +87,12 @@ def raise_faults(faults: Collection[str]) -> None:
 
 
 def violations(*rules: tuple[object, str, object, str]) -> list[str]:
-    """Faults of arguments: one for each ``(holds, name, value, rule)`` whose rule does not hold; dots join a path."""
+    """Faults of those rules ``(holds, name, value, rule)`` that do not hold; dots in a name join a path."""
     return [Fault.of(tuple(name.split(".")), value, rule) for holds, name, value, rule in rules if not holds]
 
 
 def require(*rules: tuple[object, str, object, str]) -> None:
-    """Raise one `ParameterError` that lists the `violations` of the rules, if there are any."""
+    """Raise the `violations` of rules, if there are any."""
     raise_faults(violations(*rules))
 
 
@@ -128,27 +120,19 @@ class NonFinite(SimulationError):
     """The state overflowed or became nan."""
 
 
-# ---- Wording of faults, including those that pydantic reports
+# ---- Wording of faults
 
 
 def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Iterator[Fault]:
-    """The faults of a pydantic error in this package's words.
-
-    Parameters
-    ----------
-    raw : the input that was validated
-    model : the model that validated it. The fault of an unknown name lists the names of its fields; the model's
-        ``_word`` stands for a name in messages, and its ``_unknown`` replaces the rule
-    """
+    """The faults that pydantic found in an input, in this package's words. Where a name is unknown, the model's
+    ``_word`` is the word for names, and its ``_unknown`` replaces the rule."""
     for item in error.errors(include_url=False):
-        path, kind, value = _path(item, raw), item["type"], item["input"]
+        path, kind, value, context = _path(item, raw), item["type"], item["input"], item.get("ctx", {})
         if not item["loc"] and kind == "model_type":
             path = (model.__name__.lower(),)
-        context = item.get("ctx", {})
-        reason = context.get("error")
         if kind == "too_short" and len(value) >= context["min_length"]:  # it has faults of its own, which are listed
             continue
-        if isinstance(reason, ParameterError):  # raised by a part that is a model of its own
+        if isinstance(reason := context.get("error"), ParameterError):  # raised by a part that is a model of its own
             yield from (fault.inside(path) for fault in reason.faults)
         elif kind == "missing":
             yield Fault(path, "", "is required")
@@ -157,11 +141,10 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
             more = suggestion(path[-1], [*model.model_fields], all_of_them=not (word or rule))
             yield Fault(path, "" if rule else as_text(value), (rule or f"unknown {word or 'key'}") + more)
         else:
-            known_rule = _RULES.get(kind)
-            rule = known_rule.format(**context) if known_rule else item["msg"].replace("Input should be", "must be")
-            of_name = item["loc"][-1:] == ("[key]",)  # a name at fault is the end of the path
-            # the path of a mapping says enough
-            yield Fault(path, "" if of_name or isinstance(value, Mapping | BaseModel) else as_text(value), rule)
+            rule = _RULES[kind].format(**context) if kind in _RULES else item["msg"].replace("Input should", "must")
+            # the path of a mapping says enough, and ends with a name that is at fault
+            hidden = item["loc"][-1:] == ("[key]",) or isinstance(value, Mapping | BaseModel)
+            yield Fault(path, "" if hidden else as_text(value), rule)
 
 
 _RULES = {
@@ -181,7 +164,7 @@ _RULES = {
     **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "must be a whole number"),
     "string_type": "must be text",
 }
-"""Rules by pydantic's kind of fault, in this package's words; pydantic's context of the fault fills the braces."""
+"""Rules by pydantic's kind of fault; pydantic's context of the fault fills the braces."""
 
 
 def as_text(value: Any) -> str:
@@ -211,25 +194,17 @@ def _path(item: Any, raw: Any) -> tuple[str, ...]:
     return (*path, str(item["loc"][-1])) if item["type"] == "missing" else tuple(path)
 
 
-# ---- Statuses: words with advice
+# ---- Statuses
 
 
 class StatusBase(enum.StrEnum):
-    """Base of all statuses.  A member is defined as ``NAME = word, advice``; its value is the word.
-
-    Attributes
-    ----------
-    advice : a sentence that says what the status means and what to change
-    """
+    """A word, and `advice`: a sentence that says what the status means and what to change."""
 
     advice: str
 
     def __new__(cls, word: str, advice: str = "") -> Self:
-        if not advice:
-            raise TypeError(f"{word}: a status needs its advice")
         member = str.__new__(cls, word)
-        member._value_ = word
-        member.advice = advice
+        member._value_, member.advice = word, advice
         return member
 
 

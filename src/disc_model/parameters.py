@@ -12,17 +12,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
 
-from pydantic import (
-    AfterValidator,
-    BeforeValidator,
-    Field,
-    ModelWrapValidatorHandler,
-    PrivateAttr,
-    SerializerFunctionWrapHandler,
-    field_validator,
-    model_serializer,
-    model_validator,
-)
+import pydantic
+from pydantic import AfterValidator, BeforeValidator, Field, field_validator, model_validator
 
 from disc_model.display import draw, html_table
 from disc_model.errors import Fault, as_text, raise_faults
@@ -49,27 +40,23 @@ if TYPE_CHECKING:
 AUTO = "auto"  # value of ``n_diameters`` in a file for which `disc_model.mode_choice` chooses the modes
 CHOOSING = ("truncation_quantity", "truncation_tolerance")  # keys of files and command lines that control this choice
 RESIDUAL = "residual"  # value of ``contact_compliance`` that stands for the static flexibility of the modes left out
-
 SURFACE = "surface"  # value of ``friction_offset`` by which friction acts on the disc's surface
 
 RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")
 """Parameters in rules that relate several parameters."""
-
 PLATE = ("D_star", "E", "a", "b", "h", "nu", "rho", "n_diameters", "n_circles", "normalization")
 """Parameters of the plate, which have no meaning for a disc that is given by its modes."""
 RATIOS = {
     f"{upper}_over_{lower}": (upper, lower)
     for upper, lower in (("mu_k", "mu_s"), ("k_p", "k"), ("c_p", "c"), ("a", "b"), ("r_0", "b"), ("h", "b"))
 }
-"""Ratios of two parameters, which a grid may vary instead of the first one."""
+"""Ratios of two parameters, which may stand for the first one."""
 MOST_MODES = 1000  # largest number of modes in the table of a disc
 FREQUENCIES = (1e-3, 1e7)  # limits of natural frequencies, rad/s; above them a cycle would take minutes to compute
-AMPLITUDES = (1e-6, 1e6)
-"""Limits of the largest modal amplitude, kg^-1/2: the modal mass lies between 1e-12 and 1e12 kg."""
+AMPLITUDES = (1e-6, 1e6)  # limits of the largest modal amplitude, kg^-1/2: the modal mass is 1e-12 to 1e12 kg
 
 CONTACTS = {"separable": "unilateral", "bonded": "bilateral"}
 """Words by which texts that identify cases and batches know the kinds of contact, and the field's own."""
-
 _LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc", "friction_offset", "friction_decay")
 """Parameters added later: defaults are left out of the canonical form, so that older hashes stay valid."""
 
@@ -78,35 +65,25 @@ def _or_word(word: str) -> BeforeValidator:
     """Validator of a finite number >= 0, or a word in its place."""
 
     def check(value: Any) -> Any:
-        if value == word:
-            return value
-        try:
-            size = float(number(value))
-        except ValueError:
-            raise ValueError(f"must be a number or {word!r}") from None
-        if not 0 <= size < math.inf:
-            raise ValueError(f"must be finite and >= 0, or {word!r}")
-        return size
+        with suppress(ValueError):
+            if value == word or 0 <= (value := number(value)) < math.inf:
+                return value
+        raise ValueError(f"must be a finite number >= 0, or {word!r}")
 
     return BeforeValidator(check)
 
 
 # Beyond, the start of slip is lost in rounding.
-_DECAY = AfterValidator(must(lambda value: value <= 1e12 or value == math.inf, "must be at most 1e12 s/m, or inf"))
+_DECAY = must(lambda value: value <= 1e12 or value == math.inf, "must be at most 1e12 s/m, or inf")
 # What only study files and the command line accept is refused with the name of the function to use instead.
 _CHOSEN = must(lambda value: value != AUTO, "must be a whole number; disc_model.choose_modes finds one")
-_READ = must(
-    lambda value: not isinstance(value, str), "must be a Disc: disc_model.Disc.from_csv reads one from a table of modes"
-)
+_READ_RULE = "must be a Disc: disc_model.Disc.from_csv reads one from a table of modes"
+_READ = must(lambda value: not isinstance(value, str), _READ_RULE)
 
 
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
     """A field with a unit, "" for a choice; `rules` are pydantic's keywords such as `ge`, `gt`, `lt` and `le`."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, **rules)
-
-
-def _number(default: Any, unit: str, description: str, **rules: Any) -> Any:
-    return _field(default, unit, description, allow_inf_nan=False, **rules)
 
 
 Quantity = float | str  # a number, or a text that stands for one, with or without its unit
@@ -154,12 +131,10 @@ class Disc(Checked):
     circles: tuple[Annotated[Count, Field(ge=0)], ...] = Field((), validate_default=True)
     tangential: tuple[Finite, ...] = ()
     static_compliance: Positive | None = None
-    radii: tuple[Positive, ...] = Field((), repr=False)
-    shapes: tuple[tuple[Finite, ...], ...] = Field((), repr=False)
+    radii: tuple[Positive, ...] = ()
+    shapes: tuple[tuple[Finite, ...], ...] = ()
 
-    _columns: ClassVar[tuple[str, ...]] = (
-        "diameters", "omega", "amplitude", "damping_ratio", "circles", "tangential", "shapes",
-    )  # fmt: skip
+    _columns: ClassVar = ("diameters", "omega", "amplitude", "damping_ratio", "circles", "tangential", "shapes")
 
     if TYPE_CHECKING:  # for type checkers: any sequence of numbers will do
 
@@ -171,25 +146,25 @@ class Disc(Checked):
 
     @model_validator(mode="wrap")
     @classmethod
-    def _consistent(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+    def _consistent(cls, data: Any, handler: Any) -> Self:
         """Check the rules between columns; an empty key of a file leaves a column out."""
         if not isinstance(data, dict):
             return handler(data)
-        data = {name: x for name, x in data.items() if x is not None or name not in ("damping_ratio", "circles")}
-        disc, circles = handler(data), data.get("circles", ())
-        counted = isinstance(circles, Sized) and not len(circles)
+        disc = handler({x: data[x] for x in data if data[x] is not None or x not in ("damping_ratio", "circles")})
+        circles = data.get("circles")
+        counted = circles is None or (isinstance(circles, Sized) and not len(circles))
         raise_faults(disc._faults_of_columns() or disc._faults_of_modes(counted))
         return disc
 
-    @model_serializer(mode="wrap")
-    def _older(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """The fields, without those added later where they are left out, so that older hashes stay valid."""
+    @pydantic.model_serializer(mode="wrap")
+    def _older(self, handler: Any) -> dict[str, Any]:
+        """Leave out what was added later where it is empty, so that older hashes stay valid."""
         return {name: x for name, x in handler(self).items() if x or name != "tangential"}
 
     @field_validator("damping_ratio", "circles")
     @classmethod
     def _complete(cls, column: tuple[float, ...], info: Any) -> tuple[float, ...]:
-        """The column, or what stands for it where it is left out: no damping, and circles counted by frequency."""
+        """Fill in a column that is left out: no damping, and circles counted by frequency."""
         diameters, omega = (info.data.get(name, ()) for name in ("diameters", "omega"))
         if column or len(omega) != len(diameters) or len(omega) > MOST_MODES:
             return column
@@ -344,12 +319,14 @@ class Disc(Checked):
 
     def _repr_html_(self) -> str:
         """The table of modes in a notebook."""
-        columns = (self.diameters, self.circles, self.omega, self.amplitude, self.damping_ratio)
-        rows = [
-            (diameters, circles, f"{omega / math.tau:.5g}", f"{amplitude:.5g}", f"{damping:.3g}")
-            for diameters, circles, omega, amplitude, damping in zip(*columns, strict=True)
-        ]
-        return html_table(("diameters", "circles", "frequency (Hz)", "amplitude (kg^-1/2)", "damping ratio"), rows)
+        columns = {
+            "diameters": self.diameters,
+            "circles": self.circles,
+            "frequency (Hz)": [f"{omega / math.tau:.5g}" for omega in self.omega],
+            "amplitude (kg^-1/2)": [f"{amplitude:.5g}" for amplitude in self.amplitude],
+            "damping ratio": [f"{damping:.3g}" for damping in self.damping_ratio],
+        }
+        return html_table(columns, zip(*columns.values(), strict=True))
 
     def _faults_of_columns(self) -> list[str]:
         """Faults of the number of modes, and of columns that lack some or have more."""
@@ -370,27 +347,24 @@ class Disc(Checked):
 
     def _faults_of_modes(self, counted: bool) -> list[str]:
         """Faults of the amplitudes, and of modes given twice, often as the halves of a pair, which must be given once.
-
-        counted : whether circles were left out, so that modes far apart in frequency are different ones
-        """
+        Where circles are counted by frequency, modes 5 % apart in frequency are no halves of a pair."""
         faults = limits_faults("largest amplitude", max(map(abs, self.amplitude)), AMPLITUDES)
         if not any(self.amplitude):
             faults = [Fault(("amplitude",), "", "must not be 0 for all modes: the slider would not feel the disc")]
         same = self.diameters if counted else [*zip(self.diameters, self.circles, strict=True)]
-        pairs = ((i, j) for j in range(len(same)) for i in range(j) if same[i] == same[j])
+        pairs = [(i, j) for j in range(len(same)) for i in range(j) if same[i] == same[j]]
         for i, j in pairs:
             apart = abs(self.omega[j] - self.omega[i]) / max(self.omega[i], self.omega[j])
-            if counted and apart >= 0.05:  # as far apart they are no halves of a pair
-                continue
-            name = f"modes {i + 1} and {j + 1} have {self.diameters[j]} nodal diameters"
+            rule = f"modes {i + 1} and {j + 1} have {self.diameters[j]} nodal diameters and "
             if apart < 1e-9:
-                rule = f"{name} and one frequency: each mode, and each pair of modes, must be given once"
+                rule += "one frequency: each mode, and each pair of modes, must be given once"
             else:
-                rule = (
-                    f"{name} and frequencies {100 * apart:.2g} % apart: the disc must be axisymmetric; give such a "
-                    f"pair once, by its mean frequency, and what splits it is neglected"
+                rule += (
+                    f"frequencies {100 * apart:.2g} % apart: the disc must be axisymmetric; give such a pair once, by "
+                    "its mean frequency, and what splits it is neglected"
                 )
-            faults.append(Fault.of(("omega", str(j)), self.omega[j], rule))
+            if apart < 0.05 or not counted:
+                faults.append(Fault.of(("omega", str(j)), self.omega[j], rule))
         return faults[:3]
 
     @property
@@ -438,25 +412,25 @@ class Parameters(Checked):
     """
 
     _word: ClassVar[str] = "parameter"
-    _ratios: dict[str, float] = PrivateAttr(default_factory=dict)
+    _ratios: dict[str, float] = pydantic.PrivateAttr(default_factory=dict)
 
-    N: Real = _number(..., "N", "preload pressing the slider onto the disc", ge=0)
-    Omega: Real = _number(..., "rad/s", "speed of the drive point", ge=0)
-    D_star: Real = _number(1e-5, "N m s", "Kelvin-Voigt damping of the disc", ge=0)
-    c: Real = _number(0.0, "N s/m", "damper of the slider, normal to the disc", ge=0)
-    c_p: Real = _number(0.0, "N s/m", "damper of the slider, in the disc's plane", ge=0)
-    k: Real = _number(5e4, "N/m", "spring of the slider, normal to the disc", ge=0)
-    k_p: Real = _number(2e4, "N/m", "spring of the slider, in the disc's plane", ge=0)
-    E: Real = _number(150e9, "Pa", "Young's modulus of the disc", gt=0)
-    m: Real = _number(0.1, "kg", "mass of the slider", gt=0)
-    mu_s: Real = _number(0.4, "1", "coefficient of static friction", ge=0)
-    mu_k: Real = _number(0.24, "1", "coefficient of kinetic friction", ge=0)
-    a: Real = _number(0.044, "m", "inner radius of the disc, clamped", gt=0)
-    b: Real = _number(0.12, "m", "outer radius of the disc, free", gt=0)
-    r_0: Real = _number(0.1, "m", "radius at which the slider runs", gt=0)
-    h: Real = _number(0.002, "m", "thickness of the disc", gt=0)
-    nu: Real = _number(0.211, "1", "Poisson's ratio of the disc", gt=-1, lt=0.5)
-    rho: Real = _number(7200.0, "kg/m^3", "density of the disc", gt=0)
+    N: Finite = _field(..., "N", "preload pressing the slider onto the disc", ge=0)
+    Omega: Finite = _field(..., "rad/s", "speed of the drive point", ge=0)
+    D_star: Finite = _field(1e-5, "N m s", "Kelvin-Voigt damping of the disc", ge=0)
+    c: Finite = _field(0.0, "N s/m", "damper of the slider, normal to the disc", ge=0)
+    c_p: Finite = _field(0.0, "N s/m", "damper of the slider, in the disc's plane", ge=0)
+    k: Finite = _field(5e4, "N/m", "spring of the slider, normal to the disc", ge=0)
+    k_p: Finite = _field(2e4, "N/m", "spring of the slider, in the disc's plane", ge=0)
+    E: Finite = _field(150e9, "Pa", "Young's modulus of the disc", gt=0)
+    m: Finite = _field(0.1, "kg", "mass of the slider", gt=0)
+    mu_s: Finite = _field(0.4, "1", "coefficient of static friction", ge=0)
+    mu_k: Finite = _field(0.24, "1", "coefficient of kinetic friction", ge=0)
+    a: Finite = _field(0.044, "m", "inner radius of the disc, clamped", gt=0)
+    b: Finite = _field(0.12, "m", "outer radius of the disc, free", gt=0)
+    r_0: Finite = _field(0.1, "m", "radius at which the slider runs", gt=0)
+    h: Finite = _field(0.002, "m", "thickness of the disc", gt=0)
+    nu: Finite = _field(0.211, "1", "Poisson's ratio of the disc", gt=-1, lt=0.5)
+    rho: Finite = _field(7200.0, "kg/m^3", "density of the disc", gt=0)
     n_diameters: Annotated[Count, BeforeValidator(_CHOSEN)] = _field(
         4, "1", "highest number of nodal diameters, -1 for a rigid disc", ge=-1, le=60
     )
@@ -477,7 +451,7 @@ class Parameters(Checked):
     friction_offset: Annotated[float | Literal["surface"], _or_word(SURFACE)] = _field(
         0.0, "m", "height above the disc's middle plane at which friction acts; surface: h/2, or by the table of a disc"
     )
-    friction_decay: Annotated[Real, _DECAY] = _field(
+    friction_decay: Annotated[Real, AfterValidator(_DECAY)] = _field(
         math.inf, "s/m", "d of friction mu_k + (mu_s - mu_k)/(1 + d v) at slip speed v; inf: mu_k at any speed", ge=0
     )
     damping_ratio: Annotated[Real, Field(ge=0, lt=1, allow_inf_nan=False)] | None = _field(
@@ -500,27 +474,41 @@ class Parameters(Checked):
             a_over_b: float = ..., r_0_over_b: float = ..., h_over_b: float = ...,
         ) -> None: ...  # fmt: skip
 
-    else:
-
-        def __init__(self, /, *unnamed: Any, **data: Any) -> None:
-            ratios = {name: data.pop(name) for name in RATIOS if name in data} if type(self) is Parameters else {}
-            super().__init__(*unnamed, **(_without_ratios(data, ratios) if ratios else data))
-            self.__pydantic_private__["_ratios"] = {name: float(value) for name, value in ratios.items()}
+    @model_validator(mode="wrap")
+    @classmethod
+    def _with_ratios(cls, data: Any, handler: Any) -> Any:
+        """Find the parameters that follow from ratios, and remember these."""
+        if cls is not Parameters or not isinstance(data, dict) or not (data.keys() & RATIOS.keys()):
+            return handler(data)
+        ratios, faults = {name: data[name] for name in RATIOS if name in data}, list[Fault]()
+        for name, value in ratios.items():
+            if RATIOS[name][0] in data:
+                faults.append(Fault.of((name,), value, f"must not be given beside {RATIOS[name][0]}"))
+            elif not (is_number(value) and 0 <= value < math.inf):
+                faults.append(Fault.of((name,), value, "must be a finite number >= 0"))
+        data = in_si({name: value for name, value in data.items() if name not in ratios}, UNITS, faults, ())
+        raise_faults(faults)
+        with suppress(ValueError):  # of a wrong value, which the fields report
+            lower = {name: number(data[name]) for _, name in RATIOS.values() if name in data}
+            followed = with_ratios(lower | ratios)
+            data |= {RATIOS[name][0]: followed[RATIOS[name][0]] for name in ratios}
+        p = handler(data)
+        p.__pydantic_private__["_ratios"] = {name: float(value) for name, value in ratios.items()}
+        return p
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
         """Check the rules between parameters, what a disc excludes, and that the plate has one damping."""
         values, fields = dict(self), type(self).model_fields
-        changed = [name for name in (*PLATE, "damping_ratio") if values[name] not in (fields[name].default, AUTO)]
-        if self.disc is not None:
-            if self.friction_offset == SURFACE and not self.disc.tangential:
-                need = "must be a number for a disc whose table has no column tangential_per_sqrt_kg"
-                raise_faults([Fault.of(("friction_offset",), SURFACE, need)])
-            rule = "must be left out where a disc is given: it is a parameter of the plate"
-        else:
-            rule = "must be left out where damping_ratio is given"
-            changed = [name for name in changed if name == "D_star" and self.damping_ratio is not None]
-        raise_faults([*cross_faults(values), *(Fault.of((name,), values[name], rule) for name in sorted(changed))])
+        if self.disc is not None and self.friction_offset == SURFACE and not self.disc.tangential:
+            need = "must be a number for a disc whose table has no column tangential_per_sqrt_kg"
+            raise_faults([Fault.of(("friction_offset",), SURFACE, need)])
+        unused, rule = [*PLATE, "damping_ratio"], "where a disc is given: it is a parameter of the plate"
+        if self.disc is None:
+            unused, rule = ["D_star"] * (self.damping_ratio is not None), "where damping_ratio is given"
+        changed = [name for name in sorted(unused) if values[name] not in (fields[name].default, AUTO)]
+        faults = [Fault.of((name,), values[name], f"must be left out {rule}") for name in changed]
+        raise_faults([*cross_faults(values), *faults])
         return self
 
     def replace(self, **changes: Any) -> Self:
@@ -555,17 +543,17 @@ class Parameters(Checked):
         return {name: value for name, value in dict(self).items() if name not in follow} | self._ratios
 
     def __repr_args__(self) -> Iterator[tuple[str, Any]]:
-        """What is given, and not as in Table 1; `repr` and `print` show it."""
+        """What is given, and not as in Table 1."""
         return ((name, value) for name, value in self.stated.items() if DEFAULTS.get(name, ...) != value)
 
     def _repr_html_(self) -> str:
         """The case as a table in a notebook."""
-        rows = []
-        for name, field in type(self).model_fields.items():
-            if (value := getattr(self, name)) is not None:
-                value = f"{len(value.omega)} modes" if isinstance(value, Disc) else value
-                text = f"{value:.15g}" if is_number(value) else value
-                rows.append((name, text, self.unit(name).removeprefix("1"), str(field.description)))
+        values = {name: value for name, value in self if value is not None}
+        texts = {name: f"{value:.15g}" if is_number(value) else value for name, value in values.items()}
+        if self.disc is not None:
+            texts["disc"] = f"{len(self.disc.omega)} modes"
+        fields = type(self).model_fields
+        rows = ((x, text, self.unit(x).removeprefix("1"), fields[x].description) for x, text in texts.items())
         return html_table(("symbol", "value", "unit", "meaning"), rows)
 
     @property
@@ -601,8 +589,7 @@ class Parameters(Checked):
         return UNITS.get(name, "")
 
 
-UNITS.update((name, field.json_schema_extra["unit"]) for name, field in Parameters.model_fields.items())  # type: ignore[index, misc, call-overload]
-
+UNITS.update(Parameters._units({}))  # type: ignore[arg-type]
 
 DEFAULTS = {name: field.default for name, field in Parameters.model_fields.items() if not field.is_required()}
 """Values of parameters that are not given."""
@@ -611,8 +598,8 @@ DEFAULTS = {name: field.default for name, field in Parameters.model_fields.items
 def _documented() -> str:
     """The docstring with the fields: meaning, unit, range and default of each."""
     lines = ["\nParameters\n----------"]
+    signs = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
     for name, field in Parameters.model_fields.items():
-        signs = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
         limits = [f"{signs[x]} {getattr(rule, x):g}" for rule in field.metadata for x in signs if hasattr(rule, x)]
         words = " or ".join(word for word in get_args(field.annotation) if isinstance(word, str))
         default = "required" if field.is_required() else f"default {field.default:{'g' * is_number(field.default)}}"
@@ -622,12 +609,8 @@ def _documented() -> str:
 
 
 Parameters.__doc__ = _documented()
-Parameters.__signature__ = inspect.Signature(
-    [
-        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=DEFAULTS.get(name, inspect.Parameter.empty))
-        for name in Parameters.model_fields
-    ]
-)
+_arguments = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY) for name in Parameters.model_fields]
+Parameters.__signature__ = inspect.Signature([x.replace(default=DEFAULTS.get(x.name, x.empty)) for x in _arguments])
 
 
 def in_identities(values: Mapping[str, Any]) -> dict[str, Any]:
@@ -639,25 +622,6 @@ def in_identities(values: Mapping[str, Any]) -> dict[str, Any]:
 def in_words(values: Mapping[str, Any]) -> dict[str, Any]:
     """Values from a text that identifies a case, in the words of the field, as files and readers have them."""
     return {name: CONTACTS.get(value, value) if name == "contact" else value for name, value in values.items()}
-
-
-def _without_ratios(data: Mapping[str, Any], ratios: Mapping[str, Any]) -> dict[str, Any]:
-    """Values of a case with the parameters that follow from ratios; raises `ParameterError` for wrong ratios."""
-    faults: list[Fault] = []
-    for name, value in ratios.items():
-        if RATIOS[name][0] in data:
-            faults.append(Fault.of((name,), value, f"must not be given beside {RATIOS[name][0]}"))
-        elif not (is_number(value) and 0 <= value < math.inf):
-            faults.append(Fault.of((name,), value, "must be a finite number >= 0"))
-    raise_faults(faults)
-    others = {other: data[other] for _, other in RATIOS.values() if other in data}
-    others = {name: in_si(value, UNITS[name], faults, (name,)) for name, value in others.items()}
-    raise_faults(faults)
-    with suppress(ValueError):  # of a wrong value, which the fields report
-        others = {name: number(value) for name, value in others.items()}
-        completed = with_ratios({**others, **ratios})
-        return {**data, **{RATIOS[name][0]: completed[RATIOS[name][0]] for name in ratios}}
-    return dict(data)
 
 
 def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:

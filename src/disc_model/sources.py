@@ -1,11 +1,9 @@
 """The origin of a result: its sources, the commit, and versions of packages.
 
-The sources are all that its entry points import, at any depth, and the data read beside it.
-
-An entry point is a module or package of `disc_model`, or the script of a job. Quantities and figures, which are loaded
-by their names, are entry points of their own. Deferred imports count, imports for type checkers do not. The data of a
-module are the files beside it with its own name, and what its texts name: files and folders beside it, and paths from
-the package on.
+The sources are all that its entry points import, at any depth, and the data read beside it. An entry point is a module
+or package of `disc_model`, or the script of a job. Quantities and figures, which are loaded by their names, are entry
+points of their own. Deferred imports count, imports for type checkers do not. The data of a module are the files beside
+it with its own name, and what its texts name: files and folders beside it, and paths from the package on.
 """
 
 import ast
@@ -19,8 +17,7 @@ import platform
 import re
 import subprocess
 import sys
-import zlib
-from collections.abc import Iterator
+from importlib.util import resolve_name
 from pathlib import Path
 
 import platformdirs
@@ -37,12 +34,8 @@ ASIDE = {
 
 @functools.cache
 def source_hash(*entries: str | Path) -> str:
-    """Hash of the sources of a result, 16 hexadecimal digits.
+    """Hash of the sources of a result, 16 hexadecimal digits. Comments, docstrings and layout do not count.
 
-    Comments, docstrings and layout of Python sources do not count, because they change no result.
-
-    Parameters
-    ----------
     entries : names of modules and packages, with or without ``disc_model.``, and paths of scripts and further files
     """
     digest = hashlib.sha256()
@@ -63,8 +56,38 @@ def source_files(*entries: str | Path) -> tuple[Path, ...]:
         path = waiting.pop()
         sources.add(path)
         if path.suffix == ".py":
-            waiting |= {*_imported(path), *_data(path)} - sources - aside
+            waiting |= _used(path) - sources - aside
     return tuple(sorted(sources))
+
+
+def _modules(name: str) -> list[Path]:
+    """The file of a module, or all those of a package."""
+    path = PACKAGE.joinpath(*name.removeprefix("disc_model.").split("."))
+    if paths := [*path.rglob("*.py"), *path.parent.glob(f"{path.name}.py")]:
+        return paths
+    raise ModuleNotFoundError(f"No module named 'disc_model.{name}'", name=name)
+
+
+@functools.cache
+def _used(path: Path) -> frozenset[Path]:
+    """Files of the package that a module imports, and those of data that it reads."""
+    _, imports, texts = _read(path)
+    modules: set[Path] = set()
+    for module, name in imports:
+        if module.startswith("."):
+            module = resolve_name(module, ".".join(["disc_model", *path.relative_to(PACKAGE).parent.parts]))
+        top, *parts = module.split(".")
+        if top == "disc_model":
+            base = PACKAGE.joinpath(*parts)
+            choices = (base / f"{name}.py", base / name / "__init__.py", base.with_suffix(".py"), base / "__init__.py")
+            modules.add(next(choice for choice in choices if choice.is_file()))
+            if PACKAGE / "__init__.py" in modules:
+                rule = "must be imported from its own module, so that its sources are known"
+                raise ImportError(f"{name or module}: {rule}")
+    named = {(PACKAGE if "/" in text else path.parent) / text for text in texts}
+    data = {*named, *path.parent.glob(f"{path.stem}.*")}
+    data |= {file for folder in named if folder.is_dir() and not [*folder.rglob("*.py")] for file in folder.iterdir()}
+    return frozenset(modules | {file for file in data if file.is_file() and file.suffix not in (".py", ".pyc")})
 
 
 def code_hash(path: Path) -> str:
@@ -73,19 +96,19 @@ def code_hash(path: Path) -> str:
 
 
 @functools.cache
-def _read(path: Path) -> tuple[str, frozenset[tuple[int, str, str]], frozenset[str]]:
+def _read(path: Path) -> tuple[str, list[tuple[str, str]], list[str]]:
     """What `_parse` finds in a file, which takes 8 ms: kept in a file whose name is the hash of all that decides it."""
     source = path.read_bytes()
     name = hashlib.sha256(b"\0".join((source, sys.version.encode(), _PARSER))).hexdigest()
     cache = cache_folder() / "sources" / name
     try:
-        known = json.loads(zlib.decompress(cache.read_bytes()))
-    except (OSError, zlib.error):  # also if another process is writing it: the compression contains a checksum
+        return json.loads(cache.read_text(encoding="utf-8"))
+    except (OSError, ValueError):  # also if another process is writing it: only the whole text is JSON
         known = _parse(ast.parse(source, str(path)))
         with contextlib.suppress(OSError):
             cache.parent.mkdir(parents=True, exist_ok=True)
-            cache.write_bytes(zlib.compress(json.dumps(known).encode()))
-    return known[0], frozenset(map(tuple, known[1])), frozenset(known[2])
+            cache.write_text(json.dumps(known), encoding="utf-8")
+        return known
 
 
 _PARSER = Path(__file__).read_bytes()
@@ -96,78 +119,28 @@ def cache_folder() -> Path:
     return Path(os.environ.get("NUMBA_CACHE_DIR") or platformdirs.user_cache_dir("disc_model"))
 
 
-def _parse(tree: ast.Module) -> tuple[str, list[tuple[int, str, str]], list[str]]:
-    """Hash of a Python source without comments, docstrings and layout; levels, modules and names of its imports; and
-    its texts that may name files."""
-    imports, constants = set(), {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant)}
-    texts = [text for text in constants if isinstance(text, str) and re.fullmatch(r"\w[\w./-]*", text)]
-    for node in [tree, *_statements(tree)]:
+class _WithoutDocstrings(ast.NodeTransformer):
+    def visit_Expr(self, node: ast.Expr) -> ast.Expr | None:
+        return None if isinstance(node.value, ast.Constant) and isinstance(node.value.value, str) else node
+
+
+def _parse(tree: ast.Module) -> tuple[str, list[tuple[str, str]], list[str]]:
+    """Hash of a Python source without comments, docstrings and layout; its imports, each as ``from ..module import
+    name`` has it; and its texts that may name files."""
+    code = ast.dump(_WithoutDocstrings().visit(tree))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+            node.body = []
+    imports, texts = set(), set()
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
-            imports |= {(0, alias.name, "") for alias in node.names}
+            imports |= {(alias.name, "") for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
-            imports |= {(node.level, node.module or "", alias.name) for alias in node.names}
-        for name in _BLOCKS:
-            if block := getattr(node, name, None):
-                setattr(node, name, [child for child in block if not _is_text(child)])
-    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), sorted(imports), sorted(texts)
-
-
-_BLOCKS = ("body", "orelse", "finalbody", "handlers", "cases")
-
-
-def _statements(node: ast.AST) -> Iterator[ast.AST]:
-    """All statements within a node, but for those that only type checkers read."""
-    typing = isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
-    for name in _BLOCKS[typing:]:
-        for child in getattr(node, name, ()):
-            yield child
-            yield from _statements(child)
-
-
-def _is_text(node: ast.AST) -> bool:
-    """Whether a statement is a docstring, or another text that does nothing."""
-    return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
-
-
-def _modules(name: str) -> list[Path]:
-    """The file of a module, or all those of a package; raises ModuleNotFoundError."""
-    path = PACKAGE.joinpath(*name.removeprefix("disc_model.").split("."))
-    if paths := [*path.rglob("*.py")] if path.is_dir() else [*path.parent.glob(f"{path.name}.py")]:
-        return paths
-    raise ModuleNotFoundError(f"No module named 'disc_model.{name}'", name=name)
-
-
-@functools.cache
-def _imported(path: Path) -> frozenset[Path]:
-    """Files of the package's modules that a file imports."""
-    files: set[Path] = set()
-    for level, module, name in _read(path)[1]:
-        if level:
-            parts = path.relative_to(PACKAGE).parent.parts
-            module = ".".join(filter(None, ["disc_model", *parts[: len(parts) + 1 - level], module]))
-        files.update(_file(module, name))
-    return frozenset(files)
-
-
-def _file(module: str, name: str) -> Iterator[Path]:
-    """The file from which a name is imported, if it lies in the package."""
-    top, *parts = module.split(".")
-    if top == "disc_model":
-        path = PACKAGE.joinpath(*parts)
-        choices = (path / f"{name}.py", path / name / "__init__.py", path.with_suffix(".py"), path / "__init__.py")
-        file = next(choice for choice in choices if choice.is_file())
-        if file.parent == PACKAGE and file.stem == "__init__":
-            raise ImportError(f"{name or module}: must be imported from its own module, so that its sources are known")
-        yield file
-
-
-@functools.cache
-def _data(path: Path) -> frozenset[Path]:
-    """Files of data that a module reads."""
-    named = {(PACKAGE if "/" in text else path.parent) / text for text in _read(path)[2]}
-    files = {*named, *path.parent.glob(f"{path.stem}.*")}
-    files |= {file for folder in named if folder.is_dir() and not [*folder.rglob("*.py")] for file in folder.iterdir()}
-    return frozenset(file for file in files if file.is_file() and file.suffix not in (".py", ".pyc"))
+            imports |= {("." * node.level + (node.module or ""), alias.name) for alias in node.names}
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            texts.add(node.value)
+    files = [text for text in texts if re.fullmatch(r"\w[\w./-]*", text)]
+    return hashlib.sha256(code.encode()).hexdigest(), sorted(imports), sorted(files)
 
 
 # ---- Commit and versions
@@ -186,17 +159,16 @@ def versions(*further: str) -> dict[str, str]:
     return known
 
 
-@functools.lru_cache(maxsize=1)
+@functools.cache
 def git_commit(package: Path = PACKAGE) -> str:
     """Commit of the sources, with ``-dirty`` if they were changed since; "unknown" outside their repository."""
+    # an environment may lie within the repository of another project, which does not list its files
+    commands = ("ls-files --error-unmatch __init__.py", "describe --always --dirty --abbrev=40 --exclude=*")
     try:
-        # an environment may lie within the repository of another project
-        _git(package, "ls-files", "--error-unmatch", "__init__.py")
-        return _git(package, "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*")
+        for command in commands:
+            done = subprocess.run(
+                ["git", *command.split()], cwd=package, capture_output=True, text=True, timeout=20, check=True
+            )
     except (OSError, subprocess.SubprocessError):
         return "unknown"
-
-
-def _git(folder: Path, *arguments: str) -> str:
-    done = subprocess.run(["git", *arguments], cwd=folder, capture_output=True, text=True, timeout=20, check=True)
     return done.stdout.strip()

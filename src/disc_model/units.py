@@ -8,7 +8,7 @@ import json
 import math
 import numbers
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Self, TypeGuard, get_args
 
@@ -16,23 +16,18 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Fie
 
 from disc_model.errors import Fault, ParameterError, as_text, faults_of, raise_faults
 
+# Least and greatest tolerance
+TOLERANCES = (1e-15, 1e-2)  # of a simulation: error of event times after a second of motion, s
+CYCLE_TOLERANCES = (1e-14, 1e-6)  # of the search for a cycle: relative residual of the return map
+
 # ---- Numbers
-
-TOLERANCES = (1e-15, 1e-2)
-"""Least and greatest tolerance of a simulation: error of event times after a second of motion, s."""
-CYCLE_TOLERANCES = (1e-14, 1e-6)
-"""Least and greatest tolerance of the search for a cycle: relative residual of the return map."""
-
 
 Units = str | Mapping[str, "Units"]  # a unit; or, for values by name, those that have one
 
 
 @dataclass(frozen=True, eq=False)
 class Unit:
-    """Marks the type of a number, or of a structure of numbers, with its SI unit.
-
-    of : the field that names the parameter whose unit it is, where that is a matter of choice
-    """
+    """The SI unit of numbers, which marks their type; or the field `of` that names the parameter with this unit."""
 
     name: Units = ""
     of: str = ""
@@ -42,7 +37,6 @@ class Unit:
 
 
 UNITS: dict[str, str] = {}  # units of parameters by their names, filled by `disc_model.parameters`
-
 
 _WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?+)\s*((?:1/)?[A-Za-zµΩ°%].*)")
 _WITH_COMMA = re.compile(r"\s*[-+]?\d+,\d")
@@ -61,16 +55,16 @@ def _units() -> Any:
 
 
 def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -> Any:
-    """A value, or all values within it, converted to a unit: ``"150 GPa"`` to 1.5e11 for Pa; others are unchanged.
-    Results have 15 digits, so that equal decimal numbers in different units are equal. A text with a unit of another
-    kind is a fault at its `path`."""
+    """A value with all texts within it that have a unit, such as ``"150 GPa"``, as numbers in the given unit. They have
+    15 digits, so that equal decimal numbers are equal in any unit. A unit of another kind is a fault at its `path`."""
+    if not unit:
+        return value
     if isinstance(value, dict):
         units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
-        named = {name: part for name, part in value.items() if name in units}
-        return value | {name: in_si(part, units[name], faults, (*path, str(name))) for name, part in named.items()}
+        return {x: in_si(part, units.get(x, ""), faults, (*path, str(x))) for x, part in value.items()}
     if type(value) in (list, tuple):
         return type(value)(in_si(part, unit, faults, (*path, str(i))) for i, part in enumerate(value))
-    if not (unit and isinstance(unit, str) and isinstance(value, str) and (match := _WITH_UNIT.fullmatch(value))):
+    if not (isinstance(unit, str) and isinstance(value, str) and (match := _WITH_UNIT.fullmatch(value))):
         return value
     try:
         if not _UNIT.fullmatch(match[2]):
@@ -87,8 +81,7 @@ def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -
 
 
 def number(value: Any) -> Any:
-    """Convert a number, or a string that stands for one, to a float; raise ValueError for anything else. Strings are
-    accepted because YAML reads ``1e-3`` as one. A bool does not count as a number, although Python treats it so."""
+    """A number, or a text such as ``1e-3`` of YAML, as a float; raises ValueError for all else, also for a bool."""
     if isinstance(value, bool) or not isinstance(value, str | int | float | numbers.Real):
         raise ValueError("must be a number")
     try:
@@ -101,27 +94,21 @@ def number(value: Any) -> Any:
 
 
 def whole(value: Any) -> Any:
-    """Convert a count as `number` does: 4, 4.0 and "4" are the same, 4.5 is refused."""
-    if is_whole(value):
-        return int(value)
-    converted = number(value)
-    if not converted.is_integer():
+    """A count by the rules of `number`: 4, 4.0 and "4" are the same, 4.5 is refused."""
+    if not is_whole(value) and not (value := number(value)).is_integer():
         raise ValueError("must be a whole number")
-    return int(converted)
+    return int(value)
 
 
 def is_number(value: object) -> bool:
-    """Whether a value is a number within the range of floats; text that `number` would convert is not."""
-    # the usual type first: the test for the abstract one takes several times as long
-    if isinstance(value, float):
-        return True
+    """Whether a value is a number within the range of floats; a text or a bool is not."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         return False
-    # integers beyond the range of floats compare as less than infinity
     try:
-        return math.isfinite(float(value)) or not -math.inf < value < math.inf  # type: ignore[operator]
+        float(value)
     except OverflowError:
         return False
+    return True
 
 
 def is_whole(value: object) -> TypeGuard[int]:
@@ -129,15 +116,10 @@ def is_whole(value: object) -> TypeGuard[int]:
     return isinstance(value, numbers.Integral) and not isinstance(value, bool)
 
 
-def limits_rule(limits: tuple[float, float]) -> str:
-    """Text of the rule for a number within limits, such as `TOLERANCES`."""
-    return f"must be within {limits[0]:g} and {limits[1]:g}"
-
-
 def limits_faults(name: str, value: Any, limits: tuple[float, float]) -> list[str]:
     """Faults of an argument that must be a number within limits."""
     good = is_number(value) and limits[0] <= value <= limits[1]
-    return [] if good else [Fault.of((name,), value, limits_rule(limits))]
+    return [] if good else [Fault.of((name,), value, f"must be within {limits[0]:g} and {limits[1]:g}")]
 
 
 def must(holds: Callable[[Any], bool], rule: str) -> Callable[[Any], Any]:
@@ -153,7 +135,8 @@ def must(holds: Callable[[Any], bool], rule: str) -> Callable[[Any], Any]:
 
 def within(limits: tuple[float, float]) -> AfterValidator:
     """A validator for pydantic, which refuses numbers outside of limits."""
-    return AfterValidator(must(lambda value: limits[0] <= value <= limits[1], limits_rule(limits)))
+    rule = f"must be within {limits[0]:g} and {limits[1]:g}"
+    return AfterValidator(must(lambda value: limits[0] <= value <= limits[1], rule))
 
 
 Real = Annotated[float, BeforeValidator(number)]
@@ -169,20 +152,9 @@ CycleTolerance = Annotated[Real, within(CYCLE_TOLERANCES)]
 # ---- Bases
 
 
-def _faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
-    """Faults of names that are not text, at any depth; in a nested model pydantic would raise a `TypeError`."""
-    items = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list | tuple) else ()
-    for name, value in items:
-        if isinstance(data, dict) and not isinstance(name, str):
-            comma = DECIMAL_COMMA * (value is None and is_number(name))  # {N: 200,5} is read as {N: 200, 5: null}
-            yield Fault.of((*path, repr(name)), value, f"a name must be text{comma}")
-        if isinstance(value, dict | list | tuple):
-            yield from _faults_of_names(value, (*path, str(name)))
-
-
 @functools.cache
-def _units_of(model: type[BaseModel]) -> tuple[dict[str, Units], dict[str, str]]:
-    """Units of the fields of a model, from their schema or from their type; and the fields that decide others."""
+def _marks(model: type[BaseModel]) -> dict[str, Unit]:
+    """Units of the fields of a model, from their schema or from their type."""
     marks = {}
     for name, field in model.model_fields.items():
         extra = field.json_schema_extra
@@ -192,14 +164,12 @@ def _units_of(model: type[BaseModel]) -> tuple[dict[str, Units], dict[str, str]]
             parts += get_args(part)
         if mark := next((part for part in parts if isinstance(part, Unit)), None):
             marks[name] = mark
-    decided = {name: mark.of for name, mark in marks.items() if mark.of}
-    return {name: mark.name for name, mark in marks.items() if not mark.of}, decided
+    return marks
 
 
 class Strict(BaseModel):
-    """Base of all models of input: immutable, with unknown keys refused, and numbers with units converted to SI. The
-    constructor and `model_validate` raise a single `ParameterError` that lists all faults, those of parts included.
-    Rules between values are checked where each value by itself is right."""
+    """Base of all models of input: immutable, no unknown keys, numbers converted to SI. Its `ParameterError` lists all
+    faults, those of parts too; rules between values are checked where each by itself is right."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -215,28 +185,30 @@ class Strict(BaseModel):
             except ValidationError as error:
                 raise ParameterError(*faults_of(error, data, type(self))) from None
 
-    @model_validator(mode="before")
+    @model_validator(mode="wrap")
     @classmethod
-    def _in_si(cls, data: Any) -> Any:
-        """Refuse names that are not text, and convert numbers with units."""
-        if not isinstance(data, dict):
-            return data
-        faults = [*_faults_of_names(data)]
-        converted = in_si(data, cls._units(data), faults, ())
-        raise_faults(faults)
-        return converted
+    def _in_si(cls, data: Any, handler: Any) -> Any:
+        """Refuse names that are not text, on which pydantic would fail, and convert numbers with units."""
+        if isinstance(data, dict):
+            faults = []
+            for name in (name for name in data if not isinstance(name, str)):
+                # {N: 200,5} is read as {N: 200, 5: null}
+                comma = DECIMAL_COMMA * (data[name] is None and is_number(name))
+                faults.append(Fault.of((repr(name),), data[name], f"a name must be text{comma}"))
+            data = in_si(data, cls._units(data), faults, ())
+            raise_faults(faults)
+        return handler(data)
 
     @classmethod
     def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
         """SI units of the values that have one, by the marks of their types."""
-        fixed, decided = _units_of(cls)
-        named = {name: data.get(by, cls.model_fields[by].default) for name, by in decided.items()}
-        return fixed | {name: UNITS.get(str(parameter), "") for name, parameter in named.items()}
+        units = {name: mark.name for name, mark in _marks(cls).items()}
+        chosen = {name: mark.of for name, mark in _marks(cls).items() if mark.of}
+        return units | {x: UNITS.get(str(data.get(by, cls.model_fields[by].default)), "") for x, by in chosen.items()}
 
     @classmethod
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
-        """Make the model from a mapping, with the same errors as the constructor."""
-        raise_faults([*_faults_of_names(obj)])
+        """The model from a mapping."""
         try:
             return super().model_validate(dict(obj) if isinstance(obj, Mapping) else obj, **kwargs)
         except ValidationError as error:
@@ -253,7 +225,7 @@ class Checked(Strict):
 
     @classmethod
     def model_validate_json(cls, json_data: str | bytes | bytearray, **kwargs: Any) -> Self:
-        """Make the model from JSON text, with the same errors as the constructor."""
+        """The model from JSON text."""
         try:
             values = json.loads(json_data)
         except (ValueError, TypeError, RecursionError) as error:

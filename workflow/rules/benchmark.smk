@@ -55,18 +55,15 @@ rule measure:
         f"{BENCH}/logs/measure/{{part}}{{target}}.log",
     wildcard_constraints:
         part="work_precision|contact_truncation|scaling|(answers|answer_maps|failure_maps)/[A-Za-z0-9_-]+",
-        target="(_avx2)?",
     conda:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        made_of=lambda wildcards: measured_of(wildcards.part),
-        study=lambda wildcards: benchmark_study(wildcards.part),
-        of=lambda wildcards: " ".join(Path(wildcards.part).parts[1:]).replace(
-            "_", " ", 1
-        ),
-        compiled=lambda wildcards: (
-            "NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES=" if wildcards.target else ""
+        made_of=lambda w: measured_of(w.part),
+        study=lambda w: STUDIES[Path(w.part).parts[0]],
+        of=lambda w: " ".join(Path(w.part).parts[1:]).replace("_", " ", 1),
+        compiled=lambda w: (
+            "NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES=" if w.target else ""
         ),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 {params.compiled} job measure {params.study} {output} {params.of} > {log} 2>&1"
@@ -79,8 +76,6 @@ rule tabulate_work_precision:
         f"{BENCH}/work_precision{{target}}.csv",
     log:
         f"{BENCH}/logs/tabulate_work_precision{{target}}.log",
-    wildcard_constraints:
-        target="(_avx2)?",
     conda:
         "../envs/disc_model.yaml"
     params:

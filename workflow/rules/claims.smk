@@ -34,7 +34,7 @@ rule check_claims:
 rule make_table:
     # Tables 1 and 2 of the paper, and two of what results rest on: each from its own cases, if the study has them.
     input:
-        lambda wildcards: [*map(case_file, TABLE_CASES[wildcards.table])],
+        lambda w: [*map(case_file, TABLE_CASES[w.table])],
     output:
         csv=f"{RESULTS}/tables/{{table}}.csv",
         md=f"{RESULTS}/tables/{{table}}.md",
@@ -42,9 +42,7 @@ rule make_table:
             f"{RESULTS}/tables/{{table}}.html",
             caption="../report/table.rst",
             category="Tables of the paper",
-            labels=lambda wildcards: {
-                "table": wildcards.table.replace("table", "Table ")
-            },
+            labels=lambda w: {"table": w.table.replace("table", "Table ")},
         ),
     log:
         f"{RESULTS}/logs/make_table/{{table}}.log",
@@ -53,8 +51,8 @@ rule make_table:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=lambda wildcards: made_of(
-            "make_table", of=[*map(case_made_of, TABLE_CASES[wildcards.table])]
+        made_of=lambda w: made_of(
+            "make_table", of=[*map(case_made_of, TABLE_CASES[w.table])]
         ),
     shell:
         "job make_table {wildcards.table} {output} {input} > {log} 2>&1"

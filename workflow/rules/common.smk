@@ -2,12 +2,13 @@
 import hashlib
 import json
 import os
+import re
 import shlex
-import subprocess
 import sys
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
+from subprocess import DEVNULL, PIPE, Popen
 from tempfile import TemporaryDirectory
 from weakref import finalize
 
@@ -28,9 +29,8 @@ if find_spec("disc_model") is None and (SOURCES / "disc_model").is_dir():
 
 def put_first(variable, folder):
     """Let jobs search a folder before the others of a variable of the environment."""
-    os.environ[variable] = os.pathsep.join(
-        filter(None, [str(folder), os.environ.get(variable)])
-    )
+    folders = filter(None, [str(folder), os.environ.get(variable)])
+    os.environ[variable] = os.pathsep.join(folders)
 
 
 # Jobs use the interpreter of Snakemake, whether or not its environment is active, or that of conda.
@@ -53,13 +53,8 @@ LOCAL = MAIN and not (CONDA or workflow.output_settings.dryrun or workflow.nodes
 if LOCAL and sys.platform == "linux":
     LIBRARIES = ("OMP", "GOTO", "OPENBLAS", "MKL", "VECLIB", "NUMEXPR")
     ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in LIBRARIES}
-    SILENT = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    warm = subprocess.Popen(
-        [sys.executable, *WARM],
-        stdin=subprocess.PIPE,
-        env=os.environ | ONE_THREAD,
-        **SILENT,
-    )
+    STREAMS = {"stdin": PIPE, "stdout": DEVNULL, "stderr": DEVNULL}
+    warm = Popen([sys.executable, *WARM], env=os.environ | ONE_THREAD, **STREAMS)
     finalize(workflow, warm.kill)
 
 try:
@@ -98,16 +93,11 @@ if not workflow.configfiles and "study" not in config:
     configfile: PAPER
 
 
+FOLDERS = [Path(file).parent for file in workflow.configfiles]
 try:
     STUDY = study_from_config(config, workflow.configfiles)
     # ASKED are the grids whose figures are requested; a figure may show further ones.
-    GRIDS, ASKED = STUDY.grids(
-        [
-            Path(),
-            *(Path(file).parent for file in workflow.configfiles),
-            WORKFLOW.parent,
-        ]
-    )
+    GRIDS, ASKED = STUDY.grids([Path(), *FOLDERS, WORKFLOW.parent])
 except DiscModelError as error:
     raise WorkflowError(str(error)) from None
 
@@ -129,6 +119,7 @@ wildcard_constraints:
     batch=r"[0-9a-f]{12}",
     key=r"[0-9a-f]{12}",
     case="|".join(STUDY.specs) or "none",
+    target="(_avx2)?",
 
 
 def made_of(rule, *sources, of=()):

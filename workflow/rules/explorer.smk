@@ -4,12 +4,34 @@ from itertools import chain
 from disc_model.studies.quantity import quantity_of
 
 # Studies of a whole plane come first.
-EXPLORED = sorted(
-    GRIDS, key=lambda study: GRIDS[study].quantity not in ("outcome", "regions")
+PLANES = ("outcome", "regions")
+EXPLORED = sorted(GRIDS, key=lambda study: GRIDS[study].quantity not in PLANES)
+# The report's figures, in its order.
+PICTURES = [
+    {
+        "heading": figure.section or figure.category,
+        "title": figure.title,
+        "caption": figure.caption,
+        "file": f"results/{study}/figures/{name}.png",
+    }
+    for (study, name), figure in FIGURES.items()
+    if study in (STUDY.name, *ASKED)
+]
+EXPLORER = json.dumps(
+    {
+        "title": STUDY.title or STUDY.name,
+        "studies": [
+            {
+                "name": study,
+                "data": grid_file(study),
+                "motions": next(iter(motions_of(study)), ""),
+                "text": quantity_of(GRIDS[study].quantity).motion,
+            }
+            for study in EXPLORED
+        ],
+        "pictures": PICTURES,
+    }
 )
-
-
-PICTURES = list(explorer_pictures())
 
 
 rule explorer:
@@ -46,22 +68,7 @@ rule build_explorer:
     conda:
         "../envs/disc_model.yaml"
     params:
-        # a function, so that braces in a title are no wildcards
-        plan=lambda wildcards: json.dumps(
-            {
-                "title": STUDY.title or STUDY.name,
-                "studies": [
-                    {
-                        "name": study,
-                        "data": grid_file(study),
-                        "motions": next(iter(motions_of(study)), ""),
-                        "text": quantity_of(GRIDS[study].quantity).motion,
-                    }
-                    for study in EXPLORED
-                ],
-                "pictures": PICTURES,
-            }
-        ),
+        plan=lambda wildcards: EXPLORER,  # a function: braces in a title are no wildcards
         made_of=made_of(
             "build_explorer",
             of=[

@@ -3,21 +3,17 @@
 
 rule draw_figure:
     input:
-        lambda wildcards: list(files_of(wildcards).values()),
+        lambda w: list(files_of(w).values()),
     output:
         pdf="results/{study}/figures/{figure}.pdf",
         png=report(
             "results/{study}/figures/{figure}.png",
             caption="../report/figure.rst",
-            category=lambda wildcards: figure_of(wildcards).category,
-            subcategory=lambda wildcards: figure_of(wildcards).section,
+            category=lambda w: figure_of(w).category,
+            subcategory=lambda w: figure_of(w).section,
             # One label only: Snakemake 9.27's report breaks on two results that differ in two labels. Without braces:
             # Snakemake takes them for wildcards even here.
-            labels=lambda wildcards: {
-                "figure": figure_of(wildcards).title.translate(
-                    str.maketrans("", "", "{}")
-                )
-            },
+            labels=lambda w: {"figure": re.sub("[{}]", "", figure_of(w).title)},
         ),
     log:
         "results/{study}/logs/draw_figure/{figure}.log",
@@ -29,14 +25,10 @@ rule draw_figure:
         "../envs/disc_model.yaml"
     params:
         # JSON is ASCII: commands can hold it in any locale. The caption itself is for the report.
-        plot=lambda wildcards: json.dumps(
-            figure_of(wildcards).plot.model_dump(mode="json")
-        ),
-        title=lambda wildcards: json.dumps(figure_of(wildcards).caption),
-        caption=lambda wildcards: figure_of(wildcards).caption,
-        made_of=lambda wildcards: figure_made_of((wildcards.study, wildcards.figure)),
-        files=lambda wildcards: [
-            f"{name}={file}" for name, file in files_of(wildcards).items()
-        ],
+        plot=lambda w: json.dumps(figure_of(w).plot.model_dump(mode="json")),
+        title=lambda w: json.dumps(figure_of(w).caption),
+        caption=lambda w: figure_of(w).caption,
+        made_of=lambda w: figure_made_of((w.study, w.figure)),
+        files=lambda w: [f"{name}={file}" for name, file in files_of(w).items()],
     shell:
         "job draw_figure {params.plot:q} {params.title:q} {output} {params.files:q} > {log} 2>&1"

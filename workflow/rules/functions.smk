@@ -1,9 +1,8 @@
 # What rules call: names of files, what decides each result, and figures. Rules themselves are in files of their own.
-
-
-def case_file(case):
-    return f"{RESULTS}/cases/{case}.nc"
-
+case_file = f"results/{STUDY.name}/cases/{{}}.nc".format
+batch_file = "results/{}/batches/{}.nc".format
+grid_file = "results/{0}/{0}.nc".format
+motion_file = "results/{}/motions/{}.nc".format
 
 LABELS = json.dumps(STUDY.labels, sort_keys=True)
 PAGE_TITLE = json.dumps(STUDY.title or STUDY.name)
@@ -18,26 +17,14 @@ def case_made_of(case):
 
 @cache
 def cases_made_of():
-    return made_of(
-        "merge_cases", of=[PAGE_TITLE, LABELS, *map(case_made_of, sorted(STUDY.specs))]
-    )
-
-
-def batch_file(study, batch):
-    return f"results/{study}/batches/{batch}.nc"
-
-
-def grid_file(study):
-    return f"results/{study}/{study}.nc"
+    cases = map(case_made_of, sorted(STUDY.specs))
+    return made_of("merge_cases", of=[PAGE_TITLE, LABELS, *cases])
 
 
 def merge_plan(study):
     """Data of a merge beyond its files, as JSON."""
-    plan = {
-        "batches": sorted(GRIDS[study].batches),
-        "grid": GRIDS[study].grid,
-        "attrs": GRIDS[study].attrs,
-    }
+    grid = GRIDS[study]
+    plan = {"batches": sorted(grid.batches), "grid": grid.grid, "attrs": grid.attrs}
     return json.dumps(plan, sort_keys=True)
 
 
@@ -72,18 +59,6 @@ def figure_made_of(entry):
     return made_of("draw_figure", figure.plot.__module__, of=of)
 
 
-def figure_names():
-    """Names of figures, by the study in whose folder they are."""
-    figures = {name: [] for name in (STUDY.name, *GRIDS)}
-    for study, name in FIGURES:
-        figures[study].append(name)
-    return figures
-
-
-def motion_file(study, key):
-    return f"results/{study}/motions/{key}.nc"
-
-
 def motions_of(study):
     """The one file of motions of a study, or none."""
     return [motion_file(study, key) for key in GRIDS[study].motions]
@@ -94,27 +69,10 @@ def motions_made_of(study):
     return made_of("compute_motions", *GRIDS[study].sources, of=[*GRIDS[study].motions])
 
 
-def explorer_pictures():
-    """The report's figures, in its order."""
-    for (study, name), figure in FIGURES.items():
-        if study in (STUDY.name, *ASKED):
-            yield {
-                "heading": figure.section or figure.category,
-                "title": figure.title,
-                "caption": figure.caption,
-                "file": f"results/{study}/figures/{name}.png",
-            }
-
-
-def benchmark_study(part):
-    """Module and function of the study to which a part of the benchmark belongs."""
-    return STUDIES[Path(part).parts[0]]
-
-
 def measured_of(part):
     """Hash of the sources of a part of the benchmark."""
-    name = benchmark_study(part).partition(".")[0]
-    return made_of("measure", "benchmarks.methods", f"benchmarks.{name}")
+    source = STUDIES[Path(part).parts[0]].partition(".")[0]
+    return made_of("measure", "benchmarks.methods", f"benchmarks.{source}")
 
 
 def duration(job):
@@ -132,9 +90,8 @@ def duration(job):
 
 def durations():
     """Expected durations of all jobs to run, by number, and how many run at the same time."""
-    jobs = {
-        workflow.dag.jobid(job): duration(job) for job in workflow.dag.needrun_jobs()
-    }
+    dag = workflow.dag
+    jobs = {dag.jobid(job): duration(job) for job in dag.needrun_jobs()}
     return jobs, workflow.cores if workflow.local_exec else workflow.nodes
 
 
@@ -149,7 +106,7 @@ def unrecorded():
 
 
 def refuse_unrecorded(wildcards):
-    """Stop if there are `unrecorded` results; an input function, since Snakemake has read its records by then."""
+    """Stop if there are `unrecorded` results: an input function is called when Snakemake has read its records."""
     if MAIN and "--touch" not in sys.argv and (unknown := unrecorded()):
         raise WorkflowError(
             f"{unknown[0]} and {len(unknown) - 1} more are there, but not Snakemake's record of how they were made"

@@ -13,18 +13,15 @@ rule compute_batch:
     resources:
         runtime=30,
     params:
-        batch=lambda wildcards: GRIDS[wildcards.study].batches[wildcards.batch],
-        made_of=lambda wildcards: batch_made_of(wildcards.study),
+        batch=lambda w: GRIDS[w.study].batches[w.batch],
+        made_of=lambda w: batch_made_of(w.study),
     shell:
         "job compute_batch {output} <<< {params.batch:q} > {log} 2>&1"
 
 
 rule merge_batches:
     input:
-        lambda wildcards: [
-            batch_file(wildcards.study, batch)
-            for batch in GRIDS[wildcards.study].batches
-        ],
+        lambda w: [batch_file(w.study, batch) for batch in GRIDS[w.study].batches],
     output:
         nc="results/{study}/{study}.nc",
         failed="results/{study}/{study}.failed.txt",
@@ -33,9 +30,9 @@ rule merge_batches:
     conda:
         "../envs/disc_model.yaml"
     params:
-        plan=lambda wildcards: merge_plan(wildcards.study),
-        made_of=lambda wildcards: grid_made_of(wildcards.study),
-        folder=lambda wildcards, input: Path(input[0]).parent,
+        plan=lambda w: merge_plan(w.study),
+        made_of=lambda w: grid_made_of(w.study),
+        folder=lambda w, input: Path(input[0]).parent,
     shell:
         "job merge_batches {output.nc} {output.failed} {params.folder}"
         " <<< {params.plan:q} > {log} 2>&1"

@@ -1,5 +1,7 @@
 # Treatment of results that are out of date, damaged, or of unknown origin: run by name, not part of `all`.
 
+KEPT = {name: [*x.batches, *x.motions] for name, x in sorted(GRIDS.items())}
+
 
 rule gc:
     # Removes files that no study refers to any more: batches and merged files of former values, options or sources.
@@ -9,12 +11,7 @@ rule gc:
     conda:
         "../envs/disc_model.yaml"
     params:
-        kept=json.dumps(
-            {
-                name: [*study.batches, *study.motions]
-                for name, study in sorted(GRIDS.items())
-            }
-        ),
+        kept=json.dumps(KEPT),
     shell:
         "job gc <<< {params.kept:q} 2>&1 | tee {log}"
 

@@ -1,9 +1,4 @@
-"""Write the explorer page with grid studies, motions and figures.
-
-Its contents are read from standard input as JSON: ``title``; ``studies``, each with ``name``, ``data``, ``motions``
-(netCDF files; the latter may be "") and their description ``phrase``; ``pictures``, each with ``heading``, ``title``,
-``caption`` and ``file`` (PNG).
-"""
+"""Write the explorer page by the plan that its rule hands to standard input as JSON."""
 
 import json
 import logging

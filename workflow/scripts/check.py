@@ -1,10 +1,7 @@
-"""Clean up results after a fault.
+"""Clean up results after a fault, while no jobs are running.
 
-Every netCDF file is read, and removed if that fails. Remains of killed jobs are removed, and so are the files without a
-record of Snakemake, read from standard input as a JSON list. Files with times in the future get the present one, since
-Snakemake refuses results older than their inputs.
-
-Not to be run while jobs are running.
+Removed are netCDF files that cannot be read, remains of killed jobs, and files without a record of Snakemake, a JSON
+list on standard input. Times in the future become the present: Snakemake refuses results older than their inputs.
 """
 
 import json
@@ -17,21 +14,18 @@ from disc_model.data.dataset import UnreadableFile, load
 from disc_model.errors import script
 
 
-def is_readable(path: Path) -> bool:
-    try:
-        load(path)
-    except UnreadableFile as error:
-        print(f"{error}; removed")
-        return False
-    return True
-
-
 @script
 def main(folder: str = "results") -> None:
     results = Path(folder)
     unrecorded = [Path(name) for name in json.load(sys.stdin)]
     datasets = sorted(results.rglob("*.nc"))
-    damaged = [path for path in datasets if not is_readable(path)]
+    damaged = []
+    for path in datasets:
+        try:
+            load(path)
+        except UnreadableFile as error:
+            print(f"{error}; removed")
+            damaged.append(path)
     for path in unrecorded:
         print(f"{path}: not known how it was made, removed")
     leftovers = sorted(results.rglob(".*.tmp"))

@@ -1,8 +1,4 @@
-"""Compute one batch of a grid study and save it.
-
-The batch, a text from `disc_model.studies.grid.GridStudy.batches`, is read from standard input: it may be too long for
-a command.
-"""
+"""Compute one batch of a grid study, a text of `GridStudy.batches` read from standard input, since it may be long."""
 
 import sys
 

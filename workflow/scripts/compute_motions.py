@@ -1,7 +1,4 @@
-"""Compute the motions for the explorer, at a few points of a grid study, and save them.
-
-The text from `disc_model.studies.grid.GridStudy.motions` is read from standard input: it may be long.
-"""
+"""Compute the motions for the explorer, by a text of `GridStudy.motions` read from standard input: it may be long."""
 
 import sys
 

@@ -1,9 +1,4 @@
-"""Draw one figure from the files of its data.
-
-plot : JSON, the figure as its kind describes it
-title : JSON, the text written into the files
-inputs : name=netCDF file, as `disc_model.figures.kind.Plot.render` has it
-"""
+"""Draw one figure: the plot as its kind describes it, and the title of the files, as JSON; inputs as name=file."""
 
 import json
 from pathlib import Path

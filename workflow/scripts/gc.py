@@ -1,7 +1,5 @@
-"""Remove files of grid studies to which no study refers any more, and report their size.
-
-The names of batches and motions to keep, by study, are read from standard input as JSON.
-"""
+"""Remove files of grid studies to which no study refers any more, and report their size. Standard input has, as JSON,
+the names of batches and motions to keep, by study."""
 
 import json
 import sys

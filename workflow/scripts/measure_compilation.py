@@ -1,7 +1,5 @@
-"""Measure the cost of compiling each kind of kernel: processor time and size of its files.
-
-Each kind is compiled from an empty cache, then with the kinds above it in the cache, then once more.
-"""
+"""Measure the cost of compiling each kind of kernel, processor time and size of files: from an empty cache, with the
+kinds above it in the cache, and again."""
 
 import os
 import subprocess
@@ -44,7 +42,6 @@ def measure(task: str, model: str, folder: str) -> float:
 
 
 def size(folder: str) -> int:
-    """Bytes in a folder."""
     return sum(path.stat().st_size for path in Path(folder).rglob("*") if path.is_file())
 
 
@@ -56,6 +53,6 @@ with tempfile.TemporaryDirectory() as common:
             alone = measure(*kind, own)
         before = size(common)
         further, again = measure(*kind, common), measure(*kind, common)
-        name = ", ".join(kind)
-        print(f"{name:36}{alone:12.1f}{further:12.1f}{again:12.2f}{(size(common) - before) / 1000:12.0f}", flush=True)
+        size_kB = (size(common) - before) / 1000
+        print(f"{', '.join(kind):36}{alone:12.1f}{further:12.1f}{again:12.2f}{size_kB:12.0f}", flush=True)
     print(f"all files: {size(common) / 1e6:.1f} MB")

@@ -1,7 +1,5 @@
-"""Merge the batches of a grid study into one dataset, and list the points that failed.
-
-The arguments are read from standard input as JSON: names of the batches, grid, attributes.
-"""
+"""Merge the batches of a grid study into one dataset, and list the points that failed. Standard input has, as JSON, the
+names of the batches, the grid and attributes."""
 
 import json
 import sys

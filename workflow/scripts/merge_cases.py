@@ -1,8 +1,5 @@
-"""Merge the files of cases, each named after its case, into one, and list them on a page with what they come from.
-
-title : JSON, of the page
-labels : JSON, by case its title and reference
-"""
+"""Merge the files of cases into one, and list them on a page with what they come from. The title of the page and, by
+case, its labels are JSON."""
 
 import json
 from pathlib import Path
@@ -25,9 +22,9 @@ WORDS = (
 
 def sources(attributes: dict[str, str]) -> pd.DataFrame:
     """Commit, hash of the solver's sources, and versions."""
-    text = {"commit": attributes.get("git_commit", ""), "hash of the solver": attributes.get("source_hash", "")}
     versions = attributes.get("versions", "{}")
     listed = json.loads(versions)
+    text = {"commit": attributes.get("git_commit", ""), "hash of the solver": attributes.get("source_hash", "")}
     text |= listed if isinstance(listed, dict) else {"versions": versions}
     return pd.DataFrame(list(text.items()), columns=["What", "Value"])
 
@@ -51,7 +48,6 @@ def row(name: str, case: xr.DataTree, label: dict[str, str]) -> dict[str, object
 @script
 def main(title: str, labels: str, output: str, page: str, *paths: str) -> None:
     cases, texts = load_cases([*map(Path, paths)]), json.loads(labels)
-    merged = merge_cases(cases, texts)
-    save(merged, output)
+    save(merged := merge_cases(cases, texts), output)
     rows = pd.DataFrame([row(name, case, texts.get(name, {})) for name, case in cases.items()])
     write_page(page, json.loads(title), ("Sources", WORDS, sources(merged.attrs)), ("Cases", "", rows))

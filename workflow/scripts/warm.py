@@ -42,15 +42,12 @@ def prepare():
     from importlib import import_module
     from io import BytesIO
 
-    for name in (
-        "disc_model.simulation.api",  # first of those that import numba, since it sets the cache's folder
-        "disc_model.studies.run",
-        "disc_model.data.texts",
-        "disc_model.figures.kind",
-    ):
-        import_module(name)
+    # the first of those that import numba sets the cache's folder
+    for name in ("simulation.api", "studies.run", "data.texts", "figures.kind"):
+        import_module(f"disc_model.{name}")
     yield 0
-    for name in ("scipy.special", "pint", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf"):
+    backends = [f"matplotlib.backends.backend_{form}" for form in ("agg", "pdf")]
+    for name in ("scipy.special", "scipy.signal", "pint", "cmcrameri.cm", *backends):
         import_module(name)
         yield 0
     from disc_model.figures.drawing import panels, styled
@@ -58,9 +55,6 @@ def prepare():
     for form in ("png", "pdf"):
         with styled():
             panels(1, 1)[0].savefig(BytesIO(), format=form)
-        yield 0
-    for name in ("cmcrameri.cm", "scipy.signal"):
-        import_module(name)
         yield 0
 
 

@@ -1,0 +1,587 @@
+"""Command line: ``disc-model run|floquet|sliding|modes|study|list|status|init|compile``.
+
+Invalid input is reported on stderr with exit code 2: one line, or for a study file a list of its faults. A simulation
+that ends early is reported and gives exit code 1. Options of commands on one case are made from the fields of pydantic
+models, and their values are passed on as text, so that the same rules and messages apply as everywhere else.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import math
+import os
+import re
+import shlex
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NoReturn, get_args, get_origin
+
+import typer
+from pydantic import AfterValidator, BeforeValidator, Field
+from rich.console import Console
+from rich.table import Column, Table
+
+from disc_model import __version__
+from disc_model.data.variables import BESIDE_WINDOWS
+from disc_model.disc.flexibility import residual_flexibility
+from disc_model.disc.plate import coupled_natural_frequencies, mode_arrays
+from disc_model.disc.plausibility import warn_of_doubts
+from disc_model.disc.tables import damping_ratios, disc_table, read_disc
+from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, raise_faults, suggestion
+from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, chosen_modes, read_asked
+from disc_model.parameters import AUTO, CHOOSING, Parameters
+from disc_model.simulation.case import Ramp, Window
+from disc_model.sources import PACKAGE
+from disc_model.units import CYCLE_TOLERANCES, TOLERANCES, Count, CycleTolerance, Seconds, Strict, Tolerance
+
+if TYPE_CHECKING:
+    from disc_model.studies.grid import GridStudy
+    from disc_model.studies.study import Study
+
+# ---- Options, one for each field of a model
+
+PANELS = {
+    "Run": ["t_end", "stop_at", "window", "ramp", "plot", "save", "csv"],
+    "Slider": ["N", "Omega", "m", "r_0", "k", "k_p", "c", "c_p"],
+    "Disc": ["D_star", "E", "a", "b", "h", "nu", "rho", "normalization", "damping_ratio", "disc"],
+    "Friction and contact": [
+        "mu_s", "mu_k", "contact", "contact_compliance", "contact_force", "friction_offset", "friction_decay",
+    ],
+    "Numerics": ["n_diameters", "n_circles", *CHOOSING, "tol", "max_steps"],
+}  # fmt: skip
+"""Headings of the help, and the fields below them."""
+HELP = {
+    "n_diameters": f"highest number of nodal diameters, -1 for a rigid disc, {AUTO}: as many as a tolerance asks for",
+    CHOOSING[0]: f"quantity by which {AUTO} chooses, {FREQUENCIES} if not given",
+    CHOOSING[1]: f"relative tolerance of this quantity, at least {TRUSTED:g}; if not given, "
+    + ", ".join(f"{default:g} for {name}" for name, default in CHOSEN_BY.items()),
+}
+"""Help texts of fields of `Parameters` that take more on the command line, and of `CHOOSING`."""
+WORDS = {
+    "disc": ("FILE",), "n_diameters": ("VALUE", AUTO), CHOOSING[0]: tuple(CHOSEN_BY), "t_end": ("SECONDS",),
+    "plot": ("FILE",), "save": ("FILE",), "window": ("NAME:KEY=VALUE,...",), "ramp": ("PARAMETER:KEY=VALUE,...",),
+}  # fmt: skip
+"""Values, in capitals those that stand for others, of options whose types do not name them."""
+
+
+def option_name(field: str) -> str:
+    """Command-line option of a field: D_star -> --D-star."""
+    return "--" + field.replace("_", "-")
+
+
+def _option(name: str, field: Any = None, placeholder: str | None = None) -> inspect.Parameter:
+    """The keyword option of a field of a model, or of `CHOOSING`; a placeholder makes a required field optional."""
+    types = [str] if field is None else [field.annotation, *get_args(field.annotation)]
+    literals = tuple(word for kind in types if get_origin(kind) is Literal for word in get_args(kind))
+    words = WORDS.get(name) or (literals if literals and float not in types else ("VALUE", *literals))
+    told, unit = HELP.get(name) or field.description, Parameters.unit(name).removeprefix("1")
+    told += f" ({unit})" * bool(unit)
+    if field is not None:
+        default = field.default if placeholder is None else placeholder
+        shown = f"{default:g}" if isinstance(default, float) else default
+        required = field.is_required() and placeholder is None
+        told += r" \[required]" if required else rf" \[default: {shown}]" * isinstance(default, str | int | float)
+    flag, several = types[0] is bool, get_origin(types[0]) in (tuple, dict)
+    option = typer.Option(
+        option_name(name),
+        metavar=None if flag else "|".join(words),
+        autocompletion=None if flag else lambda: [word for word in words if not word.isupper()],
+        help=told,
+        show_default=False,
+        rich_help_panel=next(panel for panel, names in PANELS.items() if name in names),
+    )
+    kind: Any = bool if flag else list[str] | None if several else str | None
+    default = False if flag else placeholder
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, option])
+
+
+def command(options: type[Any], **placeholders: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Give a command the options of a case and of a model: it receives the case, its choice of modes, and the model."""
+    case_options = [_option(name, field, placeholders.get(name)) for name, field in Parameters.model_fields.items()]
+    case_options += map(_option, CHOOSING)
+    own_options = [_option(name, field) for name, field in options.model_fields.items()]
+    order = [name for names in PANELS.values() for name in names]
+
+    def decorate(function: Callable[..., None]) -> Callable[..., None]:
+        @functools.wraps(function)
+        def wrapped(**values: Any) -> None:
+            texts = {name: value for name, value in values.items() if value not in (None, [])}
+            case = {option.name: texts.pop(option.name) for option in case_options if option.name in texts}
+            faults: list[str] = []
+            p, choice = parameters_of(case, faults)
+            try:
+                model = options(**texts)
+            except ParameterError as error:
+                faults += error.faults
+            raise_faults(faults)
+            function(p, choice, model)
+
+        shown = sorted(own_options + case_options, key=lambda option: order.index(option.name))
+        wrapped.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
+        return wrapped
+
+    return decorate
+
+
+def parameters_of(values: dict[str, Any], faults: list[str]) -> tuple[Parameters, ModeChoice | None]:
+    """Parameters of the given options, and the choice of modes, if any; faults are appended to `faults`."""
+    if "disc" in values:
+        try:
+            values = values | {"disc": read_disc(values["disc"])}
+        except ParameterError as error:  # whose faults begin with the file's name
+            inner = (Fault(fault.path[1:], fault.value, fault.rule) for fault in error.faults)
+            faults += (Fault.of(("disc",), values["disc"], str(fault)) for fault in inner)
+            values = {name: value for name, value in values.items() if name != "disc"}
+    try:
+        p, request = read_asked(values)
+        if faults:
+            return p, None
+        warn_of_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
+        choice = None if request is None else chosen_modes(p, request)
+    except ParameterError as error:
+        faults += error.faults
+        return Parameters(N=0.0, Omega=0.0), None
+    return (p, None) if choice is None else (choice.parameters, choice)
+
+
+def table(title: str, columns: Mapping[str, Iterable[str]], **options: Any) -> None:
+    """Print a table of columns by their heads; options : how rich shows each column."""
+    printed = Table(*(Column(head, **options) for head in columns), title=title)
+    for row in zip(*columns.values(), strict=True):
+        printed.add_row(*row)
+    Console().print(printed)
+
+
+def print_rows(lines: Iterable[tuple[str, str]]) -> None:
+    """Print lines that consist of a name and its text."""
+    for name, text in lines:
+        typer.echo(f"{name:<20}{text}")
+
+
+def model_lines(p: Parameters, choice: ModeChoice | None) -> Iterator[tuple[str, str]]:
+    """The model of a case in words, and the result of ``--n-diameters auto``."""
+    modes = p.normalization if p.disc is None else f"a disc of {len(p.disc.omega)} modes"
+    yield "model", f"{modes}, {p.contact} contact"
+    yield from choice.summary() if choice else ()
+
+
+# ---- Modes and cycles
+
+
+class ModesOptions(Strict):
+    csv: bool = Field(False, description="print the modes as a table that --disc reads, 17 digits")
+
+
+@command(ModesOptions, N="0", Omega="0")
+def modes(p: Parameters, choice: ModeChoice | None, options: ModesOptions) -> None:
+    """Print the modes of the disc, its flexibility under the slider, and the coupled frequencies at rest."""
+    if options.csv:
+        typer.echo(disc_table(p), nl=False)
+        return
+    print_rows(model_lines(p, choice))
+    arrays = mode_arrays(p)
+    columns: dict[str, Iterable[str]] = {
+        "circles": map(str, arrays.circles),
+        "diameters": map(str, arrays.diameters),
+        "omega (rad/s)": map("{:.3f}".format, arrays.omega),
+        "f (Hz)": map("{:.3f}".format, arrays.omega / math.tau),
+        "amplitude (kg^-1/2)": map("{:.6g}".format, arrays.psi),
+        "squared (1/kg)": map("{:.6f}".format, arrays.psi**2),
+        "damping ratio": map("{:.3g}".format, damping_ratios(p)),
+    }
+    table("Modes of the disc", columns, justify="right")
+    if p.disc is None or p.disc.static_compliance is not None:
+        give = residual_flexibility(p)
+        columns = {
+            "all modes (m/N)": [f"{give.total:.7g}"],
+            "remainder (m/N)": [f"{give.remainder:.1e}"],
+            "modes above (m/N)": [f"{give.kept:.7g}"],
+            "residual (m/N)": [f"{give.residual:.7g}"],
+        }
+        table("Static flexibility of the disc under the slider", columns, justify="right")
+    at_rest = coupled_natural_frequencies(p)
+    columns = {"lambda (rad/s)": map("{:.3f}".format, at_rest), "f (Hz)": map("{:.3f}".format, at_rest / math.tau)}
+    table("Disc and slider at rest", columns, justify="right")
+
+
+class FloquetOptions(Strict):
+    tol: CycleTolerance = Field(
+        1e-12, description=f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOLERANCES[1]:g}"
+    )
+
+
+@command(FloquetOptions)
+def floquet(p: Parameters, choice: ModeChoice | None, options: FloquetOptions) -> None:
+    """Find the stick-slip cycle and its multipliers: whether the quiet motion lasts, without simulating it."""
+    from disc_model.data.variables import CycleStatus
+    from disc_model.stability.cycle import floquet as cycle_of
+
+    cycle = cycle_of(p, tol=options.tol)
+    print_rows([*cycle.summary(), *model_lines(p, choice)])
+    if cycle.status is not CycleStatus.OK:
+        raise typer.Exit(1)
+
+
+@command(Strict)
+def sliding(p: Parameters, choice: ModeChoice | None, _: Strict) -> None:
+    """Print the modes of steady sliding (complex eigenvalues): frequencies, growth rates, damping."""
+    from disc_model.stability.sliding import SlidingStatus, sliding_modes, steady_sliding
+
+    state = steady_sliding(p)
+    print_rows([*model_lines(p, choice), *state.summary()])
+    if state.status is not SlidingStatus.OK:
+        raise typer.Exit(1)
+    modes = sliding_modes(p, state)
+    columns: dict[str, Iterable[str]] = {
+        "f (Hz)": map("{:.4f}".format, modes.frequency),
+        "growth (1/s)": map("{:.6g}".format, modes.growth_rate),
+        "damping ratio": map("{:.3g}".format, modes.damping_ratio),
+        "nodal diameters": ["in the plane" if l < 0 else f"{l}" for l in modes.diameters],
+        "forward wave": [f"{x:.2f}" if l > 0 else "" for x, l in zip(modes.forward, modes.diameters, strict=True)],
+    }
+    table("Modes in the slider's frame", columns, justify="right")
+
+
+def compile_() -> None:
+    """Compile the kernels of the default model into the cache, which a first use otherwise does."""
+    from disc_model.simulation.api import simulate
+    from disc_model.stability.cycle import floquet
+
+    began, p = time.perf_counter(), Parameters(N=385, Omega=15)
+    simulate(p, 0.1)
+    floquet(p)
+    typer.echo(f"kernels compiled and cached: {time.perf_counter() - began:.1f} s")
+
+
+# ---- A simulation
+
+
+def _part(model: type[Any], text: str, form: str, unnamed: str = "") -> tuple[str, Any]:
+    """Name before the colon, and the model of the values, of a text such as ``late:last=3,rate=4000``."""
+    name, _, rest = text.rpartition(":")
+    pairs = [pair.partition("=") for pair in rest.split(",")]
+    if not all(sign for _, sign, _ in pairs):
+        raise ParameterError(Fault((), as_text(text), f"must be {form}"))
+    values = {key.strip(): value for key, _, value in pairs} | ({"parameter": name} if model is Ramp else {})
+    try:
+        return name or unnamed, model(**values)
+    except ParameterError as error:
+        raise ParameterError(*(fault.inside((name or unnamed,)) for fault in error.faults)) from None
+
+
+def _windows(texts: Sequence[str]) -> dict[str, Window]:
+    """Windows by name; those without one are sample_0 and so on."""
+    windows: dict[str, Window] = {}
+    for i, text in enumerate(texts):
+        name, window = _part(Window, text, "NAME:KEY=VALUE,...", f"sample_{i}")
+        if not name.isidentifier() or name in {*windows, *BESIDE_WINDOWS}:
+            rule = "must have a name of its own, not that of a variable or of events"
+            raise ParameterError(Fault((), as_text(text), rule))
+        windows[name] = window
+    return windows
+
+
+def _ramps(texts: Sequence[str]) -> list[Ramp]:
+    return [_part(Ramp, text, "PARAMETER:KEY=VALUE,...")[1] for text in texts]
+
+
+def _writable(path: Path) -> Path:
+    """Refuse a file that cannot be written, before the simulation instead of after it."""
+    if path.is_dir() or not path.parent.is_dir():
+        raise ValueError("must be the name of a file in a folder that exists")
+    return path
+
+
+def _drawable(path: Path) -> Path:
+    from matplotlib.backend_bases import FigureCanvasBase
+
+    kinds = FigureCanvasBase.get_supported_filetypes()
+    if path.suffix.lower().lstrip(".") not in kinds:
+        raise ValueError(f"must end in one of {', '.join(sorted(kinds))}")
+    return _writable(path)
+
+
+class RunOptions(Strict):
+    t_end: Seconds = Field(description="time at which the run ends (s)")
+    tol: Tolerance = Field(
+        1e-10,
+        description=f"error of event times after a second of motion, s, {TOLERANCES[0]:g} to {TOLERANCES[1]:g}; above "
+        "1.25e-7 it is computed and recorded as 1.25e-7 (2e-6 on a compliant contact)",
+    )
+    stop_at: Literal["first_separation"] | None = Field(None, description="end early")
+    plot: Annotated[Path, AfterValidator(_drawable)] | None = Field(
+        None, description="draw contact force and disc displacement"
+    )
+    save: Annotated[Path, AfterValidator(_writable)] | None = Field(
+        None, description="write the result as netCDF, for disc_model.load"
+    )
+    window: Annotated[dict[str, Window], BeforeValidator(_windows)] = Field(
+        {},
+        description="samples to keep, such as late:last=3,rate=4000 or whole:rate=2000,envelope=1000; keys start, "
+        "stop, last (s), rate (Hz), theta (rad), envelope; may be repeated",
+    )
+    ramp: Annotated[tuple[Ramp, ...], BeforeValidator(_ramps)] = Field(
+        (),
+        description="a slow change of Omega or N, such as Omega:to=5,start=100,end=400; keys to (rad/s or N), start, "
+        "end (s); may be repeated",
+    )
+    max_steps: Annotated[Count, Field(ge=1)] | None = Field(None, description="give up after so many steps")
+
+
+@command(RunOptions)
+def run(p: Parameters, choice: ModeChoice | None, options: RunOptions) -> None:
+    """Simulate one case from static equilibrium and print what happened."""
+    from disc_model.simulation.api import Execution, simulate
+
+    limits = Execution(max_steps=options.max_steps)
+    result = simulate(
+        p, options.t_end, options.window, tol=options.tol, stop_at=options.stop_at, ramps=options.ramp, execution=limits
+    )
+    seconds = result.statistics["wall_time"]
+    wall = f"{seconds:.3g} s ({result.final_state.time / max(seconds, 1e-9):.0f} simulated seconds a second)"
+    print_rows([*result.summary(), *model_lines(p, choice), ("wall time", wall), ("key", p.key)])
+    if options.save is not None:
+        result.save(options.save)
+        print_rows([("saved", str(options.save))])
+    if options.plot is not None:
+        from matplotlib import pyplot
+
+        pyplot.switch_backend("agg")
+        try:
+            result.plot([*options.window] or None)
+            pyplot.savefig(options.plot, dpi=150)
+        except OSError as error:
+            raise ParameterError(f"plot={str(options.plot)!r}: cannot be written ({error.strerror})") from None
+        print_rows([("figure", str(options.plot))])
+    if not result.status.complete:
+        raise typer.Exit(1)
+
+
+# ---- Studies
+
+INTERRUPTED = 130
+"""Exit code after Ctrl-C, equal to typer's: 128 plus the number of the signal, as in shells."""
+LISTED = ("studies", "figures", "cases")
+Files = Annotated[list[Path], typer.Argument(help="study files, later ones laid over earlier ones")]
+
+
+def study(
+    files: Files,
+    cores: Annotated[int, typer.Option("--cores", "-j", min=1, help="jobs at the same time")] = os.cpu_count() or 1,
+    dry_run: Annotated[bool, typer.Option("--dry-run", "-n", help="only check, and list the jobs")] = False,
+    directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are written")] = Path(),
+    figure: Annotated[
+        list[str] | None, typer.Option("--figure", metavar="NAME", help="a figure to draw instead of all; repeatable")
+    ] = None,
+    target: Annotated[
+        list[str] | None, typer.Option("--target", help="a file or rule to make instead of all; repeatable")
+    ] = None,
+    unlock: Annotated[bool, typer.Option("--unlock", help="only remove the lock that a killed run has left")] = False,
+    snakemake: Annotated[str, typer.Option("--snakemake", help="further options of Snakemake, as one text")] = "",
+) -> None:
+    """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
+    with _on_interrupt(signal.SIG_DFL):  # there is nothing to clean up yet, and what is imported swallows exceptions
+        chosen, grids, _ = _read(files)
+    targets = [*(target or []), *(_figure_file(name, chosen, grids) for name in figure or [])]
+    options = [*targets, f"-j{cores}", "--directory", str(directory), *(["--unlock"] if unlock else [])]
+    command = _command(files, [*options, *shlex.split(snakemake)])
+    raise typer.Exit(_plan(command) if dry_run else _run(command))
+
+
+def list_(
+    what: Annotated[
+        str, typer.Argument(metavar="|".join(LISTED), help="what to list", autocompletion=lambda: list(LISTED))
+    ],
+    files: Files,
+) -> None:
+    """List the grid studies, figures or cases of a study."""
+    if what not in LISTED:
+        raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(LISTED)}"))
+    from disc_model.data.variables import values_text
+
+    chosen, grids, requested = _read(files)
+    rows: list[tuple[str, ...]]
+    if what == "studies":
+        heads = ["study", "quantity", "dimensions", "points", "title"]
+        listed = [grids[name] for name in requested]
+        rows = [(x.name, x.quantity, " x ".join(x.values), str(x.n_points), x.title) for x in listed]
+    elif what == "cases":
+        heads = ["case", "title", "parameters", "t_end (s)"]
+        texts = {name: values_text(dict(spec.parameters)) for name, spec in chosen.specs.items()}
+        labels = chosen.labels
+        rows = [(name, labels[name]["title"], texts[name], f"{case.t_end:g}") for name, case in chosen.cases.items()]
+    else:
+        heads, entries = ["figure", "kind", "title"], chosen.entries(grids).items()
+        rows = [(name, x.plot.kind, x.title) for (study, name), x in entries if study in (chosen.name, *requested)]
+    if rows:
+        columns = dict(zip(heads, zip(*rows, strict=True), strict=True))
+        table(f"{what} of {chosen.name}", columns, overflow="fold")
+    else:
+        typer.echo(f"{chosen.name} has no {what}")
+
+
+def status(
+    files: Files, directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are")] = Path()
+) -> None:
+    """List what of a study's results is missing or out of date, according to Snakemake."""
+    _read(files)
+    done = subprocess.run(
+        _command(files, ["--summary", "--directory", str(directory)]), capture_output=True, text=True, check=False
+    )
+    if done.returncode:
+        raise DiscModelError(f"Snakemake failed: {done.stderr.strip()}")
+    head, *lines = [line.split("\t") for line in done.stdout.splitlines() if "\t" in line]
+    rows = [dict(zip(head, line, strict=False)) for line in lines]
+    outdated = [f"{row['output_file']}: {row['status']}" for row in rows if row["plan"] != "no update"]
+    typer.echo("\n".join([*outdated, f"{len(outdated)} of {len(rows)} files are missing or out of date"]))
+
+
+def init(
+    directory: Annotated[Path, typer.Argument(metavar="DIR", help="folder to lay out; made if it is not there")],
+) -> None:
+    """Lay out a folder for a study of your own: a study file to change, and a Snakefile for it."""
+    _require_snakemake()
+    workflow = PACKAGE / "workflow"
+    schema = (workflow / "schemas" / "study.schema.json").resolve().as_uri()
+    sources = ("template/my_study.yaml", "template/Snakefile", "profiles/default/config.yaml")
+    texts = {name.removeprefix("template/"): (workflow / name).read_text() for name in sources}
+    texts["my_study.yaml"] = texts["my_study.yaml"].replace("SCHEMA", schema)
+    if existing := [name for name in texts if (directory / name).exists()]:
+        raise ParameterError(Fault(("DIR",), repr(str(directory)), f"must not hold {', '.join(existing)} yet"))
+    try:
+        for name, text in texts.items():
+            (directory / name).parent.mkdir(parents=True, exist_ok=True)
+            (directory / name).write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ParameterError(Fault(("DIR",), repr(str(directory)), f"cannot be written ({error.strerror})")) from None
+    typer.echo(f"{directory}: {', '.join(texts)}")
+    typer.echo(f"next: cd {shlex.quote(str(directory))} && disc-model study my_study.yaml")
+
+
+# ---- Parts
+
+
+def _require_snakemake() -> None:
+    if find_spec("snakemake") is None:
+        rule = "studies are computed by Snakemake, which is not installed: pip install 'disc_model[workflow]'"
+        raise DiscModelError(rule)
+
+
+def _command(files: Sequence[Path], options: Sequence[str]) -> list[str]:
+    """The Snakemake command that computes a study."""
+    _require_snakemake()
+    snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
+    named = ["--configfile", *(str(file.resolve()) for file in files)]
+    return [sys.executable, "-m", "snakemake", "-s", str(snakefile), *options, *named]
+
+
+def _plan(command: list[str]) -> int:
+    """Print how many jobs of each kind Snakemake would run; its exit code."""
+    quiet = [*command, "-n", "--quiet", "rules", "host", "reason"]
+    done = subprocess.run(quiet, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    jobs = re.search(r"^(?:job +count\n.*?\n\n|Nothing to be done.*?\n)", done.stdout, re.DOTALL | re.MULTILINE)
+    if done.returncode or not jobs:
+        typer.echo(done.stdout.rstrip(), err=True)
+    else:
+        typer.echo(f"{jobs[0].rstrip()}\nnothing was run: --dry-run")
+    return done.returncode
+
+
+@contextmanager
+def _on_interrupt(handler: Any) -> Iterator[None]:
+    """Set the handler of Ctrl-C for the duration of a block."""
+    before = signal.signal(signal.SIGINT, handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _run(command: list[str]) -> int:
+    """Run Snakemake and return its exit code. After Ctrl-C, which reaches both processes, wait until it has stopped its
+    jobs and unlocked the folder."""
+    interrupts: list[int] = []
+    with _on_interrupt(lambda number, _: interrupts.append(number)), subprocess.Popen(command) as process:
+        if interrupts:  # Ctrl-C came before the second process
+            process.send_signal(signal.SIGINT)
+        code = process.wait()
+    if not (code and interrupts):
+        return code
+    typer.echo("what is finished stays: the same command continues from there", err=True)
+    return INTERRUPTED
+
+
+def _read(files: Sequence[Path]) -> tuple[Study, dict[str, GridStudy], tuple[str, ...]]:
+    """The study of the files, checked with all files that it names, all grids, and the names of those asked for."""
+    from disc_model.studies.study import load_study
+
+    chosen = load_study(*files)
+    folders = [Path(), *(file.parent for file in files), PACKAGE]
+    return chosen, *chosen.grids(folders)
+
+
+def _figure_file(name: str, chosen: Study, grids: dict[str, GridStudy]) -> str:
+    """The file of a figure of a study, or of a grid that it names."""
+    entries = chosen.entries(grids)
+    studies = [study for study, figure in entries if figure == name]
+    if not studies:
+        known = [figure for _, figure in entries]
+        raise ParameterError(Fault.of(("figure",), name, f"no such figure{suggestion(name, known)}"))
+    return f"results/{studies[0]}/figures/{name}.png"
+
+
+# ---- All commands
+
+app = typer.Typer(
+    pretty_exceptions_enable=False, help="Friction-induced vibration of an elastic disc and a moving slider."
+)
+for function in (run, floquet, sliding, modes, study, list_, status, init, compile_):
+    app.command(function.__name__.rstrip("_"))(function)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"disc_model {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _all(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="show the version and exit")
+    ] = False,
+) -> None: ...
+
+
+def main(arguments: list[str] | None = None) -> NoReturn:
+    """Run the command line; never shows a traceback for bad input."""
+    # options may be spelt with underscores, as the parameters are
+    texts = sys.argv[1:] if arguments is None else arguments
+    arguments = [re.sub("^--[^=]+", lambda option: option[0].replace("_", "-"), text) for text in texts]
+    if not arguments or arguments[0] == "help":
+        arguments = [*arguments[1:], "--help"]
+    try:
+        code = app(args=arguments, standalone_mode=False, prog_name="disc-model")
+        message = "interrupted" if code == INTERRUPTED else ""
+    except DiscModelError as error:
+        code, message = 2, str(error)
+    except ModuleNotFoundError as error:
+        if error.name not in ("matplotlib", "cmcrameri", "yaml", "snakemake"):  # which only the extra `workflow` brings
+            raise
+        code = 2
+        message = f"there is no module {error.name}: pip install 'disc_model[workflow]' brings all that studies need"
+    except Exception as error:
+        if not hasattr(error, "format_message"):  # not a usage error of the command-line parser
+            raise
+        text = " ".join(error.format_message().split()).rstrip(".")
+        code, message = 2, text if text.endswith("?") else f"{text}."
+    if message:
+        typer.echo(f"error: {message}", err=True)
+    sys.exit(code if isinstance(code, int) else 0)
