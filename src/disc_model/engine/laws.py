@@ -13,8 +13,8 @@ TINY = 1e-100  # the complex step: its square is far below rounding, but not zer
 
 
 class Instant(NamedTuple):
-    """Arguments of the laws, with respect to which they are differentiated. The first eight are parameters of the
-    model, the others belong to a state. ``compliance`` is 0 in rigid contact."""
+    """Arguments of the laws, with respect to which they are differentiated: parameters of the model, the compliance
+    being 0 in rigid contact, and from psi on those of a state."""
 
     N: float
     k: float

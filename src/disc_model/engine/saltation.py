@@ -81,10 +81,8 @@ def _free_change(model, state, x, at, q, parameters, changes):
 
 @inlined
 def _put_changes(model, state, t, x, c, changes):
-    """Changes of an instant's entries for the block of columns x that begins with ``c``, into ``t.change``.
-
-    changes : whether columns change parameters
-    """
+    """Changes of an instant's entries for the block of columns x that begins with ``c``, into ``t.change``;
+    ``changes``: whether columns change parameters."""
     at, q, slider = c * t.rows, c * t.inputs, c * t.rows + slider_row(model, 0) * WIDTH
     for entry in range(N_SCALARS):
         store(t.change, entry * WIDTH, load(t.parameters, q + entry * WIDTH) if changes else splat(0.0))
@@ -139,10 +137,8 @@ def event_change(model, state, t, x, c, changes):
 
 @helper
 def event_times(model, state, t, cause, at_once):
-    """``t.tau``: change of the time of the event ``cause`` for every column.  Returns the event function's rate.
-
-    at_once: the phase had no duration.  If its event function was negative from the start, it ends at that time in
-    neighbouring motions, too.
+    """``t.tau``: change of the time of the event ``cause`` for every column.  Returns the event function's rate. If a
+    phase ended ``at_once`` whose event function was negative from the start, it does so in neighbouring motions, too.
     """
     event_gradient(model, state, t, cause)
     rate = total(event_change(model, state, t, t.before, 0, False))  # the other lanes of ``before`` are zero
@@ -217,11 +213,8 @@ def count_event(state, cause, log):
 
 @helper
 def pass_event(model, state, t, cause, at_once, returns, changes):
-    """Carry out and count an event, and, if requested, change the columns.  Returns the exit code.
-
-    at_once : whether the phase had no duration
-    returns : whether the integration ends at this event, still in the phase before it
-    """
+    """Carry out and count an event, and, if requested, change the columns.  Returns the exit code. ``at_once``: the
+    phase had no duration; ``returns``: the integration ends at this event, still in the phase before it."""
     if cause == transitions.AT_REST:
         state.x[F] = 0.0
     if changes:

@@ -17,18 +17,13 @@ import numpy as np
 from .jit.packing import packed
 from .jit.simd import WIDTH, aligned
 
-# exp(lambda x) is the product of tabled powers of exp(lambda QUANTUM) and of a series of degree DEGREE for the rest;
-# with abs(lambda) < LARGEST_RATE the series is good to 1e-17.  LONGEST_STICK bounds the table, and the samples that
-# fall into one advance in closed form.  (Time units.)
-QUANTUM = 0.25
-LONGEST_STICK = 512.0
-DEGREE = 12
-POWERS = 12  # 2**POWERS quanta exceed LONGEST_STICK
-LARGEST_RATE = 1.5
-# The matrices are dense: with more modes than this the series are as fast.
-MOST_MODES = 64
-# Nearly parallel eigenvectors (modes near critical damping) would lose digits: such systems use the series alone.
-WORST_CONDITION = 100.0
+# exp(lambda x) is the product of POWERS tabled powers of exp(lambda QUANTUM) and of a series of degree DEGREE for the
+# rest; with abs(lambda) < LARGEST_RATE the series is good to 1e-17.  LONGEST_STICK bounds the table (2**POWERS quanta
+# exceed it), and the samples that fall into one advance in closed form.  (Time units.)
+QUANTUM, LONGEST_STICK, LARGEST_RATE = 0.25, 512.0, 1.5
+DEGREE, POWERS = 12, 12
+MOST_MODES = 64  # the matrices are dense: with more modes the series are as fast
+WORST_CONDITION = 100.0  # nearly parallel eigenvectors (modes near critical damping) would lose digits
 
 
 @packed
@@ -53,20 +48,16 @@ def padded(n: int) -> int:
 
 
 def no_modes() -> StickModes:
-    """Empty modes, of a system whose stick is integrated by the series."""
+    """Of a system whose stick is integrated by the series."""
     return StickModes(*(np.zeros(0) for _ in StickModes._fields))
 
 
 def _eigenmodes(omega, damping, psi, k, c, m, unit):
-    """Modes of d'' = -M^-1 (C d' + K d) in rigid contact; see `_decomposed`.
-
-    damping: 2 xi omega; psi: 0 for a mode that does not feel the slider.
-    """
+    """Modes of d'' = -M^-1 (C d' + K d) in rigid contact; psi is 0 for a mode that does not feel the slider."""
     rank_one = np.outer(psi, psi)
     inverse = np.eye(len(omega)) - rank_one * (m / (1.0 + m * psi @ psi))
-    return _decomposed(
-        inverse @ (np.diag(omega**2) + k * rank_one), inverse @ (np.diag(damping) + c * rank_one), omega * unit, unit
-    )
+    stiffness, damping = np.diag(omega**2) + k * rank_one, np.diag(damping) + c * rank_one
+    return _decomposed(inverse @ stiffness, inverse @ damping, omega * unit, unit)
 
 
 def _compliant_eigenmodes(omega, damping, psi, k, c, m, unit, compliance):
@@ -110,10 +101,8 @@ def build_stick_modes(components, places, slider, *, u, length, unit, compliance
 
     components : omega, damping, shape, arm of friction of the components a, modes without nodal diameter, components b;
         the shape is 0 for the last, the arm for the others
-    places : shape (2, n), of their displacements and velocities in `EngineState.disc`
-    slider : with N, k, c and m
-    u : index of u in `EngineState.disc`, followed by u', where contact is compliant
-    length : of `EngineState.disc`
+    places : shape (2, n), of their displacements and velocities in `EngineState.disc`, whose ``length`` is given
+    u : index of u there, followed by u', where contact is compliant
     """
     omega, n = components[0], len(components[0])
     if not (n or compliance) or n > MOST_MODES or not (omega > 0.0).all():
@@ -149,12 +138,7 @@ def _under_unit_load(arrays, length, k, c, m, unit, compliance) -> StickModes:
         friction[0, where[: len(omega)]] = friction[1, where[count:][: len(omega)]] = -give
         friction[1, where[: len(omega)]] = give * damping / omega**2
     rates, vectors, to_modes = modes
-    return _packed(rates, vectors, to_modes, where, rest, friction, force)
-
-
-def _packed(rates, vectors, to_modes, where, rest, friction, force) -> StickModes:
-    """Modes (see `_eigenmodes`) as lanes; ``where``: indices of displacements and velocities in `EngineState.disc`."""
-    n, length = len(rates), len(rest)
+    n = len(rates)
     enter = np.zeros((length, 2, padded(n)))
     enter[where, 0, :n], enter[where, 1, :n] = to_modes.real.T, to_modes.imag.T
     leave = np.zeros((2, padded(n), length))

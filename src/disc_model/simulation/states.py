@@ -20,6 +20,7 @@ from disc_model.disc.plate import modal_damping, mode_arrays, tangential_amplitu
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import Summarised
 from disc_model.engine import layout
+from disc_model.engine.series import Series, build_series
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion, violations
 from disc_model.parameters import Parameters
 from disc_model.units import is_number
@@ -204,7 +205,7 @@ def transfer_state(p: Parameters, state: State) -> State:
 
 # ---- Conversion of `Parameters` and `State` (modes in the order of `plate_modes`) to the engine's lanes and back
 
-Workspace = tuple[layout.EngineState, layout.EngineState, layout.Series]
+Workspace = tuple[layout.EngineState, layout.EngineState, Series]
 """Arrays to which the engine writes, for one run at a time: the run's state, the state at a trial time ahead of it, and
 Taylor series of one step, which the next step overwrites."""
 
@@ -272,7 +273,7 @@ def take_workspace(case: EngineCase, order: int) -> Workspace:
     try:  # in one step: several threads may take one
         workspace = case.idle[order].pop()
     except IndexError:
-        return layout.build_state(case.model), layout.build_state(case.model), layout.build_series(case.model, order)
+        return layout.build_state(case.model), layout.build_state(case.model), build_series(case.model, order)
     for state in workspace[:2]:
         state.disc[:], state.x[:] = case.start.disc, case.start.x
     return workspace

@@ -1,12 +1,8 @@
 """Eight doubles side by side: the one vector type of the engine.
 
-A value of type ``Lanes`` is an LLVM ``<8 x double>``; on a machine with AVX-512 it is one register, elsewhere
-LLVM splits it.  Numba has no such type, and arrays of accumulators stay in memory, which costs a factor of six
-in the convolutions of the slip series.  With ``NUMBA_DISABLE_JIT=1`` the same names are plain numpy functions,
-so that every kernel runs unchanged without compilation.
-
-Pairs of diametral modes fill a block of eight lanes as (a, a, a, a, b, b, b, b), so ``swap_halves`` exchanges
-the two members of each pair.
+A value is an LLVM ``<8 x double>``: one register with AVX-512; elsewhere LLVM splits it.  Numba has no such type, and
+arrays of accumulators stay in memory, which costs a factor of six in the convolutions of the slip series.  With
+``NUMBA_DISABLE_JIT=1`` the same names are plain numpy functions: every kernel runs unchanged without compilation.
 """
 
 import functools
@@ -111,8 +107,6 @@ else:
     _I32 = ir.IntType(32)
 
     class LanesType(types.Type):
-        """Numba type of eight doubles."""
-
         def __init__(self):
             super().__init__(name="Float64x8")
 
@@ -124,10 +118,7 @@ else:
             super().__init__(dmm, fe_type, _VECTOR)
 
     def _instruction(result, *arguments):
-        """Let kernels call a function that writes LLVM code.
-
-        result, arguments : their types, None for an array, whose address the function receives
-        """
+        """Let kernels call a function that writes LLVM code; types: None for an array, whose address it receives."""
 
         def made(write):
             @intrinsic
@@ -152,7 +143,7 @@ else:
         return builder.bitcast(builder.gep(array, [i]), _VECTOR.as_pointer())
 
     def _call(builder, name, *args):
-        """Call of an LLVM intrinsic by its mangled name; its result is of the type of the arguments."""
+        """Call of an LLVM intrinsic by its mangled name."""
         signature = ir.FunctionType(args[0].type, [a.type for a in args])
         return builder.call(cgutils.get_or_insert_function(builder.module, signature, name), args)
 
@@ -162,9 +153,8 @@ else:
         return builder.shuffle_vector(v, ir.Constant(v.type, ir.Undefined) if second is None else second, mask)
 
     def _copies(builder, x):
-        """All lanes equal to x."""
-        one = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), x, _I32(0))
-        return _shuffle(builder, one, [0] * WIDTH)
+        first = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), x, _I32(0))
+        return _shuffle(builder, first, [0] * WIDTH)
 
     def _fold(builder, v, instruction):
         """Combine halves until one lane is left."""
@@ -222,46 +212,35 @@ else:
             powers = builder.fmul(powers, _shuffle(builder, ones, chosen, _copies(builder, power)))
         return powers
 
-    def _lane_by_lane(write):
-        """An instruction of LLVM applied to two values lane by lane."""
+    def _of_two(write):
+        """An instruction of LLVM on two values."""
         # not `write` itself: numba counts arguments by their names, and those of llvmlite have a `name` as well
         return _instruction(LANES, LANES, LANES)(lambda builder, a, b: write(builder, a, b))
 
-    mul = _lane_by_lane(ir.IRBuilder.fmul)
-    add = _lane_by_lane(ir.IRBuilder.fadd)
-    sub = _lane_by_lane(ir.IRBuilder.fsub)
-    maximum = _lane_by_lane(lambda builder, a, b: _call(builder, "llvm.maxnum.v8f64", a, b))
-    minimum = _lane_by_lane(lambda builder, a, b: _call(builder, "llvm.minnum.v8f64", a, b))
+    mul = _of_two(ir.IRBuilder.fmul)
+    add = _of_two(ir.IRBuilder.fadd)
+    sub = _of_two(ir.IRBuilder.fsub)
+    maximum = _of_two(lambda builder, a, b: _call(builder, "llvm.maxnum.v8f64", a, b))
+    minimum = _of_two(lambda builder, a, b: _call(builder, "llvm.minnum.v8f64", a, b))
 
     @_instruction(LANES, LANES)
     def swap_halves(builder, v):
         """Lanes 4..7, then 0..3."""
         return _shuffle(builder, v, [4, 5, 6, 7, 0, 1, 2, 3])
 
-    @_instruction(LANES, LANES, LANES)
-    def low_halves(builder, a, b):
-        """Lanes 0..3 of both."""
-        return _shuffle(builder, a, [0, 1, 2, 3, 8, 9, 10, 11], b)
-
-    @_instruction(LANES, LANES, LANES)
-    def high_halves(builder, a, b):
-        """Lanes 4..7 of both."""
-        return _shuffle(builder, a, [4, 5, 6, 7, 12, 13, 14, 15], b)
+    low_halves = _of_two(lambda builder, a, b: _shuffle(builder, a, [0, 1, 2, 3, 8, 9, 10, 11], b))
+    high_halves = _of_two(lambda builder, a, b: _shuffle(builder, a, [4, 5, 6, 7, 12, 13, 14, 15], b))
 
     @_instruction(types.float64, LANES)
     def total(builder, v):
-        """Sum of the lanes, by halves."""
         return _fold(builder, v, ir.IRBuilder.fadd)
 
     @_instruction(LANES, LANES)
     def absolute(builder, v):
-        """Lane by lane modulus."""
         return _call(builder, "llvm.fabs.v8f64", v)
 
     @_instruction(types.float64, LANES)
     def largest(builder, v):
-        """Largest lane."""
-
         def larger(builder, low, high):
             return _call(builder, f"llvm.maxnum.v{low.type.count}f64", low, high)
 
