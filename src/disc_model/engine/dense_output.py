@@ -1,8 +1,7 @@
 """State and contact force anywhere in a step: from the series or, in stick, in closed form; uniform samples of both.
 
-Stick is not integrated as long as it cannot end.  In the modes of ``stick_modes`` the contact force stays within
-|P - N| <= sum gain_i |q_i|.  The growing spring force reaches the friction limit mu_s P at the earliest where it meets
-mu_s (N - that sum).  Until then the state follows without steps.  The series then find the release.
+Stick is not integrated as long as it cannot end.  In the modes of ``stick_modes`` |P - N| <= sum gain_i |q_i|: the
+growing spring force reaches the friction limit mu_s P at the earliest where it meets mu_s (N - that sum).
 
 A sample at an event shows the side before it. Its time is rounded, and differently on another way to the same event: a
 sample is "at" an event up to `SAME_INSTANT` of the clock after it.
@@ -27,24 +26,6 @@ ROW = ("sampler", "time", "P", "u", "u_velocity", "w", "w_point", "w_point_veloc
 SAME_INSTANT = 256 * 2.0**-52
 
 
-@helper
-def _enter_modes(model, disc, states, spring, amplitudes):
-    """Modal amplitudes of a disc under F = ``spring``, into ``amplitudes``.  Returns the bound on abs(P - N)."""
-    modes = model.modes
-    n, width, swing = len(modes.gain), len(modes.offset), 0.0
-    for b in range(0, width, WIDTH):
-        q = load(modes.offset, b)
-        if model.coupled:
-            q = fma(splat(model.r_0 * spring), load(modes.friction_offset, b), q)
-            q = fma(splat(model.r_0 * model.k_p * model.Omega), load(modes.friction_offset, width + b), q)
-        for j in range(states):
-            q = fma(spread(disc, j), load(modes.enter, j * width + b), q)
-        store(amplitudes, b, q)
-    for i in range(n):
-        swing += modes.gain[i] * math.sqrt(amplitudes[i] ** 2 + amplitudes[n + i] ** 2)
-    return swing
-
-
 @inlined
 def _times(ar, ai, br, bi):
     """Product of two complex numbers in every lane."""
@@ -52,10 +33,10 @@ def _times(ar, ai, br, bi):
 
 
 @helper
-def _leave_modes(model, amplitudes, x, spring, disc):
-    """The disc at ``x`` (time units) after ``amplitudes``, under F = ``spring`` there."""
-    modes = model.modes
-    n, length = len(modes.gain), len(disc)
+def propagate_stick(model, s, x, state):
+    """Fill ``state`` with stick at x (time units) after the state of the call of ``closed_form_length``."""
+    modes, amplitudes, disc, psi = model.modes, s.amplitudes, state.disc, s.psi[0] + model.Omega * model.unit * x
+    n, length, spring = len(modes.gain), len(disc), model.k_p * psi + model.c_p * model.Omega
     quanta = int(x / QUANTUM)
     rest = splat(x - quanta * QUANTUM)
     for b in range(0, n, WIDTH):
@@ -81,19 +62,34 @@ def _leave_modes(model, amplitudes, x, spring, disc):
         for i in range(2 * n):
             v = fma(spread(amplitudes, 2 * n + i), load(modes.leave, i * length + b), v)
         store(disc, b, v)
+    if model.compliant:
+        states = 2 * (len(model.shift) + len(model.mode_amplitude0))
+        state.x[U], state.x[U_VELOCITY] = disc[states], disc[states + 1]
+    state.x[PHASE], state.x[F], state.x[PSI] = STICK, 0.0, psi
 
 
-@inlined
+@helper
 def closed_form_length(model, s, state):
     """Time (time units) for which stick surely lasts, 0 if too short for ``propagate_stick`` to be worth it."""
-    if len(model.modes.gain) == 0:
+    modes = model.modes
+    n, width, swing = len(modes.gain), len(modes.offset), 0.0
+    if n == 0:
         return 0.0
     states = 2 * (len(model.shift) + len(model.mode_amplitude0))
     if model.compliant:
         state.disc[states], state.disc[states + 1] = state.x[U], state.x[U_VELOCITY]
         states += 2
     spring = model.k_p * state.x[PSI] + model.c_p * model.Omega
-    swing = _enter_modes(model, state.disc, states, spring, s.amplitudes)
+    for b in range(0, width, WIDTH):
+        q = load(modes.offset, b)
+        if model.coupled:
+            q = fma(splat(model.r_0 * spring), load(modes.friction_offset, b), q)
+            q = fma(splat(model.r_0 * model.k_p * model.Omega), load(modes.friction_offset, width + b), q)
+        for j in range(states):
+            q = fma(spread(state.disc, j), load(modes.enter, j * width + b), q)
+        store(s.amplitudes, b, q)
+    for i in range(n):
+        swing += modes.gain[i] * math.sqrt(s.amplitudes[i] ** 2 + s.amplitudes[n + i] ** 2)
     s.psi[0] = state.x[PSI]
     friction = model.mu_s * (model.N - swing) / model.r_0
     # the spring force only grows, so that a backward release is impossible if it is impossible now
@@ -104,18 +100,6 @@ def closed_form_length(model, s, state):
         return LONGEST_STICK
     x = (friction - spring) / growth
     return x if x >= SHORTEST_STICK else 0.0
-
-
-@inlined
-def propagate_stick(model, s, x, state):
-    """Fill ``state`` with stick at x (time units) after the state of the call of ``closed_form_length``."""
-    psi = s.psi[0] + model.Omega * model.unit * x
-    _leave_modes(model, s.amplitudes, x, model.k_p * psi + model.c_p * model.Omega, state.disc)
-    if model.compliant:
-        states = 2 * (len(model.shift) + len(model.mode_amplitude0))
-        state.x[U], state.x[U_VELOCITY] = state.disc[states], state.disc[states + 1]
-    state.x[PHASE], state.x[F] = STICK, 0.0
-    state.x[PSI] = psi
 
 
 @inlined

@@ -15,9 +15,9 @@ from .jit import helper, inlined, kernel
 from .jit.packing import packed
 from .jit.simd import WIDTH, mul, splat, store
 from .laws import PSI_ENTRY, TINY, stepped
-from .saltation import count_event, event_change, event_gradient, event_times, pass_event, rates, slider_rows
+from .saltation import count_event, event_gradient, event_times, pass_event, put_changes, rates, slider_rows
 from .series import weakening
-from .stepping import advance_time, expand, first_event, set_course, step_size
+from .stepping import expand, first_event, set_course, step_size
 from .tangent import slider_row, take_step
 
 # Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
@@ -136,11 +136,15 @@ def _record_step(model, s, state, probe, order, x_end, audit_every, buffers):
 
 @inlined
 def _advance_clock(model, state, order, x_end, dt):
-    """Advance the clock, and the drive and load of a ramp, over a step of x_end time units, ``dt`` s."""
+    """Advance the clock, by a compensated sum, and drive and load of a ramp over a step of x_end units, ``dt`` s."""
     x = state.x
     x[layout.KNOWN], x[layout.KNOWN_FORCE], x[layout.FORCE] = 0.0, 0.0, 0.0
     x[layout.PROPAGATED] = 0.0 if x_end >= LONGEST_STICK else JUST_PROPAGATED if order == CLOSED_FORM else 1.0
-    advance_time(x, dt)
+    dt += x[layout.TIME_LOW]
+    new = x[layout.TIME] + dt
+    change = new - x[layout.TIME]
+    x[layout.TIME_LOW] = (x[layout.TIME] - (new - change)) + (dt - change)
+    x[layout.TIME] = new
     set_course(model, state)
 
 
@@ -256,7 +260,7 @@ def _leave_section(model, s, state, t, course, section, start):
         event_gradient(model, state, t, transitions.RELEASE_FORWARD)
         by_psi = splat(-1.0 / t.gradient[PSI_ENTRY])
         for c in range(0, t.columns, WIDTH):
-            dpsi = mul(by_psi, event_change(model, state, t, t.now, c, c >= t.plain))
+            dpsi = mul(by_psi, put_changes(model, state, t, t.now, c, c >= t.plain))
             store(t.now, c * t.rows + slider_row(model, layout.PSI) * WIDTH, dpsi)
     if not transitions.friction_drops(model):
         # then slip begins only where the friction limit falls below the pull, and does not just touch it

@@ -15,9 +15,7 @@ from .jit.simd import WIDTH, aligned
 from .stick_modes import StickModes, build_stick_modes, no_modes, padded
 
 STICK, SLIP, SEPARATION = 0, 1, 2
-# Indices of the slider's psi, f, u, u', and their number.
-PSI, F, U, U_VELOCITY, SLIDER = range(5)
-
+PSI, F, U, U_VELOCITY, SLIDER = range(5)  # indices of the slider's psi, f, u, u', and their number
 # Rows of Model.lanes; BEND: -l^2 psi_l in a-lanes, so that sum(bend z) = d2w/dtheta2 under the slider.
 # From SLOPE_RATE on, a row for each order k: dw_dtheta (k + 1) / unit in a-lanes, dw_dtheta in b-lanes.
 # FORCES: psi_l in a-lanes, on which V acts, in b-lanes the couple's arm, on which T acts; COUPLE: the latter alone.
@@ -84,13 +82,11 @@ class Model(NamedTuple):
 
 @inlined
 def drive_now(model, state):
-    """Omega, rad/s."""
     return state.x[DRIVE] if model.ramped else model.Omega
 
 
 @inlined
 def load_now(model, state):
-    """N, N."""
     return state.x[LOAD] if model.ramped else model.N
 
 
@@ -119,9 +115,8 @@ class EngineState(NamedTuple):
 # began, of event function and contact force; PROPAGATED: not 0 if stick has used its closed form as far as possible,
 # see ``event_loop``; IN_A_ROW: events at this instant. The time is TIME + TIME_LOW, summed with compensation so that
 # event times stay exact to rounding after hours.  DRIVE, LOAD: Omega and N now, on a ramp.
-TIME, TIME_LOW, PHASE, DIRECTION, KNOWN, KNOWN_FORCE, FORCE, PROPAGATED, IN_A_ROW, DRIVE, LOAD, SCALARS = range(
-    SLIDER, SLIDER + 12
-)
+TIME, TIME_LOW, PHASE, DIRECTION, KNOWN, KNOWN_FORCE = range(SLIDER, SLIDER + 6)
+FORCE, PROPAGATED, IN_A_ROW, DRIVE, LOAD, SCALARS = range(SLIDER + 6, SLIDER + 12)
 
 
 def pair_lanes(n_pairs):
@@ -165,10 +160,8 @@ def build_model(  # noqa: PLR0913
     rows[FORCES] = rows[AMPLITUDE_ROW] + rows[COUPLE]
     rows[MINUS_AMPLITUDE_DAMPING] = -rows[AMPLITUDE_ROW] * rows[DAMPING]
     rows[MINUS_AMPLITUDE_STIFFNESS] = -rows[AMPLITUDE_ROW] * rows[STIFFNESS]
-    blocks, S2 = width // WIDTH, float(np.sum(psi**2))
-    stiffest = max(k, slider["k_p"])
-    unit = _time_unit(omega, (1 / m + S2) / compliance if compliance else 0.0, stiffest / m)
-    free_unit = min(_time_unit(omega, 0.0, stiffest / m) / unit, MOST_FREE)
+    S2, slider_rate = float(np.sum(psi**2)), max(k, slider["k_p"]) / m
+    unit = _time_unit(omega, (1 / m + S2) / compliance if compliance else 0.0, slider_rate)
     rows[SLOPE_RATE:, lane + HALF] = rows[DW_DTHETA, lane + HALF]
     rows[SLOPE_RATE:, lane] = np.outer(np.arange(1.0, ROWS + 1.0) / unit, rows[DW_DTHETA, lane + HALF])
     decays = np.isfinite(friction_decay) and slider["mu_s"] > slider["mu_k"]
@@ -183,12 +176,11 @@ def build_model(  # noqa: PLR0913
             np.stack([place, place + np.where(diameters[each] > 0, width, n0)]), slider,
             u=2 * (width + n0), length=disc_size(width, n0, compliance > 0.0), unit=unit, compliance=compliance,
         )  # fmt: skip
-    views = dict(zip(("shift", "stiffness", "damping", "mode_amplitude", "dw_dtheta"), rows, strict=False))
     return Model(
         lanes=lanes,
-        wide=_flag(blocks > 1),
-        blocks=blocks,
-        **views,
+        wide=_flag(width > WIDTH),
+        blocks=width // WIDTH,
+        **dict(zip(("shift", "stiffness", "damping", "mode_amplitude", "dw_dtheta"), rows, strict=False)),
         **slider,
         stiffness0=omega[single] ** 2,
         damping0=damping[single],
@@ -197,7 +189,7 @@ def build_model(  # noqa: PLR0913
         inverse_effective_mass=S2,
         damped_inverse_mass=float(np.sum(damping * psi**2)),
         unit=unit,
-        free_unit=free_unit,
+        free_unit=min(_time_unit(omega, 0.0, slider_rate) / unit, MOST_FREE),
         velocity_scale=N * float(np.max(np.abs(psi) / omega, initial=0.0)),
         slider_scale=N * (float(np.sum(psi**2 / omega)) + compliance / unit),
         bonded=bonded,

@@ -2,13 +2,12 @@
 
 An event function is the polynomial sum_j c[low + j] x^j on (0, x_end]: ``low`` is the multiplicity of its known root at
 x = 0, divided out.  A bound settles most steps. The others need the Bernstein form, whose sign changes bound the number
-of roots from above: none means no root, one means exactly one. With more the interval is halved, left half first
-(Descartes' rule, de Casteljau's algorithm).
+of roots from above; with more than one the interval is halved, left half first (Descartes' rule, de Casteljau's
+algorithm).
 
-What is promised: with S the sum of the moduli of all terms at x_end, the polynomial is nowhere below -2e-15 S before
-the root returned, or before x_end if there is none; and at that root it is not above 2e-15 S.  Less is rounding:
-whether a polynomial that touches zero has a root is open, and one in x_end may be left to the next step, which starts
-there.
+With S the sum of the moduli of all terms at x_end, the polynomial is nowhere below -2e-15 S before the root returned,
+or before x_end if there is none; and at that root it is not above 2e-15 S.  A root in x_end may be left to the next
+step, which starts there.
 """
 
 import math
@@ -55,7 +54,7 @@ def dot(c, first, powers, n):
 
 @helper
 def _sign_changes(b, n):
-    """Number of sign changes in b[0..n], capped at two; zeros count as positive."""
+    """Number of sign changes in b[0..n], at most two; zeros count as positive."""
     changes, positive = 0, True
     for j in range(n + 1):
         if (b[j] >= 0.0) != positive:
@@ -145,7 +144,6 @@ def first_root(c, low, n, x_end, powers, work):
 
 @inlined
 def _sum_of(d, n):
-    """d[0] + ... + d[n]."""
     sums, blocks = splat(0.0), (n + 1) // WIDTH * WIDTH
     for j in range(0, blocks, WIDTH):
         sums = add(sums, load(d, j))

@@ -13,8 +13,8 @@ from .layout import DIRECTION, HALF, PHASE, PSI, SEPARATION, SLIP, STICK, U_VELO
 from .tangent import N_SCALARS, point_change, slider_row
 from .transitions import CONSISTENT, NO_SOLUTION, RETURNED, change_phase, disc_point, event_function, instant
 
-# An event function passed its root before the phase began if it did so earlier than this, in radians of the fastest
-# motion: less is rounding of the time at which a motion was cut.
+# An event function passed its root before the phase began if it did so more radians of the fastest motion earlier: less
+# is rounding of the time at which a motion was cut.
 PASSED = 1e-9
 
 
@@ -80,9 +80,18 @@ def _free_change(model, state, x, at, q, parameters, changes):
 
 
 @inlined
-def _put_changes(model, state, t, x, c, changes):
+def _change(t, row):
+    """Change of the law whose derivatives stand in a row of ``t.gradient``, for the columns of ``t.change`` (lanes)."""
+    change = splat(0.0)
+    for entry in range(laws.N_ENTRIES):
+        change = fma(splat(t.gradient[row * laws.N_ENTRIES + entry]), load(t.change, entry * WIDTH), change)
+    return change
+
+
+@inlined
+def put_changes(model, state, t, x, c, changes):
     """Changes of an instant's entries for the block of columns x that begins with ``c``, into ``t.change``;
-    ``changes``: whether columns change parameters."""
+    ``changes``: whether columns change parameters. Returns that of the law whose derivatives begin ``t.gradient``."""
     at, q, slider = c * t.rows, c * t.inputs, c * t.rows + slider_row(model, 0) * WIDTH
     for entry in range(N_SCALARS):
         store(t.change, entry * WIDTH, load(t.parameters, q + entry * WIDTH) if changes else splat(0.0))
@@ -96,15 +105,7 @@ def _put_changes(model, state, t, x, c, changes):
     store(t.change, laws.FREE_ENTRY * WIDTH, _free_change(model, state, x, at, q, t.parameters, changes))
     store(t.change, laws.U_ENTRY * WIDTH, load(x, slider + U * WIDTH))
     store(t.change, laws.U_VELOCITY_ENTRY * WIDTH, load(x, slider + U_VELOCITY * WIDTH))
-
-
-@inlined
-def _change(t, row):
-    """Change of the law whose derivatives stand in a row of ``t.gradient``, for the columns of ``t.change`` (lanes)."""
-    change = splat(0.0)
-    for entry in range(laws.N_ENTRIES):
-        change = fma(splat(t.gradient[row * laws.N_ENTRIES + entry]), load(t.change, entry * WIDTH), change)
-    return change
+    return _change(t, 0)
 
 
 @inlined
@@ -128,25 +129,18 @@ def event_gradient(model, state, t, cause):
         _set_derivative(model, i, t, 0, entry, event_function(model, laws.stepped(i, entry), cause, slipping))
 
 
-@inlined
-def event_change(model, state, t, x, c, changes):
-    """Change of the event function of ``t.gradient`` (lanes); other arguments as of ``_put_changes``."""
-    _put_changes(model, state, t, x, c, changes)
-    return _change(t, 0)
-
-
 @helper
 def event_times(model, state, t, cause, at_once):
     """``t.tau``: change of the time of the event ``cause`` for every column.  Returns the event function's rate. If a
     phase ended ``at_once`` whose event function was negative from the start, it does so in neighbouring motions, too.
     """
     event_gradient(model, state, t, cause)
-    rate = total(event_change(model, state, t, t.before, 0, False))  # the other lanes of ``before`` are zero
+    rate = total(put_changes(model, state, t, t.before, 0, False))  # the other lanes of ``before`` are zero
     i, _ = instant(model, state)
     value = abs(event_function(model, i, cause, state.x[PHASE] == SLIP))
     by_rate = 0.0 if at_once and value > PASSED * model.unit * abs(rate) else -1.0 / rate
     for c in range(0, t.columns, WIDTH):
-        store(t.tau, c, mul(splat(by_rate), event_change(model, state, t, t.now, c, c >= t.plain)))
+        store(t.tau, c, mul(splat(by_rate), put_changes(model, state, t, t.now, c, c >= t.plain)))
     return rate
 
 
@@ -170,8 +164,7 @@ def impact_change(model, state, t):
         _set_derivative(model, i, t, 0, entry, p)
         _set_derivative(model, i, t, 1, entry, f)
     for c in range(0, t.columns, WIDTH):
-        _put_changes(model, state, t, t.now, c, c >= t.plain)
-        block, dp = c * t.rows, _change(t, 0)
+        block, dp = c * t.rows, put_changes(model, state, t, t.now, c, c >= t.plain)
         store(t.now, block + slider_row(model, F) * WIDTH, _change(t, 1))
         for j in range(width):
             at = block + (width + j) * WIDTH
@@ -197,7 +190,6 @@ def slider_rows(model, state, t):
 
 @helper
 def count_event(state, cause, log):
-    """Count an event that was carried out."""
     phase = state.x[PHASE]
     if cause == transitions.RELEASE_FORWARD:
         log[tangent.RELEASES] += 1.0

@@ -1,12 +1,9 @@
 """Taylor coefficients of the three phases (docs/model.md: Slip, Stick, Separation), eight lanes at a time.
 
 The contact force of order k needs a sum over all modes, and every quantity of order k + 1 needs the contact force. This
-chain would leave the arithmetic units idle and is broken in two ways.  The sum is taken over the terms known before
-P_{k-1}; the contribution of P_{k-1} is a known constant (``damped_inverse_mass``).  And terms of the sum from order k -
-1 are collected while that order is processed ("pending").
-
-The convolutions of f with z and e, nearly all of the work, are computed for two orders at once: each coefficient is
-loaded once for two products.
+chain would leave the arithmetic units idle.  The sum is therefore taken over the terms known before P_{k-1}, whose
+contribution is a known constant (``damped_inverse_mass``), and terms from order k - 1 are collected while that order is
+processed ("pending"). The convolutions of f with z and e, nearly all of the work, are computed for two orders at once.
 
 With C = 2 f_0 slope - force damping and s_k = sum_{j=1..k} f_{k-j} z_j, the disc's part of u'' at order k is
 
@@ -16,7 +13,7 @@ With C = 2 f_0 slope - force damping and s_k = sum_{j=1..k} f_{k-j} z_j, the dis
 where E_k, Z_k are the inner terms of the convolutions sum f_{k-i} e_i, sum f_{k-i} z_{i+1}, 1 <= i <= k - 1.
 """
 
-from typing import NamedTuple
+from collections import namedtuple
 
 import numpy as np
 
@@ -40,50 +37,31 @@ _ROOT_ROWS = 7 * WIDTH
 
 
 @packed
-class Series(NamedTuple):
-    """Taylor coefficients of one step, in units of the time ``unit``: coefficient k multiplies (time / unit)**k, so
-    that none overflows, however stiff the disc is. Those of pairs are stored as [order][lane], all others as
-    [quantity][order].
+class Series(namedtuple("Series", "modes slider z e y g psi f u v P switch switch2 powers up down roots amplitudes")):
+    """Taylor coefficients of one step: coefficient k multiplies (time / unit)**k, so that none overflows, however stiff
+    the disc is. Those of pairs are stored as [order][lane], all others as [quantity][order].
 
-    z and e are views of ``modes``, whose end is scratch; psi to down of ``slider``, ``ROWS`` doubles each. Behind them
-    stand those of B / r_0, under the normal force, and of Omega and N, on a ramp; then R and T of stick, where both the
-    normal force and the couple act. Where friction falls with the speed, there are T of slip, its coefficient, and the
-    change of T with f.
+    z and e are views of ``modes``, whose end is scratch; psi to down of ``slider``. Behind them stand those of B / r_0
+    (normal force), of Omega and N (ramp), R of stick (normal force and couple), T of that or of slip under falling
+    friction, with its coefficient, and the change of T with f.
+
+    switch: direction * f in slip, gap in separation, forward release function in stick; switch2: the backward one; up:
+    unit / (k + 1) integrates; down: (k + 1) / unit differentiates; roots: work space of the root finder; amplitudes: of
+    the modes of stick, real parts, imaginary parts, then those at a later time
     """
-
-    modes: np.ndarray
-    slider: np.ndarray
-    z: np.ndarray
-    e: np.ndarray
-    y: np.ndarray
-    g: np.ndarray
-    psi: np.ndarray
-    f: np.ndarray
-    u: np.ndarray
-    v: np.ndarray
-    P: np.ndarray
-    switch: np.ndarray  # direction * f in slip, gap in separation, forward release function in stick
-    switch2: np.ndarray  # backward release function
-    powers: np.ndarray
-    up: np.ndarray  # unit / (k + 1): integrates
-    down: np.ndarray  # (k + 1) / unit: differentiates
-    roots: np.ndarray  # work space of the root finder
-    amplitudes: np.ndarray  # of the modes of stick: real parts, imaginary parts; then those at a later time
 
 
 def build_series(model: Model, order: int) -> Series:
     """Empty series of degree ``order`` for ``model``."""
     width, n0 = len(model.shift), len(model.mode_amplitude0)
-    modes, slider, y, g, amplitudes, roots = simd.aligned_pieces(
-        _MODES_END * width, _SLIDER_END, ROWS * n0, ROWS * n0, 4 * len(model.modes.gain),
-        _ROOT_ROWS * (padded(order + 1) + WIDTH),
-    )  # fmt: skip
+    sizes = _MODES_END * width, _SLIDER_END, ROWS * n0, ROWS * n0, 4 * len(model.modes.gain)
+    modes, slider, y, g, amplitudes = map(simd.aligned, sizes)
+    roots = simd.aligned(_ROOT_ROWS * (padded(order + 1) + WIDTH)).reshape(_ROOT_ROWS, -1)
     rows, from_1 = slider.reshape(-1, ROWS), np.arange(1.0, ROWS + 1.0)
     np.divide(model.unit, from_1, out=rows[UP // ROWS])
     np.divide(from_1, model.unit, out=rows[DOWN // ROWS])
     z, e = modes[: E * width], modes[E * width : SCRATCH * width]
-    views = rows[: SLOPE_SERIES // ROWS]
-    return Series._make((modes, slider, z, e, y, g, *views, roots.reshape(_ROOT_ROWS, -1), amplitudes))
+    return Series._make((modes, slider, z, e, y, g, *rows[: SLOPE_SERIES // ROWS], roots, amplitudes))
 
 
 @inlined
@@ -212,16 +190,18 @@ def _pending(s, width, b, e, z, carried):
 
 
 @inlined
-def _order(model, s, width, b, k, f, f0, push, e, carried, e_last, z_last):
+def _order(model, s, width, b, k, f, f0, push):
     """One block of order k >= 1; ``f`` is f_k, ``push`` is that of P_{k-1} unit / k and T_{k-1} unit / k.
 
-    Takes e_k without P_{k-1}, s_k, e_{k-1} and z_k; finds e_k, z_{k+1}, and e_{k+1} without P_k.  Returns (lanes) the
-    block's part of u'' of order k beyond the pending one. Its pending part and the four values of order k + 1 follow.
-    Terms with P come last in every sum: that chain sets the pace.
+    Takes e_k without P_{k-1}, s_k, e_{k-1} and z_k; finds e_k, z_{k+1}, s_{k+1}, and e_{k+1} without P_k.  Returns
+    (lanes) the block's part of u'' of order k beyond the pending one, and what it leaves pending for order k + 1. Terms
+    with P come last in every sum: that chain sets the pace.
     """
+    e, carried = _block(s, width, E + k, b), _block(s, width, _CARRIED, b)
+    e_last, z_last = _block(s, width, E + k - 1, b), _block(s, width, k, b)
     e_inner, z_inner = _inner_terms(s, width, b, k, e_last, z_last)
     part = mul(_row(model, layout.SLOPE_RATE + k, b), simd.high_halves(z_inner, e_inner))
-    shift, damping, at = _row(model, layout.SHIFT, b), _row(model, layout.DAMPING, b), k * width + b
+    shift, damping = _row(model, layout.SHIFT, b), _row(model, layout.DAMPING, b)
     up, f, first = splat(s.slider[UP + k]), splat(f), splat(f0)
     e = fma(push, _block(s, width, _PUSHED, b) if model.coupled else _row(model, layout.FORCES, b), e)
     turned = simd.swap_halves(fma(f, _block(s, width, 0, b), carried))
@@ -230,43 +210,33 @@ def _order(model, s, width, b, k, f, f0, push, e, carried, e_last, z_last):
     free = fma(_row(model, layout.STIFFNESS, b), z_last, mul(damping, e))
     turned = simd.swap_halves(fma(first, e, fma(f, _block(s, width, E, b), e_inner)))
     e_next = mul(sub(mul(shift, turned), free), up)
-    store(s.modes, E * width + at, e)
-    store(s.modes, at + width, z_next)
-    return part, _pending(s, width, b, e_next, z_next, carried), e_next, carried, e, z_next
-
-
-@inlined
-def _axisymmetric_mode(model, s, k, j, impulse):
-    at, up, force, damping = j * ROWS + k, s.slider[UP + k], item(model.mode_amplitude0, j), item(model.damping0, j)
-    g, pull = item(s.g, at), item(model.stiffness0, j) * item(s.y, at)
-    part = -force * (damping * g + pull)
-    g -= force * impulse
-    put(s.g, at, g)
-    put(s.y, at + 1, g * up)
-    put(s.g, at + 1, -(damping * g + pull) * up)
-    return part
+    store(s.modes, (E + k) * width + b, e)
+    store(s.modes, (k + 1) * width + b, z_next)
+    store(s.modes, (E + k + 1) * width + b, e_next)
+    store(s.modes, _CARRIED * width + b, carried)
+    return part, _pending(s, width, b, e_next, z_next, carried)
 
 
 @inlined
 def _axisymmetric(model, s, k, impulse):
     """Modes without nodal diameter, which only feel P, order k.  Returns their part of u'' without P_{k-1}."""
-    n = len(model.mode_amplitude0)
-    if n == 1:  # the usual case; a loop costs as much again
-        return _axisymmetric_mode(model, s, k, 0, impulse)
-    part = 0.0
-    for j in range(n):
-        part += _axisymmetric_mode(model, s, k, j, impulse)
+    up, part = s.slider[UP + k], 0.0
+    for j in range(len(model.mode_amplitude0)):
+        at, force, damping = j * ROWS + k, item(model.mode_amplitude0, j), item(model.damping0, j)
+        g, pull = item(s.g, at), item(model.stiffness0, j) * item(s.y, at)
+        part += -force * (damping * g + pull)
+        g -= force * impulse
+        put(s.g, at, g)
+        put(s.y, at + 1, g * up)
+        put(s.g, at + 1, -(damping * g + pull) * up)
     return part
 
 
 @inlined
 def _begin_orders(model, s, f0, braked):
-    """Order 0 of all modes: z_1, and e_1 without P_0. ``_next_order`` takes the second value returned and the last
-    four. ``braked`` is T / V, or 1 where that is not constant: under the normal force, or if friction falls.
-
-    Returns u'' without P and f', the part of u'' pending for order 1 (lanes), the factors of f_k and of (k + 1) f_k in
-    u'', and e_1 without P_0, s_1, e_0 and z_1 of the first block.
-    """
+    """Order 0 of all modes: z_1, s_1, and e_1 without P_0. ``braked`` is T / V, or 1 where that is not constant: under
+    the normal force, or if friction falls. Returns u'' without P and f', the part of u'' pending for order 1 (lanes),
+    and the factors of f_k and of (k + 1) f_k in u''."""
     width, zero = lane_count(model), splat(0.0)
     now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
     first, up = splat(f0), splat(s.slider[UP])
@@ -294,31 +264,20 @@ def _begin_orders(model, s, f0, braked):
     by_f, by_f_rate = swing + f0 * total(by_z), total(by_z1)
     # C contains the Coriolis term once too often, because z_1 in by_f_rate includes it already
     acceleration = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - swing)
-    block = _block(s, width, E + 1, 0), _block(s, width, _CARRIED, 0), _block(s, width, E, 0), _block(s, width, 1, 0)
-    return acceleration, pending, by_f, by_f_rate, block
+    return acceleration, pending, by_f, by_f_rate
 
 
 @inlined
-def _next_order(model, s, k, f, f0, impulse, friction, pending, e, carried, e_last, z_last):
-    """Order k >= 1 of all modes; the last four arguments are those of ``_order`` for the first block; as one argument
-    they cost a slip under the normal force 6 %. ``impulse``, ``friction``: P_{k-1} unit / k and T_{k-1} unit / k.
-    Returns the parts of u'' of the pairs (lanes) and of the other modes, and the last five arguments for order k + 1.
-    """
-    width, push = lane_count(model), splat(-impulse)
+def _next_order(model, s, k, f, f0, impulse, friction, pending):
+    """Order k >= 1 of all modes; ``impulse``, ``friction``: P_{k-1} unit / k and T_{k-1} unit / k. Returns the parts of
+    u'' of the pairs (lanes) and of the other modes, and the part pending for order k + 1."""
+    width, push, rest = lane_count(model), splat(-impulse), splat(0.0)
     if model.normal or model.decaying:
         push = _push(model, impulse, friction)
-    part, rest, e, carried, e_last, z_last = _order(model, s, width, 0, k, f, f0, push, e, carried, e_last, z_last)
-    part = add(pending, part)
-    for b in range(WIDTH, width, WIDTH):  # values of these blocks are not kept in registers between orders
-        e_b, s_b, e_before, z_b = (
-            _block(s, width, E + k, b), _block(s, width, _CARRIED, b), _block(s, width, E + k - 1, b),
-            _block(s, width, k, b),
-        )  # fmt: skip
-        more, more_rest, e_b, s_b, _, _ = _order(model, s, width, b, k, f, f0, push, e_b, s_b, e_before, z_b)
-        store(s.modes, (E + k + 1) * width + b, e_b)
-        store(s.modes, _CARRIED * width + b, s_b)
-        part, rest = add(part, more), add(rest, more_rest)
-    return part, _axisymmetric(model, s, k, impulse), rest, e, carried, e_last, z_last
+    for b in range(0, width, WIDTH):
+        more, more_rest = _order(model, s, width, b, k, f, f0, push)
+        pending, rest = add(pending, more), add(rest, more_rest)
+    return pending, _axisymmetric(model, s, k, impulse), rest
 
 
 @inlined
@@ -355,9 +314,8 @@ def _last_force(model, s, order, impulse, friction):
 
 
 @inlined
-def _end_slip(model, s, order, direction, e, impulse, friction):
+def _end_slip(model, s, order, direction, impulse, friction):
     """Complete the highest order, set the event function, and clear the order beyond the known ones."""
-    store(s.modes, (E + order) * lane_count(model), e)
     _last_force(model, s, order, impulse, friction)
     for j in range(0, order + 1, WIDTH):
         store(s.switch, j, mul(splat(direction), load(s.f, j)))
@@ -380,7 +338,7 @@ def slip_series(model, s, order, direction):
     braked, damped = direction * model.mu_k, model.damped_inverse_mass
     if model.coupled:  # 2 l f_0 beta
         damped -= 2.0 * f0 * model.couple_swing * braked
-    acceleration, pending, by_f, by_f_rate, (e, carried, e_last, z_last) = _begin_orders(model, s, f0, braked)
+    acceleration, pending, by_f, by_f_rate = _begin_orders(model, s, f0, braked)
     pull = spring * psi + damper * (drive(model, s) - f0)
     vertical = load_at(model, s) + model.k * (u - model.u_0) + model.c * v
     P = (vertical + model.m * (acceleration + dw_dtheta * pull)) * inverse
@@ -396,9 +354,7 @@ def slip_series(model, s, order, direction):
         s.slider[U_SERIES + k], s.slider[V_SERIES + k] = u, v
         if k == order:
             break
-        pairs, single, pending, e, carried, e_last, z_last = _next_order(
-            model, s, k, f, f0, impulse, braked * impulse, pending, e, carried, e_last, z_last
-        )
+        pairs, single, pending = _next_order(model, s, k, f, f0, impulse, braked * impulse, pending)
         by_speed = by_f + by_f_rate * s.slider[DOWN + k]
         acceleration = total(pairs) + (single + f * by_speed + impulse * damped)
         pull = spring * psi - damper * f
@@ -411,7 +367,7 @@ def slip_series(model, s, order, direction):
             P += s.slider[LOAD_SERIES + 1] * inverse + by_pull * more_pull
         s.slider[P_SERIES + k] = P
     impulse = P * s.slider[UP + order - 1]
-    _end_slip(model, s, order, direction, e, impulse, braked * impulse)
+    _end_slip(model, s, order, direction, impulse, braked * impulse)
     return denominator
 
 
@@ -511,16 +467,14 @@ def separation_series(model, s, order):
     """No contact: P = 0, disc and slider move independently.  Fills the gap u - w."""
     n, f0, weight = len(model.mode_amplitude0), s.slider[F_SERIES], load_at(model, s) - model.k * model.u_0
     pull = model.k_p * s.slider[PSI_SERIES] + model.c_p * (drive(model, s) - f0)
-    _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0, 0.0)
+    _, pending, _, _ = _begin_orders(model, s, f0, 0.0)
     for k in range(order + 1):
         if k > 0:
             # not by _spring: in the branches there, sums would be rounded otherwise
             pull, weight = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F_SERIES + k], 0.0
             if model.ramped:
                 pull, weight = pull + model.c_p * s.slider[DRIVE_SERIES + k], s.slider[LOAD_SERIES + k]
-            _, _, pending, e, carried, e_last, z_last = _next_order(
-                model, s, k, s.slider[F_SERIES + k], f0, 0.0, 0.0, pending, e, carried, e_last, z_last
-            )
+            _, _, pending = _next_order(model, s, k, s.slider[F_SERIES + k], f0, 0.0, 0.0, pending)
         gap = s.slider[U_SERIES + k] - _modal_sum(model, s, layout.AMPLITUDE_ROW, k)
         for j in range(n):
             gap -= model.mode_amplitude0[j] * s.y[j * ROWS + k]
@@ -555,10 +509,11 @@ def _slope(model, s, k):
 
 
 @inlined
-def _closing(model, s, k, e, carried):
+def _closing(model, s, k):
     """Order k of the disc's velocity under the slider from the orders before: without V_{k-1} and f_k."""
     width = lane_count(model)
-    lanes = fma(_row(model, layout.AMPLITUDE_ROW, 0), e, mul(_row(model, layout.DW_DTHETA, 0), carried))
+    swing = mul(_row(model, layout.DW_DTHETA, 0), _block(s, width, _CARRIED, 0))
+    lanes = fma(_row(model, layout.AMPLITUDE_ROW, 0), _block(s, width, E + k, 0), swing)
     for b in range(WIDTH, width, WIDTH):
         lanes = fma(_row(model, layout.AMPLITUDE_ROW, b), _block(s, width, E + k, b), lanes)
         lanes = fma(_row(model, layout.DW_DTHETA, b), _block(s, width, _CARRIED, b), lanes)
@@ -625,7 +580,7 @@ def compliant_slip_series(model, s, order, direction):
     for j in range(len(model.mode_amplitude0)):
         closing += model.mode_amplitude0[j] * s.g[j * ROWS]
     share_of_V = 1.0 if model.normal or model.decaying else friction
-    _, pending, _, _, (e, carried, e_last, z_last) = _begin_orders(model, s, f0, share_of_V)
+    _, pending, _, _ = _begin_orders(model, s, f0, share_of_V)
     for k in range(order):
         f = s.slider[F_SERIES + k]
         V = (w - s.slider[U_SERIES + k]) * stiffness
@@ -655,12 +610,10 @@ def compliant_slip_series(model, s, order, direction):
         rate = _spring(model, s, k) * lightness - held * lever
         _move_slider(model, s, k, rate, (V - _weight(model, s, k)) * lightness)
         if k > 0:
-            _, _, pending, e, carried, e_last, z_last = _next_order(
-                model, s, k, f, f0, impulse, braked, pending, e, carried, e_last, z_last
-            )
-        closing = _closing(model, s, k + 1, e, carried)
+            _, _, pending = _next_order(model, s, k, f, f0, impulse, braked, pending)
+        closing = _closing(model, s, k + 1)
         impulse, braked = V * s.slider[UP + k], T * s.slider[UP + k]
-    _end_slip(model, s, order, direction, e, impulse, braked)
+    _end_slip(model, s, order, direction, impulse, braked)
     return ratio
 
 
@@ -742,7 +695,7 @@ def rigid_slip_series(model, s, order, direction):
     s.slider[SLOPE_SERIES] = beta
     denominator = slip_denominator(model, model.m, friction, slope)
     inverse, lightness, lever = 1.0 / denominator, 1.0 / model.m, 1.0 / (model.m * model.r_0)
-    inertia, pending, by_f, by_f_rate, (e, carried, e_last, z_last) = _begin_orders(model, s, f0, 1.0)
+    inertia, pending, by_f, by_f_rate = _begin_orders(model, s, f0, 1.0)
     h, impulse, braked = 0.0, 0.0, 0.0
     for k in range(order):
         f = s.slider[F_SERIES + k]
@@ -752,9 +705,7 @@ def rigid_slip_series(model, s, order, direction):
             if model.normal:
                 s.slider[SLOPE_SERIES + k] = _slope(model, s, k)
                 h = _leverage(s, k)
-            pairs, single, pending, e, carried, e_last, z_last = _next_order(
-                model, s, k, f, f0, impulse, braked, pending, e, carried, e_last, z_last
-            )
+            pairs, single, pending = _next_order(model, s, k, f, f0, impulse, braked, pending)
             by_speed = by_f + by_f_rate * s.slider[DOWN + k]
             inertia = total(pairs) + single + f * by_speed + impulse * model.damped_inverse_mass
             if model.coupled:
@@ -780,5 +731,5 @@ def rigid_slip_series(model, s, order, direction):
         rate = spring * lightness - held * lever
         _move_slider(model, s, k, rate, inertia + rate * slope - model.inverse_effective_mass * V)
         impulse, braked = V * s.slider[UP + k], T * s.slider[UP + k]
-    _end_slip(model, s, order, direction, e, impulse, braked)
+    _end_slip(model, s, order, direction, impulse, braked)
     return denominator

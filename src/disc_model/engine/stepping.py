@@ -6,13 +6,12 @@ import numpy as np
 
 from . import layout, series, transitions
 from .dense_output import load_state
-from .jit import helper, inlined
+from .jit import inlined
 from .jit.simd import WIDTH, absolute, largest, load, maximum, splat
 from .polynomial import NO_ROOT, first_root, set_powers
 
 # Longest step, in radians of the fastest motion: in longer ones the series' terms cancel more digits than they add.
-LONGEST_STEP = 8.0
-TYPICAL_STEP = 3.0
+LONGEST_STEP, TYPICAL_STEP = 8.0, 3.0
 
 
 @inlined
@@ -130,20 +129,6 @@ def _sooner(s, c, known, n, x_end, cause, later):
     return x, cause
 
 
-@helper
-def _touchdown(model, s, state, order, x_end, x):
-    """Place and cause of a flight's end at ``x``: there, unless rounding of a gap that opens made it. A run that was
-    cut just after a separation knows no root there, but the gap, and its rates, are still rounding."""
-    # of the gap, and of its rates per radian of the fastest motion
-    rounding, known = transitions.ROUNDING * transitions.deflection_size(model, state), 0
-    while known < 3 and abs(s.switch[known]) <= rounding:
-        known += 1
-    if known == 0:
-        return x, transitions.GAP_CLOSED
-    set_powers(s.powers, x_end, order)
-    return _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
-
-
 @inlined
 def first_event(model, s, state, order, x_end):
     """Place and cause of the phase's end within (0, x_end]: (x, cause), or (x_end, NOTHING)."""
@@ -153,9 +138,17 @@ def first_event(model, s, state, order, x_end):
     set_powers(s.powers, x_end, order)
     if phase == layout.SEPARATION:
         x, cause = _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
-        if cause == transitions.GAP_CLOSED and known == 0:
-            return _touchdown(model, s, state, order, x_end, x)
-        return x, cause
+        if cause != transitions.GAP_CLOSED or known != 0:
+            return x, cause
+        # a run that was cut just after a separation knows no root there, but the gap, and its rates per radian of the
+        # fastest motion, are still rounding
+        rounding = transitions.ROUNDING * transitions.deflection_size(model, state)
+        while known < 3 and abs(s.switch[known]) <= rounding:
+            known += 1
+        if known == 0:
+            return x, cause
+        set_powers(s.powers, x_end, order)
+        return _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
     if phase == layout.SLIP:
         x_end, cause = _sooner(s, s.switch, known, order, x_end, transitions.AT_REST, transitions.NOTHING)
         if not model.bonded:
@@ -178,16 +171,6 @@ def first_event(model, s, state, order, x_end):
         # friction may hold although contact ends: without any, or on a slope so steep that it holds the slider down
         x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, transitions.CONTACT_LOST, cause)
     return x_end, cause
-
-
-@inlined
-def advance_time(x, dt):
-    """Add to the time by a compensated sum: TIME + TIME_LOW has twice the digits."""
-    dt += x[layout.TIME_LOW]
-    new = x[layout.TIME] + dt
-    kept = new - x[layout.TIME]
-    x[layout.TIME_LOW] = (x[layout.TIME] - (new - kept)) + (dt - kept)
-    x[layout.TIME] = new
 
 
 @inlined

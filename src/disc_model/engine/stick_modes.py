@@ -5,8 +5,7 @@ With f = 0, disc and slider are one linear system.  In deviations d from the sta
     (1 + m psi psi^T) d'' + (2 xi omega + c psi psi^T) d' + (omega^2 + k psi psi^T) d = 0
 
 for the a-components and l = 0, and without the slider for the b-components; a compliant contact adds the coordinate u.
-The modes q oscillate and decay, q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are stored as lanes of real parts
-followed by lanes of imaginary parts.
+The modes are q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are lanes of real parts, then of imaginary parts.
 """
 
 from functools import lru_cache
@@ -70,12 +69,9 @@ def _compliant_eigenmodes(omega, damping, psi, k, c, m, unit, compliance):
 
 
 def _decomposed(stiffness, damping, scale, unit):
-    """Modes of d'' = -stiffness d - damping d', both matrices over the masses: lambda (n,), V (2n, n), W (n, 2n).
-
-    (d, d') = 2 Re V q, q = W (d, d'); lambda is in 1 / ``unit``.  Displacements are scaled by ``scale``, so that both
-    halves of an eigenvector have similar size.  None if a mode does not oscillate, is too fast for the series, or
-    nearly parallel to another.
-    """
+    """Modes of d'' = -stiffness d - damping d', both matrices over the masses: lambda (n,) in 1 / ``unit``, V (2n, n)
+    and W (n, 2n) of (d, d') = 2 Re V q, q = W (d, d').  ``scale`` of displacements gives both halves of an eigenvector
+    similar size.  None if a mode does not oscillate, is too fast for the series, or nearly parallel to another."""
     n = len(scale)
     A = np.zeros((2 * n, 2 * n))
     A[:n, n:] = np.diag(scale)

@@ -1,9 +1,8 @@
 """Small changes along a motion: Taylor series of the variational equations.
 
 A change of the state is a column; columns are stored side by side in blocks of eight lanes, and one pass of the
-recurrence advances eight.  The variational equations have the model's recurrence with each product f x replaced by f dx
-+ df x. The coefficients of the motion are known. The contact force of order k follows from the same scalar division as
-for the motion, or from the state on a compliant contact.
+recurrence advances eight.  It is the model's, with each product f x replaced by f dx + df x. The contact force of order
+k follows from the same division as for the motion, or from the state on a compliant contact.
 
 Rows of a column: displacements z and velocities e of all lanes, then y, g of the axisymmetric modes, then psi, f, and
 u, u' of the slider. In rigid contact u, u' are the disc's and have a meaning in separation only.
@@ -18,14 +17,13 @@ from . import series
 from .dense_output import state_at
 from .jit import helper, inlined
 from .jit.packing import packed
-from .jit.simd import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
+from .jit.simd import WIDTH, add, aligned, fma, load, mul, splat, spread, store, sub
 from .laws import N_ENTRIES, friction_coefficient, slip_denominator
 from .layout import DIRECTION, HALF, PHASE, PSI, ROWS, SEPARATION, SLIDER, SLIP, STICK, U_VELOCITY, F, Model, U
 
 # Entries of ``Tangent.log``: times in all and by phase (s), events, steps.
 DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME = range(4)
 RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = range(4, 10)
-LOG_SIZE = 2 * WIDTH
 # Rows of the parameters' changes that a column carries, in the order of an `Instant` (LOAD: of N - k u_0; D_COMPLIANCE:
 # relative); after them stiffness and damping of all lanes and of the axisymmetric modes.
 LOAD, D_K, D_C, D_M, D_K_P, D_C_P, D_OMEGA, D_COMPLIANCE, N_SCALARS = range(9)
@@ -69,11 +67,11 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
     plain = columns if plain is None else WIDTH * (plain // WIDTH)
     rows, order_size = n_rows(model), (order + 2) * columns
     inputs = N_SCALARS + rows - SLIDER
-    arrays = aligned_pieces(
+    sizes = (
         order_size * rows, order_size, order_size, order_size, rows * columns, inputs * columns,
-        rows * WIDTH, rows * WIDTH, N_ENTRIES * WIDTH, 2 * N_ENTRIES, columns, LOG_SIZE, order + 2,
+        rows * WIDTH, rows * WIDTH, N_ENTRIES * WIDTH, 2 * N_ENTRIES, columns, N_STEPS + 1, order + 2,
     )  # fmt: skip
-    return Tangent._make((*arrays, columns, plain, rows, inputs))
+    return Tangent._make((*map(aligned, sizes), columns, plain, rows, inputs))
 
 
 @inlined

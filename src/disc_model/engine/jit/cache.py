@@ -38,7 +38,6 @@ def source_hash() -> str:
 
 @functools.cache
 def folder() -> Path:
-    """The folder of the compiled kernels."""
     return cache_folder() / f"engine-{source_hash()}"
 
 
@@ -142,5 +141,4 @@ def read(path: Path) -> Any:
 
 @functools.cache
 def warn_once(what: str) -> None:
-    """Warn once for each message."""
     warnings.warn(what, RuntimeWarning, stacklevel=3)

@@ -20,7 +20,6 @@ _SETTINGS: Any = numba.config
 if _SETTINGS.DISABLE_JIT:
 
     def packed(cls):
-        """Leave a class of named tuples as it is."""
         return cls
 
 else:
@@ -46,8 +45,7 @@ else:
             fields = self.fields.items()
             return PackedType(self.of, {name: f for name, f in fields if name in used or not _is_flag(f[0])})
 
-        def can_convert_to(self, typingctx, other):
-            """A narrowed type is the same memory."""
+        def can_convert_to(self, typingctx, other):  # a narrowed type is the same memory
             return Conversion.safe if isinstance(other, PackedType) and other.of == self.of else None
 
     def _is_flag(kind):
@@ -81,7 +79,6 @@ else:
 
         @functools.cached_property
         def address(self):
-            """Address of the block of memory."""
             words = [word for value in self for word in _words_of(value)]
             memory = np.frombuffer(struct.pack(self.numba_type.format, *words), np.int64)
             # two threads may come here at once: both get the block that is kept

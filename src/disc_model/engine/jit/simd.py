@@ -6,7 +6,6 @@ arrays of accumulators stay in memory, which costs a factor of six in the convol
 """
 
 import functools
-from itertools import accumulate
 from typing import Any
 
 import llvmlite.binding as llvm
@@ -43,15 +42,9 @@ def aligned(n):
     return raw[skip : skip + n]
 
 
-def aligned_pieces(*sizes):
-    """Zeros of these sizes, all but the last whole blocks, cut from one array: aligning takes as long as ten cuts."""
-    block = aligned(sum(sizes))
-    return [block[end - size : end] for size, end in zip(sizes, accumulate(sizes), strict=True)]
-
-
 if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made at run time
     add, sub, mul = np.add, np.subtract, np.multiply
-    maximum, minimum, absolute, largest = np.maximum, np.minimum, np.abs, np.max
+    maximum, minimum, absolute, largest, total = np.maximum, np.minimum, np.abs, np.max, np.sum
 
     def load(array, i):
         return array[i : i + WIDTH].copy()
@@ -75,26 +68,16 @@ if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made a
         return a * b + c
 
     def powers_of(x):
-        """1, x, ..., x^7, rounded as in the compiled version."""
-        square = x * x
-        fourth = square * square
-        low = np.array([1.0, x, square, x * square])
-        return np.concatenate((low, fourth * low))
+        return x ** np.arange(float(WIDTH))
 
     def swap_halves(v):
-        return np.concatenate((v[4:], v[:4]))
+        return np.roll(v, WIDTH // 2)
 
     def low_halves(a, b):
         return np.concatenate((a[:4], b[:4]))
 
     def high_halves(a, b):
         return np.concatenate((a[4:], b[4:]))
-
-    def total(v):
-        """Sum in the order of the compiled version."""
-        w = v[:4] + v[4:]
-        w = w[:2] + w[2:]
-        return w[0] + w[1]
 
 else:
     from llvmlite import ir
@@ -168,12 +151,10 @@ else:
 
     @_instruction(LANES, None, types.intp)
     def load(builder, array, i):
-        """Lanes array[i:i+8]."""
         return builder.load(_block(builder, array, i), align=8)
 
     @_instruction(types.void, None, types.intp, LANES)
     def store(builder, array, i, v):
-        """array[i:i+8] = v."""
         builder.store(v, _block(builder, array, i), align=8)
 
     @_instruction(LANES, types.float64)
@@ -203,7 +184,6 @@ else:
 
     @_instruction(LANES, types.float64)
     def powers_of(builder, x):
-        """1, x, ..., x^7."""
         square = builder.fmul(x, x)
         fourth = builder.fmul(square, square)
         powers = ones = ir.Constant(_VECTOR, [1.0] * WIDTH)
@@ -225,7 +205,6 @@ else:
 
     @_instruction(LANES, LANES)
     def swap_halves(builder, v):
-        """Lanes 4..7, then 0..3."""
         return _shuffle(builder, v, [4, 5, 6, 7, 0, 1, 2, 3])
 
     low_halves = _of_two(lambda builder, a, b: _shuffle(builder, a, [0, 1, 2, 3, 8, 9, 10, 11], b))
