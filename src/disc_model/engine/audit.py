@@ -11,11 +11,12 @@ import math
 
 import numpy as np
 
-from . import laws, layout
+from . import layout
 from .dense_output import force_at, move_to
 from .jit import helper, inlined
 from .jit.simd import WIDTH, fma, load, splat, total
-from .transitions import disc_point, inplane_force_per_radius, instant, slider_motion
+from .laws import friction_coefficient
+from .transitions import disc_point, friction_force, inplane_force_per_radius, slider_motion
 
 # 24 nodes integrate degree 47: products of two series of the usual order are exact to rounding.
 _NODES, _WEIGHTS = (a * 0.5 for a in np.polynomial.legendre.leggauss(24))
@@ -74,7 +75,7 @@ def _powers_in(model, state, phase, direction, P):
         lost += model.damping0[j] * state.g[j] ** 2
     driven = P * f * dw_dtheta
     supplied = Omega * model.r_0**2 * F
-    friction = laws.friction_coefficient(model, direction, f)
+    friction = friction_coefficient(model, direction, f)
     rubbed = friction * model.r_0 * P * f if phase == layout.SLIP else 0.0
     if model.normal:
         # P is R: V = R (1 - s mu B / r_0) is what acts vertically, and R B / r_0 acts in the plane
@@ -85,11 +86,7 @@ def _powers_in(model, state, phase, direction, P):
         driven += model.N_rate * (u - model.u_0)
     size, couple = abs(driven) + lost, 0.0
     if model.coupled:
-        T = friction * P if phase == layout.SLIP else 0.0
-        if phase == layout.STICK:
-            i, _ = instant(model, state)
-            T = laws.friction_in_stick(model, i, laws.vertical_in_stick(model, i))
-        couple = T * surface_velocity(model, state)
+        couple = friction_force(model, state, phase, direction, P) * surface_velocity(model, state)
         driven += couple
         size += abs(couple)
     return driven - lost, supplied - rubbed - damped, size, abs(supplied) + abs(rubbed) + damped, couple

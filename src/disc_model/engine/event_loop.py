@@ -218,7 +218,7 @@ def follow(model, s, state, probe, limits, buffers, t):
 
 @kernel
 def run(model, s, state, probe, limits, buffers):
-    """Advance ``state`` and record the motion: see `follow`.  Returns the exit code."""
+    """See `follow`."""
     return follow(model, s, state, probe, limits, buffers, ())
 
 
@@ -301,10 +301,8 @@ _NOWHERE = Section(np.zeros(0, np.int64), np.zeros(0), np.zeros(0), np.zeros((0,
 
 def integrate(model, s, state, t, course, section=_NOWHERE, start=None):
     """Advance ``state`` and, if requested, the columns ``t.now`` to the end of an integration; returns its exit code.
-    At the last release the columns are projected onto the section (their event time is t.tau, the state still in
-    stick). An integration that ends at ``t_max`` is not projected. ``t.log`` is incremented.
-
-    From a point ``start`` of a section on, this is its return map, with its Jacobian if the course asks for it. A point
-    is given by its modal coordinates; f is 0 and psi follows from the release condition. ``t.parameters`` may hold
-    changes of parameters in the columns from n on. ``t.log`` is set."""
+    At the last release, not at ``t_max``, the columns are projected onto the section (their event time is t.tau, the
+    state still in stick). ``t.log`` is incremented, or set from a point ``start`` of a section on, where this is its
+    return map, with its Jacobian if the course asks for it. A point is given by its modal coordinates; f is 0 and psi
+    follows from the release condition. ``t.parameters`` may change parameters in the columns from n on."""
     return _flight(model, s, state, t, course, section, section.end if start is None else start, start is not None)

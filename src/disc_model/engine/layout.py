@@ -137,13 +137,10 @@ def _flag(yes) -> tuple[bool, ...]:
 def build_model(  # noqa: PLR0913
     diameters, omega, psi, damping, slider, *, tangential, bonded, compliance=0.0, normal=False, friction_decay=np.inf
 ) -> Model:
-    """Constants of a case.
-
-    diameters, omega (rad/s), psi (kg^-1/2), damping = 2 xi omega (1/s): shape (n_modes,), rows of `plate_modes`; none
+    """Constants of a case. diameters, omega (rad/s), psi (kg^-1/2), damping = 2 xi omega (1/s): shape (n_modes,); none
     for a rigid disc.  slider: N to r_0 of the model.  tangential: of the modes at the surface on which friction acts,
     kg^-1/2, shape (n_modes,); zeros in the middle plane.  compliance: of the contact, m/N, 0 if rigid; normal: whether
-    the contact force is normal to the bent disc; friction_decay: s/m, inf for the coefficient mu_k at any speed.
-    """
+    the contact force is normal to the bent disc; friction_decay: s/m, inf for the coefficient mu_k at any speed."""
     N, k, m = (slider[name] for name in ("N", "k", "m"))
     diameters = np.asarray(diameters)
     pairs, single = np.flatnonzero(diameters > 0), np.flatnonzero(diameters == 0)

@@ -189,8 +189,7 @@ def _search(c, low, n, x_end, powers, work):
         store(work[2], j, _raised(work[1], degree, j))
     root = _leftmost(d, degree, work)
     if root == NO_ROOT:
-        # an end that is not positive has a root before it: here to within rounding in the end itself, as the last
-        # Bernstein coefficient, the same number summed in another order, is not negative
+        # to within rounding in the end itself: the last Bernstein coefficient, the same sum in another order, is >= 0
         return x_end if end <= 0.0 else NO_ROOT
     return x_end * root
 

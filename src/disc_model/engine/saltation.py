@@ -13,9 +13,7 @@ from .layout import DIRECTION, HALF, PHASE, PSI, SEPARATION, SLIP, STICK, U_VELO
 from .tangent import N_SCALARS, point_change, slider_row
 from .transitions import CONSISTENT, NO_SOLUTION, RETURNED, change_phase, disc_point, event_function, instant
 
-# An event function passed its root before the phase began if it did so more radians of the fastest motion earlier: less
-# is rounding of the time at which a motion was cut.
-PASSED = 1e-9
+PASSED = 1e-9  # radians of the fastest motion by which a root was passed before the phase began; less is rounding
 
 
 @kernel
@@ -131,9 +129,8 @@ def event_gradient(model, state, t, cause):
 
 @helper
 def event_times(model, state, t, cause, at_once):
-    """``t.tau``: change of the time of the event ``cause`` for every column.  Returns the event function's rate. If a
-    phase ended ``at_once`` whose event function was negative from the start, it does so in neighbouring motions, too.
-    """
+    """``t.tau``: change of the time of the event ``cause`` for every column.  Returns the event function's rate. A
+    phase that ended ``at_once``, its event function negative from the start, does so in neighbouring motions, too."""
     event_gradient(model, state, t, cause)
     rate = total(put_changes(model, state, t, t.before, 0, False))  # the other lanes of ``before`` are zero
     i, _ = instant(model, state)

@@ -71,20 +71,17 @@ def lane_count(model):
 
 
 @inlined
-def drive(model, s):
-    """Omega at the start of the step."""
+def drive(model, s):  # Omega at the start of the step
     return s.slider[DRIVE_SERIES] if model.ramped else model.Omega
 
 
 @inlined
-def load_at(model, s):
-    """N at the start of the step."""
+def load_at(model, s):  # N at the start of the step
     return s.slider[LOAD_SERIES] if model.ramped else model.N
 
 
 @inlined
 def _row(model, row, b):
-    """Block of one of the model's lane arrays."""
     return load(model.lanes, row * lane_count(model) + b)
 
 
@@ -122,8 +119,7 @@ def _disc_point(model, s):
 
 @inlined
 def _products(s, width, b, k, f_high, e_low, z_low):
-    """Adds f_{k-i} e_i and f_{k-i} z_{i+1}, 2 <= i <= k - 2, to the two sums, for an odd order k; f_high is f_{k-1}.
-    Returns them and those of order k + 1."""
+    """Sums with f_{k-i} e_i and f_{k-i} z_{i+1}, 2 <= i <= k - 2, of an odd order k and of k + 1; f_high: f_{k-1}."""
     e_high, z_high, at = splat(0.0), splat(0.0), 2 * width + b
     for i in range(2, k - 1):
         f_low = spread(s.slider, F_SERIES + k - i)
@@ -137,8 +133,7 @@ def _products(s, width, b, k, f_high, e_low, z_low):
 
 @inlined
 def _products_apart(s, width, b, k, f_high, e_low, z_low):
-    """As ``_products``, with separate sums for even and odd i, whose terms do not wait for each other. This needs too
-    many registers where lanes do not fit into one."""
+    """As ``_products``, with separate sums for even and odd i: too many registers where lanes do not fit into one."""
     e_high, z_high, at = splat(0.0), splat(0.0), 2 * width + b
     e_low2, z_low2, e_high2, z_high2 = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
     for i in range(2, k - 1, 2):
@@ -484,18 +479,15 @@ def separation_series(model, s, order):
 
 
 # ---- Contact beyond the paper: compliant, by a force normal to the bent disc, with friction that falls with the speed
-#
 # Compliant: V = (w - u) / compliance follows from the state, so that each order of V is known before its convolutions.
 # Normal, with beta = B / r_0 and s = sgn(f): in slip the disc feels V = R (1 - s mu_k beta). The in-plane motion is
 # braked by R (s mu_k + beta). Stick holds while abs(r_0 F - beta V) <= mu_s (V + r_0 F beta). Products of series with
 # beta are the cost.  Rigid stick moves as under the vertical force.
-#
 # Falling friction: q in place of s mu_k is a series, T = q R. Each order of T but for q_0 R_k is known before R_k.
 
 
 @inlined
 def _deflection(model, s, k):
-    """w of order k."""
     w = _modal_sum(model, s, layout.AMPLITUDE_ROW, k)
     for j in range(len(model.mode_amplitude0)):
         w += model.mode_amplitude0[j] * s.y[j * ROWS + k]
@@ -504,7 +496,6 @@ def _deflection(model, s, k):
 
 @inlined
 def _slope(model, s, k):
-    """beta = B / r_0 of order k."""
     return _modal_sum(model, s, layout.DW_DTHETA, k) / model.r_0
 
 

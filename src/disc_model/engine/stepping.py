@@ -53,11 +53,8 @@ def _relative(error, scale):
 @inlined
 def step_size(model, s, order, tolerance, phase):
     """Step (time units) at which the last two terms of the series fall below the tolerance (Jorba and Zou). The two are
-    merged as if the step were ``TYPICAL_STEP``, which saves a root.
-
-    Modal velocities are compared with those of static deflection under the preload, or with their own size if that is
-    larger. f is compared with the drive speed, and u' is checked where it is not the disc's.
-    """
+    merged as if the step were ``TYPICAL_STEP``, which saves a root.  Modal velocities are compared with those of static
+    deflection under the preload, f with the drive speed, or with their own size; u' where it is not the disc's."""
     # time is measured by the fastest motion in compliant contact, which does not exist out of contact
     calm = model.free_unit if model.compliant and phase == layout.SEPARATION else 1.0
     typical, longest = TYPICAL_STEP * calm, LONGEST_STEP * calm

@@ -47,7 +47,6 @@ def padded(n: int) -> int:
 
 
 def no_modes() -> StickModes:
-    """Of a system whose stick is integrated by the series."""
     return StickModes(*(np.zeros(0) for _ in StickModes._fields))
 
 
@@ -93,13 +92,10 @@ def _decomposed(stiffness, damping, scale, unit):
 
 
 def build_stick_modes(components, places, slider, *, u, length, unit, compliance) -> StickModes:
-    """Modes of stick for the model of `layout.build_model`.
-
-    components : omega, damping, shape, arm of friction of the components a, modes without nodal diameter, components b;
-        the shape is 0 for the last, the arm for the others
-    places : shape (2, n), of their displacements and velocities in `EngineState.disc`, whose ``length`` is given
-    u : index of u there, followed by u', where contact is compliant
-    """
+    """Modes of stick for the model of `layout.build_model`. components: omega, damping, shape, arm of friction of the
+    components a, modes without nodal diameter, components b, the shape being 0 for the last, the arm for the others;
+    places: shape (2, n), of their displacements and velocities in `EngineState.disc`, whose ``length`` is given; u:
+    index of u there, followed by u', where contact is compliant."""
     omega, n = components[0], len(components[0])
     if not (n or compliance) or n > MOST_MODES or not (omega > 0.0).all():
         return no_modes()

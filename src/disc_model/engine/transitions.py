@@ -112,6 +112,17 @@ def force_in_stick(model, state, V):
 
 
 @inlined
+def friction_force(model, state, phase, direction, P):
+    """Friction T on the disc, in the direction of the slider's path; P: the contact force, used in slip."""
+    if phase == layout.SLIP:
+        return laws.friction_coefficient(model, direction, state.x[layout.F]) * P
+    if phase == layout.SEPARATION:
+        return 0.0
+    i, _ = instant(model, state)
+    return laws.friction_in_stick(model, i, laws.vertical_in_stick(model, i))
+
+
+@inlined
 def usual_denominator(model):
     """The denominator of the contact force in slip without friction."""
     return 1.0 if model.compliant else 1.0 + model.m * model.inverse_effective_mass
