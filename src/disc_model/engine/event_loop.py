@@ -222,9 +222,6 @@ def run(model, s, state, probe, limits, buffers):
     return follow(model, s, state, probe, limits, buffers, ())
 
 
-# ---- Integration with derivatives: from phase to phase, and back to a section
-
-
 @inlined
 def _entry_at(model, state, row):
     """Array and index of the entry of a state that stands at ``row`` of a column."""

@@ -1,8 +1,7 @@
 """Memory layout of modes and states: flat arrays of doubles, in blocks of eight lanes.
 
 Pairs of diametral modes (l >= 1) fill blocks as (a, a, a, a, b, b, b, b); their displacements are ``z``, their
-velocities ``e``.  Axisymmetric modes (l = 0) have separate arrays ``y`` and ``g``, because rotation does not mix them;
-being few, they are stored one by one.  Unused lanes are zero and stay zero.
+velocities ``e``; unused lanes stay zero.  Axisymmetric modes (l = 0) are few, and stored one by one in ``y`` and ``g``.
 """
 
 from typing import NamedTuple

@@ -45,7 +45,7 @@ def set_powers(powers, x, n):
 
 @inlined
 def dot(c, first, powers, n):
-    """sum_{j=0..n} c[first + j] x^j, from the powers up to x^n."""
+    """sum_{j=0..n} c[first + j] x^j."""
     sums = splat(0.0)
     for j in range(0, n + 1, WIDTH):
         sums = fma(load(c, first + j), load(powers, j), sums)

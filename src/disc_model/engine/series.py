@@ -276,8 +276,7 @@ def _next_order(model, s, k, f, f0, impulse, friction, pending):
 
 
 @inlined
-def _spring(model, s, k):
-    """F of order k, from psi_k and f_k."""
+def _spring(model, s, k):  # F of order k
     F_k = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F_SERIES + k]
     if model.ramped:
         return F_k + model.c_p * s.slider[DRIVE_SERIES + k]

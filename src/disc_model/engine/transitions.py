@@ -123,8 +123,7 @@ def friction_force(model, state, phase, direction, P):
 
 
 @inlined
-def usual_denominator(model):
-    """The denominator of the contact force in slip without friction."""
+def usual_denominator(model):  # of the contact force in slip without friction
     return 1.0 if model.compliant else 1.0 + model.m * model.inverse_effective_mass
 
 
@@ -242,7 +241,7 @@ def lose_contact(model, state):
 
 @helper
 def stop_slip(model, state):
-    """Stop: f has reached zero. Stick if friction holds the spring, else slip to the side of the spring's pull."""
+    """f has reached zero: stick if friction holds the spring, else slip to the side of the spring's pull."""
     state.x[layout.F] = 0.0
     i, _ = instant(model, state)
     P = laws.vertical_in_stick(model, i)

@@ -70,7 +70,6 @@ class HelperLibrary(JITCodeLibrary):
 
     @classmethod
     def of_code(cls, codegen, name, code):
-        """A library of stored code; the same one for the same code."""
         if code not in cls.known:
             cls.known[code] = cls(codegen, name)
             cls.known[code]._final_module, cls.known[code]._finalized = llvm.parse_bitcode(code), True

@@ -126,7 +126,6 @@ else:
         return builder.bitcast(builder.gep(array, [i]), _VECTOR.as_pointer())
 
     def _call(builder, name, *args):
-        """Call of an LLVM intrinsic by its mangled name."""
         signature = ir.FunctionType(args[0].type, [a.type for a in args])
         return builder.call(cgutils.get_or_insert_function(builder.module, signature, name), args)
 
@@ -193,7 +192,6 @@ else:
         return powers
 
     def _of_two(write):
-        """An instruction of LLVM on two values."""
         # not `write` itself: numba counts arguments by their names, and those of llvmlite have a `name` as well
         return _instruction(LANES, LANES, LANES)(lambda builder, a, b: write(builder, a, b))
 
