@@ -213,17 +213,26 @@ def _order(model, s, width, b, k, f, f0, push):
 
 
 @inlined
+def _axisymmetric_mode(model, s, k, j, impulse):
+    at, up, force, damping = j * ROWS + k, s.slider[UP + k], item(model.mode_amplitude0, j), item(model.damping0, j)
+    g, pull = item(s.g, at), item(model.stiffness0, j) * item(s.y, at)
+    part = -force * (damping * g + pull)
+    g -= force * impulse
+    put(s.g, at, g)
+    put(s.y, at + 1, g * up)
+    put(s.g, at + 1, -(damping * g + pull) * up)
+    return part
+
+
+@inlined
 def _axisymmetric(model, s, k, impulse):
     """Modes without nodal diameter, which only feel P, order k.  Returns their part of u'' without P_{k-1}."""
-    up, part = s.slider[UP + k], 0.0
-    for j in range(len(model.mode_amplitude0)):
-        at, force, damping = j * ROWS + k, item(model.mode_amplitude0, j), item(model.damping0, j)
-        g, pull = item(s.g, at), item(model.stiffness0, j) * item(s.y, at)
-        part += -force * (damping * g + pull)
-        g -= force * impulse
-        put(s.g, at, g)
-        put(s.y, at + 1, g * up)
-        put(s.g, at + 1, -(damping * g + pull) * up)
+    n = len(model.mode_amplitude0)
+    if n == 1:  # the usual case; a loop costs as much again
+        return _axisymmetric_mode(model, s, k, 0, impulse)
+    part = 0.0
+    for j in range(n):
+        part += _axisymmetric_mode(model, s, k, j, impulse)
     return part
 
 
