@@ -34,7 +34,9 @@ def test_the_stored_numbers_are_those_of_the_results() -> None:
         pytest.skip(f"needs `make reproduce`: {len(missing)} files are missing")
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/findings.md", "docs/details.md", "docs/details_friction.md", "docs/note.md"])
+@pytest.mark.parametrize(
+    "page", ["README.md", "docs/findings.md", "docs/details.md", "docs/details_friction.md", "docs/note.md"]
+)
 def test_every_number_is_of_a_statement(page: str) -> None:
     """Or docs/statements.yaml lists it as no result."""
     text = collect_numbers.pages()[page].partition("\n## References\n")[0]

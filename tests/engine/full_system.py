@@ -4,6 +4,7 @@ import numpy as np
 
 from disc_model import Parameters
 from disc_model.engine import event_loop, layout, saltation, tangent
+from disc_model.engine.series import build_series
 from disc_model.simulation.states import State, engine_case, series_order, write_state
 
 
@@ -20,7 +21,7 @@ class Full:
         used, single = np.flatnonzero(self.model.shift), np.arange(n0)
         rows = [used, width + used, 2 * width + single, 2 * width + n0 + single, 2 * (width + n0) + np.arange(scalars)]
         self.rows = np.concatenate(rows)
-        self.series, self.state = layout.build_series(self.model, self.order), layout.build_state(self.model)
+        self.series, self.state = build_series(self.model, self.order), layout.build_state(self.model)
         self.tangent = tangent.build_tangent(self.model, len(self.rows), self.order)
         self.n_rows = tangent.n_rows(self.model)
         write_state(case, start, self.state)

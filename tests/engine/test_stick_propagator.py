@@ -5,6 +5,7 @@ import pytest
 
 from disc_model import Execution, Parameters, Window, simulate
 from disc_model.engine import dense_output, layout, series, stick_modes
+from disc_model.engine.series import Series, build_series
 from disc_model.engine.transitions import stick_force
 from disc_model.simulation.states import engine_case
 from tests.contact_laws import COMPILES, by_series
@@ -23,7 +24,7 @@ COMPLIANT = {"contact_compliance": 2.5e-7, "c": 20.0, "D_star": 1e-2}
 ALL = VARIANTS | {"compliant": COMPLIANT, "compliant coupled": COMPLIANT | VARIANTS["coupled"]}
 
 
-def _propagate(model: layout.Model, s: layout.Series, state: layout.EngineState, x: float) -> float:
+def _propagate(model: layout.Model, s: Series, state: layout.EngineState, x: float) -> float:
     length = dense_output.closed_form_length(model, s, state)
     dense_output.propagate_stick(model, s, x, state)
     return float(length)
@@ -49,8 +50,8 @@ def test_closed_form_is_the_series(variant: str, x: float) -> None:
     """
     model = engine_case(Parameters(N=385, Omega=15.1, **ALL[variant])).model
     closed, taylor = _lively(model), _lively(model)
-    _propagate(model, layout.build_series(model, ORDER), closed, x)
-    s = layout.build_series(model, ORDER)
+    _propagate(model, build_series(model, ORDER), closed, x)
+    s = build_series(model, ORDER)
     dense_output.load_state(model, s, taylor)
     expand = series.compliant_stick_series if model.compliant else series.stick_series
     expand(model, s, ORDER)
@@ -94,7 +95,7 @@ def test_the_gain_of_a_mode_is_its_swing_of_the_contact_force(compliance: float)
 def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed: int) -> None:
     p = Parameters(N=385, Omega=5.0, **VARIANTS[variant])
     model = engine_case(p).model
-    s, state = layout.build_series(model, ORDER), _lively(model, seed)
+    s, state = build_series(model, ORDER), _lively(model, seed)
     length = _propagate(model, s, state, 0.0)
     assert dense_output.SHORTEST_STICK <= length < stick_modes.LONGEST_STICK
     swing, lowest = 0.0, np.inf
@@ -122,7 +123,7 @@ def test_the_rest_is_left_to_the_series(parameters: dict[str, float]) -> None:
 def test_nothing_is_promised_where_nothing_is_sure() -> None:
     """A spring beyond the friction limit, or a swing that could take P to zero."""
     model = engine_case(Parameters(N=385, Omega=15.1)).model
-    s, pulled, shaken = layout.build_series(model, ORDER), _lively(model), _lively(model)
+    s, pulled, shaken = build_series(model, ORDER), _lively(model), _lively(model)
     pulled.x[layout.PSI] = 0.1
     shaken.e[:] *= 1e4
     assert _propagate(model, s, pulled, 0.0) == _propagate(model, s, shaken, 0.0) == 0.0
@@ -134,7 +135,7 @@ def test_a_spring_that_pulls_hard_already_leaves_less_time() -> None:
     limit, unit = p.mu_s * p.N / p.r_0, engine_case(p).model.unit
     # from no pull at all that would take as long as one advance may last
     model = engine_case(p.replace(Omega=limit / (p.k_p * unit * stick_modes.LONGEST_STICK))).model
-    s, state = layout.build_series(model, ORDER), layout.build_state(model)
+    s, state = build_series(model, ORDER), layout.build_state(model)
     state.x[layout.PSI] = 0.9 * limit / p.k_p
     # 0.1 of it, right to the rounding of forces of which nine tenths cancel
     assert _propagate(model, s, state, 0.0) == pytest.approx(0.1 * stick_modes.LONGEST_STICK, rel=1e-12)

@@ -8,6 +8,7 @@ import pytest
 from disc_model import Execution, Parameters, Window, plate_modes, simulate
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.engine import event_loop, laws, layout, transitions
+from disc_model.engine.series import build_series
 from disc_model.simulation.states import engine_case, static_start, write_state
 from tests.contact_laws import ALL_LAWS, COMPILES, COUPLE, LAWS
 from tests.references import stored, taylor
@@ -144,11 +145,11 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
     model = case.model
     if rates:
         model = layout.on_ramp(model, 0.0, 0.0, Omega=p.Omega, Omega_rate=rates[0], N=p.N, N_rate=rates[1])
-    s, state = layout.build_series(model, order), layout.build_state(model)
+    s, state = build_series(model, order), layout.build_state(model)
     write_state(case, start, state)
     if rates:
         event_loop.set_course(model, state)
-    event_loop.expand(model, s, state, order)
+    event_loop.expand(model.compliant, model.normal, model.decaying, model, s, state, order)
     powers = np.array([float(model.unit) ** k for k in range(order + 1)])
 
     def compare(own, wanted, rtol=1e-10, degree=order):

@@ -21,21 +21,17 @@ from .transitions import disc_point, friction_force, inplane_force_per_radius, s
 # 24 nodes integrate degree 47: products of two series of the usual order are exact to rounding.
 _NODES, _WEIGHTS = (a * 0.5 for a in np.polynomial.legendre.leggauss(24))
 _NODES = _NODES + 0.5
-
-# Time units that the nodes resolve; only stick in closed form is longer.
-_PANEL = 8.0
-
+_PANEL = 8.0  # time units that the nodes resolve; only stick in closed form is longer
 # Indices of the sums in the audit's array. TRANSVERSE, INPLANE: sums of the residuals; *_SCALE: largest energy
-# exchanged in one step; *_TURNOVER: sum of the moduli of all energy put in and taken out.
+# exchanged in one step; *_TURNOVER: sum of the moduli of all energy put in and taken out; COUPLE: sum of the work
+# T v_s; SURFACE: largest abs(v_s) / (r_0 Omega) at the ends of steps, audited or not.
 STEPS, WORST, TRANSVERSE, INPLANE, TRANSVERSE_SCALE, INPLANE_SCALE = range(6)
-# COUPLE: sum of the work T v_s; SURFACE: largest abs(v_s) / (r_0 Omega) at the ends of steps, audited or not.
 TRANSVERSE_TURNOVER, INPLANE_TURNOVER, COUPLE, SURFACE, N_SUMS = range(6, 11)
 
 
 @helper
 def transverse_energy(model, state, phase):
-    """Energy of the disc, of the slider's vertical motion and of a compliant contact, J. In rigid contact u, u' are
-    those of the disc's point."""
+    """Energy of the disc, of the slider's vertical motion and of a compliant contact, J."""
     u, v = state.x[layout.U], state.x[layout.U_VELOCITY]
     energy = 0.0
     if phase != layout.SEPARATION:
@@ -54,7 +50,6 @@ def transverse_energy(model, state, phase):
 
 @helper
 def inplane_energy(model, state):
-    """Energy of the slider's in-plane motion, J."""
     x = state.x
     return 0.5 * model.r_0**2 * (model.m * x[layout.F] ** 2 + model.k_p * x[layout.PSI] ** 2)
 
@@ -139,10 +134,8 @@ def accumulate_residuals(audit, residual_t, residual_p, size_t, size_p):
 
 @helper
 def audit_impact(model, before, impulse, dw_dtheta, state, audit):
-    """Balance of a plastic impact: Delta E = -p^2 (S2 + 1/m) / 2 + p f B, f being that after it.
-
-    The normal force changes f: the energy that the slope takes from the in-plane motion beyond p f B is lost.
-    """
+    """Balance of a plastic impact: Delta E = -p^2 (S2 + 1/m) / 2 + p f B, f being that after it. The normal force
+    changes f: the energy that the slope takes from the in-plane motion beyond p f B is lost."""
     lost, f = 0.5 * impulse**2 * (model.inverse_effective_mass + 1.0 / model.m), state.x[layout.F]
     expected = -lost + impulse * f * dw_dtheta
     after = transverse_energy(model, state, layout.SEPARATION)

@@ -1,11 +1,10 @@
 """State and contact force anywhere in a step: from the series or, in stick, in closed form; uniform samples of both.
 
-Stick is not integrated as long as it cannot end.  In the modes of ``stick_modes`` the contact force stays within
-|P - N| <= sum gain_i |q_i|.  The growing spring force reaches the friction limit mu_s P at the earliest where it meets
-mu_s (N - that sum).  Until then the state follows without steps.  The series then find the release.
+Stick is not integrated as long as it cannot end.  In the modes of ``stick_modes`` |P - N| <= sum gain_i |q_i|: the
+growing spring force reaches the friction limit mu_s P at the earliest where it meets mu_s (N - that sum).
 
-A sample at an event shows the side before it.  The time of an event is rounded, and differently on another way to the
-same event. A sample is therefore "at" an event up to `SAME_INSTANT` of the clock after it.
+A sample at an event shows the side before it. Its time is rounded, and differently on another way to the same event: a
+sample is "at" an event up to `SAME_INSTANT` of the clock after it.
 """
 
 import math
@@ -13,40 +12,18 @@ import math
 from . import layout
 from .jit import helper, inlined
 from .jit.simd import WIDTH, add, fma, load, mul, splat, spread, store, sub
-from .layout import DRIVE_SERIES, LOAD_SERIES, PHASE, PSI, ROWS, STICK, U_VELOCITY, E, F, U
+from .layout import PHASE, PSI, ROWS, STICK, U_VELOCITY, F, U
 from .polynomial import dot, set_powers
-from .series import lane_count
+from .series import DRIVE_SERIES, LOAD_SERIES, E, lane_count
 from .stick_modes import DEGREE, LONGEST_STICK, QUANTUM
 from .transitions import disc_point, force_in_stick, stick_force
 
-# In place of a series' order where stick has a closed form instead.
-CLOSED_FORM = 0
-# The closed form saves time from about the length of a usual step (time units).
-SHORTEST_STICK = 5.0
+CLOSED_FORM = 0  # in place of a series' order where stick has a closed form instead
+SHORTEST_STICK = 5.0  # time units: the closed form saves time from about the length of a usual step
 # Columns of a row of samples.
 ROW = ("sampler", "time", "P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity", "phase")
-
-# Of the clock: 256 units of rounding.  A release found by the series is rounded at each step, and deviates by up to 80
-# such units within 400 steps.
+# A release found by the series is rounded at each step, and deviates by up to 80 units of rounding within 400 steps.
 SAME_INSTANT = 256 * 2.0**-52
-
-
-@helper
-def _enter_modes(model, disc, states, spring, amplitudes):
-    """Modal amplitudes of a disc under F = ``spring``, into ``amplitudes``.  Returns the bound on abs(P - N)."""
-    modes = model.modes
-    n, width, swing = len(modes.gain), len(modes.offset), 0.0
-    for b in range(0, width, WIDTH):
-        q = load(modes.offset, b)
-        if model.coupled:
-            q = fma(splat(model.r_0 * spring), load(modes.friction_offset, b), q)
-            q = fma(splat(model.r_0 * model.k_p * model.Omega), load(modes.friction_offset, width + b), q)
-        for j in range(states):
-            q = fma(spread(disc, j), load(modes.enter, j * width + b), q)
-        store(amplitudes, b, q)
-    for i in range(n):
-        swing += modes.gain[i] * math.sqrt(amplitudes[i] ** 2 + amplitudes[n + i] ** 2)
-    return swing
 
 
 @inlined
@@ -56,13 +33,10 @@ def _times(ar, ai, br, bi):
 
 
 @helper
-def _leave_modes(model, amplitudes, x, spring, disc):
-    """The disc at ``x`` (time units) after ``amplitudes``, under F = ``spring`` there.
-
-    exp(lambda x) is taken from its series and tabled powers.
-    """
-    modes = model.modes
-    n, length = len(modes.gain), len(disc)
+def propagate_stick(model, s, x, state):
+    """Fill ``state`` with stick at x (time units) after the state of the call of ``closed_form_length``."""
+    modes, amplitudes, disc, psi = model.modes, s.amplitudes, state.disc, s.psi[0] + model.Omega * model.unit * x
+    n, length, spring = len(modes.gain), len(disc), model.k_p * psi + model.c_p * model.Omega
     quanta = int(x / QUANTUM)
     rest = splat(x - quanta * QUANTUM)
     for b in range(0, n, WIDTH):
@@ -88,19 +62,34 @@ def _leave_modes(model, amplitudes, x, spring, disc):
         for i in range(2 * n):
             v = fma(spread(amplitudes, 2 * n + i), load(modes.leave, i * length + b), v)
         store(disc, b, v)
+    if model.compliant:
+        states = 2 * (len(model.shift) + len(model.mode_amplitude0))
+        state.x[U], state.x[U_VELOCITY] = disc[states], disc[states + 1]
+    state.x[PHASE], state.x[F], state.x[PSI] = STICK, 0.0, psi
 
 
-@inlined
+@helper
 def closed_form_length(model, s, state):
     """Time (time units) for which stick surely lasts, 0 if too short for ``propagate_stick`` to be worth it."""
-    if len(model.modes.gain) == 0:
+    modes = model.modes
+    n, width, swing = len(modes.gain), len(modes.offset), 0.0
+    if n == 0:
         return 0.0
     states = 2 * (len(model.shift) + len(model.mode_amplitude0))
     if model.compliant:
         state.disc[states], state.disc[states + 1] = state.x[U], state.x[U_VELOCITY]
         states += 2
     spring = model.k_p * state.x[PSI] + model.c_p * model.Omega
-    swing = _enter_modes(model, state.disc, states, spring, s.amplitudes)
+    for b in range(0, width, WIDTH):
+        q = load(modes.offset, b)
+        if model.coupled:
+            q = fma(splat(model.r_0 * spring), load(modes.friction_offset, b), q)
+            q = fma(splat(model.r_0 * model.k_p * model.Omega), load(modes.friction_offset, width + b), q)
+        for j in range(states):
+            q = fma(spread(state.disc, j), load(modes.enter, j * width + b), q)
+        store(s.amplitudes, b, q)
+    for i in range(n):
+        swing += modes.gain[i] * math.sqrt(s.amplitudes[i] ** 2 + s.amplitudes[n + i] ** 2)
     s.psi[0] = state.x[PSI]
     friction = model.mu_s * (model.N - swing) / model.r_0
     # the spring force only grows, so that a backward release is impossible if it is impossible now
@@ -111,18 +100,6 @@ def closed_form_length(model, s, state):
         return LONGEST_STICK
     x = (friction - spring) / growth
     return x if x >= SHORTEST_STICK else 0.0
-
-
-@inlined
-def propagate_stick(model, s, x, state):
-    """Fill ``state`` with stick at x (time units) after the state of the call of ``closed_form_length``."""
-    psi = s.psi[0] + model.Omega * model.unit * x
-    _leave_modes(model, s.amplitudes, x, model.k_p * psi + model.c_p * model.Omega, state.disc)
-    if model.compliant:
-        states = 2 * (len(model.shift) + len(model.mode_amplitude0))
-        state.x[U], state.x[U_VELOCITY] = state.disc[states], state.disc[states + 1]
-    state.x[PHASE], state.x[F] = STICK, 0.0
-    state.x[PSI] = psi
 
 
 @inlined
@@ -144,19 +121,15 @@ def _pairs_at(model, s, order, x, state):
 
 @inlined
 def state_at(model, s, order, x, phase, state):
-    """Fill ``state`` with the series' value at x (time units); u, u' only where they are not the disc's. The order is
-    even."""
+    """Fill ``state`` with the series' value, of even order, at x; u, u' only where they are not the disc's."""
     set_powers(s.powers, x, order)
     psi, f = dot(s.psi, 0, s.powers, order), dot(s.f, 0, s.powers, order)
     _pairs_at(model, s, order, x, state)
     for j in range(len(model.mode_amplitude0)):
         state.y[j], state.g[j] = dot(s.y, j * ROWS, s.powers, order), dot(s.g, j * ROWS, s.powers, order)
     if model.compliant or phase == layout.SEPARATION:
-        state.x[layout.U] = dot(s.u, 0, s.powers, order)
-        state.x[layout.U_VELOCITY] = dot(s.v, 0, s.powers, order)
-    state.x[layout.PHASE] = phase
-    state.x[layout.PSI] = psi
-    state.x[layout.F] = 0.0 if phase == layout.STICK else f
+        state.x[U], state.x[U_VELOCITY] = dot(s.u, 0, s.powers, order), dot(s.v, 0, s.powers, order)
+    state.x[PHASE], state.x[PSI], state.x[F] = phase, psi, 0.0 if phase == STICK else f
     if model.ramped:
         state.x[layout.DRIVE] = s.slider[DRIVE_SERIES] + x * s.slider[DRIVE_SERIES + 1]
         state.x[layout.LOAD] = s.slider[LOAD_SERIES] + x * s.slider[LOAD_SERIES + 1]
@@ -164,7 +137,7 @@ def state_at(model, s, order, x, phase, state):
 
 @inlined
 def move_to(model, s, order, x, phase, state):
-    """Fill ``state`` with the dense output at x (time units): the series of this order, or the closed form of stick."""
+    """Fill ``state`` with the dense output at x: the series of this order, or the closed form of stick."""
     if order == CLOSED_FORM:
         propagate_stick(model, s, x, state)
     else:
@@ -190,8 +163,7 @@ def load_state(model, s, state):
         store(s.e, b, load(state.e, b))
     for j in range(len(state.y)):
         s.y[j * ROWS], s.g[j * ROWS] = state.y[j], state.g[j]
-    s.psi[0], s.f[0] = state.x[layout.PSI], state.x[layout.F]
-    s.u[0], s.v[0] = state.x[layout.U], state.x[layout.U_VELOCITY]
+    s.psi[0], s.f[0], s.u[0], s.v[0] = state.x[PSI], state.x[F], state.x[U], state.x[U_VELOCITY]
     if model.ramped:
         s.slider[DRIVE_SERIES], s.slider[DRIVE_SERIES + 1] = state.x[layout.DRIVE], model.Omega_rate * model.unit
         s.slider[LOAD_SERIES], s.slider[LOAD_SERIES + 1] = state.x[layout.LOAD], model.N_rate * model.unit
@@ -217,26 +189,20 @@ def point_motion(model, state, angle):
 def _write_row(model, s, order, x, time, phase, theta, probe, row):
     move_to(model, s, order, x, phase, probe)
     w, velocity, _ = disc_point(model, probe)
-    angle = theta - (layout.drive_angle(model, time) - probe.x[layout.PSI])
-    row[1] = time
-    row[2] = force_at(model, s, order, phase, probe)
+    angle = theta - (layout.drive_angle(model, time) - probe.x[PSI])
+    row[1], row[2] = time, force_at(model, s, order, phase, probe)
     row[3], row[4], row[5] = w, velocity, w
     if model.compliant or phase == layout.SEPARATION:
-        row[3], row[4] = probe.x[layout.U], probe.x[layout.U_VELOCITY]
+        row[3], row[4] = probe.x[U], probe.x[U_VELOCITY]
     row[6], row[7] = point_motion(model, probe, angle)
-    row[8] = probe.x[layout.PSI]
-    row[9] = layout.drive_now(model, probe) - probe.x[layout.F]
-    row[10] = phase
+    row[8], row[9], row[10] = probe.x[PSI], layout.drive_now(model, probe) - probe.x[F], phase
 
 
 @helper
 def sample_step(model, s, order, state, x_end, samplers, progress, probe, rows, filled):
-    """Append a row for every sample time within the step that starts at ``state`` and lasts ``x_end`` units.
-
-    A sample at the end of the step, to rounding, belongs to this step: at an event it shows the side before. samplers:
-    shape (n, 5), columns first time, interval, number of samples, theta, end of run; progress: shape (n,), samples
-    taken so far; rows: shape (capacity, len(ROW)).  Returns the number of rows filled.
-    """
+    """Append to ``rows`` one for every sample time within the step that starts at ``state`` and lasts ``x_end`` units,
+    its end included, to rounding.  Returns the number of rows filled. ``samplers``: shape (n, 5), columns first time,
+    interval, number of samples, theta, end of run; ``progress``: shape (n,), samples taken so far."""
     start, low = state.x[layout.TIME], state.x[layout.TIME_LOW]
     last = x_end + SAME_INSTANT * (start / model.unit + x_end + 1.0)
     for i in range(len(samplers)):

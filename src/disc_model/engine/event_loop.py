@@ -1,8 +1,7 @@
 """The event loop: expand the series, find the first event, move there, change phase, record; until the end.
 
-A `run` records the motion, and returns when a buffer is full: memory does not grow with the simulated time, and callers
-can show progress.  Pauses have no influence on results.  An integration takes small changes along with the motion
-instead, to a time or back to a section, and records nothing but counts.
+A `run` records the motion, and returns when a buffer is full. Pauses have no influence on results.  An integration
+takes small changes along with the motion instead, to a time or back to a section, and records nothing but counts.
 """
 
 from typing import NamedTuple
@@ -16,43 +15,25 @@ from .jit import helper, inlined, kernel
 from .jit.packing import packed
 from .jit.simd import WIDTH, mul, splat, store
 from .laws import PSI_ENTRY, TINY, stepped
-from .saltation import count_event, event_change, event_gradient, event_times, pass_event, rates, slider_rows
+from .saltation import count_event, event_gradient, event_times, pass_event, put_changes, rates, slider_rows
 from .series import weakening
-from .stepping import advance_time, expand, first_event, set_course, step_size
+from .stepping import expand, first_event, set_course, step_size
 from .tangent import slider_row, take_step
-from .transitions import (
-    CONSISTENT,
-    NO_SOLUTION,
-    NON_FINITE,
-    OFF_SECTION,
-    PAUSED,
-    STALLED,
-    STEP_LIMIT,
-    STOPPED,
-    TIME_OVER,
-)
 
 # Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
 STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
 # Kind of event by its cause, in the order of the causes in ``transitions``; at rest the slider may also reverse.
 KIND_OF = (-1, STICK_TO_SLIP, STICK_TO_SLIP, SLIP_TO_STICK, LOSS_OF_CONTACT, REATTACHMENT)
 
-# Counters, shape (N_COUNTERS,).
 STEPS, EVENTS, SEPARATIONS, EVENT_ROWS, SAMPLE_ROWS, FROM_AUDIT, N_COUNTERS = range(7)
-# Columns of a row of events.
 EVENT_ROW = ("time", "kind", "phase", "direction", "psi", "f", "u", "u_velocity", "P")
-
 MAX_EVENTS_PER_STEP = 3
-
 # State.x[PROPAGATED] after the closed form of stick, which usually ends shortly before the release: the next step is
 # short, and a series of low order is enough for it.
-JUST_PROPAGATED = 2.0
-ORDER_BEFORE_RELEASE = 10
+JUST_PROPAGATED, ORDER_BEFORE_RELEASE = 2.0, 10
 
 
 class Limits(NamedTuple):
-    """Limits and settings of a run."""
-
     order: int  # of the series
     tolerance: float  # of the series
     t_end: float  # s
@@ -63,8 +44,6 @@ class Limits(NamedTuple):
 
 
 class IntegrationLimits(NamedTuple):
-    """End and accuracy of an integration."""
-
     order: int  # of the series
     tolerance: float  # of the series
     longest: float  # step, time units: columns are rougher than the motion that sizes the steps; see ``longest_step``
@@ -75,8 +54,6 @@ class IntegrationLimits(NamedTuple):
 
 
 class RunBuffers(NamedTuple):
-    """Outputs of a run beside its state."""
-
     counters: np.ndarray  # shape (N_COUNTERS,)
     phase_times: np.ndarray  # s, shape (3,)
     audit: np.ndarray  # see ``audit``
@@ -84,7 +61,7 @@ class RunBuffers(NamedTuple):
     sampled: np.ndarray  # see ``dense_output.sample_step``
     sample_rows: np.ndarray  # see ``dense_output.sample_step``
     sample_capacity: int  # rows that may be filled before the machine pauses
-    event_rows: np.ndarray  # shape (capacity, len(EVENT_ROW)); capacity 0 keeps no events
+    event_rows: np.ndarray  # shape (capacity, len(EVENT_ROW))
 
 
 @packed
@@ -99,14 +76,12 @@ class Section(NamedTuple):
 
 @inlined
 def _record(model, state, kind, buffers):
-    """Count an event and, if events are kept, append its row."""
-    counters, rows = buffers.counters, buffers.event_rows
+    """Count an event and append its row."""
+    counters, x = buffers.counters, state.x
     counters[EVENTS] += 1
     if kind == LOSS_OF_CONTACT:
         counters[SEPARATIONS] += 1
-    if len(rows) == 0:
-        return
-    row, x = rows[counters[EVENT_ROWS]], state.x
+    row = buffers.event_rows[counters[EVENT_ROWS]]
     u, v, _ = transitions.slider_motion(model, state)
     row[0] = x[layout.TIME] + x[layout.TIME_LOW]
     row[1], row[2], row[3] = kind, x[layout.PHASE], x[layout.DIRECTION]
@@ -125,7 +100,7 @@ def _apply_event(model, state, cause, at_once, buffers):
     outcome = transitions.change_phase(model, state, cause, at_once)
     if hits:
         audit_impact(model, before, model.m * (state.x[layout.U_VELOCITY] - velocity), dw_dtheta, state, buffers.audit)
-    if outcome == NO_SOLUTION:
+    if outcome == transitions.NO_SOLUTION:
         return outcome
     phase, kind = state.x[layout.PHASE], KIND_OF[cause]
     if cause == transitions.AT_REST and phase != layout.STICK:
@@ -161,11 +136,15 @@ def _record_step(model, s, state, probe, order, x_end, audit_every, buffers):
 
 @inlined
 def _advance_clock(model, state, order, x_end, dt):
-    """Advance the clock, and the drive and load of a ramp, over a step of x_end time units, ``dt`` s."""
+    """Advance the clock, by a compensated sum, and drive and load of a ramp over a step of x_end units, ``dt`` s."""
     x = state.x
     x[layout.KNOWN], x[layout.KNOWN_FORCE], x[layout.FORCE] = 0.0, 0.0, 0.0
     x[layout.PROPAGATED] = 0.0 if x_end >= LONGEST_STICK else JUST_PROPAGATED if order == CLOSED_FORM else 1.0
-    advance_time(x, dt)
+    dt += x[layout.TIME_LOW]
+    new = x[layout.TIME] + dt
+    change = new - x[layout.TIME]
+    x[layout.TIME_LOW] = (x[layout.TIME] - (new - change)) + (dt - change)
+    x[layout.TIME] = new
     set_course(model, state)
 
 
@@ -181,11 +160,10 @@ def follow(model, s, state, probe, limits, buffers, t):
     while True:
         if len(t) == 0:
             if buffers.counters[STEPS] >= limits.max_steps:
-                return STEP_LIMIT
-            rows = len(buffers.event_rows)
-            full = rows > 0 and buffers.counters[EVENT_ROWS] > rows - MAX_EVENTS_PER_STEP
+                return transitions.STEP_LIMIT
+            full = buffers.counters[EVENT_ROWS] > len(buffers.event_rows) - MAX_EVENTS_PER_STEP
             if full or buffers.counters[SAMPLE_ROWS] > buffers.sample_capacity or buffers.counters[STEPS] >= pause:
-                return PAUSED
+                return transitions.PAUSED
             left = ((limits.t_end - x[layout.TIME]) - x[layout.TIME_LOW]) / model.unit
             if x[layout.PHASE] == layout.STICK and x[layout.PROPAGATED] == 0.0:
                 x_end = min(closed_form_length(model, s, state), left)
@@ -195,7 +173,7 @@ def follow(model, s, state, probe, limits, buffers, t):
                     _record_step(model, s, state, probe, CLOSED_FORM, x_end, limits.audit_every, buffers)
                     _advance_clock(model, state, CLOSED_FORM, x_end, dt)
                     if x_end >= left:
-                        return TIME_OVER
+                        return transitions.TIME_OVER
                     continue
             longest, order = left, limits.order
             if x[layout.PROPAGATED] == JUST_PROPAGATED and not model.compliant:
@@ -203,11 +181,11 @@ def follow(model, s, state, probe, limits, buffers, t):
         else:
             left = (limits.t_max - (x[layout.TIME] - start)) / model.unit
             longest = min(left, limits.longest)
-        if expand(model, s, state, order) <= transitions.PAINLEVE_MARGIN:
-            return NO_SOLUTION
+        if expand(model.compliant, model.normal, model.decaying, model, s, state, order) <= transitions.PAINLEVE_MARGIN:
+            return transitions.NO_SOLUTION
         x_end = step_size(model, s, order, limits.tolerance, x[layout.PHASE])
         if not x_end > 0.0:
-            return NON_FINITE
+            return transitions.NON_FINITE
         if len(t) == 1 and model.decaying and x[layout.PHASE] == layout.SLIP:
             # where friction falls steeply, a change of f grows faster than the fastest motion
             growth = abs(weakening(model, s, 0, x[layout.DIRECTION])) * model.unit / (model.m * model.r_0)
@@ -223,28 +201,25 @@ def follow(model, s, state, probe, limits, buffers, t):
         if cause != transitions.NOTHING:
             x[layout.IN_A_ROW] = x[layout.IN_A_ROW] + 1.0 if x[layout.TIME] == before else 0.0
             if x[layout.IN_A_ROW] > transitions.MAX_EVENTS_IN_A_ROW:
-                return STALLED
+                return transitions.STALLED
             if len(t) == 0:
                 outcome = _apply_event(model, state, cause, x_end == 0.0, buffers)
             else:
                 releases += 1 if cause == transitions.RELEASE_FORWARD else 0
                 returns = cause == transitions.RELEASE_FORWARD and releases == limits.releases
                 outcome = pass_event(model, state, t[0], cause, x_end == 0.0, returns, limits.tangent)
-            if outcome != CONSISTENT:
+            if outcome != transitions.CONSISTENT:
                 return outcome
             if x[layout.PHASE] == layout.SEPARATION and not limits.may_separate:
-                return STOPPED
+                return transitions.STOPPED
         if x_end >= left:
-            return TIME_OVER
+            return transitions.TIME_OVER
 
 
 @kernel
 def run(model, s, state, probe, limits, buffers):
-    """Advance ``state`` and record the motion: see `follow`.  Returns the exit code."""
+    """See `follow`."""
     return follow(model, s, state, probe, limits, buffers, ())
-
-
-# ---- Integration with derivatives: from phase to phase, and back to a section
 
 
 @inlined
@@ -264,7 +239,7 @@ def release_angle(model, state):
 
 @helper
 def _leave_section(model, s, state, t, course, section, start):
-    """Put state and, if requested, columns just after the release at ``start``.  Returns CONSISTENT or an exit code."""
+    """Put state and, if requested, columns just after the release at ``start``.  Returns an exit code."""
     rows, scale = section.rows, section.scale
     t.log[:] = 0.0
     state.x[:] = 0.0
@@ -273,7 +248,7 @@ def _leave_section(model, s, state, t, course, section, start):
         entries[at] = start[i] / scale[i]
     state.x[layout.PHASE] = layout.STICK
     if not transitions.stick_force(model, state) > 0.0:
-        return OFF_SECTION
+        return transitions.OFF_SECTION
     state.x[layout.PSI] = release_angle(model, state)
     if course.tangent:
         t.now[:] = 0.0
@@ -282,35 +257,35 @@ def _leave_section(model, s, state, t, course, section, start):
         event_gradient(model, state, t, transitions.RELEASE_FORWARD)
         by_psi = splat(-1.0 / t.gradient[PSI_ENTRY])
         for c in range(0, t.columns, WIDTH):
-            dpsi = mul(by_psi, event_change(model, state, t, t.now, c, c >= t.plain))
+            dpsi = mul(by_psi, put_changes(model, state, t, t.now, c, c >= t.plain))
             store(t.now, c * t.rows + slider_row(model, layout.PSI) * WIDTH, dpsi)
     if not transitions.friction_drops(model):
         # then slip begins only where the friction limit falls below the pull, and does not just touch it
         rates(model, state, t.before)
         if not event_times(model, state, t, transitions.RELEASE_FORWARD, False) < 0.0:
-            return OFF_SECTION
-    if transitions.change_phase(model, state, transitions.RELEASE_FORWARD, False) == NO_SOLUTION:
-        return NO_SOLUTION
+            return transitions.OFF_SECTION
+    if transitions.change_phase(model, state, transitions.RELEASE_FORWARD, False) == transitions.NO_SOLUTION:
+        return transitions.NO_SOLUTION
     # the release itself belongs to the integration that ended here
     count_event(state, transitions.NOTHING, t.log)
     if state.x[layout.PHASE] == layout.SEPARATION and not course.may_separate:
-        return STOPPED
+        return transitions.STOPPED
     if course.tangent:
         slider_rows(model, state, t)
-    return CONSISTENT
+    return transitions.CONSISTENT
 
 
 @kernel
 def _flight(model, s, state, t, course, section, start, from_section):
-    """Common part of ``integrate`` and ``section_map``: separately, each would compile nearly the whole engine."""
+    """See ``integrate``."""
     if from_section:
         outcome = _leave_section(model, s, state, t, course, section, start)
-        if outcome != CONSISTENT:
+        if outcome != transitions.CONSISTENT:
             return outcome
     outcome = follow(model, s, state, state, course, None, (t,))
     for i in range(len(section.rows)):
-        entries, place = _entry_at(model, state, section.rows[i])
-        section.end[i] = entries[place] * section.scale[i]
+        entries, at = _entry_at(model, state, section.rows[i])
+        section.end[i] = entries[at] * section.scale[i]
         if course.tangent:
             for c in range(t.columns):
                 at = ((c // WIDTH) * t.rows + section.rows[i]) * WIDTH + c % WIDTH
@@ -321,15 +296,10 @@ def _flight(model, s, state, t, course, section, start, from_section):
 _NOWHERE = Section(np.zeros(0, np.int64), np.zeros(0), np.zeros(0), np.zeros((0, 0)))
 
 
-def integrate(model, s, state, t, course):
+def integrate(model, s, state, t, course, section=_NOWHERE, start=None):
     """Advance ``state`` and, if requested, the columns ``t.now`` to the end of an integration; returns its exit code.
-    At the last release the columns are projected onto the section (their event time is t.tau, the state still in
-    stick). An integration that ends at ``t_max`` is not projected. ``t.log`` is incremented."""
-    return _flight(model, s, state, t, course, _NOWHERE, _NOWHERE.end, False)
-
-
-def section_map(model, s, state, t, course, section, start):
-    """The return map of a section, from the point ``start``, and its Jacobian if the course asks for it. A point of the
-    section is given by its modal coordinates; f is 0 and psi follows from the release condition. ``t.parameters`` may
-    hold changes of parameters in the columns from n on. Returns the exit code; ``t.log`` is set."""
-    return _flight(model, s, state, t, course, section, start, True)
+    At the last release, not at ``t_max``, the columns are projected onto the section (their event time is t.tau, the
+    state still in stick). ``t.log`` is incremented, or set from a point ``start`` of a section on, where this is its
+    return map, with its Jacobian if the course asks for it. A point is given by its modal coordinates; f is 0 and psi
+    follows from the release condition. ``t.parameters`` may change parameters in the columns from n on."""
+    return _flight(model, s, state, t, course, section, section.end if start is None else start, start is not None)

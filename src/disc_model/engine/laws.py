@@ -1,40 +1,20 @@
 """The laws of friction and contact at an instant (docs/model.md, Contact), each written once.
 
 A law takes an `Instant`, whose entries are real or complex numbers.  After a complex step of one entry, the imaginary
-part holds the derivative with respect to it. The result is exact to rounding (Squire and Trapp, SIAM Review 40, 1998).
-No law is differentiated by hand.
+part holds the derivative with respect to it, exact to rounding (Squire and Trapp, SIAM Review 40, 1998).
 """
 
-from typing import NamedTuple
+from collections import namedtuple
 
 from .jit import inlined
 
 TINY = 1e-100  # the complex step: its square is far below rounding, but not zero
 
 
-class Instant(NamedTuple):
-    """Arguments of the laws, with respect to which they are differentiated. The first eight are parameters of the
-    model, the others belong to a state. ``compliance`` is 0 in rigid contact."""
-
-    N: float
-    k: float
-    c: float
-    m: float
-    k_p: float
-    c_p: float
-    Omega: float
-    compliance: float
-    psi: float
-    f: float
-    w: float  # displacement of the disc under the slider
-    w_velocity: float  # its velocity in the slider's frame
-    dw_dtheta: float  # B = dw/dtheta there
-    free: float  # A: acceleration of the disc there but for the contact force and f'
-    u: float  # of the slider, where that is a state of its own: without contact, or on a compliant one
-    u_velocity: float
-
-
-# Indices of the entries of a state; the entries of the model stand before them.
+# Arguments of the laws, with respect to which they are differentiated: parameters of the model, and those of a state.
+# compliance: 0 if rigid; w, w_velocity, dw_dtheta: of the disc under the slider, in its frame; free: A, the disc's
+# acceleration there but for the contact force and f'; u, u_velocity: of the slider, where that is a state of its own.
+Instant = namedtuple("Instant", "N k c m k_p c_p Omega compliance psi f w w_velocity dw_dtheta free u u_velocity")
 (
     PSI_ENTRY, F_ENTRY, W_ENTRY, W_VELOCITY_ENTRY, DW_DTHETA_ENTRY, FREE_ENTRY, U_ENTRY, U_VELOCITY_ENTRY, N_ENTRIES,
 ) = range(8, 17)  # fmt: skip

@@ -1,12 +1,7 @@
-"""Memory layout of modes, states and series: flat arrays of doubles, in blocks of eight lanes.
+"""Memory layout of modes and states: flat arrays of doubles, in blocks of eight lanes.
 
 Pairs of diametral modes (l >= 1) fill blocks as (a, a, a, a, b, b, b, b); their displacements are ``z``, their
-velocities ``e``.  Axisymmetric modes (l = 0) have separate arrays ``y`` and ``g``, because rotation does not mix them;
-being few, they are stored one by one.  Unused lanes are zero and stay zero.
-
-Series are stored as [order][lane], those of axisymmetric modes and of the slider as [quantity][order]. They are in
-units of the time ``unit``: coefficient k multiplies (time / unit)**k. No coefficient therefore overflows, however stiff
-the disc is.
+velocities ``e``; unused lanes stay zero.  Axisymmetric modes (l = 0) are few, and stored one by one in ``y`` and ``g``.
 """
 
 from typing import NamedTuple
@@ -15,47 +10,31 @@ import numpy as np
 
 from .jit import inlined
 from .jit.packing import packed
-from .jit.simd import WIDTH, aligned, aligned_pieces
+from .jit.simd import WIDTH, aligned
 from .stick_modes import StickModes, build_stick_modes, no_modes, padded
 
 STICK, SLIP, SEPARATION = 0, 1, 2
-# Indices of the slider's psi, f, u, u', and their number.
-PSI, F, U, U_VELOCITY, SLIDER = range(5)
-
+PSI, F, U, U_VELOCITY, SLIDER = range(5)  # indices of the slider's psi, f, u, u', and their number
 # Rows of Model.lanes; BEND: -l^2 psi_l in a-lanes, so that sum(bend z) = d2w/dtheta2 under the slider.
 # From SLOPE_RATE on, a row for each order k: dw_dtheta (k + 1) / unit in a-lanes, dw_dtheta in b-lanes.
 # FORCES: psi_l in a-lanes, on which V acts, in b-lanes the couple's arm, on which T acts; COUPLE: the latter alone.
 SHIFT, STIFFNESS, DAMPING, AMPLITUDE_ROW, DW_DTHETA, BEND, MINUS_AMPLITUDE_DAMPING, MINUS_AMPLITUDE_STIFFNESS = range(8)
 FORCES, COUPLE, SLOPE_RATE = 8, 9, 10
 
-# Number of coefficients of a series; rows of Series.modes where e and scratch begin (z begins at 0); offsets of the
-# slider's series in Series.slider, and its end.
-ROWS = 48
-E, SCRATCH = ROWS, 2 * ROWS
-PSI_SERIES, F_SERIES, U_SERIES, V_SERIES, P_SERIES, SWITCH, SWITCH2, _POWERS, UP, DOWN = (ROWS * i for i in range(10))
-SLOPE_SERIES, DRIVE_SERIES, LOAD_SERIES, NORMAL_SERIES, FRICTION_SERIES = (ROWS * i for i in range(10, 15))
-COEFFICIENT_SERIES, WEAKENING_SERIES, _SLIDER_END = (ROWS * i for i in range(15, 18))
+ROWS = 48  # number of coefficients of a series
 HALF = WIDTH // 2
-# Rows of Series.roots; the numbers that integrate and differentiate powers.
-ROOT_ROWS = 7 * WIDTH
-# Longest ``Model.free_unit``: the highest power of eight of them must not overflow.
-MOST_FREE = 1e4
-_FROM_1 = np.arange(1.0, ROWS + 1.0)
+MOST_FREE = 1e4  # longest ``Model.free_unit``: the highest power of eight of them must not overflow
 
 
 @packed
 class Model(NamedTuple):
     """Constants of one case.  Lane arrays have shape (pair lanes,), those ending in 0 (axisymmetric modes,).
 
-    ``lanes`` holds the lane arrays one after the other, and derived ones. Hot kernels address all through that one
-    pointer; the others are views of it.
-
-    ``wide``, ``compliant``, ``normal``, ``coupled``, ``decaying``, ``ramped`` are flags: (True,) for yes, () for no.
-    The compiler knows the length of a tuple, so that the usual case has no loop over blocks, and no law is chosen at
-    run time.
+    Tuples are flags: (True,) for yes, () for no. The compiler knows the length of a tuple, so that the usual case has
+    no loop over blocks, and no law is chosen at run time.
     """
 
-    lanes: np.ndarray
+    lanes: np.ndarray  # all lane arrays and derived ones: hot kernels use one pointer; the others are views of it
     wide: tuple[bool, ...]  # whether there is more than one block of lanes
     blocks: int  # of lanes
     shift: np.ndarray  # +l in a-lanes, -l in b-lanes
@@ -83,7 +62,6 @@ class Model(NamedTuple):
     free_unit: float  # one radian of the fastest motion out of contact, time units; not used in rigid contact
     velocity_scale: float  # m/s times sqrt(kg): what a modal velocity is compared with
     slider_scale: float  # m/s: what u' is compared with in separation
-    speed_scale: float  # rad/s: what f is compared with
     bonded: bool
     compliant: tuple[bool, ...]
     compliance: float  # of the contact, m/N; 0 if it is rigid
@@ -93,23 +71,21 @@ class Model(NamedTuple):
     couple_swing: float  # sum l psi_l couple_l, 1/kg
     decaying: tuple[bool, ...]  # whether friction in slip falls with the speed; else it is mu_k at once
     decay: float  # of friction, r_0 times ``friction_decay``, s/rad
-    ramped: tuple[bool, ...]  # whether Omega and N may change with time
-    ramp_begin: float  # s
-    ramp_angle: float  # rad, of the drive point at the ramp's begin
-    Omega_rate: float  # rad/s^2
-    N_rate: float  # N/s
     modes: StickModes  # closed form of stick
+    ramped: tuple[bool, ...] = ()  # whether Omega and N may change with time
+    ramp_begin: float = 0.0  # s
+    ramp_angle: float = 0.0  # rad, of the drive point at the ramp's begin
+    Omega_rate: float = 0.0  # rad/s^2
+    N_rate: float = 0.0  # N/s
 
 
 @inlined
 def drive_now(model, state):
-    """Omega, rad/s."""
     return state.x[DRIVE] if model.ramped else model.Omega
 
 
 @inlined
 def load_now(model, state):
-    """N, N."""
     return state.x[LOAD] if model.ramped else model.N
 
 
@@ -120,36 +96,6 @@ def drive_angle(model, time):
         since = time - model.ramp_begin
         return model.ramp_angle + (model.Omega + 0.5 * model.Omega_rate * since) * since
     return model.Omega * time
-
-
-@packed
-class Series(NamedTuple):
-    """Taylor coefficients of one step.
-
-    z and e are views of ``modes``, whose end is scratch; psi to down of ``slider``, ``ROWS`` doubles each. Behind them
-    stand those of B / r_0, under the normal force, and of Omega and N, on a ramp; then R and T of stick, where both the
-    normal force and the couple act. Where friction falls with the speed, there are T of slip, its coefficient, and the
-    change of T with f.
-    """
-
-    modes: np.ndarray
-    slider: np.ndarray
-    z: np.ndarray
-    e: np.ndarray
-    y: np.ndarray
-    g: np.ndarray
-    psi: np.ndarray
-    f: np.ndarray
-    u: np.ndarray
-    v: np.ndarray
-    P: np.ndarray
-    switch: np.ndarray  # direction * f in slip, gap in separation, forward release function in stick
-    switch2: np.ndarray  # backward release function
-    powers: np.ndarray
-    up: np.ndarray  # unit / (k + 1): integrates
-    down: np.ndarray  # (k + 1) / unit: differentiates
-    roots: np.ndarray  # work space of the root finder
-    amplitudes: np.ndarray  # of the modes of stick: real parts, imaginary parts; then those at a later time
 
 
 @packed
@@ -168,9 +114,8 @@ class EngineState(NamedTuple):
 # began, of event function and contact force; PROPAGATED: not 0 if stick has used its closed form as far as possible,
 # see ``event_loop``; IN_A_ROW: events at this instant. The time is TIME + TIME_LOW, summed with compensation so that
 # event times stay exact to rounding after hours.  DRIVE, LOAD: Omega and N now, on a ramp.
-TIME, TIME_LOW, PHASE, DIRECTION, KNOWN, KNOWN_FORCE, FORCE, PROPAGATED, IN_A_ROW, DRIVE, LOAD, SCALARS = range(
-    SLIDER, SLIDER + 12
-)
+TIME, TIME_LOW, PHASE, DIRECTION, KNOWN, KNOWN_FORCE = range(SLIDER, SLIDER + 6)
+FORCE, PROPAGATED, IN_A_ROW, DRIVE, LOAD, SCALARS = range(SLIDER + 6, SLIDER + 12)
 
 
 def pair_lanes(n_pairs):
@@ -180,26 +125,21 @@ def pair_lanes(n_pairs):
 
 
 def disc_size(width, n_single, compliant):
-    """Length of ``EngineState.disc`` for ``width`` lanes of pairs and ``n_single`` axisymmetric modes. On a compliant
-    contact u, u' are stored behind them, for the closed form of stick."""
+    """Length of ``EngineState.disc``; on a compliant contact u, u' are stored at its end, for the closed form."""
     return padded(2 * (width + n_single) + (2 if compliant else 0))
 
 
 def _flag(yes) -> tuple[bool, ...]:
-    """See `Model`."""
     return (True,) if yes else ()
 
 
 def build_model(  # noqa: PLR0913
     diameters, omega, psi, damping, slider, *, tangential, bonded, compliance=0.0, normal=False, friction_decay=np.inf
 ) -> Model:
-    """Constants of a case.
-
-    diameters, omega (rad/s), psi (kg^-1/2), damping = 2 xi omega (1/s): shape (n_modes,), rows of `plate_modes`; none
+    """Constants of a case. diameters, omega (rad/s), psi (kg^-1/2), damping = 2 xi omega (1/s): shape (n_modes,); none
     for a rigid disc.  slider: N to r_0 of the model.  tangential: of the modes at the surface on which friction acts,
     kg^-1/2, shape (n_modes,); zeros in the middle plane.  compliance: of the contact, m/N, 0 if rigid; normal: whether
-    the contact force is normal to the bent disc; friction_decay: s/m, inf for the coefficient mu_k at any speed.
-    """
+    the contact force is normal to the bent disc; friction_decay: s/m, inf for the coefficient mu_k at any speed."""
     N, k, m = (slider[name] for name in ("N", "k", "m"))
     diameters = np.asarray(diameters)
     pairs, single = np.flatnonzero(diameters > 0), np.flatnonzero(diameters == 0)
@@ -216,12 +156,10 @@ def build_model(  # noqa: PLR0913
     rows[FORCES] = rows[AMPLITUDE_ROW] + rows[COUPLE]
     rows[MINUS_AMPLITUDE_DAMPING] = -rows[AMPLITUDE_ROW] * rows[DAMPING]
     rows[MINUS_AMPLITUDE_STIFFNESS] = -rows[AMPLITUDE_ROW] * rows[STIFFNESS]
-    blocks, S2 = width // WIDTH, float(np.sum(psi**2))
-    stiffest = max(k, slider["k_p"])
-    unit = _time_unit(omega, (1 / m + S2) / compliance if compliance else 0.0, stiffest / m)
-    free_unit = min(_time_unit(omega, 0.0, stiffest / m) / unit, MOST_FREE)
+    S2, slider_rate = float(np.sum(psi**2)), max(k, slider["k_p"]) / m
+    unit = _time_unit(omega, (1 / m + S2) / compliance if compliance else 0.0, slider_rate)
     rows[SLOPE_RATE:, lane + HALF] = rows[DW_DTHETA, lane + HALF]
-    rows[SLOPE_RATE:, lane] = np.outer(_FROM_1 / unit, rows[DW_DTHETA, lane + HALF])
+    rows[SLOPE_RATE:, lane] = np.outer(np.arange(1.0, ROWS + 1.0) / unit, rows[DW_DTHETA, lane + HALF])
     decays = np.isfinite(friction_decay) and slider["mu_s"] > slider["mu_k"]
     modes = no_modes()
     if not normal:
@@ -234,12 +172,11 @@ def build_model(  # noqa: PLR0913
             np.stack([place, place + np.where(diameters[each] > 0, width, n0)]), slider,
             u=2 * (width + n0), length=disc_size(width, n0, compliance > 0.0), unit=unit, compliance=compliance,
         )  # fmt: skip
-    views = dict(zip(("shift", "stiffness", "damping", "mode_amplitude", "dw_dtheta"), rows, strict=False))
     return Model(
         lanes=lanes,
-        wide=_flag(blocks > 1),
-        blocks=blocks,
-        **views,
+        wide=_flag(width > WIDTH),
+        blocks=width // WIDTH,
+        **dict(zip(("shift", "stiffness", "damping", "mode_amplitude", "dw_dtheta"), rows, strict=False)),
         **slider,
         stiffness0=omega[single] ** 2,
         damping0=damping[single],
@@ -248,10 +185,9 @@ def build_model(  # noqa: PLR0913
         inverse_effective_mass=S2,
         damped_inverse_mass=float(np.sum(damping * psi**2)),
         unit=unit,
-        free_unit=free_unit,
+        free_unit=min(_time_unit(omega, 0.0, slider_rate) / unit, MOST_FREE),
         velocity_scale=N * float(np.max(np.abs(psi) / omega, initial=0.0)),
         slider_scale=N * (float(np.sum(psi**2 / omega)) + compliance / unit),
-        speed_scale=slider["Omega"],
         bonded=bonded,
         compliant=_flag(compliance),
         compliance=compliance,
@@ -261,34 +197,21 @@ def build_model(  # noqa: PLR0913
         couple_swing=float(np.sum(rows[DW_DTHETA] * rows[COUPLE])),
         decaying=_flag(decays),
         decay=slider["r_0"] * float(friction_decay) if decays else 0.0,
-        ramped=_flag(False),
-        ramp_begin=0.0,
-        ramp_angle=0.0,
-        Omega_rate=0.0,
-        N_rate=0.0,
         modes=modes,
     )
 
 
-def on_ramp(model: Model, begin, angle, *, Omega, Omega_rate, N, N_rate) -> Model:
+def on_ramp(model: Model, begin, angle, **course) -> Model:
     """``model`` while Omega and N change steadily from ``begin`` (s) on; the slider's spring is held where it was.
-
-    angle : rad, of the drive point at ``begin``
-    Omega, N : there, rad/s and N
-    Omega_rate, N_rate : rad/s^2 and N/s
-    """
-    share = N / model.N
+    angle : rad, of the drive point at ``begin``; course : Omega and N there, Omega_rate and N_rate."""
+    share = course["N"] / model.N
     return model._replace(
-        N=N,
-        Omega=Omega,
+        **course,
         velocity_scale=share * model.velocity_scale,
         slider_scale=share * model.slider_scale,
-        speed_scale=Omega,
         ramped=_flag(True),
         ramp_begin=begin,
         ramp_angle=angle,
-        Omega_rate=Omega_rate,
-        N_rate=N_rate,
         modes=no_modes(),  # the closed form of stick knows no ramps
     )
 
@@ -298,21 +221,6 @@ def _time_unit(omega, contact, slider) -> float:
     if len(omega) == 0 and contact == 0.0:  # a rigid disc, and only the slider moves
         return slider**-0.5 if slider > 0.0 else 1.0
     return 1.0 / max(float(np.max(omega, initial=0.0)), contact**0.5)
-
-
-def build_series(model: Model, order: int) -> Series:
-    """Empty series of degree ``order`` for ``model``."""
-    width, n0 = len(model.shift), len(model.mode_amplitude0)
-    modes, slider, y, g, amplitudes, roots = aligned_pieces(
-        (2 * ROWS + 6) * width, _SLIDER_END, ROWS * n0, ROWS * n0, 4 * len(model.modes.gain),
-        ROOT_ROWS * (padded(order + 1) + WIDTH),
-    )  # fmt: skip
-    rows = slider.reshape(-1, ROWS)
-    np.divide(model.unit, _FROM_1, out=rows[UP // ROWS])
-    np.divide(_FROM_1, model.unit, out=rows[DOWN // ROWS])
-    z, e = modes[: E * width], modes[E * width : SCRATCH * width]
-    views = rows[: SLOPE_SERIES // ROWS]
-    return Series._make((modes, slider, z, e, y, g, *views, roots.reshape(ROOT_ROWS, -1), amplitudes))
 
 
 def build_state(model: Model) -> EngineState:

@@ -2,13 +2,12 @@
 
 An event function is the polynomial sum_j c[low + j] x^j on (0, x_end]: ``low`` is the multiplicity of its known root at
 x = 0, divided out.  A bound settles most steps. The others need the Bernstein form, whose sign changes bound the number
-of roots from above: none means no root, one means exactly one. With more the interval is halved, left half first
-(Descartes' rule, de Casteljau's algorithm).
+of roots from above; with more than one the interval is halved, left half first (Descartes' rule, de Casteljau's
+algorithm).
 
-What is promised: with S the sum of the moduli of all terms at x_end, the polynomial is nowhere below -2e-15 S before
-the root returned, or before x_end if there is none; and at that root it is not above 2e-15 S.  Less is rounding:
-whether a polynomial that touches zero has a root is open, and one in x_end may be left to the next step, which starts
-there.
+With S the sum of the moduli of all terms at x_end, the polynomial is nowhere below -2e-15 S before the root returned,
+or before x_end if there is none; and at that root it is not above 2e-15 S.  A root in x_end may be left to the next
+step, which starts there.
 """
 
 import math
@@ -20,13 +19,10 @@ from .jit.simd import WIDTH, add, fma, item, load, maximum, minimum, mul, powers
 from .layout import ROWS
 
 NO_ROOT = -1.0
-# Halley's method ends at a step of this size, relative to the root.
-_SETTLED = 4e-16
-# It also ends at a step whose cube, the next step, is rounding, if the curvature over it is this small.
-_SMALL, _STRAIGHT = 1e-5, 1e-4
+# Halley's method ends at a step of this relative size, or at one whose cube, the next step, is rounding, if the
+# curvature over it is this small.
+_SETTLED, _SMALL, _STRAIGHT = 4e-16, 1e-5, 1e-4
 _NARROWEST = 2.0**-50  # in a narrower cell the sign pattern is rounding, and the cell's end decides
-
-
 _MOST_HALVINGS = 20
 _COUNT = np.arange(float(ROWS))
 _HALVES = 0.5**_COUNT
@@ -49,27 +45,16 @@ def set_powers(powers, x, n):
 
 @inlined
 def dot(c, first, powers, n):
-    """sum_{j=0..n} c[first + j] x^j, from the powers up to x^n."""
+    """sum_{j=0..n} c[first + j] x^j."""
     sums = splat(0.0)
     for j in range(0, n + 1, WIDTH):
         sums = fma(load(c, first + j), load(powers, j), sums)
     return total(sums)
 
 
-@inlined
-def surely_positive(c, low, n, powers):
-    """True if c_0 + sum of the negative terms at the interval's end is positive: then there is no root. Coefficients
-    beyond n have to be zero."""
-    zero = splat(0.0)
-    negative = zero
-    for j in range(0, n + 1 - low, WIDTH):
-        negative = add(negative, minimum(zero, mul(load(c, low + j), load(powers, j))))
-    return max(0.0, c[low]) + total(negative) > 0.0
-
-
 @helper
 def _sign_changes(b, n):
-    """Number of sign changes in b[0..n], capped at two; zeros count as positive."""
+    """Number of sign changes in b[0..n], at most two; zeros count as positive."""
     changes, positive = 0, True
     for j in range(n + 1):
         if (b[j] >= 0.0) != positive:
@@ -94,18 +79,9 @@ def _raised(c, n, b):
 
 
 @helper
-def _to_bernstein(d, n, work, b):
-    """Bernstein coefficients on [0, 1] of sum d_j x^j."""
-    for j in range(0, n + 1, WIDTH):
-        store(work, j, mul(load(d, j), load(_ONE_OVER_CHOOSE, n * ROWS + j)))
-    for j in range(0, n + 1, WIDTH):
-        store(b, j, _raised(work, n, j))
-
-
-@helper
 def _halve(cell, left, n, work):
-    """Halve the interval: ``left`` becomes the left half's coefficients, ``cell`` those of the right half. The right
-    half's coefficients are those of the left half of the reversed cell; work: shape of a cell."""
+    """Halve the interval: ``left`` becomes the left half's coefficients, ``cell`` the right half's, which are those of
+    the left half of the reversed cell; work: shape of a cell."""
     for j in range(0, n + 1, WIDTH):
         store(left, j, mul(_raised(cell, n, j), load(_HALVES, j)))
     for j in range(n + 1):
@@ -126,10 +102,7 @@ def _polish(d, n, low, high, x):
             curve = curve * x + slope
             slope = slope * x + p
             p = p * x + item(d, j)
-        if p > 0.0:
-            low = x
-        else:
-            high = x
+        low, high = (x, high) if p > 0.0 else (low, x)
         # Halley: p p' / (p'^2 - p p''/2), the loop's curve being p''/2
         new = x - p * slope / (slope * slope - p * curve)
         enough = _SETTLED
@@ -154,31 +127,23 @@ def _crossing(b, n):
 
 
 @inlined
-def _surely_falling(d, n):
-    """True if the slope is negative all over [0, 1]: d_1 plus all positive terms of the derivative is."""
-    zero = splat(0.0)
-    rising = zero
-    for j in range(0, n + 1, WIDTH):
-        rising = add(rising, maximum(zero, mul(load(d, j), load(_COUNT, j))))
-    return d[1] + total(rising) < 0.0
-
-
-@inlined
 def first_root(c, low, n, x_end, powers, work):
-    """Smallest x in (0, x_end] where the polynomial stops being positive, or NO_ROOT.
+    """Smallest x in (0, x_end] where the polynomial stops being positive (0 if it is negative there), or NO_ROOT.
 
     c: coefficients, zero beyond n; low: known multiplicity of the root at 0; powers: x_end**j; both padded to whole
-    blocks of lanes; work: shape (>= 54, whole blocks for n + 1 coefficients and two more).  A polynomial that is
-    negative at 0 has its root there.
+    blocks of lanes; work: shape (>= 54, whole blocks for n + 1 coefficients and two more).
     """
-    if surely_positive(c, low, n, powers):
+    zero = splat(0.0)
+    negative = zero
+    for j in range(0, n + 1 - low, WIDTH):
+        negative = add(negative, minimum(zero, mul(load(c, low + j), load(powers, j))))
+    if max(0.0, c[low]) + total(negative) > 0.0:  # with all negative terms at the interval's end
         return NO_ROOT
     return _search(c, low, n, x_end, powers, work)
 
 
 @inlined
 def _sum_of(d, n):
-    """d[0] + ... + d[n]."""
     sums, blocks = splat(0.0), (n + 1) // WIDTH * WIDTH
     for j in range(0, blocks, WIDTH):
         sums = add(sums, load(d, j))
@@ -211,14 +176,20 @@ def _search(c, low, n, x_end, powers, work):
         for j in range(0, degree + 1, WIDTH):
             store(d, j, load(work[1], j))
         x_end, end = 0.5 * x_end, middle
-    if _surely_falling(d, degree):
+    zero = splat(0.0)
+    rising = zero
+    for j in range(0, degree + 1, WIDTH):
+        rising = add(rising, maximum(zero, mul(load(d, j), load(_COUNT, j))))
+    if d[1] + total(rising) < 0.0:  # with all positive terms: the slope is negative all over [0, 1]
         # one root if the end is not positive, none otherwise
         return x_end * _polish(d, degree, 0.0, 1.0, d[0] / (d[0] - end)) if end <= 0.0 else NO_ROOT
-    _to_bernstein(d, degree, work[1], work[2])
+    for j in range(0, degree + 1, WIDTH):
+        store(work[1], j, mul(load(d, j), load(_ONE_OVER_CHOOSE, degree * ROWS + j)))
+    for j in range(0, degree + 1, WIDTH):
+        store(work[2], j, _raised(work[1], degree, j))
     root = _leftmost(d, degree, work)
     if root == NO_ROOT:
-        # an end that is not positive has a root before it: here to within rounding in the end itself, as the last
-        # Bernstein coefficient, the same number summed in another order, is not negative
+        # to within rounding in the end itself: the last Bernstein coefficient, the same sum in another order, is >= 0
         return x_end if end <= 0.0 else NO_ROOT
     return x_end * root
 

@@ -13,9 +13,7 @@ from .layout import DIRECTION, HALF, PHASE, PSI, SEPARATION, SLIP, STICK, U_VELO
 from .tangent import N_SCALARS, point_change, slider_row
 from .transitions import CONSISTENT, NO_SOLUTION, RETURNED, change_phase, disc_point, event_function, instant
 
-# An event function passed its root before the phase began if it did so earlier than this, in radians of the fastest
-# motion: less is rounding of the time at which a motion was cut.
-PASSED = 1e-9
+PASSED = 1e-9  # radians of the fastest motion by which a root was passed before the phase began; less is rounding
 
 
 @kernel
@@ -80,11 +78,18 @@ def _free_change(model, state, x, at, q, parameters, changes):
 
 
 @inlined
-def _put_changes(model, state, t, x, c, changes):
-    """Changes of an instant's entries for the block of columns x that begins with ``c``, into ``t.change``.
+def _change(t, row):
+    """Change of the law whose derivatives stand in a row of ``t.gradient``, for the columns of ``t.change`` (lanes)."""
+    change = splat(0.0)
+    for entry in range(laws.N_ENTRIES):
+        change = fma(splat(t.gradient[row * laws.N_ENTRIES + entry]), load(t.change, entry * WIDTH), change)
+    return change
 
-    changes : whether columns change parameters
-    """
+
+@inlined
+def put_changes(model, state, t, x, c, changes):
+    """Changes of an instant's entries for the block of columns x that begins with ``c``, into ``t.change``;
+    ``changes``: whether columns change parameters. Returns that of the law whose derivatives begin ``t.gradient``."""
     at, q, slider = c * t.rows, c * t.inputs, c * t.rows + slider_row(model, 0) * WIDTH
     for entry in range(N_SCALARS):
         store(t.change, entry * WIDTH, load(t.parameters, q + entry * WIDTH) if changes else splat(0.0))
@@ -98,15 +103,7 @@ def _put_changes(model, state, t, x, c, changes):
     store(t.change, laws.FREE_ENTRY * WIDTH, _free_change(model, state, x, at, q, t.parameters, changes))
     store(t.change, laws.U_ENTRY * WIDTH, load(x, slider + U * WIDTH))
     store(t.change, laws.U_VELOCITY_ENTRY * WIDTH, load(x, slider + U_VELOCITY * WIDTH))
-
-
-@inlined
-def _change(t, row):
-    """Change of the law whose derivatives stand in a row of ``t.gradient``, for the columns of ``t.change`` (lanes)."""
-    change = splat(0.0)
-    for entry in range(laws.N_ENTRIES):
-        change = fma(splat(t.gradient[row * laws.N_ENTRIES + entry]), load(t.change, entry * WIDTH), change)
-    return change
+    return _change(t, 0)
 
 
 @inlined
@@ -130,27 +127,17 @@ def event_gradient(model, state, t, cause):
         _set_derivative(model, i, t, 0, entry, event_function(model, laws.stepped(i, entry), cause, slipping))
 
 
-@inlined
-def event_change(model, state, t, x, c, changes):
-    """Change of the event function of ``t.gradient`` (lanes); other arguments as of ``_put_changes``."""
-    _put_changes(model, state, t, x, c, changes)
-    return _change(t, 0)
-
-
 @helper
 def event_times(model, state, t, cause, at_once):
-    """``t.tau``: change of the time of the event ``cause`` for every column.  Returns the event function's rate.
-
-    at_once: the phase had no duration.  If its event function was negative from the start, it ends at that time in
-    neighbouring motions, too.
-    """
+    """``t.tau``: change of the time of the event ``cause`` for every column.  Returns the event function's rate. A
+    phase that ended ``at_once``, its event function negative from the start, does so in neighbouring motions, too."""
     event_gradient(model, state, t, cause)
-    rate = total(event_change(model, state, t, t.before, 0, False))  # the other lanes of ``before`` are zero
+    rate = total(put_changes(model, state, t, t.before, 0, False))  # the other lanes of ``before`` are zero
     i, _ = instant(model, state)
     value = abs(event_function(model, i, cause, state.x[PHASE] == SLIP))
     by_rate = 0.0 if at_once and value > PASSED * model.unit * abs(rate) else -1.0 / rate
     for c in range(0, t.columns, WIDTH):
-        store(t.tau, c, mul(splat(by_rate), event_change(model, state, t, t.now, c, c >= t.plain)))
+        store(t.tau, c, mul(splat(by_rate), put_changes(model, state, t, t.now, c, c >= t.plain)))
     return rate
 
 
@@ -174,8 +161,7 @@ def impact_change(model, state, t):
         _set_derivative(model, i, t, 0, entry, p)
         _set_derivative(model, i, t, 1, entry, f)
     for c in range(0, t.columns, WIDTH):
-        _put_changes(model, state, t, t.now, c, c >= t.plain)
-        block, dp = c * t.rows, _change(t, 0)
+        block, dp = c * t.rows, put_changes(model, state, t, t.now, c, c >= t.plain)
         store(t.now, block + slider_row(model, F) * WIDTH, _change(t, 1))
         for j in range(width):
             at = block + (width + j) * WIDTH
@@ -201,7 +187,6 @@ def slider_rows(model, state, t):
 
 @helper
 def count_event(state, cause, log):
-    """Count an event that was carried out."""
     phase = state.x[PHASE]
     if cause == transitions.RELEASE_FORWARD:
         log[tangent.RELEASES] += 1.0
@@ -217,11 +202,8 @@ def count_event(state, cause, log):
 
 @helper
 def pass_event(model, state, t, cause, at_once, returns, changes):
-    """Carry out and count an event, and, if requested, change the columns.  Returns the exit code.
-
-    at_once : whether the phase had no duration
-    returns : whether the integration ends at this event, still in the phase before it
-    """
+    """Carry out and count an event, and, if requested, change the columns.  Returns the exit code. ``at_once``: the
+    phase had no duration; ``returns``: the integration ends at this event, still in the phase before it."""
     if cause == transitions.AT_REST:
         state.x[F] = 0.0
     if changes:

@@ -6,13 +6,12 @@ import numpy as np
 
 from . import layout, series, transitions
 from .dense_output import load_state
-from .jit import helper, inlined
+from .jit import inlined
 from .jit.simd import WIDTH, absolute, largest, load, maximum, splat
 from .polynomial import NO_ROOT, first_root, set_powers
 
 # Longest step, in radians of the fastest motion: in longer ones the series' terms cancel more digits than they add.
-LONGEST_STEP = 8.0
-TYPICAL_STEP = 3.0
+LONGEST_STEP, TYPICAL_STEP = 8.0, 3.0
 
 
 @inlined
@@ -20,7 +19,7 @@ def _size(model, s, k):
     """Largest modulus among the modal velocities of order k."""
     width, n, biggest = series.lane_count(model), len(model.mode_amplitude0), splat(0.0)
     for j in range(k * width, (k + 1) * width, WIDTH):
-        biggest = maximum(biggest, absolute(load(s.modes, layout.E * width + j)))
+        biggest = maximum(biggest, absolute(load(s.modes, series.E * width + j)))
     size = largest(biggest)
     for j in range(n):
         size = max(size, abs(s.g[j * layout.ROWS + k]))
@@ -52,30 +51,17 @@ def _relative(error, scale):
 
 
 @inlined
-def _root(x, n):
-    """x**(1/n) of a positive number, to 0.8 % for n >= 14, which is enough for a step and faster than libm. The bits of
-    a number are its binary logarithm, interpolated linearly between powers of two."""
-    logarithm = (np.float64(x).view(np.int64) * 2.0**-52 - 1023.0) * (1.0 / n)
-    whole = math.floor(logarithm)
-    part = logarithm - whole
-    return np.int64((whole + 1023.0 + part * (0.6565 + 0.3435 * part)) * 2.0**52).view(np.float64)
-
-
-@inlined
 def step_size(model, s, order, tolerance, phase):
-    """Step (time units) at which the last two terms of the series fall below the tolerance (Jorba and Zou).
-
-    Modal velocities are compared with those of static deflection under the preload, or with their own size if that is
-    larger. f is compared with the drive speed, and u' is checked where it is not the disc's.  The two terms are merged
-    as if the step were ``TYPICAL_STEP``, which saves a root.
-    """
+    """Step (time units) at which the last two terms of the series fall below the tolerance (Jorba and Zou). The two are
+    merged as if the step were ``TYPICAL_STEP``, which saves a root.  Modal velocities are compared with those of static
+    deflection under the preload, f with the drive speed, or with their own size; u' where it is not the disc's."""
     # time is measured by the fastest motion in compliant contact, which does not exist out of contact
     calm = model.free_unit if model.compliant and phase == layout.SEPARATION else 1.0
     typical, longest = TYPICAL_STEP * calm, LONGEST_STEP * calm
     last = max(_size(model, s, order), _size(model, s, order - 1) / typical)
-    usual_speed, share = model.speed_scale, 1.0
+    usual_speed, share = series.drive(model, s), 1.0
     if model.ramped:
-        usual_speed, share = series.drive(model, s), series.load_at(model, s) / model.N
+        share = series.load_at(model, s) / model.N
     scale = _scale(share * model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
     speed = _scale(usual_speed, abs(s.f[0]), abs(s.f[1]))
     weight = 1.0
@@ -97,16 +83,20 @@ def step_size(model, s, order, tolerance, phase):
         return math.nan
     if error * longest**order <= tolerance:
         return longest
-    return _root(tolerance / error, order)
+    # (tolerance / error)**(1 / order) to 0.8 % for orders >= 14, faster than libm: the bits of a number are its binary
+    # logarithm, interpolated linearly between powers of two
+    logarithm = (np.float64(tolerance / error).view(np.int64) * 2.0**-52 - 1023.0) * (1.0 / order)
+    whole = math.floor(logarithm)
+    part = logarithm - whole
+    return np.int64((whole + 1023.0 + part * (0.6565 + 0.3435 * part)) * 2.0**52).view(np.float64)
 
 
 @inlined
-def _expand(compliant, normal, decaying, model, s, order, phase, direction):
-    """Series of a phase under the model's law of contact.  Returns as ``expand``.
-
-    compliant, normal, decaying: flags of the model; the compiler drops a branch unseen if its condition is an
-    argument's length.
-    """
+def expand(compliant, normal, decaying, model, s, state, order):
+    """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1. The first
+    arguments are flags of the model: the compiler drops a branch unseen if its condition is an argument's length."""
+    load_state(model, s, state)
+    phase, direction = state.x[layout.PHASE], state.x[layout.DIRECTION]
     if phase == layout.SLIP:
         if len(compliant) == 1:
             return series.compliant_slip_series(model, s, order, direction)
@@ -127,14 +117,6 @@ def _expand(compliant, normal, decaying, model, s, order, phase, direction):
 
 
 @inlined
-def expand(model, s, state, order):
-    """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1."""
-    load_state(model, s, state)
-    flags = model.compliant, model.normal, model.decaying
-    return _expand(*flags, model, s, order, state.x[layout.PHASE], state.x[layout.DIRECTION])
-
-
-@inlined
 def _sooner(s, c, known, n, x_end, cause, later):
     """Place where an event function ends the phase, and its ``cause``; (x_end, ``later``) if it does not end it."""
     x = first_root(c, known, n, x_end, s.powers, s.roots)
@@ -142,20 +124,6 @@ def _sooner(s, c, known, n, x_end, cause, later):
         return x_end, later
     set_powers(s.powers, x, n)
     return x, cause
-
-
-@helper
-def _touchdown(model, s, state, order, x_end, x):
-    """Place and cause of a flight's end that was found at ``x``: there, unless rounding of a gap that opens made it. A
-    run that was cut just after a separation knows no root there, but the gap, and its rates, are still rounding."""
-    # of the gap, and of its rates per radian of the fastest motion
-    rounding, known = transitions.ROUNDING * transitions.deflection_size(model, state), 0
-    while known < 3 and abs(s.switch[known]) <= rounding:
-        known += 1
-    if known == 0:
-        return x, transitions.GAP_CLOSED
-    set_powers(s.powers, x_end, order)
-    return _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
 
 
 @inlined
@@ -167,9 +135,17 @@ def first_event(model, s, state, order, x_end):
     set_powers(s.powers, x_end, order)
     if phase == layout.SEPARATION:
         x, cause = _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
-        if cause == transitions.GAP_CLOSED and known == 0:
-            return _touchdown(model, s, state, order, x_end, x)
-        return x, cause
+        if cause != transitions.GAP_CLOSED or known != 0:
+            return x, cause
+        # a run that was cut just after a separation knows no root there, but the gap, and its rates per radian of the
+        # fastest motion, are still rounding
+        rounding = transitions.ROUNDING * transitions.deflection_size(model, state)
+        while known < 3 and abs(s.switch[known]) <= rounding:
+            known += 1
+        if known == 0:
+            return x, cause
+        set_powers(s.powers, x_end, order)
+        return _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
     if phase == layout.SLIP:
         x_end, cause = _sooner(s, s.switch, known, order, x_end, transitions.AT_REST, transitions.NOTHING)
         if not model.bonded:
@@ -192,16 +168,6 @@ def first_event(model, s, state, order, x_end):
         # friction may hold although contact ends: without any, or on a slope so steep that it holds the slider down
         x_end, cause = _sooner(s, s.P, known_force, order - 1, x_end, transitions.CONTACT_LOST, cause)
     return x_end, cause
-
-
-@inlined
-def advance_time(x, dt):
-    """Add to the time by a compensated sum: TIME + TIME_LOW has twice the digits."""
-    dt += x[layout.TIME_LOW]
-    new = x[layout.TIME] + dt
-    kept = new - x[layout.TIME]
-    x[layout.TIME_LOW] = (x[layout.TIME] - (new - kept)) + (dt - kept)
-    x[layout.TIME] = new
 
 
 @inlined

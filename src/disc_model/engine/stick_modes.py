@@ -5,8 +5,7 @@ With f = 0, disc and slider are one linear system.  In deviations d from the sta
     (1 + m psi psi^T) d'' + (2 xi omega + c psi psi^T) d' + (omega^2 + k psi psi^T) d = 0
 
 for the a-components and l = 0, and without the slider for the b-components; a compliant contact adds the coordinate u.
-The modes q oscillate and decay, q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are stored as lanes of real parts
-followed by lanes of imaginary parts.
+The modes are q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are lanes of real parts, then of imaginary parts.
 """
 
 from functools import lru_cache
@@ -17,18 +16,13 @@ import numpy as np
 from .jit.packing import packed
 from .jit.simd import WIDTH, aligned
 
-# exp(lambda x) is the product of tabled powers of exp(lambda QUANTUM) and of a series of degree DEGREE for the rest;
-# with abs(lambda) < LARGEST_RATE the series is good to 1e-17.  LONGEST_STICK bounds the table, and the samples that
-# fall into one advance in closed form.  (Time units.)
-QUANTUM = 0.25
-LONGEST_STICK = 512.0
-DEGREE = 12
-POWERS = 12  # 2**POWERS quanta exceed LONGEST_STICK
-LARGEST_RATE = 1.5
-# The matrices are dense: with more modes than this the series are as fast.
-MOST_MODES = 64
-# Nearly parallel eigenvectors (modes near critical damping) would lose digits: such systems use the series alone.
-WORST_CONDITION = 100.0
+# exp(lambda x) is the product of POWERS tabled powers of exp(lambda QUANTUM) and of a series of degree DEGREE for the
+# rest; with abs(lambda) < LARGEST_RATE the series is good to 1e-17.  LONGEST_STICK bounds the table (2**POWERS quanta
+# exceed it), and the samples that fall into one advance in closed form.  (Time units.)
+QUANTUM, LONGEST_STICK, LARGEST_RATE = 0.25, 512.0, 1.5
+DEGREE, POWERS = 12, 12
+MOST_MODES = 64  # the matrices are dense: with more modes the series are as fast
+WORST_CONDITION = 100.0  # nearly parallel eigenvectors (modes near critical damping) would lose digits
 
 
 @packed
@@ -53,20 +47,15 @@ def padded(n: int) -> int:
 
 
 def no_modes() -> StickModes:
-    """Empty modes, of a system whose stick is integrated by the series."""
     return StickModes(*(np.zeros(0) for _ in StickModes._fields))
 
 
 def _eigenmodes(omega, damping, psi, k, c, m, unit):
-    """Modes of d'' = -M^-1 (C d' + K d) in rigid contact; see `_decomposed`.
-
-    damping: 2 xi omega; psi: 0 for a mode that does not feel the slider.
-    """
+    """Modes of d'' = -M^-1 (C d' + K d) in rigid contact; psi is 0 for a mode that does not feel the slider."""
     rank_one = np.outer(psi, psi)
     inverse = np.eye(len(omega)) - rank_one * (m / (1.0 + m * psi @ psi))
-    return _decomposed(
-        inverse @ (np.diag(omega**2) + k * rank_one), inverse @ (np.diag(damping) + c * rank_one), omega * unit, unit
-    )
+    stiffness, damping = np.diag(omega**2) + k * rank_one, np.diag(damping) + c * rank_one
+    return _decomposed(inverse @ stiffness, inverse @ damping, omega * unit, unit)
 
 
 def _compliant_eigenmodes(omega, damping, psi, k, c, m, unit, compliance):
@@ -79,12 +68,9 @@ def _compliant_eigenmodes(omega, damping, psi, k, c, m, unit, compliance):
 
 
 def _decomposed(stiffness, damping, scale, unit):
-    """Modes of d'' = -stiffness d - damping d', both matrices over the masses: lambda (n,), V (2n, n), W (n, 2n).
-
-    (d, d') = 2 Re V q, q = W (d, d'); lambda is in 1 / ``unit``.  Displacements are scaled by ``scale``, so that both
-    halves of an eigenvector have similar size.  None if a mode does not oscillate, is too fast for the series, or
-    nearly parallel to another.
-    """
+    """Modes of d'' = -stiffness d - damping d', both matrices over the masses: lambda (n,) in 1 / ``unit``, V (2n, n)
+    and W (n, 2n) of (d, d') = 2 Re V q, q = W (d, d').  ``scale`` of displacements gives both halves of an eigenvector
+    similar size.  None if a mode does not oscillate, is too fast for the series, or nearly parallel to another."""
     n = len(scale)
     A = np.zeros((2 * n, 2 * n))
     A[:n, n:] = np.diag(scale)
@@ -106,15 +92,10 @@ def _decomposed(stiffness, damping, scale, unit):
 
 
 def build_stick_modes(components, places, slider, *, u, length, unit, compliance) -> StickModes:
-    """Modes of stick for the model of `layout.build_model`.
-
-    components : omega, damping, shape, arm of friction of the components a, modes without nodal diameter, components b;
-        the shape is 0 for the last, the arm for the others
-    places : shape (2, n), of their displacements and velocities in `EngineState.disc`
-    slider : with N, k, c and m
-    u : index of u in `EngineState.disc`, followed by u', where contact is compliant
-    length : of `EngineState.disc`
-    """
+    """Modes of stick for the model of `layout.build_model`. components: omega, damping, shape, arm of friction of the
+    components a, modes without nodal diameter, components b, the shape being 0 for the last, the arm for the others;
+    places: shape (2, n), of their displacements and velocities in `EngineState.disc`, whose ``length`` is given; u:
+    index of u there, followed by u', where contact is compliant."""
     omega, n = components[0], len(components[0])
     if not (n or compliance) or n > MOST_MODES or not (omega > 0.0).all():
         return no_modes()
@@ -149,12 +130,7 @@ def _under_unit_load(arrays, length, k, c, m, unit, compliance) -> StickModes:
         friction[0, where[: len(omega)]] = friction[1, where[count:][: len(omega)]] = -give
         friction[1, where[: len(omega)]] = give * damping / omega**2
     rates, vectors, to_modes = modes
-    return _packed(rates, vectors, to_modes, where, rest, friction, force)
-
-
-def _packed(rates, vectors, to_modes, where, rest, friction, force) -> StickModes:
-    """Modes (see `_eigenmodes`) as lanes; ``where``: indices of displacements and velocities in `EngineState.disc`."""
-    n, length = len(rates), len(rest)
+    n = len(rates)
     enter = np.zeros((length, 2, padded(n)))
     enter[where, 0, :n], enter[where, 1, :n] = to_modes.real.T, to_modes.imag.T
     leave = np.zeros((2, padded(n), length))

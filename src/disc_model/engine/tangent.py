@@ -1,9 +1,8 @@
 """Small changes along a motion: Taylor series of the variational equations.
 
 A change of the state is a column; columns are stored side by side in blocks of eight lanes, and one pass of the
-recurrence advances eight.  The variational equations have the model's recurrence with each product f x replaced by f dx
-+ df x. The coefficients of the motion are known. The contact force of order k follows from the same scalar division as
-for the motion, or from the state on a compliant contact.
+recurrence advances eight.  It is the model's, with each product f x replaced by f dx + df x. The contact force of order
+k follows from the same division as for the motion, or from the state on a compliant contact.
 
 Rows of a column: displacements z and velocities e of all lanes, then y, g of the axisymmetric modes, then psi, f, and
 u, u' of the slider. In rigid contact u, u' are the disc's and have a meaning in separation only.
@@ -14,39 +13,17 @@ from typing import NamedTuple
 
 import numpy as np
 
+from . import series
 from .dense_output import state_at
 from .jit import helper, inlined
 from .jit.packing import packed
-from .jit.simd import WIDTH, add, aligned_pieces, fma, load, mul, splat, spread, store, sub
+from .jit.simd import WIDTH, add, aligned, fma, load, mul, splat, spread, store, sub
 from .laws import N_ENTRIES, friction_coefficient, slip_denominator
-from .layout import (
-    COEFFICIENT_SERIES,
-    DIRECTION,
-    FRICTION_SERIES,
-    HALF,
-    NORMAL_SERIES,
-    P_SERIES,
-    PHASE,
-    PSI,
-    ROWS,
-    SEPARATION,
-    SLIDER,
-    SLIP,
-    STICK,
-    U_VELOCITY,
-    WEAKENING_SERIES,
-    F,
-    Model,
-    U,
-)
-from .series import weakening
+from .layout import DIRECTION, HALF, PHASE, PSI, ROWS, SEPARATION, SLIDER, SLIP, STICK, U_VELOCITY, F, Model, U
 
 # Entries of ``Tangent.log``: times in all and by phase (s), events, steps.
-DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME, RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = (
-    range(10)
-)
-LOG_SIZE = 16
-
+DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME = range(4)
+RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = range(4, 10)
 # Rows of the parameters' changes that a column carries, in the order of an `Instant` (LOAD: of N - k u_0; D_COMPLIANCE:
 # relative); after them stiffness and damping of all lanes and of the axisymmetric modes.
 LOAD, D_K, D_C, D_M, D_K_P, D_C_P, D_OMEGA, D_COMPLIANCE, N_SCALARS = range(9)
@@ -81,7 +58,6 @@ def longest_step(order: int, tolerance: float) -> float:
 
 
 def n_rows(model: Model) -> int:
-    """Number of rows of a column."""
     return 2 * len(model.mode_amplitude) + 2 * len(model.mode_amplitude0) + SLIDER
 
 
@@ -91,11 +67,11 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
     plain = columns if plain is None else WIDTH * (plain // WIDTH)
     rows, order_size = n_rows(model), (order + 2) * columns
     inputs = N_SCALARS + rows - SLIDER
-    arrays = aligned_pieces(
+    sizes = (
         order_size * rows, order_size, order_size, order_size, rows * columns, inputs * columns,
-        rows * WIDTH, rows * WIDTH, N_ENTRIES * WIDTH, 2 * N_ENTRIES, columns, LOG_SIZE, order + 2,
+        rows * WIDTH, rows * WIDTH, N_ENTRIES * WIDTH, 2 * N_ENTRIES, columns, N_STEPS + 1, order + 2,
     )  # fmt: skip
-    return Tangent._make((*arrays, columns, plain, rows, inputs))
+    return Tangent._make((*map(aligned, sizes), columns, plain, rows, inputs))
 
 
 @inlined
@@ -237,10 +213,8 @@ def _path_change(s, t, block, k, f_row):
 
 @inlined
 def _leverage_change(model, s, t, block, k, force, changes):
-    """Change of beta R of order k without beta_0 dR_k, beta being B / r_0 (lanes).
-
-    force, changes : offset of the series of R in ``Series.slider``, and its changes, [block][order][8]
-    """
+    """Change of beta R of order k without beta_0 dR_k, beta being B / r_0 (lanes), R the series at the offset ``force``
+    in ``Series.slider`` and ``changes`` its changes, [block][order][8]."""
     chain = block * len(t.base_dw_dtheta) * WIDTH
     change = mul(splat(s.slider[force]), load(t.dw_dtheta, chain + k * WIDTH))
     for i in range(1, k + 1):
@@ -261,7 +235,7 @@ def _compliant_change(model, s, t, block, k, friction):
         if model.normal:
             for i in range(k + 1):
                 if model.decaying and friction != 0.0:
-                    V -= t.base_dw_dtheta[i] / model.r_0 * s.slider[FRICTION_SERIES + k - i]
+                    V -= t.base_dw_dtheta[i] / model.r_0 * s.slider[series.FRICTION_SERIES + k - i]
                 else:
                     V -= friction * t.base_dw_dtheta[i] / model.r_0 * s.P[k - i]
         d_give = load(t.parameters, block * t.inputs * WIDTH + D_COMPLIANCE * WIDTH)
@@ -275,26 +249,26 @@ def _falling_change(model, s, t, block, k):
     orders, change = len(t.base_dw_dtheta), splat(0.0)
     chain, df = block * orders * WIDTH, (block * orders * t.rows + slider_row(model, F)) * WIDTH
     for i in range(k + 1):
-        change = fma(splat(s.slider[WEAKENING_SERIES + i]), load(t.series, df + (k - i) * t.rows * WIDTH), change)
+        change = fma(
+            splat(s.slider[series.WEAKENING_SERIES + i]), load(t.series, df + (k - i) * t.rows * WIDTH), change
+        )
         if i > 0:
-            change = fma(splat(s.slider[COEFFICIENT_SERIES + i]), load(t.force, chain + (k - i) * WIDTH), change)
+            change = fma(splat(s.slider[series.COEFFICIENT_SERIES + i]), load(t.force, chain + (k - i) * WIDTH), change)
     return change
 
 
 @inlined
 def _forces_in_slip(model, s, t, block, k, friction, denominator, free, vertical, pull):
-    """Changes of order k of the contact force (P or R), of V, T and f' (lanes), for laws other than the paper's.
-
-    friction: its signed coefficient; denominator: of the contact force; free: of u'' without forces (rigid contact);
-    vertical and pull: see ``_slider_forces``.
-    """
+    """Changes of order k of the contact force (P or R), of V, T and f' (lanes), for laws other than the paper's;
+    ``friction``: its signed coefficient; ``denominator``: of the contact force; ``free``: change of u'' without forces;
+    ``vertical`` and ``pull``: see ``_slider_forces``."""
     beta, mobility, h = t.base_dw_dtheta[0] / model.r_0, 1.0 + model.m * model.inverse_effective_mass, splat(0.0)
     if model.normal:
-        h = _leverage_change(model, s, t, block, k, P_SERIES, t.force)
+        h = _leverage_change(model, s, t, block, k, series.P_SERIES, t.force)
     if model.decaying:
         part, twist = _falling_change(model, s, t, block, k), splat(0.0)
         if model.normal:
-            twist = _leverage_change(model, s, t, block, k, FRICTION_SERIES, t.friction)
+            twist = _leverage_change(model, s, t, block, k, series.FRICTION_SERIES, t.friction)
         if model.compliant:
             force = V = _compliant_change(model, s, t, block, k, friction)
             if model.normal:
@@ -332,8 +306,8 @@ def _friction_in_stick(model, s, t, block, k, pull, V):
     T = mul(splat(model.r_0), pull)
     if model.normal:
         beta, at = t.base_dw_dtheta[0] / model.r_0, (block * len(t.base_dw_dtheta) + k) * WIDTH
-        V = add(V, _leverage_change(model, s, t, block, k, FRICTION_SERIES, t.friction))
-        T = sub(sub(T, _leverage_change(model, s, t, block, k, NORMAL_SERIES, t.force)), mul(splat(beta), V))
+        V = add(V, _leverage_change(model, s, t, block, k, series.FRICTION_SERIES, t.friction))
+        T = sub(sub(T, _leverage_change(model, s, t, block, k, series.NORMAL_SERIES, t.force)), mul(splat(beta), V))
         T = mul(splat(1.0 / (1.0 + beta * beta)), T)
         store(t.friction, at, T)
         store(t.force, at, fma(splat(beta), T, V))
@@ -372,7 +346,7 @@ def tangent_series(model, s, t, order, phase, direction):
     friction = direction * model.mu_k / model.r_0 if phase == SLIP else 0.0
     if model.decaying and phase == SLIP:
         for k in range(order):
-            weakening(model, s, k, direction)
+            series.weakening(model, s, k, direction)
     inverse = 1.0 / (1.0 + model.m * model.inverse_effective_mass + friction * B0)
     lightness = splat(1.0 / model.m)
     for block in range(t.columns // WIDTH):
@@ -427,27 +401,20 @@ def tangent_series(model, s, t, order, phase, direction):
 
 
 @helper
-def tangent_at(t, order, x):
-    """``t.now`` at x (time units) of the step."""
-    size, at = t.rows * WIDTH, splat(x)
-    for block in range(t.columns // WIDTH):
-        origin, now = block * len(t.base_dw_dtheta) * size, block * size
-        for i in range(0, size, WIDTH):
-            j = origin + order * size + i
-            value = load(t.series, j)
-            for _ in range(order):
-                j -= size
-                value = fma(value, at, load(t.series, j))
-            store(t.now, now + i, value)
-
-
-@helper
 def take_step(model, s, t, order, x, dt, state, tangent):
     """Count a step to x (time units; ``dt`` s), and move ``state`` and, if requested, the columns there."""
     phase = state.x[PHASE]
     if tangent:
         tangent_series(model, s, t, order, phase, state.x[DIRECTION])
-        tangent_at(t, order, x)
+        size, at = t.rows * WIDTH, splat(x)
+        for block in range(t.columns // WIDTH):
+            for i in range(0, size, WIDTH):
+                j = (block * len(t.base_dw_dtheta) + order) * size + i
+                value = load(t.series, j)
+                for _ in range(order):
+                    j -= size
+                    value = fma(value, at, load(t.series, j))
+                store(t.now, block * size + i, value)
     state_at(model, s, order, x, phase, state)
     t.log[DURATION] += dt
     t.log[STICK_TIME + int(phase)] += dt

@@ -3,29 +3,17 @@
 from . import laws, layout
 from .jit import helper, inlined
 from .jit.simd import WIDTH, absolute, add, fma, load, mul, splat, sub, total
-from .laws import Instant
-from .layout import drive_now, load_now
 
-# Exit codes of events, of runs and of integrations, in one numbering.
-# The motion continues: after an event; after a pause because a buffer is full; after a requested stop, at the first
-# loss of contact.
-CONSISTENT, PAUSED, STOPPED = 0, 1, 2
-# The end time is reached; the section is reached.
-TIME_OVER, RETURNED = 3, 4
-# It cannot continue: Painleve's paradox, events without the clock advancing, overflow.
-NO_SOLUTION, STALLED, NON_FINITE = 5, 6, 7
-# It was stopped: too many steps; a point that is not on the section.
-STEP_LIMIT, OFF_SECTION = 8, 9
-
+# Exit codes of events, of runs and of integrations. The motion continues after an event, after a pause because a buffer
+# is full, after a stop at the first loss of contact, and at the end time or the section. It cannot continue:
+# Painleve's paradox, events without the clock advancing, overflow. It was stopped: too many steps, not on the section.
+CONSISTENT, PAUSED, STOPPED, TIME_OVER, RETURNED, NO_SOLUTION, STALLED, NON_FINITE, STEP_LIMIT, OFF_SECTION = range(10)
 # Causes of the end of a step.
 NOTHING, RELEASE_FORWARD, RELEASE_BACKWARD, AT_REST, CONTACT_LOST, GAP_CLOSED = range(6)
 
-# A motion ends after more events than this without the clock advancing: a guard, not a tuned interval.
-MAX_EVENTS_IN_A_ROW = 200
-# Below this fraction of its value without friction the denominator of P counts as zero: Painleve's paradox.
-PAINLEVE_MARGIN = 1e-6
-# A force below this fraction of the terms that make it is rounding.
-ROUNDING = 1e-13
+MAX_EVENTS_IN_A_ROW = 200  # more without the clock advancing end a motion: a guard, not a tuned interval
+PAINLEVE_MARGIN = 1e-6  # below this fraction of its value without friction the denominator of P counts as zero
+ROUNDING = 1e-13  # a force below this fraction of the terms that make it is rounding
 
 
 @inlined
@@ -54,33 +42,27 @@ def slider_motion(model, state):
 
 
 @inlined
-def _free_acceleration(model, state):
-    """A: u'' of the disc under the slider without P and f'; size of its terms."""
-    f, parts, sizes = splat(state.x[layout.F]), splat(0.0), splat(0.0)
-    for b in range(0, len(model.shift), WIDTH):
-        z, e, turned = load(state.z, b), load(state.e, b), mul(f, load(model.shift, b))
-        pull = fma(load(model.damping, b), e, mul(fma(turned, turned, load(model.stiffness, b)), z))
-        # 2 l f beta_l: dw_dtheta is l psi_l in the lanes of b
-        driven = mul(mul(splat(2.0), f), mul(load(model.dw_dtheta, b), e))
-        part = sub(driven, mul(load(model.mode_amplitude, b), pull))
-        parts, sizes = add(parts, part), add(sizes, absolute(part))
-    acceleration, size = total(parts), total(sizes)
-    for j in range(len(model.mode_amplitude0)):
-        part = -model.mode_amplitude0[j] * (model.damping0[j] * state.g[j] + model.stiffness0[j] * state.y[j])
-        acceleration += part
-        size += abs(part)
-    return acceleration, size
-
-
-@inlined
 def instant(model, state):
     """The arguments of the laws of contact; size of the terms of A."""
     # Read in this order, before the sums over modes: it decides which product in F the optimiser does not round (see
     # ``jit``). In another order results with c_p differ in their last bits.
-    x, N, Omega = state.x, load_now(model, state), drive_now(model, state)
+    x, N, Omega = state.x, layout.load_now(model, state), layout.drive_now(model, state)
     k_p, c_p, f, compliance, psi = model.k_p, model.c_p, x[layout.F], model.compliance, x[layout.PSI]
-    (w, velocity, dw_dtheta), (free, size) = disc_point(model, state), _free_acceleration(model, state)
-    return Instant(
+    w, velocity, dw_dtheta = disc_point(model, state)
+    f_lanes, parts, sizes = splat(f), splat(0.0), splat(0.0)
+    for b in range(0, len(model.shift), WIDTH):
+        z, e, turned = load(state.z, b), load(state.e, b), mul(f_lanes, load(model.shift, b))
+        pull = fma(load(model.damping, b), e, mul(fma(turned, turned, load(model.stiffness, b)), z))
+        # 2 l f beta_l: dw_dtheta is l psi_l in the lanes of b
+        driven = mul(mul(splat(2.0), f_lanes), mul(load(model.dw_dtheta, b), e))
+        part = sub(driven, mul(load(model.mode_amplitude, b), pull))
+        parts, sizes = add(parts, part), add(sizes, absolute(part))
+    free, size = total(parts), total(sizes)
+    for j in range(len(model.mode_amplitude0)):
+        single = -model.mode_amplitude0[j] * (model.damping0[j] * state.g[j] + model.stiffness0[j] * state.y[j])
+        free += single
+        size += abs(single)
+    return laws.Instant(
         N, model.k, model.c, model.m, k_p, c_p, Omega, compliance, psi, f,
         w, velocity, dw_dtheta, free, x[layout.U], x[layout.U_VELOCITY],
     ), size  # fmt: skip
@@ -88,7 +70,6 @@ def instant(model, state):
 
 @inlined
 def inplane_force_per_radius(model, state):
-    """F, see ``laws.inplane_force_per_radius``."""
     i, _ = instant(model, state)
     return laws.inplane_force_per_radius(i)
 
@@ -142,8 +123,7 @@ def friction_force(model, state, phase, direction, P):
 
 
 @inlined
-def usual_denominator(model):
-    """The denominator of the contact force in slip without friction."""
+def usual_denominator(model):  # of the contact force in slip without friction
     return 1.0 if model.compliant else 1.0 + model.m * model.inverse_effective_mass
 
 
@@ -197,10 +177,8 @@ def _begin(state, phase, direction, known, force, known_force=0):
 
 @inlined
 def _enter_separation(model, state, P, noise):
-    """Begin separation at the force P, up to ``noise``: the gap starts as t**3 from P = 0, as t**2 from P < 0.
-
-    The gap of a compliant contact starts as t, or is already open.
-    """
+    """Begin separation at the force P, up to ``noise``: the gap starts as t**3 from P = 0, as t**2 from P < 0; that of
+    a compliant contact starts as t, or is already open."""
     known = 0 if noise < -P else 1
     if not model.compliant:
         state.x[layout.U], state.x[layout.U_VELOCITY], _ = disc_point(model, state)
@@ -235,16 +213,13 @@ def enter_slip(model, state, direction):
 
 @inlined
 def friction_drops(model):
-    """Whether friction drops at a release."""
     return model.mu_s > model.mu_k and len(model.decaying) == 0  # numba has no `not` of a tuple as a value
 
 
 @helper
 def release(model, state, direction, at_once):
-    """Release: begin slip in ``direction``.  Returns CONSISTENT or NO_SOLUTION.
-
-    at_once: stick had no duration, so that the spring may pull harder than friction can hold.
-    """
+    """Begin slip in ``direction``.  Returns CONSISTENT or NO_SOLUTION. ``at_once``: stick had no duration, so that the
+    spring may pull harder than friction can hold."""
     outcome = enter_slip(model, state, direction)
     if state.x[layout.PHASE] == layout.SLIP and not friction_drops(model) and not at_once:
         # friction does not jump: f' = 0, despite the error of the event's time
@@ -266,7 +241,7 @@ def lose_contact(model, state):
 
 @helper
 def stop_slip(model, state):
-    """Stop: f has reached zero. Stick if friction holds the spring, else slip to the side of the spring's pull."""
+    """f has reached zero: stick if friction holds the spring, else slip to the side of the spring's pull."""
     state.x[layout.F] = 0.0
     i, _ = instant(model, state)
     P = laws.vertical_in_stick(model, i)
@@ -278,26 +253,20 @@ def stop_slip(model, state):
     return enter_slip(model, state, -1.0 if pull < 0.0 else 1.0)
 
 
-@inlined
-def _begin_contact(model, state):
-    """Begin a compliant contact: no impact, and the force rises from zero.  Returns CONSISTENT or NO_SOLUTION."""
-    f, F = state.x[layout.F], inplane_force_per_radius(model, state)
-    if f == 0.0 and F == 0.0:
-        _begin(state, layout.STICK, 0.0, 0, 0.0, 1)
-        return CONSISTENT
-    direction = 1.0 if (f if f != 0.0 else F) > 0.0 else -1.0
-    _, denominator, _ = slip_force(model, state, direction)
-    if denominator <= PAINLEVE_MARGIN:
-        return NO_SOLUTION
-    _begin(state, layout.SLIP, direction, 1 if f == 0.0 else 0, 0.0, 1)
-    return CONSISTENT
-
-
 @helper
 def reattach(model, state):
-    """Reattachment: the gap has closed; impact, then contact."""
+    """The gap has closed: impact, then contact. A compliant contact has no impact, and its force rises from zero."""
     if model.compliant:
-        return _begin_contact(model, state)
+        f, F = state.x[layout.F], inplane_force_per_radius(model, state)
+        if f == 0.0 and F == 0.0:
+            _begin(state, layout.STICK, 0.0, 0, 0.0, 1)
+            return CONSISTENT
+        direction = 1.0 if (f if f != 0.0 else F) > 0.0 else -1.0
+        _, denominator, _ = slip_force(model, state, direction)
+        if denominator <= PAINLEVE_MARGIN:
+            return NO_SOLUTION
+        _begin(state, layout.SLIP, direction, 1 if f == 0.0 else 0, 0.0, 1)
+        return CONSISTENT
     impact(model, state)
     f = state.x[layout.F]
     if f == 0.0:

@@ -20,6 +20,7 @@ from disc_model.disc.plate import modal_damping, mode_arrays, tangential_amplitu
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import Summarised
 from disc_model.engine import layout
+from disc_model.engine.series import Series, build_series
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
 from disc_model.parameters import Parameters
 from disc_model.units import is_number
@@ -198,7 +199,7 @@ def transfer_state(p: Parameters, state: State) -> State:
 # ---- Conversion of `Parameters` and `State` to the engine's lanes and back
 
 # Arrays to which the engine writes in one run: its state, the state at a trial time ahead, Taylor series of one step
-Workspace = tuple[layout.EngineState, layout.EngineState, layout.Series]
+Workspace = tuple[layout.EngineState, layout.EngineState, Series]
 
 
 @dataclass(frozen=True, eq=False)
@@ -249,7 +250,7 @@ def take_workspace(case: EngineCase, order: int) -> Workspace:
     try:  # in one step: several threads may take one
         workspace = case.idle[order].pop()
     except IndexError:
-        return layout.build_state(case.model), layout.build_state(case.model), layout.build_series(case.model, order)
+        return layout.build_state(case.model), layout.build_state(case.model), build_series(case.model, order)
     for state in workspace[:2]:
         state.disc[:], state.x[:] = case.start.disc, case.start.x
     return workspace

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from disc_model.display import Summarised, draw, number_text
 from disc_model.engine import event_loop, layout, saltation, tangent, transitions
 from disc_model.engine.jit.cache import compiling
+from disc_model.engine.series import build_series
 from disc_model.errors import Status, as_text, raise_faults, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State, engine_case, read_state, series_order, series_tolerance, write_state
@@ -146,7 +147,7 @@ def lyapunov_exponents(
     duration, interval, tol = float(duration), float(interval), float(tol)
     case, order = engine_case(p), series_order(tol)
     model, tolerance = case.model, series_tolerance(tol, compliant=p.contact_compliance != 0)
-    series, state = layout.build_series(model, order), layout.build_state(model)
+    series, state = build_series(model, order), layout.build_state(model)
     if initial_state is not None:
         write_state(case, initial_state, state)
     t = tangent.build_tangent(model, layout.WIDTH, order)

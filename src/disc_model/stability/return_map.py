@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from disc_model.engine import event_loop, layout, transitions
 from disc_model.engine import tangent as columns
+from disc_model.engine.series import build_series
 from disc_model.errors import raise_faults, violations
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.simulation.states import State, engine_case, read_state, series_order, series_tolerance, write_state
@@ -164,7 +165,7 @@ class ReturnMap:
         flights = 1 / 20 * min(tol, 1e-10)
         self.order = series_order(flights)
         self.tolerance = series_tolerance(flights, compliant=p.contact_compliance != 0)
-        self._series, self._state = layout.build_series(model, self.order), layout.build_state(model)
+        self._series, self._state = build_series(model, self.order), layout.build_state(model)
         modes, slider = np.split(coordinate_rows(model), [-layout.SLIDER])
         self._slider = int(slider[0])
         l = np.abs(model.shift).astype(np.int64)
@@ -208,7 +209,7 @@ class ReturnMap:
             order, tolerance, longest, int(releases) * self.longest, int(releases), bool(may_separate), bool(tangent)
         )
         start = np.array(x, dtype=float)
-        code = event_loop.section_map(self.model, self._series, self._state, t, course, self._section, start)
+        code = event_loop.integrate(self.model, self._series, self._state, t, course, self._section, start)
         whole, stick = t.log[[columns.DURATION, columns.STICK_TIME]].tolist()
         counts = Counts(*t.log[columns.RELEASES : columns.STICKS + 1].astype(int).tolist())
         jacobian, last = self._section.jacobian, self._first + len(self._names)

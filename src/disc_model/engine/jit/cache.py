@@ -1,8 +1,8 @@
 """Files of compiled kernels, with checksums, and locks by which processes compile each kernel once.
 
-Numba's own cache misses changes of a callee in another file and recompiles after every changed comment. It also trusts
-its files: a cut file ends in a traceback, a changed byte in wrong numbers.  Here each signature of a kernel has one
-file, in a folder named by a hash of the engine's code.  A file that does not fit is replaced by compiling again.
+Numba's own cache misses changes of a callee in another file, recompiles after every changed comment, and trusts damaged
+files.  Here each signature of a kernel has one file, in a folder named by a hash of the engine's code; a damaged one is
+replaced by compiling again.
 """
 
 import functools
@@ -24,44 +24,36 @@ from numba.core import event
 
 from disc_model.sources import cache_folder, code_hash
 
-SUFFIX = ".kernel"
-HELPERS = ".helpers"
-"""Suffix of files with the helpers that were first compiled for a kernel, for kernels that are compiled later."""
+HELPERS = ".helpers"  # suffix of files with the helpers that were first compiled for a kernel, for later ones
 
 
 @functools.cache
-def source_hash(folder: Path = Path(__file__).parents[1]) -> str:
+def source_hash() -> str:
     """Hash of the engine's code without comments, docstrings and line numbers: 16 hexadecimal digits."""
-    digest = hashlib.sha256()
-    for path in sorted(folder.rglob("*.py")):
-        digest.update(f"{path.relative_to(folder)}\0{code_hash(path)}\0".encode())
+    digest, engine = hashlib.sha256(), Path(__file__).parents[1]
+    for path in sorted(engine.rglob("*.py")):
+        digest.update(f"{path.relative_to(engine)}\0{code_hash(path)}\0".encode())
     return digest.hexdigest()[:16]
 
 
 @functools.cache
 def folder() -> Path:
-    """The folder of the compiled kernels."""
     return cache_folder() / f"engine-{source_hash()}"
 
 
-def versions() -> str:
-    """Versions on which compiled kernels depend, as text."""
-    python = f"{sys.implementation.name} {sys.version_info[0]}.{sys.version_info[1]} {sys.platform}"
-    return f"engine {source_hash()}, numba {numba.__version__}, llvmlite {llvmlite.__version__}, {python}"
-
-
 def hash_of(*of: object) -> str:
-    """Hash of what compiled code depends on, beside the versions: 16 hexadecimal digits."""
-    return hashlib.sha256(repr((*of, versions())).encode()).hexdigest()[:16]
+    """Hash of what compiled code depends on, with the versions of all that makes it: 16 hexadecimal digits."""
+    python = f"{sys.implementation.name} {sys.version_info[0]}.{sys.version_info[1]} {sys.platform}"
+    versions = f"engine {source_hash()}, numba {numba.__version__}, llvmlite {llvmlite.__version__}, {python}"
+    return hashlib.sha256(repr((*of, versions)).encode()).hexdigest()[:16]
 
 
-COMPILING = "compiling kernels, once: 10 to 20 s for each kind"
 WAITING = "waiting for another process that compiles the same kernel"
 LOADING = 3.0  # s, more than it takes to load a kernel, which keeps its lock as well
 
 
 class _Lines(event.Listener):
-    """Says once in a process that kernels are compiled, and once that another process compiles them."""
+    """Says each text once in a process."""
 
     def __init__(self) -> None:
         self.shown: set[str] = set()
@@ -73,7 +65,7 @@ class _Lines(event.Listener):
             self.shown.add(text)
 
     def on_start(self, event: Any) -> None:
-        self.say(COMPILING)
+        self.say("compiling kernels, once: 10 to 20 s for each kind")
 
     def on_end(self, event: Any) -> None:
         pass
@@ -96,16 +88,15 @@ def compiling(report: bool = True) -> Iterator[None]:
 @functools.cache
 def stored_helpers(codegen: Any) -> dict[str, bytes]:
     """The helpers that were compiled for earlier kernels."""
-    found: dict[str, bytes] = {}
+    stored: dict[str, bytes] = {}
     for path in sorted(folder().glob(f"*.{hash_of(codegen.magic_tuple())}{HELPERS}")):
-        found |= read(path) or {}
-    return found
+        stored |= read(path) or {}
+    return stored
 
 
 @contextmanager
 def lock(name: str) -> Iterator[None]:
-    """Let other processes wait that come to a lock of the same name. Where files cannot be locked, as on some network
-    file systems, none waits."""
+    """Let other processes wait that come to a lock of the same name, where files can be locked."""
     with ExitStack() as stack:
         with suppress(ImportError, OSError):
             import fcntl
@@ -150,5 +141,4 @@ def read(path: Path) -> Any:
 
 @functools.cache
 def warn_once(what: str) -> None:
-    """Warn once for each message."""
     warnings.warn(what, RuntimeWarning, stacklevel=3)

@@ -1,11 +1,8 @@
 """Kernels and their files, and helpers that are compiled only as parts of kernels.
 
-Numba optimises every function and generates its machine code before it links it into its callers.  Most of ours are
-called only by others.  Here a helper stays unoptimised until its kernel is complete, which is then optimised and turned
-into machine code as a whole.
-
-The unoptimised code of helpers is stored beside the kernel that first needed them (``cache.HELPERS``), and linked into
-kernels that other processes compile later.
+Numba optimises every function and generates its machine code before it links it into its callers.  Here a helper stays
+unoptimised until its kernel is complete, which is then optimised as a whole. Its code is stored beside the kernel that
+first needed it (``cache.HELPERS``), and linked into kernels that other processes compile later.
 
 The module uses internals of numba that may change: `jit` does without it if one is missing.
 """
@@ -66,12 +63,13 @@ class HelperLibrary(JITCodeLibrary):
 
     def stored(self):
         """Its code as bytes.  Helpers that it calls are named; other code that it calls is included."""
-        links = [(each.name, _key_of(each) or _code(each)) for each in dict.fromkeys(self._linking_libraries)]
+        parts = dict.fromkeys(self._linking_libraries)
+        keys = (getattr(each, "key", None) for each in parts)
+        links = [(e.name, key or e._get_module_for_linking().as_bitcode()) for e, key in zip(parts, keys, strict=True)]
         return dumps((self.name, self._final_module.as_bitcode(), links, self.result))
 
     @classmethod
     def of_code(cls, codegen, name, code):
-        """A library of stored code; the same one for the same code."""
         if code not in cls.known:
             cls.known[code] = cls(codegen, name)
             cls.known[code]._final_module, cls.known[code]._finalized = llvm.parse_bitcode(code), True
@@ -93,18 +91,16 @@ class HelperLibrary(JITCodeLibrary):
 
 
 class KernelCache:
-    """The files of one kernel; numba's dispatcher requests signatures and offers compiled ones."""
+    """The files of one kernel, with the methods that numba's dispatcher calls."""
 
     def __init__(self, function):
         self._name = f"{function.__module__.rsplit('.')[-1]}.{function.__qualname__}"
 
     @property
     def cache_path(self):
-        """The folder of the files."""
         return str(cache.folder())
 
     def load_overload(self, signature, target):
-        """The code compiled for a signature, or None if it is missing or damaged."""
         reduced = cache.read(cache.folder() / self._file(signature, target.codegen().magic_tuple()))
         return None if reduced is None else CompileResult._rebuild(target, *reduced)
 
@@ -123,11 +119,11 @@ class KernelCache:
             )
 
     def _file(self, signature, processor):
-        return f"{self._name}.{cache.hash_of(signature, processor)}{cache.SUFFIX}"
+        return f"{self._name}.{cache.hash_of(signature, processor)}.kernel"
 
 
 class HelperCache:
-    """The helpers of kernels compiled before; numba's dispatcher requests and offers them as for a kernel."""
+    """The helpers of kernels compiled before, as in a `KernelCache`."""
 
     cache_path = None
 
@@ -135,7 +131,6 @@ class HelperCache:
         self._name = f"{function.__module__}.{function.__qualname__}"
 
     def load_overload(self, signature, target):
-        """The helper for a signature, or None if it has to be compiled."""
         try:
             library = HelperLibrary.restored(target.codegen(), f"{self._name}{signature}")
         except KeyError:
@@ -147,28 +142,17 @@ class HelperCache:
         )  # fmt: skip
 
     def save_overload(self, signature, compiled):
-        """Prepare a helper for being stored with its kernel."""
         library, descriptor = compiled.library, compiled.fndesc
         descriptor.typemap = descriptor.calltypes = None  # not needed any more, and large
         library.key, library.result = f"{self._name}{signature}", (compiled.signature, descriptor)
         library.known[library.key] = library
 
 
-def _key_of(library):
-    return library.key if isinstance(library, HelperLibrary) else None
-
-
-def _code(library):
-    return library._get_module_for_linking().as_bitcode()
-
-
 class KernelLibrary(JITCodeLibrary):
-    """A kernel with all its helpers."""
-
     def new_helpers(self):
         """The helpers that are in no file yet, by their keys, as bytes."""
         stored = cache.stored_helpers(self._codegen)
-        keys = {_key_of(each): each for each in self._linking_libraries}
+        keys = {getattr(each, "key", None): each for each in self._linking_libraries}
         new = {key: each.stored() for key, each in keys.items() if key and key not in stored}
         stored |= new
         return new
@@ -178,9 +162,9 @@ class KernelLibrary(JITCodeLibrary):
 
     def finalize(self):
         # callers come before callees: LLVM leaves out functions that nothing has requested yet
-        found = []
-        _visit(self, found)
-        self._linking_libraries = found[-2::-1]
+        libraries = []
+        _visit(self, libraries)
+        self._linking_libraries = libraries[-2::-1]
         super().finalize()
 
     def _optimize_final_module(self):
@@ -191,13 +175,12 @@ class KernelLibrary(JITCodeLibrary):
         builder.getModulePassManager().run(self._final_module, builder)
 
 
-def _visit(library, found):
+def _visit(library, libraries):
     """Append a library after all libraries that it is linked to."""
-    parts = library._linking_libraries if isinstance(library, HelperLibrary | KernelLibrary) else ()
-    for each in parts:
-        if each not in found:
-            _visit(each, found)
-    found.append(library)
+    for part in library._linking_libraries if isinstance(library, HelperLibrary | KernelLibrary) else ():
+        if part not in libraries:
+            _visit(part, libraries)
+    libraries.append(library)
 
 
 class _Compiler(CompilerBase):
@@ -205,6 +188,9 @@ class _Compiler(CompilerBase):
 
     def define_pipelines(self):
         state = self.state
+        if self.library is HelperLibrary:
+            # usually a number that counts compilations: callers from files know helpers by their names
+            state.func_id.unique_id = 0
         if state.library is None:
             state.library = self.library(state.targetctx.codegen(), state.func_id.func_qualname)
             state.library.enable_object_caching()
@@ -216,11 +202,6 @@ class _Compiler(CompilerBase):
 
 class HelperCompiler(_Compiler):
     library = HelperLibrary
-
-    def define_pipelines(self):
-        # usually a number that counts compilations: callers from files know helpers by their names
-        self.state.func_id.unique_id = 0
-        return super().define_pipelines()
 
 
 class KernelCompiler(_Compiler):

@@ -1,9 +1,7 @@
 """Named tuples that kernels receive as one pointer.
 
-Numba would pass a tuple of arrays between kernels entry by entry: a model is 147 numbers to LLVM, a series 135. A
-``packed`` tuple is a block of memory with its numbers and, for each array, the address and the lengths.  Entries are
-read on use and never written. LLVM is told so, and need not read them again.
-
+Numba would pass a tuple of arrays entry by entry: a model is 147 numbers to LLVM. A ``packed`` tuple is a block of
+memory with its numbers and, for each array, the address and the lengths. LLVM is told that it is never written.
 An entry that is a tuple is a flag, (True,) or (): its length is a part of the type, and it takes no memory.  A helper
 that reads none of the flags is compiled once for all of them: it receives a `PackedType.narrowed` type.
 """
@@ -12,45 +10,29 @@ import ctypes
 import functools
 import hashlib
 import struct
-from typing import Any, TypeVar
+from typing import Any
 
 import numba
 import numpy as np
 
 _SETTINGS: Any = numba.config
-T = TypeVar("T", bound=type)
 
 if _SETTINGS.DISABLE_JIT:
 
-    def packed(cls: T) -> T:
-        """Leave a class of named tuples as it is."""
+    def packed(cls):
         return cls
 
 else:
     from llvmlite import ir
-    from numba import types
+    from numba import extending, types
     from numba.core import cgutils
     from numba.core.typeconv import Conversion
     from numba.core.typing.templates import AttributeTemplate
-    from numba.extending import (
-        NativeValue,
-        infer_getattr,
-        lower_cast,
-        lower_getattr_generic,
-        models,
-        register_model,
-        typeof_impl,
-        unbox,
-    )
 
     _WORD, _BIT = ir.IntType(64), ir.IntType(1)
 
     class PackedType(types.Type):
-        """Numba type of a packed named tuple.
-
-        fields : type of each entry, and the words of memory before it; an array is followed by its lengths
-        format : of the memory, as `struct` has it
-        """
+        """``fields``: type of each entry, and the words of memory before it; an array is followed by its lengths."""
 
         def __init__(self, name, fields):
             self.of, self.fields = name, fields
@@ -61,11 +43,9 @@ else:
         def narrowed(self, used):
             """The type without the flags whose names are not in ``used``."""
             fields = self.fields.items()
-            left = {name: (kind, at) for name, (kind, at) in fields if name in used or not _is_flag(kind)}
-            return PackedType(self.of, left)
+            return PackedType(self.of, {name: f for name, f in fields if name in used or not _is_flag(f[0])})
 
-        def can_convert_to(self, typingctx, other):
-            """A narrowed type is the same memory."""
+        def can_convert_to(self, typingctx, other):  # a narrowed type is the same memory
             return Conversion.safe if isinstance(other, PackedType) and other.of == self.of else None
 
     def _is_flag(kind):
@@ -79,18 +59,15 @@ else:
             return "q" * (1 + kind.ndim)
         return "d" if kind == types.float64 else "q"
 
-    @lower_cast(PackedType, PackedType)
+    @extending.lower_cast(PackedType, PackedType)
     def _cast(context, builder, of, to, value):
         return value
 
     _KNOWN: dict[Any, PackedType] = {}
 
     class _Packed:
-        """Additions of a packed class to its named tuple."""
-
         @functools.cached_property
         def numba_type(self):
-            """See `PackedType`."""
             decisive = type(self), *map(_decisive, self)  # numba's own answers take 1 ms for the tuples of a case
             if decisive not in _KNOWN:
                 fields, before = {}, 0
@@ -102,7 +79,6 @@ else:
 
         @functools.cached_property
         def address(self):
-            """Address of the block of memory."""
             words = [word for value in self for word in _words_of(value)]
             memory = np.frombuffer(struct.pack(self.numba_type.format, *words), np.int64)
             # two threads may come here at once: both get the block that is kept
@@ -121,7 +97,6 @@ else:
         return value if isinstance(value, tuple) else type(value)
 
     def _words_of(value):
-        """The words of an entry."""
         if isinstance(value, np.ndarray):
             if not value.flags.c_contiguous:
                 raise ValueError("an array of a packed tuple has to be contiguous")
@@ -134,44 +109,43 @@ else:
             return (value.address,)
         return () if isinstance(value, tuple) else (value,)
 
-    def packed(cls: T) -> T:
+    def packed(cls):
         """Let kernels receive a class of named tuples as one pointer."""
-        made: Any = type(cls.__name__, (_Packed, cls), {"__doc__": cls.__doc__, "__module__": cls.__module__})
-        return made
+        return type(cls.__name__, (_Packed, cls), {"__doc__": cls.__doc__, "__module__": cls.__module__})
 
-    @typeof_impl.register(_Packed)
+    @extending.typeof_impl.register(_Packed)
     def _typeof(value, context):
         return value.numba_type
 
-    @register_model(PackedType)
-    class _PackedModel(models.PrimitiveModel):
+    @extending.register_model(PackedType)
+    class _PackedModel(extending.models.PrimitiveModel):
         def __init__(self, manager, kind):
             super().__init__(manager, kind, _WORD.as_pointer())
 
-    @unbox(PackedType)
+    @extending.unbox(PackedType)
     def _unbox(kind, value, c):
         address = c.pyapi.object_getattr_string(value, "address")
-        found = cgutils.is_not_null(c.builder, address)
+        exists = cgutils.is_not_null(c.builder, address)
         pointer = cgutils.alloca_once_value(c.builder, _WORD.as_pointer()(None))
-        with c.builder.if_then(found):
+        with c.builder.if_then(exists):
             c.builder.store(c.builder.inttoptr(c.pyapi.long_as_longlong(address), _WORD.as_pointer()), pointer)
             c.pyapi.decref(address)
-        return NativeValue(c.builder.load(pointer), is_error=c.builder.not_(found))
+        return extending.NativeValue(c.builder.load(pointer), is_error=c.builder.not_(exists))
 
-    @infer_getattr
+    @extending.infer_getattr
     class _Attributes(AttributeTemplate):
         key = PackedType
 
         def generic_resolve(self, kind, name):
             return kind.fields.get(name, (None,))[0]
 
-    @lower_getattr_generic(PackedType)
+    @extending.lower_getattr_generic(PackedType)
     def _read(context, builder, kind, value, name):
-        entry, place = kind.fields[name]
+        entry, before = kind.fields[name]
 
         def word(i, of=_WORD):
-            at = builder.gep(value, [_WORD(place + i)])
-            loaded = builder.load(builder.bitcast(at, of.as_pointer()))
+            pointer = builder.gep(value, [_WORD(before + i)])
+            loaded = builder.load(builder.bitcast(pointer, of.as_pointer()))
             loaded.set_metadata("invariant.load", builder.module.add_metadata([]))
             return loaded
 

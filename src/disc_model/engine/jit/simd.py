@@ -1,16 +1,11 @@
 """Eight doubles side by side: the one vector type of the engine.
 
-A value of type ``Lanes`` is an LLVM ``<8 x double>``; on a machine with AVX-512 it is one register, elsewhere
-LLVM splits it.  Numba has no such type, and arrays of accumulators stay in memory, which costs a factor of six
-in the convolutions of the slip series.  With ``NUMBA_DISABLE_JIT=1`` the same names are plain numpy functions,
-so that every kernel runs unchanged without compilation.
-
-Pairs of diametral modes fill a block of eight lanes as (a, a, a, a, b, b, b, b), so ``swap_halves`` exchanges
-the two members of each pair.
+A value is an LLVM ``<8 x double>``: one register with AVX-512; elsewhere LLVM splits it.  Numba has no such type, and
+arrays of accumulators stay in memory, which costs a factor of six in the convolutions of the slip series.  With
+``NUMBA_DISABLE_JIT=1`` the same names are plain numpy functions: every kernel runs unchanged without compilation.
 """
 
 import functools
-from itertools import accumulate
 from typing import Any
 
 import llvmlite.binding as llvm
@@ -47,15 +42,9 @@ def aligned(n):
     return raw[skip : skip + n]
 
 
-def aligned_pieces(*sizes):
-    """Zeros of these sizes, all but the last whole blocks, cut from one array: aligning takes as long as ten cuts."""
-    block = aligned(sum(sizes))
-    return [block[end - size : end] for size, end in zip(sizes, accumulate(sizes), strict=True)]
-
-
 if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made at run time
     add, sub, mul = np.add, np.subtract, np.multiply
-    maximum, minimum, absolute, largest = np.maximum, np.minimum, np.abs, np.max
+    maximum, minimum, absolute, largest, total = np.maximum, np.minimum, np.abs, np.max, np.sum
 
     def load(array, i):
         return array[i : i + WIDTH].copy()
@@ -79,26 +68,16 @@ if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made a
         return a * b + c
 
     def powers_of(x):
-        """1, x, ..., x^7, rounded as in the compiled version."""
-        square = x * x
-        fourth = square * square
-        low = np.array([1.0, x, square, x * square])
-        return np.concatenate((low, fourth * low))
+        return x ** np.arange(float(WIDTH))
 
     def swap_halves(v):
-        return np.concatenate((v[4:], v[:4]))
+        return np.roll(v, WIDTH // 2)
 
     def low_halves(a, b):
         return np.concatenate((a[:4], b[:4]))
 
     def high_halves(a, b):
         return np.concatenate((a[4:], b[4:]))
-
-    def total(v):
-        """Sum in the order of the compiled version."""
-        w = v[:4] + v[4:]
-        w = w[:2] + w[2:]
-        return w[0] + w[1]
 
 else:
     from llvmlite import ir
@@ -111,8 +90,6 @@ else:
     _I32 = ir.IntType(32)
 
     class LanesType(types.Type):
-        """Numba type of eight doubles."""
-
         def __init__(self):
             super().__init__(name="Float64x8")
 
@@ -124,10 +101,7 @@ else:
             super().__init__(dmm, fe_type, _VECTOR)
 
     def _instruction(result, *arguments):
-        """Let kernels call a function that writes LLVM code.
-
-        result, arguments : their types, None for an array, whose address the function receives
-        """
+        """Let kernels call a function that writes LLVM code; types: None for an array, whose address it receives."""
 
         def made(write):
             @intrinsic
@@ -152,7 +126,6 @@ else:
         return builder.bitcast(builder.gep(array, [i]), _VECTOR.as_pointer())
 
     def _call(builder, name, *args):
-        """Call of an LLVM intrinsic by its mangled name; its result is of the type of the arguments."""
         signature = ir.FunctionType(args[0].type, [a.type for a in args])
         return builder.call(cgutils.get_or_insert_function(builder.module, signature, name), args)
 
@@ -162,9 +135,8 @@ else:
         return builder.shuffle_vector(v, ir.Constant(v.type, ir.Undefined) if second is None else second, mask)
 
     def _copies(builder, x):
-        """All lanes equal to x."""
-        one = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), x, _I32(0))
-        return _shuffle(builder, one, [0] * WIDTH)
+        first = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), x, _I32(0))
+        return _shuffle(builder, first, [0] * WIDTH)
 
     def _fold(builder, v, instruction):
         """Combine halves until one lane is left."""
@@ -178,12 +150,10 @@ else:
 
     @_instruction(LANES, None, types.intp)
     def load(builder, array, i):
-        """Lanes array[i:i+8]."""
         return builder.load(_block(builder, array, i), align=8)
 
     @_instruction(types.void, None, types.intp, LANES)
     def store(builder, array, i, v):
-        """array[i:i+8] = v."""
         builder.store(v, _block(builder, array, i), align=8)
 
     @_instruction(LANES, types.float64)
@@ -213,7 +183,6 @@ else:
 
     @_instruction(LANES, types.float64)
     def powers_of(builder, x):
-        """1, x, ..., x^7."""
         square = builder.fmul(x, x)
         fourth = builder.fmul(square, square)
         powers = ones = ir.Constant(_VECTOR, [1.0] * WIDTH)
@@ -222,46 +191,33 @@ else:
             powers = builder.fmul(powers, _shuffle(builder, ones, chosen, _copies(builder, power)))
         return powers
 
-    def _lane_by_lane(write):
-        """An instruction of LLVM applied to two values lane by lane."""
+    def _of_two(write):
         # not `write` itself: numba counts arguments by their names, and those of llvmlite have a `name` as well
         return _instruction(LANES, LANES, LANES)(lambda builder, a, b: write(builder, a, b))
 
-    mul = _lane_by_lane(ir.IRBuilder.fmul)
-    add = _lane_by_lane(ir.IRBuilder.fadd)
-    sub = _lane_by_lane(ir.IRBuilder.fsub)
-    maximum = _lane_by_lane(lambda builder, a, b: _call(builder, "llvm.maxnum.v8f64", a, b))
-    minimum = _lane_by_lane(lambda builder, a, b: _call(builder, "llvm.minnum.v8f64", a, b))
+    mul = _of_two(ir.IRBuilder.fmul)
+    add = _of_two(ir.IRBuilder.fadd)
+    sub = _of_two(ir.IRBuilder.fsub)
+    maximum = _of_two(lambda builder, a, b: _call(builder, "llvm.maxnum.v8f64", a, b))
+    minimum = _of_two(lambda builder, a, b: _call(builder, "llvm.minnum.v8f64", a, b))
 
     @_instruction(LANES, LANES)
     def swap_halves(builder, v):
-        """Lanes 4..7, then 0..3."""
         return _shuffle(builder, v, [4, 5, 6, 7, 0, 1, 2, 3])
 
-    @_instruction(LANES, LANES, LANES)
-    def low_halves(builder, a, b):
-        """Lanes 0..3 of both."""
-        return _shuffle(builder, a, [0, 1, 2, 3, 8, 9, 10, 11], b)
-
-    @_instruction(LANES, LANES, LANES)
-    def high_halves(builder, a, b):
-        """Lanes 4..7 of both."""
-        return _shuffle(builder, a, [4, 5, 6, 7, 12, 13, 14, 15], b)
+    low_halves = _of_two(lambda builder, a, b: _shuffle(builder, a, [0, 1, 2, 3, 8, 9, 10, 11], b))
+    high_halves = _of_two(lambda builder, a, b: _shuffle(builder, a, [4, 5, 6, 7, 12, 13, 14, 15], b))
 
     @_instruction(types.float64, LANES)
     def total(builder, v):
-        """Sum of the lanes, by halves."""
         return _fold(builder, v, ir.IRBuilder.fadd)
 
     @_instruction(LANES, LANES)
     def absolute(builder, v):
-        """Lane by lane modulus."""
         return _call(builder, "llvm.fabs.v8f64", v)
 
     @_instruction(types.float64, LANES)
     def largest(builder, v):
-        """Largest lane."""
-
         def larger(builder, low, high):
             return _call(builder, f"llvm.maxnum.v{low.type.count}f64", low, high)
 
