@@ -16,7 +16,7 @@ from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, judge, read_texts
 from disc_model.paper.survival import CONCLUSIONS
 from disc_model.parameters import Parameters
 
-TEXTS: dict[str, str] = read_texts("pages.yaml")["normalisation"]
+TEXTS: dict[str, str] = read_texts("paper/pages.yaml")["normalisation"]
 OLD, NEW = "As published", "With Eq. (17)"
 SHOWN = ("F02", "F07", "F09", "F13", "F17", "F18", "F22", "F23")  # cases of the paper's figures with a separation
 

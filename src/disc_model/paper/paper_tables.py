@@ -132,7 +132,7 @@ def impact_law(cases: Mapping[str, CaseView]) -> pd.DataFrame:
             durations, still_open = case.separation_durations()
             row = [case["first_separation"], case.rate_of("separation"), 1e3 * max(durations.max(), still_open)]
             row += [100 * case.phase_share("separation"), 100 * case.stick, 1e3 * case.disc.width]
-            rows.append([words, *row, str(case.late_motion())])
+            rows.append([words, *row, str(case.late_motion)])
         except Missing as reason:
             rows.append([words, *[np.nan] * 6, str(reason)])
     columns = ["modes", "first_s", "rate_Hz", "longest_ms", "separated_%", "stick_%", "range_mm", "releases"]

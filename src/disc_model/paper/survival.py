@@ -5,23 +5,22 @@ and grids of config/survival.yaml, by rows as the ledger's.
 """
 
 import math
-import sys
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.analysis.classify import FEWEST, stick_disappears
+from disc_model.analysis.classify import FEWEST, motion_of, stick_disappears
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Section
 from disc_model.data.variables import Outcome, flag_names, stated_in
 from disc_model.paper import measures
-from disc_model.paper.measures import STRETCH, STRETCHES, Array, CaseView, listed, pairs, rate_text
-from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, judge, read_texts, rows_of
+from disc_model.paper.measures import STRETCH, STRETCHES, Array, CaseView, listed, pairs, rate_text, sound
+from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, Answer, judge, read_texts, rows_of
 from disc_model.paper.section2 import moving_load_speed
+from disc_model.paper.section41 import lowest_speeds
 
 CHANGED = ("normalization", "contact_compliance", "contact_force", "friction_offset")
 MODELS = {
@@ -39,16 +38,14 @@ def by_model(cases: Mapping[str, CaseView]) -> dict[str, dict[str, CaseView]]:
     models: dict[str, dict[str, CaseView]] = {name: {} for name in MODELS}
     for name, case in cases.items():
         study = case.node.to_dataset()
-        if case.is_grid:
-            varied: list[Any] = [study[parameter].values for parameter in CHANGED]
-        else:
-            varied = [[getattr(case.parameters, parameter)] for parameter in CHANGED]
+        holds = study.variables if case.is_grid else vars(case.parameters)
+        varied = [np.atleast_1d(holds[parameter]).tolist() for parameter in CHANGED]
         points = [(scale, give != 0, force, offset != 0) for scale, give, force, offset in zip(*varied, strict=True)]
-        for model, values in MODELS.items():
-            if case.is_grid and points.count(values) == 1:
-                point = {study["normalization"].dims[0]: points.index(values)}
-                models[model][name] = CaseView(name, xr.DataTree(study.isel(point)))
-            elif points == [values]:
+        for model in (model for model, values in MODELS.items() if points.count(values) == 1):
+            if case.is_grid:
+                point = study.isel({study["normalization"].dims[0]: points.index(MODELS[model])})
+                models[model][name] = CaseView(name, xr.DataTree(point))
+            else:
                 models[model][name] = case
     return models
 
@@ -61,9 +58,7 @@ def onset(points: xr.Dataset, rates: xr.Dataset, curves: xr.Dataset, *, beside: 
         growth = rates["growth_rate"].sel(N=points["N"], Omega=points["Omega"]).transpose("N", "Omega").values
     except KeyError as error:
         raise Missing(f"study survival_growth lacks points of survival_outcome: {error}") from None
-    outcome = flag_names(points["outcome"].transpose("N", "Omega"))
-    if (outcome == "failed").any():
-        raise Missing("study survival_outcome has points that failed")
+    outcome = flag_names(sound(points)["outcome"].transpose("N", "Omega"))
     apart, stable = outcome == "separation", growth < -SLOW
     unstable, without = (int((apart & kind).sum()) for kind in (growth > SLOW, np.isnan(growth)))
     early = [(float(points["N"][i]), float(points["Omega"][j])) for i, j in np.argwhere(apart & stable)]
@@ -81,8 +76,7 @@ def onset(points: xr.Dataset, rates: xr.Dataset, curves: xr.Dataset, *, beside: 
 
 def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: float, within: float) -> Answer:
     folds = np.array(sorted(_folds_at(curves, load)))
-    one = speed.sel(N=load).isel(horizon=0)
-    _require_ok(one, "survival_speed")
+    one = sound(speed.sel(N=load).isel(horizon=0))
     highs = one["crossing"].values[flag_names(one["crossing_kind"]) == "begins"]
     width = float(stated_in(speed, "options")["precision"])
     told = f"Folds end stable cycles at {listed(folds, '.3f')} rad/s; separation begins at {listed(highs, '.1f')} rad/s"
@@ -112,8 +106,7 @@ def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: floa
 
 def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
     """Speeds at which folds with a stable cycle beside them cross a preload, rad/s."""
-    _require_ok(curves, "survival_curves")
-    for i in np.flatnonzero(flag_names(curves["kind"]) == "fold"):
+    for i in np.flatnonzero(flag_names(sound(curves)["kind"]) == "fold"):
         one = curves.isel(curve=int(i))
         x, y = one["x"].values, one["y"].values
         border = flag_names(one["adjoins_stable_cycle"]) == "yes"
@@ -122,17 +115,12 @@ def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
             yield float(x[j] + (load - y[j]) / (y[j + 1] - y[j]) * (x[j + 1] - x[j]))
 
 
-def _require_ok(grid: xr.Dataset, name: str) -> None:
-    if not np.all(flag_names(grid["status"]) == "ok"):
-        raise Missing(f"study {name} has points that failed")
-
-
 def below_critical(*cases: CaseView, share: float) -> Answer:
     critical = moving_load_speed(cases[0].parameters) if cases else math.nan
-    lower = [case for case in _separating(cases) if case["Omega"] < share * critical]
-    rows = [f"{100 * case['Omega'] / critical:.1f} % of it at {case.place}" for case in lower]
-    told = f"The critical speed of a moving load is {critical:.2f} rad/s. Cases separate at {'; '.join(rows)}."
-    return Answer(bool(lower) or NOT_COMPUTED, told if lower else "No case separates.")
+    parts = [(case["Omega"] / critical, case.place) for case in _separating(cases)]
+    rows = "; ".join(f"{100 * part:.1f} % of it at {place}" for part, place in parts if part < share)
+    told = f"The critical speed of a moving load is {critical:.2f} rad/s. Cases separate at {rows}."
+    return Answer(bool(rows) or NOT_COMPUTED, told if rows else "No case separates.")
 
 
 def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
@@ -145,11 +133,9 @@ def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
 
 
 def falls_then_rises(speed: xr.Dataset, *, depth: float) -> Answer:
-    study = speed.isel(horizon=0)
-    _require_ok(study, "survival_speed")
-    found = measures.lowest_speeds(study, depth)
-    few = np.isfinite(study["critical_speed"].values).sum() < 3
-    return Answer(NOT_COMPUTED if few else PART if found.again else found.falls, found.words)
+    study = sound(speed.isel(horizon=0))
+    verdict, words = lowest_speeds(study, depth)
+    return Answer(NOT_COMPUTED if np.isfinite(study["critical_speed"].values).sum() < 3 else verdict, words)
 
 
 def smaller_vibration(*cases: CaseView, wider: float) -> Answer:
@@ -231,7 +217,7 @@ def _repeats(case: CaseView) -> tuple[Outcome, str]:
     for kind, name in (("stick_to_slip", "release"), ("separation", "separation")):
         intervals = np.diff(case.times_of(kind))
         if intervals.size >= 2 * FEWEST:
-            motion = measures.classify_intervals(tuple(intervals))
+            motion = motion_of(intervals)
             length = float(intervals[: motion.period].sum())
             how = f" ({length:.4g} s)" if motion.period else f", judged by its {name}s"
             return motion.kind, measures.repeats(motion, name) + how
@@ -243,8 +229,8 @@ def _all_cases(holds: Sequence[bool | None]) -> bool | str:
     return False if False in holds else NOT_COMPUTED if None in holds or not holds else True
 
 
-CONCLUSIONS = rows_of(sys.modules[__name__])
-TEXTS: dict[str, str] = read_texts("pages.yaml")["survival"]
+CONCLUSIONS = rows_of("paper/survival.yaml", globals())
+TEXTS: dict[str, str] = read_texts("paper/pages.yaml")["survival"]
 
 
 def judge_models(cases: Mapping[str, CaseView]) -> pd.DataFrame:
