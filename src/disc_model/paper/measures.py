@@ -52,11 +52,7 @@ class CaseView:
 
     def __getitem__(self, name: str) -> float:
         """A scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
-        return float(self._scalars[name].item())
-
-    @cached_property
-    def _scalars(self) -> xr.Dataset:  # which xarray would make anew for each value
-        return self.node.to_dataset()
+        return float(self.node.variables[name].values)  # node[name] would make a dataset
 
     @cached_property
     def parameters(self) -> Parameters:
@@ -117,22 +113,18 @@ class CaseView:
         """The same in words."""
         times, motion = self.intervals(), self.late_motion
         if not motion.period:
-            return (
-                f"{motion}: there are {1 / times.mean():.1f} releases per second, the intervals between them do not "
-                f"repeat with any period of up to {motion.longest} releases, and the 0-1 test for chaos gives "
-                f"{motion.chaos:.2f}"
-            )
+            rate = f"{motion}: there are {1 / times.mean():.1f} releases per second, the intervals between them do not"
+            most = f"repeat with any period of up to {motion.longest} releases, and the 0-1 test for chaos gives"
+            return f"{rate} {most} {motion.chaos:.2f}"
         length = float(times[: motion.period].sum())
         apart = round(self.rate_of("separation") * length)
         after = counted(motion.period, "release") + (f" and {counted(apart, 'separation')}" if apart else "")
-        return (
-            f"periodic: one period has {after}, and lasts {length:.6g} s. From one period to the next, the intervals "
-            f"between releases differ by at most {motion.closure:.0e} s"
-        )
+        period = f"periodic: one period has {after}, and lasts {length:.6g} s. From one period to the next, the"
+        return f"{period} intervals between releases differ by at most {motion.closure:.0e} s"
 
     @property
     def early(self) -> Range:
-        """Range of the contact force over the first 20 s, without the first second, N."""
+        """Range of the contact force from 1 to 21 s, N."""
         return self.range_of("P", 1.0, 1.0 + STRETCH)
 
     @property
@@ -180,13 +172,12 @@ class CaseView:
 
     def range_of(self, name: str, start: float, stop: float) -> Range:
         """Range of a variable from the whole bins of the history between two times, s."""
-        history = self.history
-        time = history["time"].values
+        time = self.history["time"].values
         half = (time[1] - time[0]) / 2 if time.size > 1 else np.inf  # the width of a single bin is unknown
         inside = (time >= start + 0.99 * half) & (time <= stop - 0.99 * half)
         if not inside.any():
             raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
-        low, high = (history[f"{name}_{end}"].values[inside] for end in ("min", "max"))
+        low, high = (self.history[f"{name}_{end}"].values[inside] for end in ("min", "max"))
         return Range(float(low.min()), float(high.max()))
 
     def late_range(self, name: str) -> Range:
@@ -195,7 +186,7 @@ class CaseView:
         return self.range_of(name, end - STRETCH, end)
 
     def last_widths(self, name: str, length: float, count: int) -> list[float]:
-        """Widths of a variable's ranges over `count` stretches of a length (s) up to the end, the last one first."""
+        """Widths of a variable's ranges over stretches of a length, s, up to the end, the last one first."""
         end = self["time_reached"]
         return [self.range_of(name, end - (i + 1) * length, end - i * length).width for i in range(count)]
 
@@ -218,11 +209,9 @@ class CaseView:
 
     def switches(self, kind: str) -> xr.Dataset:
         """The stored events of one kind."""
-        events = self.events
-        return events.isel(event=events["kind"].values == EVENT_KINDS.index(kind))
+        return self.events.isel(event=self.events["kind"].values == EVENT_KINDS.index(kind))
 
     def times_of(self, kind: str) -> Array:
-        """Times of the stored events of one kind, s."""
         return np.asarray(self.switches(kind)["time"])
 
     def intervals(self, kind: str = "stick_to_slip") -> Array:
@@ -254,9 +243,8 @@ class CaseView:
 
     def phase_share(self, phase: str) -> float:
         """Fraction of time spent in a phase, within the stored events."""
-        events = self.events
-        lasting = np.diff(np.append(events["time"].values, self.kept_span.high))
-        spent = lasting[events["phase"].values == PHASES.index(phase)]
+        lasting = np.diff(np.append(self.events["time"].values, self.kept_span.high))
+        spent = lasting[self.events["phase"].values == PHASES.index(phase)]
         return ratio(float(spent.sum()), float(lasting.sum()), f"the time that events of case {self.name} cover")
 
     def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> "Signal":
@@ -319,12 +307,11 @@ def views(trees: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
 
 def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
     """Cases with separation, each with the case that ignores separation; raises `Missing` if one has no such case."""
-    free = [case for case in cases if not case.bonded]
     bonded = {case.parameters: case for case in cases if case.bonded}
-    wanted = [case.parameters.replace(contact="bilateral") for case in free]
-    if alone := [case.name for case, p in zip(free, wanted, strict=True) if p not in bonded]:
+    free = [(case, case.parameters.replace(contact="bilateral")) for case in cases if not case.bonded]
+    if alone := [case.name for case, p in free if p not in bonded]:
         raise Missing(f"without separation there is no case with the parameters of {', '.join(alone)}")
-    return [(case, bonded[p]) for case, p in zip(free, wanted, strict=True)]
+    return [(case, bonded[p]) for case, p in free]
 
 
 def ratio(part: float, whole: float, what: str) -> float:

@@ -35,13 +35,8 @@ def paper_cases() -> dict[str, dict[str, Any]]:
 
 
 class Answer:
-    """Result of a check.
-
-    verdict : one of `VERDICTS`, or whether the statement is true
-    here : what was computed, in words; "" if the row has the words
-    notes : what should be known besides; empty ones do not count
-    values : what the row's words are filled with, beside those that `Row` knows
-    """
+    """Result of a check: a verdict, or whether the statement is true; what was computed and what should be known
+    besides, in words; and values for the words of the row, which has them where `here` is empty."""
 
     def __init__(self, verdict: bool | np.bool_ | str, here: str = "", *notes: str, **values: Any) -> None:
         self.verdict = verdict if isinstance(verdict, str) else TRUE if verdict else FALSE
@@ -55,11 +50,8 @@ def graded(holds: Iterable[bool | np.bool_]) -> str:
 
 
 class Row(BaseModel):
-    """A statement of the paper: what a file says of it, and the function that judges it.
-
-    Its words may name values of the answer, those in `given`, the `place` of the first case, and what the first grid
-    study has `stated`, see `facts`.
-    """
+    """A statement of the paper: what a file says of it, and the function that judges it. Its words may name values of
+    the answer, those in `given`, the `place` of the first case, and what the first grid study has `stated`."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     id: str
@@ -70,7 +62,7 @@ class Row(BaseModel):
     verdict: str = ""  # then the verdict
     here: str = ""  # and what is said for it; otherwise what is said of the check's values, as in the note
     matters: str = ""  # the consequence, in one sentence
-    judged: str = ""  # the rule, with the numbers below
+    judged: str = ""  # the rule by which the check judges, with the numbers below
     note: str = ""  # what should be known in any case
     given: dict[str, bool | float | str | list[float]] = {}  # for the check and for the rule
     cases: dict[str, float] = {}  # for the check, of config/paper.yaml: the time in s to which each must have run

@@ -50,7 +50,6 @@ def first_separations(maps: Mapping[str, xr.Dataset]) -> pd.DataFrame:
 
 
 def survive(*maps: xr.Dataset, share: float) -> Answer:
-    """Whether points of the map of speed and preload separate at low speed, with either scale of the modes."""
     critical, plane = moving_load_speed(BASE), maps[0].transpose("normalization", "Omega", ...)
     apart, run = (flag_names(plane[x]) == word for x, word in (("outcome", "separation"), ("method", "simulation")))
     lowest = [np.min(plane["Omega"].values[each.any(axis=1)], initial=np.inf) for each in apart]
@@ -188,7 +187,6 @@ def additional(*, loads: Sequence[float], c: float, **friction: float) -> Answer
 
 
 def reduced(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
-    """Whether friction lowers growth wherever sliding is unstable without it, and stabilises some of these speeds."""
     verdicts, rows = [], []
     for alone, both, _ in growths(tuple(loads), c, **friction):
         old = alone > 0

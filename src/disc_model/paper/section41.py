@@ -31,7 +31,6 @@ def force_grows_to_zero(case: CaseView, *, factor: float) -> Answer:
 
 
 def upward(*cases: CaseView, share: float) -> Answer:
-    """Whether the disc, and with it the slider, moves upward where contact is lost, in that part of the separations."""
     rows, parts = [], []
     for case in cases:
         lost = case.switches("separation")
@@ -55,7 +54,6 @@ def separations_are_short(*cases: CaseView, share: float) -> Answer:
 
 
 def preload_closes(case: CaseView, *, share: float) -> Answer:
-    """Whether the preload is the larger part of the force that drives the slider back while it is separated."""
     window = case.samples("zoom")
     apart = window["phase"].values == measures.SEPARATION
     if not apart.any():
@@ -160,7 +158,6 @@ PHYSICAL = ("a", "b", "r_0", "h", "E", "nu", "rho", "D_star", "mu_s", "mu_k", "k
 
 
 def quiet(case: CaseView, *, share: float, newtons: float, within: float) -> Answer:
-    """Whether the range of the contact force is small and that of a point fixed on the disc is constant and small."""
     early, late = case.early, case.late
     before, after, under = (each.width for each in (case.range_of("w_point", 1, 21), case.disc, case.late_range("u")))
     force = max(early.width, late.width) < share * case["N"] and late.width <= early.width + newtons
@@ -171,7 +168,6 @@ def quiet(case: CaseView, *, share: float, newtons: float, within: float) -> Ans
 
 
 def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
-    """Whether only the second case separates; which parameters, 0.1 % larger, make it otherwise is told."""
     lost = []
     for case in (below, above):
         larger = {name: case.parameters.replace(**{name: 1.001 * getattr(case.parameters, name)}) for name in PHYSICAL}
@@ -181,7 +177,6 @@ def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
 
 
 def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
-    """Whether the lowest speed with separation has one minimum between higher ones, at every horizon."""
     study = sound(published(study))
     verdicts, words = zip(*(lowest_speeds(study.sel(horizon=x), depth) for x in study["horizon"]), strict=True)
     speeds = study["scan_Omega"].values
@@ -221,7 +216,6 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[str, str]:
 def maintained_below(
     study: xr.Dataset, sweeps: xr.Dataset | None, basins: xr.Dataset | None, *, within: float
 ) -> Answer:
-    """Whether contact is kept below the critical speed of the static start by other starts as well."""
     critical = sound(published(study))["critical_speed"].isel(horizon=-1)
     known, loads = np.isfinite(critical.values), critical["N"].values
     if not known.any():
@@ -250,7 +244,6 @@ def far_below(*cases: CaseView, share: float) -> Answer:
 
 
 def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
-    """Whether cycles grow, and separation occurs, far below the critical speed of a moving load."""
     study, critical = published(study), moving_load_speed(BASE)
     low, without = study["Omega"] < share * critical, study["growth_rate"].isnull()
     unstable, apart = study["growth_rate"] > 0, study["outcome"].copy(data=flag_names(study["outcome"]) == "separation")

@@ -33,7 +33,6 @@ def calm_text(case: CaseView) -> str:
 
 
 def stays_small(case: CaseView, *_: CaseView, share: float, within: float, last: float = 0, same: float = 1) -> Answer:
-    """Whether contact force, releases and, with ``last``, a point fixed on the disc and its section are regular."""
     intervals = case.intervals()
     spread, points = irregularity(intervals), [_different(case, last, x) for x in (same, 1e-2)] if last else [0]
     holds = stays_calm(case) and case.late.width < share * case["N"] and spread <= within
@@ -55,7 +54,6 @@ def becomes_unstable(case: CaseView) -> Answer:
 
 
 def only_between(*cases: CaseView, largest: float) -> Answer:
-    """Whether preloads up to ``largest``, N, are unstable between stable ones, others stable, with ranges or not."""
     shown = sum(case["N"] <= largest for case in cases)
     stable = [stays_calm(x) if x["N"] <= largest or "history" in x.node else not x.separates for x in cases]
     holds = stable[:shown] == [True, False, True]
@@ -67,7 +65,6 @@ def only_between(*cases: CaseView, largest: float) -> Answer:
 
 
 def hardly_moves(large: CaseView, huge: CaseView, *, held: float) -> Answer:
-    """Whether the larger of two preloads holds the slider throughout a run, and for as long as the paper's, s."""
     p = huge.parameters
     released = p.mu_s * p.N / (p.r_0 * p.k_p * p.Omega)
     rows = [(case.place, case.stick_in_all, case["time_reached"]) for case in (large, huge)]
@@ -77,7 +74,6 @@ def hardly_moves(large: CaseView, huge: CaseView, *, held: float) -> Answer:
 
 
 def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: float) -> Answer:
-    """Whether the printed speed is the lowest that separates in the time that the paper's own case takes."""
     times = {case["Omega"]: case["first_separation"] for case in cases}
     horizon = known["first_separation"]
     lower = [speed for speed, time in times.items() if speed < printed - within and time <= horizon]
@@ -141,7 +137,6 @@ def _growths(p: Parameters, name: str, value: float) -> Array:
 
 
 def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
-    """Whether growth falls with a parameter, on a map over it and the speed."""
     growth = published(study)["growth_rate"].transpose("Omega", name).values
     rows = [known for row in growth if (known := row[np.isfinite(row)]).size > 2]
     if not rows:
@@ -154,7 +149,6 @@ def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
 
 
 def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = False) -> Answer:
-    """Whether a motion grows and is bounded in contact; of a cause that is given for it only that is known."""
     count = int(case["time_reached"] / (4 * STRETCH))
     if not count:
         if case.separates:  # where it was to be stopped
@@ -179,7 +173,6 @@ def is_kind(case: CaseView, *, kind: str) -> Answer:
 
 
 def softer_separates_sooner(*evidence: Any) -> Answer:
-    """Whether softer springs separate sooner; true in part if on the map, at some speeds, a softer one does not."""
     *cases, study = evidence
     speed, _, apart, _ = plane(study, "Omega", "k")
     again = np.any(np.diff(apart.astype(int)) > 0, axis=1)  # by rising stiffness
@@ -210,7 +203,6 @@ def _growth(p: Parameters) -> float:
 
 
 def wanders(case: CaseView, near: CaseView, *, last: float, same: float) -> Answer:
-    """Whether points of the disc's section differ, and the slider's releases do not repeat."""
     points, motion = _different(case, last, same), case.late_motion
     verdict = graded([points > last / 2, motion.kind is Outcome.IRREGULAR]) if case.separates else FALSE
     turns = float(case.intervals()[: motion.period].sum()) * case.drive
@@ -265,7 +257,6 @@ def seen_in_section(case: CaseView, *, share: float) -> Answer:
 
 
 def bounded(*cases: CaseView, factor: float) -> Answer:
-    """Whether no range grows on after separation."""
     widths = [case.last_quarters("w_point") for case in cases]
     return Answer(
         graded(late <= factor * before for late, before in widths),
@@ -284,7 +275,6 @@ def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
 
 
 def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
-    """Whether, from some preload on, all that do not separate without the damper do with it."""
     loads, damping, apart, _ = plane(study, "N", "c_p")
     quiet = ~apart[:, 0]
     newly = loads[quiet & apart[:, damping == c_p][:, 0]]

@@ -30,7 +30,6 @@ def when_it_separates(case: CaseView, *, printed: float, within: float) -> Answe
 
 
 def rest_late(case: CaseView, *, within: float) -> Answer:
-    """Whether lines move at first, and still long after separation, so that a spectrum of a long record would smear."""
     drifts = [_drift(case, *stretch) for stretch in (EARLY, LATE)]
     return Answer(graded(each.high > within for each in drifts), drifts=drifts, first=case["first_separation"])
 
@@ -43,7 +42,6 @@ def _drift(case: CaseView, window: str, start: float, stop: float) -> measures.R
 
 
 def constant_by_separation(case: CaseView, bonded: CaseView, *, within: float) -> Answer:
-    """Whether lines come to rest, and not without separation."""
     drift, other = (_drift(each, *LATE).high for each in (case, bonded))
     return Answer(FALSE if drift > within else PART if other <= within else TRUE, drift=drift, other=other)
 
@@ -70,7 +68,6 @@ def lines(case: CaseView, *, bound: float) -> Answer:
 
 
 def follow(*cases: CaseView, within: float) -> Answer:
-    """Whether the rotation shifts the lines, and from natural frequencies or from multiples of the stick-slip rate."""
     rows, off, shifted, natural = [], list[float](), list[bool](), list[bool]()
     for case in cases:
         lines = sorted(case.signal(*EARLY).lines(6, above=100, below=300, apart=1.0))
@@ -127,7 +124,6 @@ def higher(*cases: CaseView, factor: float, floor: float, windows: str, spans: S
 
 
 def fuzz_goes(*pair: CaseView, share: float) -> Answer:
-    """Whether lines fill less of the spectrum of the disc later; the control without separation is told."""
     filled = [case.signal(*span).filled for case in pair for span in (LATER, LATE)]
     return Answer(filled[1] < share * filled[0], filled=filled)
 
@@ -204,7 +200,6 @@ def _is_combination(frequency: float, rate: float, drive: float) -> bool:
 
 
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
-    """Whether some cases separate for which sliding without friction is stable."""
     smooth = [sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0)) for case in cases]
     apart = any(case.separates and rate < growth for case, rate in zip(cases, smooth, strict=True))
     return Answer(apart, rows=[case.fate for case in cases], most=max(smooth))
@@ -221,7 +216,6 @@ def very_different(*cases: CaseView, factor: float) -> Answer:
 
 
 def not_monotonous(*evidence: Any) -> Answer:
-    """Whether each of three parameters acts both ways; damping by new separations, and by lower growth."""
     *cases, study = evidence
     loads, damping, apart, growth = plane(study, "N", "c_p")
     newly = (apart & ~apart[:, :1]).any(axis=1)
@@ -241,7 +235,6 @@ def not_monotonous(*evidence: Any) -> Answer:
 
 
 def damping_destabilises(study: xr.Dataset, *, fewest: float) -> Answer:
-    """Whether in-plane damping brings separation at some large preloads."""
     loads, damping, apart, growth = plane(study, "N", "c_p")
     newly = np.flatnonzero((apart & ~apart[:, :1]).any(axis=1) & (loads >= fewest))
     rows = [(loads[i], *(rate_text(growth[i, j]) for j in (0, apart[i].argmax()))) for i in newly]
@@ -251,7 +244,6 @@ def damping_destabilises(study: xr.Dataset, *, fewest: float) -> Answer:
 
 
 def stiffer_inplane(case: CaseView) -> Answer:
-    """Whether growth rises with each stiffness up to its largest value."""
     known, words = stiffened(case.parameters, 20, 50)
     steps = np.concatenate([np.diff(rates[: np.argmax(rates) + 1]) for rates in known])
     falls = int((steps <= 0).sum()), steps.size
@@ -274,7 +266,6 @@ def stiffened(p: Parameters, *speeds: float) -> tuple[list[Array], str]:
 
 
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
-    """Whether discs from some softness on do not separate at any speed, while stiffer ones do."""
     E, Omega, apart, _ = plane(study, "E", "Omega")
     E, some = E / 1e9, apart.any(axis=1)
     quiet = E[~some]

@@ -1,8 +1,5 @@
-"""Model sensitivity: the paper's main conclusions, each judged under five models of disc and contact.
-
-Each model changes one more thing, so that the last has all changes. All conclusions are judged from the merged cases
-and grids of config/survival.yaml, by rows as the ledger's.
-"""
+"""Model sensitivity: the paper's main conclusions, each judged under five models of disc and contact, by rows as the
+ledger's, from the merged cases and grids of config/survival.yaml."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -30,7 +27,8 @@ MODELS = {
     "+ normal contact force": ("orthonormal", True, "normal", False),
     "+ friction on the surface": ("orthonormal", True, "normal", True),
 }
-"""The models by name: normalization, whether the contact gives, contact_force, whether friction is offset."""
+"""The models by name, each with one more change: normalization, whether the contact gives, contact_force, whether
+friction is offset."""
 
 
 def by_model(cases: Mapping[str, CaseView]) -> dict[str, dict[str, CaseView]]:
@@ -96,12 +94,10 @@ def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: floa
         raise Missing("study survival_growth does not reach as far as survival_speed") from None
     growth = [f"{rate_text(low, '/s')} to {rate_text(high, '/s')}" for low, high in beside]
     missed = int(curves["n_continuation_failures"])
-    goes_on = all(rate > SLOW for pair in beside for rate in pair)
-    return Answer(
-        NOT_COMPUTED if missed and not goes_on else FALSE,
-        f"{told}. Across this speed growth goes from {listed(growth)}.",
-        f"{missed} curves could not be followed." if missed and not goes_on else "",
-    )
+    here = f"{told}. Across this speed growth goes from {listed(growth)}."
+    if missed and not all(rate > SLOW for pair in beside for rate in pair):  # one of them may be the fold
+        return Answer(NOT_COMPUTED, here, f"{missed} curves could not be followed.")
+    return Answer(FALSE, here)
 
 
 def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
@@ -167,11 +163,10 @@ def stick_vanishes(*cases: CaseView, share: float) -> Answer:
 
 
 def normal_damping(study: xr.Dataset) -> Answer:
-    without, with_damper, _ = _damped(study, "c")
-    compared = (without > SLOW) & np.isfinite(with_damper)
-    lowered, stable = int((compared & (with_damper < without)).sum()), int((compared & (with_damper < 0)).sum())
-    verdict = lowered == compared.sum() if compared.any() else NOT_COMPUTED
-    return Answer(verdict, lowered=lowered, compared=int(compared.sum()), stable=stable)
+    without, damped, _ = _damped(study, "c")
+    compared = (without > SLOW) & np.isfinite(damped)
+    lowered, stable, every = (int((compared & each).sum()) for each in (damped < without, damped < 0, compared))
+    return Answer(lowered == every if every else NOT_COMPUTED, lowered=lowered, compared=every, stable=stable)
 
 
 def inplane_damping(study: xr.Dataset, *, large: float, fewest: float) -> Answer:
@@ -181,14 +176,9 @@ def inplane_damping(study: xr.Dataset, *, large: float, fewest: float) -> Answer
     higher = both & (damped > 0) & (damped > without + SLOW)
     ended = int(((without < -SLOW) & np.isin(status, ("no_cycle", "separates")) & heavy).sum())
     (above, of), (below, of_below) = ((int((higher & at).sum()), int((both & at).sum())) for at in (heavy, ~heavy))
-    destabilises = above + ended > 0
-    return Answer(
-        destabilises if destabilises or of >= fewest else NOT_COMPUTED,
-        large=large,
-        ended=measures.counted(ended, "stable cycle"),
-        higher=(above, of, below, of_below),
-        few=0 < 10 * (above + ended) <= of,
-    )
+    verdict = NOT_COMPUTED if not above + ended and of < fewest else above + ended > 0
+    told, few = measures.counted(ended, "stable cycle"), 0 < 10 * (above + ended) <= of
+    return Answer(verdict, ended=told, higher=(above, of, below, of_below), few=few)
 
 
 def _damped(study: xr.Dataset, name: str) -> tuple[Array, Array, NDArray[np.str_]]:
@@ -204,12 +194,10 @@ def _damped(study: xr.Dataset, name: str) -> tuple[Array, Array, NDArray[np.str_
 
 def not_periodic(*cases: CaseView) -> Answer:
     repeats = {case.place: _repeats(case) for case in _separating(cases)}
-    holds = [
-        None if kind is Outcome.UNDECIDED else kind in (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
-        for kind, _ in repeats.values()
-    ]
+    known = {Outcome.QUASI_PERIODIC: True, Outcome.IRREGULAR: True, Outcome.UNDECIDED: None}
     rows = [f"At {place} the motion {words}." for place, (_, words) in repeats.items()]
-    return Answer(_all_cases(holds), " ".join(rows) or "No case separates.")
+    verdict = _all_cases([known.get(kind, False) for kind, _ in repeats.values()])
+    return Answer(verdict, " ".join(rows) or "No case separates.")
 
 
 def _repeats(case: CaseView) -> tuple[Outcome, str]:
@@ -234,7 +222,7 @@ TEXTS: dict[str, str] = read_texts("paper/pages.yaml")["survival"]
 
 
 def judge_models(cases: Mapping[str, CaseView]) -> pd.DataFrame:
-    """The verdict on every conclusion under every model, with what was computed and what should be known besides."""
+    """Every conclusion under every model, see `judge`."""
     return judge(CONCLUSIONS, by_model(cases))
 
 

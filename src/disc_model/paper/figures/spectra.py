@@ -41,53 +41,49 @@ class FourStretches(CasePlot):
     ignored : the case with bilateral contact, with the same windows but the first
     """
 
-    shows = (("history", as_ranges), ("spectra", as_spectrum))
     further = ("ignored",)
     kind: Literal["paper.four_stretches"] = "paper.four_stretches"
     history: str = "history"
-    spectra: Annotated[tuple[str, ...], Field(min_length=1)] = WINDOWS
     until: Annotated[Positive, Unit("s")] | None = None
-    ignored: str = ""
+    ignored: str
 
     def needs(self) -> Iterator[Need]:
-        for need in super().needs():
-            if need.case == self.case or need.name in self.spectra[1:]:
-                yield need
+        yield Need("history", self.case, self.history, [as_ranges])
+        for key, case, windows in (("case", self.case, WINDOWS), ("ignored", self.ignored, WINDOWS[1:])):
+            yield from (Need(key, case, name, [as_spectrum]) for name in windows)
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         from matplotlib.ticker import MaxNLocator
 
         figure = new_figure(PAGE, 6.2)
         top, below = np.asarray(figure.subfigures(2, 1, height_ratios=(1.1, 3)))
-        whole, names = top.subplots(), list(self.spectra)
-        shape, heights = (1 + len(cases), len(names)), (1, *[1.6] * len(cases))
-        axes = below.subplots(*shape, sharex="col", sharey="row", squeeze=False, height_ratios=heights)
-        rows = [(0, CLOSE, HIGHEST), *((i, 0.0, CLOSE) for i in range(len(cases)))]  # case, and frequencies
+        whole = top.subplots()
+        axes = below.subplots(3, len(WINDOWS), sharex="col", sharey="row", squeeze=False, height_ratios=(1, 1.6, 1.6))
+        rows = [(0, CLOSE, HIGHEST), (0, 0.0, CLOSE), (1, 0.0, CLOSE)]  # case, and frequencies
         spectra: dict[tuple[int, str], TimeFrequency] = {}
-        for i, j in product(range(len(cases)), range(len(names))):
+        for i, (j, name) in product((0, 1), enumerate(WINDOWS)):
             if i and not j:  # before any separation
                 continue
-            with drawing.blank_if_missing(*(ax for ax, (case, *_) in zip(axes[:, j], rows, strict=True) if case == i)):
-                spectra[i, names[j]] = spectrum_of(cases[i], names[j], "w_point")
+            with drawing.blank_if_missing(*(axes[2:, j] if i else axes[:2, j])):
+                spectra[i, name] = spectrum_of(cases[i], name, "w_point")
         reference = max((float(spectrum.power.max()) for spectrum in spectra.values()), default=1.0)
         for row, (i, low, high) in zip(axes, rows, strict=True):
-            for ax, name in zip(row, names, strict=True):
+            for ax, name in zip(row, WINDOWS, strict=True):
                 if (i, name) in spectra:
                     mesh = draw_power(ax, cases[i], spectra[i, name], reference, high)
                     ax.set_ylim(low, high)
             row[0].set_ylabel("Frequency (Hz)")
-        for ax, text in zip((*axes[0], *axes[2:, 1:].flat), "bcdefghi", strict=False):
+        for ax, text in zip((*axes[0], *axes[2, 1:]), "bcdefgh", strict=True):
             if ax.has_data():
                 drawing.letter(ax, text)
         for ax in axes[-1]:
             ax.set_xlabel("Time (s)")
             ax.xaxis.set_major_locator(MaxNLocator(3))
-        if len(cases) > 1:
-            look: dict[str, Any] = {"xycoords": "axes fraction", "ha": "right", "va": "top", "color": "white"}
-            for row, text in zip(axes[1:], ("with\nseparation", "separation\nignored"), strict=True):
-                row[-1].annotate(text, (0.97, 0.97), fontsize=6, **look)
-            axes[2, 0].set_facecolor("white")
-            axes[2, 0].annotate("as above:\nno separation yet", (0.9, 0.55), fontsize=7, **look | {"color": BLACK})
+        look: dict[str, Any] = {"xycoords": "axes fraction", "ha": "right", "va": "top", "color": "white"}
+        for row, text in zip(axes[1:], ("with\nseparation", "separation\nignored"), strict=True):
+            row[-1].annotate(text, (0.97, 0.97), fontsize=6, **look)
+        axes[2, 0].set_facecolor("white")
+        axes[2, 0].annotate("as above:\nno separation yet", (0.9, 0.55), fontsize=7, **look | {"color": BLACK})
         if spectra:
             _name_lines(axes[1, -1])
             draw_scale(below, mesh, list(axes.flat))
