@@ -232,14 +232,16 @@ class CaseView:
         attrs = self.events.attrs
         return Range(float(attrs["kept_from"]), min(float(attrs["kept_until"]), self["time_reached"]))
 
-    def separation_durations(self) -> tuple[Array, float]:
-        """Durations of the separations that begin and end within the stored events, s; and of one that lasts, or 0."""
+    @property
+    def longest_separation(self) -> float:
+        """Longest of the separations that begin within the stored events, s; one that lasts counts to their end."""
         apart, together = self.times_of("separation"), self.times_of("reattachment")
         ends = np.searchsorted(together, apart, side="right")
         whole = ends < together.size
         if not whole.any():
             raise Missing(f"case {self.name} keeps no whole separation")
-        return together[ends[whole]] - apart[whole], 0.0 if whole.all() else self.kept_span.high - float(apart[-1])
+        longest = float((together[ends[whole]] - apart[whole]).max())
+        return longest if whole.all() else max(longest, self.kept_span.high - float(apart[-1]))
 
     def phase_share(self, phase: str) -> float:
         """Fraction of time spent in a phase, within the stored events."""

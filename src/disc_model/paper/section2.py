@@ -60,17 +60,16 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
     quiet = {x: parameters_of(f"F{x[5:]:0>2}", "orthonormal") for x in points if kinds[x] != "separation"}
     kept = [x for x, p in quiet.items() if not measures.separates_within(p, horizons[x])]
     grow = [horizons[figure] for figure in kept if kinds[figure] == "growing"]
+    unless = {x: f"none within {horizons[x]:g} s ({kinds[x]})" for x in points}
+    rows = times.itertuples()
+    first = [f"{x}, {or_none(was, '.0f', ' s')} and {or_none(now, '.0f', ' s', unless[x])}" for x, was, now in rows]
     return Answer(
         graded(speed < share * critical for speed in lowest),
         counts=(len(times), times["as_published"].count(), len(times) - len(kept), len(kept) - len(grow), len(grow)),
         until=extent(grow) if grow else None,
         lowest=lowest,
         critical=critical,
-        first=[
-            f"{figure}, {or_none(was, '.0f', ' s')} and "
-            f"{or_none(now, '.0f', ' s', f'none within {horizons[figure]:g} s ({kinds[figure]})')}"
-            for figure, was, now in times.itertuples()
-        ],
+        first=first,
         points=(apart[0].size, *np.sum([*apart, *(apart & run)], axis=(1, 2))),
     )
 

@@ -46,8 +46,7 @@ def upward(*cases: CaseView, share: float) -> Answer:
 def separations_are_short(*cases: CaseView, share: float) -> Answer:
     rows, parts, periods = [], [], [1 / case.rate_of("separation") for case in cases]
     for case, period in zip(cases, periods, strict=True):
-        durations, still_open = case.separation_durations()
-        longest = max(durations.max(), still_open)
+        longest = case.longest_separation
         parts.append(longest / period)
         rows.append(f"{1e3 * longest:.2f} ms at {case.place}")
     return Answer(max(parts) < share, rows=rows, parts=extent(parts), periods=extent(periods))
@@ -75,18 +74,13 @@ def bounded_by_separation(*cases: CaseView, factor: float) -> Answer:
 
 def keeps_sticking(*evidence: Any, share: float) -> Answer:
     *cases, study = evidence
-    sticks = [case.stick for case in cases]
     settled = flag_names(study["settled"]) == "settled"
     shares = study["stick_fraction"].transpose(*study["settled"].dims).values
     least, most = np.min(shares[settled], initial=np.inf), np.max(shares[settled], initial=0.0)
-    return Answer(
-        min(*sticks, least) > share,
-        sticks=[f"{100 * stick:.0f} % at {case.place}" for case, stick in zip(cases, sticks, strict=True)],
-        size=settled.size,
-        settled=settled.sum(),
-        extent=(100 * least, 100 * most),
-        moving=measures.counted(settled.size - settled.sum(), "point") if not settled.all() else "",
-    )
+    rows = [f"{100 * case.stick:.0f} % at {case.place}" for case in cases]
+    moving = measures.counted(settled.size - settled.sum(), "point") if not settled.all() else ""
+    told = {"size": settled.size, "settled": settled.sum(), "extent": (100 * least, 100 * most), "moving": moving}
+    return Answer(min(least, *(case.stick for case in cases)) > share, sticks=rows, **told)
 
 
 def releases_regularly(*cases: CaseView, within: float) -> Answer:

@@ -37,15 +37,9 @@ def stays_small(case: CaseView, *_: CaseView, share: float, within: float, last:
     spread, points = irregularity(intervals), [_different(case, last, x) for x in (same, 1e-2)] if last else [0]
     holds = stays_calm(case) and case.late.width < share * case["N"] and spread <= within
     small = not last or (case.disc.width < case["h"] and points[0] <= last / 2)
-    return Answer(
-        holds if small or not holds else PART,
-        fate=calm_text(case),
-        points=points,
-        widths=(1e3 * case.disc.width, 1e6 * case.late_range("u").width) if last else (),
-        late=case.late,
-        rate=1 / intervals.mean(),
-        spread=spread,
-    )
+    widths = (1e3 * case.disc.width, 1e6 * case.late_range("u").width) if last else ()
+    told = {"fate": calm_text(case), "late": case.late, "rate": 1 / intervals.mean(), "spread": spread}
+    return Answer(holds if small or not holds else PART, points=points, widths=widths, **told)
 
 
 def becomes_unstable(case: CaseView) -> Answer:
@@ -56,12 +50,11 @@ def becomes_unstable(case: CaseView) -> Answer:
 def only_between(*cases: CaseView, largest: float) -> Answer:
     shown = sum(case["N"] <= largest for case in cases)
     stable = [stays_calm(x) if x["N"] <= largest or "history" in x.node else not x.separates for x in cases]
-    holds = stable[:shown] == [True, False, True]
-    return Answer(
-        PART if (part := holds and not all(stable[shown:])) else holds,
-        " ".join(calm_text(case) for case in cases),
-        f"The statement holds up to {largest:g} N. Only in Fig. 15 does the paper show larger preloads." * part,
-    )
+    holds, here = stable[:shown] == [True, False, True], " ".join(calm_text(case) for case in cases)
+    if holds and not all(stable[shown:]):
+        note = f"The statement holds up to {largest:g} N. Only in Fig. 15 does the paper show larger preloads."
+        return Answer(PART, here, note)
+    return Answer(holds, here)
 
 
 def hardly_moves(large: CaseView, huge: CaseView, *, held: float) -> Answer:
@@ -111,17 +104,16 @@ def inplane_damping(without: CaseView, case: CaseView) -> Answer:
 
 def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
     """Whether a damper, and twice as much, lowers the growth of all growing cycles on a grid of loads and speeds."""
-    places, raised = [measures.place(p.N, p.Omega) for p in _grid(case.parameters)], list[str]()
-    lowered, growing = 0, list[int]()
-    for little in (0.0, value):
-        before, after = _growths(case.parameters, name, little), _growths(case.parameters, name, little + value)
+    grid, raised, growing, lowered = _grid(case.parameters), list[str](), list[int](), 0
+    values = (0.0, value, 2 * value)
+    none, some, twice = (np.array([measures.growth_of(p.replace(**{name: x})) for p in grid]) for x in values)
+    for before, after in ((none, some), (some, twice)):
         grows = (before > 0) & np.isfinite(after)
         growing, lowered = [*growing, int(grows.sum())], lowered + int((grows & (after < before)).sum())
-        raised += [
-            f"at {places[i]}, from a {'growing' if before[i] > 0 else 'stable'} cycle"
-            for i in np.flatnonzero(after > before)
-        ]
-    most, found = values_text({name: 2 * value}), [int(np.isfinite(before).sum()), int((before < 0).sum())]
+        for i in np.flatnonzero(after > before):
+            cycle = "growing" if before[i] > 0 else "stable"
+            raised.append(f"at {measures.place(grid[i].N, grid[i].Omega)}, from a {cycle} cycle")
+    most, found = values_text({name: 2 * value}), [int(np.isfinite(some).sum()), int((some < 0).sum())]
     return Answer(sum(growing) == lowered > 0, most=most, lowered=lowered, growing=growing, raised=raised, found=found)
 
 
@@ -129,11 +121,6 @@ def _grid(p: Parameters) -> list[Parameters]:
     """A case at loads and speeds of the paper and beyond."""
     grid = product((50, 125, 200, 300, 385, 600), (10, 15, 20, 30, 40))
     return [p.replace(N=N, Omega=speed) for N, speed in grid]
-
-
-def _growths(p: Parameters, name: str, value: float) -> Array:
-    """Growth rates of the cycles on the grid with a parameter of this value, 1/s; nan without a cycle."""
-    return np.array([measures.growth_of(each.replace(**{name: value})) for each in _grid(p)])
 
 
 def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
@@ -235,14 +222,9 @@ def lowest_position(case: CaseView, *, share: float) -> Answer:
     where, speed = (float(np.median(lost[name].values)) for name in ("u", "u_velocity"))
     above = float(np.median(height[starts - 1]) - height.min()) / np.ptp(height)
     swings = int(np.sum((np.diff(height)[1:] > 0) & (np.diff(height)[:-1] <= 0)))
-    return Answer(
-        location.kind == "at the lowest position" and above <= share,
-        counts=(starts.size, swings),
-        heights=(where - case["u_0"], height.min(), height.max()),
-        span=extent(time),
-        part=location.height,
-        speed=speed,
-    )
+    counts, heights = (starts.size, swings), (where - case["u_0"], height.min(), height.max())
+    holds = location.kind == "at the lowest position" and above <= share
+    return Answer(holds, counts=counts, heights=heights, span=extent(time), part=location.height, speed=speed)
 
 
 def seen_in_section(case: CaseView, *, share: float) -> Answer:
@@ -258,12 +240,9 @@ def seen_in_section(case: CaseView, *, share: float) -> Answer:
 
 def bounded(*cases: CaseView, factor: float) -> Answer:
     widths = [case.last_quarters("w_point") for case in cases]
-    return Answer(
-        graded(late <= factor * before for late, before in widths),
-        rows=[f"{1e3 * late:.1f} mm at {case.place}" for case, (late, _) in zip(cases, widths, strict=True)],
-        widest=max(late / before for late, before in widths),
-        most=max(late for late, _ in widths) / cases[0]["h"],
-    )
+    rows = [f"{1e3 * late:.1f} mm at {case.place}" for case, (late, _) in zip(cases, widths, strict=True)]
+    widest, most = max(late / before for late, before in widths), max(late for late, _ in widths) / cases[0]["h"]
+    return Answer(graded(late <= factor * before for late, before in widths), rows=rows, widest=widest, most=most)
 
 
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:

@@ -56,15 +56,10 @@ def lines(case: CaseView, *, bound: float) -> Answer:
         for line in signal.lines(above=1.0, below=300.0, floor=floor, apart=1.0)
         if np.min(np.abs(line.frequency - table["ours_Hz"])) > bound
     ]
-    return Answer(
-        off.max() <= bound and chance <= 1e-3,
-        off=off.max(),
-        named=(table["ours_is"] != UNNAMED).sum(),
-        rate=stick_slip_rate(case),
-        rows=[f"{row.ours_Hz:.2f} ({row.paper_Hz:g}, {row.ours_is})" for row in table.itertuples()],
-        others=others,
-        chance=chance,
-    )
+    rows = [f"{row.ours_Hz:.2f} ({row.paper_Hz:g}, {row.ours_is})" for row in table.itertuples()]
+    named, rate, most = (table["ours_is"] != UNNAMED).sum(), stick_slip_rate(case), off.max()
+    holds = most <= bound and chance <= 1e-3
+    return Answer(holds, off=most, named=named, rate=rate, rows=rows, others=others, chance=chance)
 
 
 def follow(*cases: CaseView, within: float) -> Answer:
@@ -84,24 +79,21 @@ def follow(*cases: CaseView, within: float) -> Answer:
 
 
 def inplane_frequency(case: CaseView, *, printed: float, within: float) -> Answer:
-    rate, free = stick_slip_rate(case), float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi)
-    pair, holds = table_2(case).iloc[1:3], abs(rate - printed) <= within
-    frequencies, names = [*pair["ours_Hz"]], [*pair["ours_is"]]
-    verdict, natural = graded([names == ["f_s − f_Ω", "f_s + f_Ω"], holds]), "" if holds else free
-    return Answer(verdict, rate=rate, drive=case.drive, lines=frequencies, names=names, free=natural)
+    rate, pair = stick_slip_rate(case), table_2(case).iloc[1:3]
+    frequencies, names, holds = [*pair["ours_Hz"]], [*pair["ours_is"]], abs(rate - printed) <= within
+    free = "" if holds else float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi)
+    verdict = graded([names == ["f_s − f_Ω", "f_s + f_Ω"], holds])
+    return Answer(verdict, rate=rate, drive=case.drive, lines=frequencies, names=names, free=free)
 
 
 def close_to_natural(case: CaseView, *, within: float) -> Answer:
     natural, computed = natural_frequencies(case), table_2(case)["ours_Hz"].to_numpy()[3:]
     nearest = np.array([natural[np.argmin(np.abs(natural - f))] for f in computed])
     far = np.abs(nearest - computed) > within
-    return Answer(
-        TRUE if not far.any() else PART if far.mean() <= 0.5 else FALSE,
-        rows=[f"{f:.1f} Hz ({n:.1f} Hz)" for f, n in zip(computed, nearest, strict=True)],
-        far=(far.sum(), far.size),
-        twice=2 * stick_slip_rate(case),
-        coupled=natural[0],
-    )
+    verdict = TRUE if not far.any() else PART if far.mean() <= 0.5 else FALSE
+    rows = [f"{f:.1f} Hz ({n:.1f} Hz)" for f, n in zip(computed, nearest, strict=True)]
+    twice = 2 * stick_slip_rate(case)
+    return Answer(verdict, rows=rows, far=(far.sum(), far.size), twice=twice, coupled=natural[0])
 
 
 def higher(*cases: CaseView, factor: float, floor: float, windows: str, spans: Sequence[float]) -> Answer:
@@ -141,10 +133,8 @@ def explained_by_slider(*pair: CaseView, share: float) -> Answer:
 
 def later_periodic(case: CaseView, bonded: CaseView) -> Answer:
     here = f"At {case.place}, from {case.kept_span:g} s, the slider's motion is {case.motion}."
-    other = (
-        f"In the run without separation the slider's motion is {bonded.motion}." if bonded.late_motion.period else ""
-    )
-    return Answer(case.late_motion.period > 0, here, other)
+    note = f"In the run without separation the slider's motion is {bonded.motion}." * (bonded.late_motion.period > 0)
+    return Answer(case.late_motion.period > 0, here, note)
 
 
 def growth_stages(case: CaseView, *, factor: float, least: float) -> Answer:
@@ -223,15 +213,9 @@ def not_monotonous(*evidence: Any) -> Answer:
     lowered = growing & (growth[:, -1] < growth[:, 0])
     [rates], words = stiffened(cases[0].parameters.replace(N=300), 50)
     load = [(case.separates, case.growth_rate > 0) for case in cases] == [(False, False), (True, True), (False, False)]
-    both_ways = [load, newly.any(), lowered.any(), {-1, 1} <= {*np.sign(np.diff(rates))}]
-    return Answer(
-        all(both_ways),
-        fates=[case.fate for case in cases],
-        most=damping[-1],
-        newly=[*loads[newly]],
-        counts=(lowered.sum(), growing.sum()),
-        stiffened=words,
-    )
+    both_ways = all([load, newly.any(), lowered.any(), {-1, 1} <= {*np.sign(np.diff(rates))}])
+    fates, most, counts = [case.fate for case in cases], damping[-1], (lowered.sum(), growing.sum())
+    return Answer(both_ways, fates=fates, most=most, newly=[*loads[newly]], counts=counts, stiffened=words)
 
 
 def damping_destabilises(study: xr.Dataset, *, fewest: float) -> Answer:
@@ -267,23 +251,16 @@ def stiffened(p: Parameters, *speeds: float) -> tuple[list[Array], str]:
 
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     E, Omega, apart, _ = plane(study, "E", "Omega")
-    E, some = E / 1e9, apart.any(axis=1)
-    quiet = E[~some]
-    softer = E[some & (quiet.max(initial=0.0) > E)]
-    at_slow = apart[E <= BASE.E / 1e9][:, Omega == slow]
-    return Answer(
-        bool(quiet.size) and bool(some.any()) and not softer.size,
-        quiet=[*quiet],
-        softer=[*softer],
-        slow=slow if at_slow.size and not at_slow.any() else "",
-        stiff=[*E[apart[:, Omega == slow].any(axis=1)]],
-        base=BASE.E,
-    )
+    E, some, at_slow = E / 1e9, apart.any(axis=1), apart[:, Omega == slow]
+    quiet, stiff = [*E[~some]], [*E[at_slow.any(axis=1)]]
+    softer = [*E[some & (max(quiet, default=0.0) > E)]]
+    soft = at_slow[E <= BASE.E / 1e9]
+    calm = slow if soft.size and not soft.any() else ""
+    holds = bool(quiet and some.any() and not softer)
+    return Answer(holds, quiet=quiet, softer=softer, slow=calm, stiff=stiff, base=BASE.E)
 
 
 def vertical_branch(*cases: CaseView, within: float) -> Answer:
-    """Whether the rate of separations rises with a stiffer spring as the frequency of slider and spring alone does.
-    Ambiguous if it rises as that of the mode in which they move with the disc."""
     rows, follows, alone = [], [], []
     for pair in zip(cases[::2], cases[1::2], strict=True):
         rates = [1 / float(case.intervals("separation").mean()) for case in pair]
@@ -293,25 +270,13 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
         alone.append(rise / (math.sqrt(pair[1]["k"] / pair[0]["k"]) - 1))
         spring = 2 * of_mode / (pair[1]["k"] / pair[0]["k"] - 1)
         rows.append((pair[0].place, rates[0]))
-    p = cases[0].parameters
-    free = float(np.sqrt(p.k / p.m)) / (2 * np.pi)
-    level = max(_level(case, free) for case in cases[::2])
-    by_mode = all(abs(each - 1) <= within for each in follows)
-    return Answer(
-        AMBIGUOUS if by_mode else all(abs(each - 1) <= within for each in alone),
-        rows=rows,
-        coupled=modes[0],
-        free=free,
-        follows=follows,
-        spring=spring,
-        level=level,
-        by_mode=by_mode,
-    )
-
-
-def _level(case: CaseView, frequency: float) -> float:
-    """Largest amplitude of the disc's point within 1 Hz of a frequency, relative to that of all above 1 Hz."""
-    signal = case.signal("late", 0.0, np.inf)
-    frequencies, amplitude = spectra.amplitude_spectrum(signal.time, signal.values)
-    near, every = (float(amplitude[band].max()) for band in (np.abs(frequencies - frequency) < 1, frequencies > 1))
-    return measures.ratio(near, every, f"the spectrum of case {case.name}")
+    free = float(np.sqrt(cases[0]["k"] / cases[0]["m"])) / (2 * np.pi)
+    levels = []
+    for case in cases[::2]:
+        signal = case.signal("late", 0.0, np.inf)
+        frequencies, amplitude = spectra.amplitude_spectrum(signal.time, signal.values)
+        near, every = (float(amplitude[band].max()) for band in (np.abs(frequencies - free) < 1, frequencies > 1))
+        levels.append(measures.ratio(near, every, f"the spectrum of case {case.name}"))
+    by_mode, by_spring = (all(abs(each - 1) <= within for each in rises) for rises in (follows, alone))
+    told = {"coupled": modes[0], "free": free, "follows": follows, "spring": spring, "level": max(levels)}
+    return Answer(AMBIGUOUS if by_mode else by_spring, rows=rows, by_mode=by_mode, **told)

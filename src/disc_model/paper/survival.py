@@ -63,13 +63,9 @@ def onset(points: xr.Dataset, rates: xr.Dataset, curves: xr.Dataset, *, beside: 
     # where a stable cycle ends at a fold just above a speed, small disturbances suffice to leave it
     soon = all(any(0 <= fold - speed <= beside for fold in _folds_at(curves, load)) for load, speed in early)
     compared = unstable > 0 and bool(stable.any())
-    return Answer(
-        soon if compared or not soon else NOT_COMPUTED,
-        points=(int(apart.sum()), apart.size),
-        kinds=(unstable, without, len(early)),
-        keep=int((stable & ~apart).sum()),
-        early=[measures.place(*point) for point in early if soon],
-    )
+    verdict, places = soon if compared or not soon else NOT_COMPUTED, [measures.place(*x) for x in early if soon]
+    size, kinds, keep = (int(apart.sum()), apart.size), (unstable, without, len(early)), int((stable & ~apart).sum())
+    return Answer(verdict, points=size, kinds=kinds, keep=keep, early=places)
 
 
 def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: float, within: float) -> Answer:
@@ -155,11 +151,10 @@ def stick_vanishes(*cases: CaseView, share: float) -> Answer:
     apart = _separating(cases)
     stays = [case.place for case in apart if not stick_disappears(case.stick_in_all, case.stick, share)]
     rows = "; ".join(f"{100 * case.stick:.2g} % of the time at {case.place}" for case in apart)
-    return Answer(
-        len(stays) < len(apart) if apart else NOT_COMPUTED,
-        f"After a separation the slider sticks for {rows}." if apart else "No case separates.",
-        f"Stick does not disappear at {'; '.join(stays)}." if len(stays) < len(apart) and stays else "",
-    )
+    if not apart:
+        return Answer(NOT_COMPUTED, "No case separates.")
+    vanishes, here = len(stays) < len(apart), f"After a separation the slider sticks for {rows}."
+    return Answer(vanishes, here, f"Stick does not disappear at {'; '.join(stays)}." if vanishes and stays else "")
 
 
 def normal_damping(study: xr.Dataset) -> Answer:
