@@ -96,15 +96,14 @@ def second_relation(*, within: float) -> Answer:
 
 def slip_condition(*cases: CaseView) -> Answer:
     """Check the relation at a stop of the slider: ψ' = Ω there, and c_p = 0 in both cases."""
-    true = ends = 0
+    true: list[bool] = []
     for case in cases:
         stops = case.switches("slip_to_stick")
         pull = case["r_0"] * np.abs(case["c_p"] * case["Omega"] + case["k_p"] * stops["psi"].values)
-        true += int(np.sum(pull < case["mu_s"] * stops["P"].values))
-        ends += stops.sizes["event"]
-    if not ends:
+        true += (pull < case["mu_s"] * stops["P"].values).tolist()
+    if not true:
         raise Missing("no case keeps an end of slip")
-    return Answer(not true, held=true, ends=ends, spans=[case.kept_span.width for case in cases])
+    return Answer(not any(true), held=sum(true), ends=len(true), spans=[case.kept_span.width for case in cases])
 
 
 def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
@@ -144,12 +143,9 @@ def moving_load_speed(p: Parameters) -> float:
 
 
 def often(*cases: CaseView, factor: float, share: float) -> Answer:
-    rows, differ = [], []
-    for case, bonded in pairs(cases):
-        rows.append((case.place, measures.width_ratio(case, bonded), case.stick, bonded.stick))
-        _, ratio, *sticks = rows[-1]
-        differ.append(ratio * factor <= 1 or max(sticks) >= factor * min(sticks))
-    return Answer(sum(differ) >= share * len(differ), rows=rows, differ=sum(differ))
+    rows = [(case.place, measures.width_ratio(case, other), case.stick, other.stick) for case, other in pairs(cases)]
+    differ = sum(ratio * factor <= 1 or max(sticks) >= factor * min(sticks) for _, ratio, *sticks in rows)
+    return Answer(differ >= share * len(rows), rows=rows, differ=differ)
 
 
 # ---- The abstract of the model's precursor, J. Sound Vib. 209 (1998): steady sliding where friction falls

@@ -44,12 +44,10 @@ def upward(*cases: CaseView, share: float) -> Answer:
 
 
 def separations_are_short(*cases: CaseView, share: float) -> Answer:
-    rows, parts, periods = [], [], [1 / case.rate_of("separation") for case in cases]
-    for case, period in zip(cases, periods, strict=True):
-        longest = case.longest_separation
-        parts.append(longest / period)
-        rows.append(f"{1e3 * longest:.2f} ms at {case.place}")
-    return Answer(max(parts) < share, rows=rows, parts=extent(parts), periods=extent(periods))
+    periods = [1 / case.rate_of("separation") for case in cases]
+    parts = extent(case.longest_separation / period for case, period in zip(cases, periods, strict=True))
+    rows = [f"{1e3 * case.longest_separation:.2f} ms at {case.place}" for case in cases]
+    return Answer(parts.high < share, rows=rows, parts=parts, periods=extent(periods))
 
 
 def preload_closes(case: CaseView, *, share: float) -> Answer:
@@ -64,12 +62,9 @@ def preload_closes(case: CaseView, *, share: float) -> Answer:
 
 def bounded_by_separation(*cases: CaseView, factor: float) -> Answer:
     """Whether what bounds the disc's vibration is separation: the control is the same motion without it."""
-    also, bounds = [], []
-    for _, bonded in pairs(cases):
-        late, before = bonded.last_widths("w_point", measures.STRETCH, 2)
-        also.append(late <= factor * before)
-        bounds.append(1e3 * late)
-    return Answer(PART if any(also) else TRUE, also=sum(also), of=len(also), bounds=extent(bounds))
+    widths = [bonded.last_widths("w_point", measures.STRETCH, 2) for _, bonded in pairs(cases)]
+    also, bounds = [late <= factor * before for late, before in widths], extent(1e3 * late for late, _ in widths)
+    return Answer(PART if any(also) else TRUE, also=sum(also), of=len(also), bounds=bounds)
 
 
 def keeps_sticking(*evidence: Any, share: float) -> Answer:

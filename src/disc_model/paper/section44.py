@@ -143,12 +143,10 @@ def growth_stages(case: CaseView, *, factor: float, least: float) -> Answer:
         raise Missing(f"case {case.name} does not run for 20 s both before and after its first separation")
     starts = np.arange(5.0, first - 5, 2.5)
     rates = np.array([case.slope("w_point", t, t + 5) for t in starts])
-    peak = int(np.argmax(rates))
-    slow, sharp = float(rates[starts < first / 2].mean()), float(rates[peak])
-    last = case.slope("w_point", first - 3, first)
-    rates_told = slow, sharp, last, case.slope("w_point", end - 20, np.inf)
-    verdict = sharp > max(factor * slow, least) and last < sharp
-    return Answer(verdict, rates=rates_told, when=starts[peak] + 2.5, first=first)
+    slow, sharp = float(rates[starts < first / 2].mean()), float(rates.max())
+    last, after = case.slope("w_point", first - 3, first), case.slope("w_point", end - 20, np.inf)
+    verdict, when = sharp > max(factor * slow, least) and last < sharp, starts[rates.argmax()] + 2.5
+    return Answer(verdict, rates=(slow, sharp, last, after), when=when, first=first)
 
 
 def fuzz_stays(*pair: CaseView, share: float) -> Answer:
@@ -168,22 +166,20 @@ def no_high_line(case: CaseView, *, share: float, printed: float) -> Answer:
 
 def inplane_contribution(case: CaseView, *, share: float) -> Answer:
     rate, drive = stick_slip_rate(case), case.drive
+
+    def combined(frequency: float) -> bool:
+        return abs(spectra.identify(frequency, rate, drive).deviation) <= COMBINED
+
     lines = case.signal(*EARLY).lines(above=LOW, below=HIGH, floor=1e-3)
-    made = [line for line in lines if _is_combination(line.frequency, rate, drive)]
+    made = [line for line in lines if combined(line.frequency)]
     part = sum(line.amplitude**2 for line in made) / sum(line.amplitude**2 for line in lines)
-    counts = len(made), len(lines)
-    near = np.mean([_is_combination(f, rate, drive) for f in np.arange(LOW, HIGH, 0.2)])
+    counts, near = (len(made), len(lines)), np.mean([combined(f) for f in np.arange(LOW, HIGH, 0.2)])
     return Answer(part > share, counts=counts, rate=rate, drive=drive, part=part, near=near)
 
 
 def natural_frequencies(case: CaseView) -> Array:
     """Natural frequencies with the slider attached, Hz."""
     return np.asarray(coupled_natural_frequencies(case.parameters) / (2 * np.pi))
-
-
-def _is_combination(frequency: float, rate: float, drive: float) -> bool:
-    """Whether a frequency, Hz, lies within ``COMBINED`` of the nearest n f_s + m f_Omega."""
-    return abs(spectra.identify(frequency, rate, drive).deviation) <= COMBINED
 
 
 # ---- The conclusions, as far as the rows on the sections do not judge them
@@ -198,10 +194,9 @@ def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
 def very_different(*cases: CaseView, factor: float) -> Answer:
     rows, differ = [], []
     for case, bonded in pairs(cases):
-        shares = case.stick, bonded.stick
-        narrow = measures.width_ratio(case, bonded) * factor <= 1
-        differ.append(narrow and max(shares) >= factor * min(shares))
-        rows.append((case.place, *shares, case.disc.width, bonded.disc.width))
+        sticks = case.stick, bonded.stick
+        differ.append(measures.width_ratio(case, bonded) * factor <= 1 and max(sticks) >= factor * min(sticks))
+        rows.append((case.place, *sticks, case.disc.width, bonded.disc.width))
     return Answer(any(differ), rows=rows)
 
 
