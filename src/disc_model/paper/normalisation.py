@@ -29,16 +29,16 @@ def compare(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseVie
     for name, case in published.items():
         if name in orthonormal and case.from_rest:
             shared.setdefault(case.parameters, name)
-    pairs = {name: (published[name], orthonormal[name]) for name in shared.values()}
-    failed = [name for name, pair in pairs.items() if "failed" in (case.status for case in pair)]
-    whole = {name: pair for name, pair in pairs.items() if name not in failed}
+    pairs = [(published[name], orthonormal[name]) for name in shared.values()]
+    whole = [(case, other) for case, other in pairs if "failed" not in (case.status, other.status)]
+    failed = [case.name for case, other in pairs if "failed" in (case.status, other.status)]
     verdicts = _verdicts(published, orthonormal)
-    before, after = (sum(case.separates for case in column) for column in zip(*whole.values(), strict=True))
+    before, after = (sum(case.separates for case in column) for column in zip(*whole, strict=True))
     text = fill(TEXTS["brief"], cases=len(whole), before=before, after=after, failed=failed)
     parts = {
-        "brief": ("", text, _brief([*whole.values()], verdicts)),
+        "brief": ("", text, _brief(whole, verdicts)),
         "modes": ("The modes", TEXTS["modes"], _modes()),
-        "cases": ("The cases of the paper", TEXTS["cases"], _cases(*zip(*pairs.values(), strict=True))),
+        "cases": ("The cases of the paper", TEXTS["cases"], _cases(*zip(*pairs, strict=True))),
     }
     if new := [case for name, case in orthonormal.items() if name not in published]:
         parts["instead"] = ("Where instability goes instead", TEXTS["instead"], _cases(new))

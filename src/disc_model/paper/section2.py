@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from functools import cache
+from itertools import product
 
 import numpy as np
 import pandas as pd
@@ -154,16 +155,14 @@ SPEEDS = np.arange(5.0, 1501.0, 5.0)  # rad/s, up to where all speeds are unstab
 
 @cache
 def growths(loads: tuple[float, ...], c: float, **friction: float) -> list[Array]:
-    """Largest growth rates of steady sliding in bilateral contact, 1/s: (load, speed).
-
-    They are without friction, with it, and with it and a damper; for modes as published, then for modes by Eq. (17).
-    """
+    """Largest growth rates of steady sliding in bilateral contact, 1/s: without friction, with it, and with it and a
+    damper: (3, load, speed); for modes as published, then for modes by Eq. (17)."""
     rates = []
-    for scale in ("as_published", "orthonormal"):
-        p = Parameters(N=1, Omega=1, contact="bilateral", normalization=scale).replace(**friction)
-        cases = p.replace(mu_s=0.0, mu_k=0.0), p, p.replace(c=c)
-        points = [[[each.replace(N=N, Omega=speed) for speed in SPEEDS] for N in loads] for each in cases]
-        rates.append(np.array([[[*map(sliding_growth, row)] for row in rows] for rows in points]))
+    for scale in (BASE, NORMALISED):
+        p = scale.replace(contact="bilateral", **friction)
+        points = product((p.replace(mu_s=0.0, mu_k=0.0), p, p.replace(c=c)), loads, SPEEDS)
+        growth = [sliding_growth(each.replace(N=N, Omega=speed)) for each, N, speed in points]
+        rates.append(np.reshape(growth, (3, len(loads), SPEEDS.size)))
     return rates
 
 
