@@ -20,14 +20,8 @@ COLUMNS += ["rule", "figures", "data", "counts"]
 
 
 def check_claims(cases: Mapping[str, CaseView]) -> pd.DataFrame:
-    """Judge all rows, in the order of the paper: a table with `COLUMNS`.
-
-    figures and data : links from the folder of the paper's results, each with its words
-    counts : "error in print" or "after the fact" if the row does not count for or against the paper
-
-    cases : the paper's cases and the grid studies of `disc_model.paper.SCANS`; rows that need missing ones are not
-        computed
-    """
+    """Judge all rows by cases and grid studies of the paper, in its order: a table with `COLUMNS`, whose figures and
+    data are links from the folder of the paper's results, each with its words."""
     return judge(ROWS, {"": cases}).join(pd.DataFrame(map(_stated, ROWS)))[COLUMNS]
 
 

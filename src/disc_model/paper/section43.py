@@ -103,7 +103,6 @@ def inplane_damping(without: CaseView, case: CaseView) -> Answer:
 
 
 def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
-    """Whether a damper, and twice as much, lowers the growth of all growing cycles on a grid of loads and speeds."""
     grid, raised, growing, lowered = _grid(case.parameters), list[str](), list[int](), 0
     values = (0.0, value, 2 * value)
     none, some, twice = (np.array([measures.growth_of(p.replace(**{name: x})) for p in grid]) for x in values)
@@ -171,7 +170,6 @@ def softer_separates_sooner(*evidence: Any) -> Answer:
 
 
 def stiff_enough(case: CaseView, *, name: str, larger: list[float]) -> Answer:
-    """Whether stiffnesses, that of a case and larger ones, make a grid stable, be it the cycle or steady sliding."""
     points = _grid(case.parameters)
     unstable = [p for p in points if not _growth(p) < 0]
     calm, stable = stays_calm(case), len(points) - len(unstable)
@@ -228,7 +226,6 @@ def lowest_position(case: CaseView, *, share: float) -> Answer:
 
 
 def seen_in_section(case: CaseView, *, share: float) -> Answer:
-    """Whether the section of the disc does not tell where contact is lost; a section at the loss of contact does."""
     samples = case.samples("poincare")
     late = samples.isel(time=samples["time"].values > case["first_separation"])
     w, apart = late["w_point"].values, late["phase"].values == measures.SEPARATION

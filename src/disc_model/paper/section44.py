@@ -97,10 +97,7 @@ def close_to_natural(case: CaseView, *, within: float) -> Answer:
 
 
 def higher(*cases: CaseView, factor: float, floor: float, windows: str, spans: Sequence[float]) -> Answer:
-    """Whether power above the natural frequencies rises with the first separation, and not without separation.
-
-    spans : s, where what is compared begins before the separation of each pair's first case, and ends after it
-    """
+    """In `spans` what is compared begins before the separation of each pair's first case, and ends after it, s."""
     rows, rises = [], []
     pairs = zip(cases[::2], cases[1::2], windows.split(), spans[::2], spans[1::2], strict=True)
     for case, bonded, window, low, high in pairs:
@@ -121,7 +118,6 @@ def fuzz_goes(*pair: CaseView, share: float) -> Answer:
 
 
 def explained_by_slider(*pair: CaseView, share: float) -> Answer:
-    """Whether, with and without separation, the disc's spectrum clears where the slider's does; not whether by this."""
     first = pair[0]["first_separation"]
     length = first - 50
     begins = (("spectrum_c", 50.0), ("spectrum_c", first), ("spectrum_d", 100.0))

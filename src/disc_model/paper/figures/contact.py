@@ -80,10 +80,7 @@ class ContactForce(CasePlot):
 
 
 class OneSeparation(CasePlot):
-    """(a) Displacements from static equilibrium around the first complete separation of a window, (b) the gap.
-
-    The paper shows (a); the gap is a hundredth of the motion and needs an axis of its own.
-    """
+    """(a) Displacements from static equilibrium around the first complete separation of a window, (b) the gap."""
 
     shows = (("zoom", as_samples),)
     kind: Literal["paper.one_separation"] = "paper.one_separation"

@@ -21,8 +21,8 @@ SOFT, BODY, PLATE, CLAMP = "0.45", "0.88", "#dbe9f4", "0.93"
 """Lines that only guide the eye; the slider; the disc and its clamped middle."""
 SMALL = 8.0  # size of the text that is no symbol, in points
 OUTER = 1.2  # radius of the disc as drawn
-STRETCH, PALE, DARK = 0.04, "0.72", "#8a5a00"
-"""Of the composite: its stretch of contact force, s; colours of ignored separation, and of words on the slider."""
+STRETCH = 0.04  # of contact force in the composite, s
+PALE, DARK = "0.72", "#8a5a00"  # of ignored separation; of words on the slider
 PHASES: dict[str, dict[str, Any]] = {  # looks that differ in grey print as well; slip is white
     "stick": {"facecolor": "none", "edgecolor": STICK, "hatch": "//////"},
     "separation": {"facecolor": SEPARATED, "alpha": 0.35},
