@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ import xarray as xr
 
 from disc_model import Parameters
 from disc_model.disc.plate import plate_modes
-from disc_model.paper import measures, normalisation, precursor, section2, section41, section44
+from disc_model.paper import measures, normalisation, section2, section41, section44
 from disc_model.paper.ledger import ROWS
 from disc_model.paper.measures import CaseView, views
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, VERDICTS
@@ -42,10 +41,9 @@ class World:
             return {name: BY_NAME[name].judge(cases).verdict for name in self.rows}
 
 
-def mirrored(p: Parameters, search: Callable[[Parameters], Any] = measures.cycle_of) -> Any:
-    """The cycle of a case, stable instead of unstable."""
-    cycle = search(p)
-    return SimpleNamespace(growth_rate=-cycle.growth_rate, stick_fraction=1.0, multipliers=(-1.1 + 0j,))
+def mirrored(p: Parameters, growth: Callable[[Parameters], float] = measures.growth_of) -> float:
+    """The growth of a case, negative instead of positive."""
+    return -growth(p)
 
 
 def course(p: Parameters, until: float, widest: float = np.inf) -> tuple[Powers, ...]:
@@ -71,11 +69,9 @@ WORLDS = {
     "as simulated": World(),
     "other grids and cycles": World(
         scans=evidence.scans(**evidence.TEXTS["scans to the contrary"]),
-        functions={measures: {"cycle_of": mirrored}, section41: {"course": course}},
+        functions={measures: {"growth_of": mirrored}, section41: {"course": course}},
     ),
-    "growth with the stiffness": World(
-        functions={measures: {"cycle_of": lambda p: SimpleNamespace(growth_rate=p.k_p)}}, rows=("S43kpg",)
-    ),
+    "growth with the stiffness": World(functions={measures: {"growth_of": lambda p: p.k_p}}, rows=("S43kpg",)),
     "a slower disc": a_disc("P07", plate_modes=slower),
     "no slider": a_disc("P04", coupled_natural_frequencies=lambda p: np.repeat(plate_modes(p)["omega"], 2)[1:]),
     "normalised modes": a_disc("eq17", norms=lambda p: np.ones(5)),
@@ -91,8 +87,8 @@ for name, growth in {
     "friction that changes nothing": lambda p: p.Omega - 1000.0,
     "friction as the precursor has it": lambda p: p.c + p.mu_s - 0.1 if p.Omega < 1000 else 0.1 - p.mu_s,
 }.items():
-    changed = {"sliding_growth": growth, "growths": precursor.growths.__wrapped__}
-    WORLDS[name] = World(functions={precursor: changed}, rows=("A98i", "A98r"))
+    changed = {"sliding_growth": growth, "growths": section2.growths.__wrapped__}
+    WORLDS[name] = World(functions={section2: changed}, rows=("A98i", "A98r"))
 for name, text in evidence.TEXTS["worlds"].items():
     every = {" ".join(evidence.SPECS): motion for motion in [text["cases"].get("all")] if motion}
     rows = tuple(text.get("rows", " ".join(BY_NAME)).split())

@@ -1,12 +1,9 @@
-"""The paper's claims, as data and checks against the computed results.
-
-Each claim states in our own words what the paper says, where it says it, and what counts as agreement and why. Its
-check computes all numbers from merged cases, grid studies or the disc's modes. `ledger.check_claims` makes the table.
-"""
+"""The paper's claims, in our own words, as data and checks against merged cases, grid studies and the disc's modes;
+`ledger.check_claims` makes the table. Names that the workflow reads stand here, without the computations."""
 
 _MAPS = (f"map_{name}" for name in ("D_star", "E", "N", "c_p", "k", "k_p", "m"))
 SCANS = ("basins", "bonded", "critical_speed", "hysteresis", *_MAPS)
-"""Grid studies that rows use; listed here so that the workflow reads them without importing the computations."""
+"""Grid studies that rows of the ledger use."""
 SURVIVAL_GRIDS = ("survival_growth", "survival_outcome", "survival_speed", "survival_curves", "survival_damping")
 """Grid studies of config/survival.yaml, by which `survival` judges the conclusions under other models."""
 TABLE_CASES = {
@@ -15,5 +12,4 @@ TABLE_CASES = {
     "periods": ("F02", "F07", "F22"),
     "impact_law": ("F13", "P03l8", "P03l4c1", "P03l4c2", "P03res"),
 }
-"""Cases of each table; of periods those that the paper calls quasi-periodic or unpredictable and that repeat after many
-releases."""
+"""Cases of each table; of periods those that the paper calls quasi-periodic or unpredictable, and that repeat."""

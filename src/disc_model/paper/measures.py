@@ -1,34 +1,27 @@
 """Numbers that the rows of the ledger measure, from events and samples, and their words."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property, lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from functools import cache, cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.signal import find_peaks
 
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Motion, Settled, Settling, motion_of, settling
 from disc_model.analysis.spectra import Line
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import EVENT_KINDS, PHASES, STATUSES, stated_in, values_text
+from disc_model.data.variables import EVENT_KINDS, PHASES, STATUSES, flag_names, stated_in, values_text
 from disc_model.parameters import Parameters
 
-if TYPE_CHECKING:
-    from disc_model.stability.cycle import FloquetResult
-
 Array = NDArray[np.float64]
-STICK, SLIP, SEPARATION = (PHASES.index(phase) for phase in ("stick", "slip", "separation"))
+SEPARATION = PHASES.index("separation")
 STRETCHES, STRETCH = 3, 20.0  # number and length of the last stretches of a case, s
-STEADY = 3e-4
-"""1/s: a motion is steady if its ranges of contact force and disc change more slowly, see `analysis.classify`."""
+STEADY = 3e-4  # 1/s: a motion is steady if its ranges of contact force and disc change more slowly
 LOW, HIGH = 20.0, 700.0  # Hz: above the drive's line and its multiples; above the disc's highest natural frequency
 
 
@@ -52,18 +45,14 @@ class Range(NamedTuple):
 
 @dataclass(frozen=True)
 class CaseView:
-    """View of one case."""
+    """View of one case, or of a grid study; raises `Missing` where the case does not hold what is asked for."""
 
     name: str
     node: xr.DataTree
 
     def __getitem__(self, name: str) -> float:
         """A scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
-        return float(self._scalars[name].item())
-
-    @cached_property
-    def _scalars(self) -> xr.Dataset:  # which xarray would make anew for each value
-        return self.node.to_dataset()
+        return float(self.node.variables[name].values)  # node[name] would make a dataset
 
     @cached_property
     def parameters(self) -> Parameters:
@@ -75,12 +64,10 @@ class CaseView:
 
     @property
     def separates(self) -> bool:
-        """Whether contact was ever lost."""
         return self["n_separations"] > 0
 
     @property
     def is_grid(self) -> bool:
-        """Whether it is a grid study and no case."""
         return "parameters" not in self.node.attrs
 
     @property
@@ -90,12 +77,11 @@ class CaseView:
 
     @property
     def from_rest(self) -> bool:
-        """Whether it begins with the static start."""
         return "start" not in self.node.attrs
 
     @property
     def place(self) -> str:
-        """Preload and speed of the case, and what else differs from Table 1, in words."""
+        """Preload and speed, and what else differs from Table 1, in words."""
         p = self.parameters
         others = {name: x for name, x in p if name not in ("N", "Omega") and not isinstance(x, str)}
         return ", ".join(filter(None, [place(p.N, p.Omega), values_text(others)]))
@@ -117,27 +103,28 @@ class CaseView:
         growth = rate_text(self.growth_rate, "/s", "not defined, because no cycle was found near static equilibrium")
         return f"At {self.place}, {self.contact}, and growth is {growth}."
 
+    @cached_property
+    def late_motion(self) -> Motion:
+        """Class of the in-plane motion within the stored events."""
+        return motion_of(self.intervals())
+
     @property
     def motion(self) -> str:
-        """Class of the in-plane motion within the stored events, in words."""
-        times, motion = self.intervals(), self.late_motion()
+        """The same in words."""
+        times, motion = self.intervals(), self.late_motion
         if not motion.period:
-            return (
-                f"{motion}: there are {1 / times.mean():.1f} releases per second, the intervals between them do not "
-                f"repeat with any period of up to {motion.longest} releases, and the 0-1 test for chaos gives "
-                f"{motion.chaos:.2f}"
-            )
+            rate = f"{motion}: there are {1 / times.mean():.1f} releases per second, the intervals between them do not"
+            most = f"repeat with any period of up to {motion.longest} releases, and the 0-1 test for chaos gives"
+            return f"{rate} {most} {motion.chaos:.2f}"
         length = float(times[: motion.period].sum())
         apart = round(self.rate_of("separation") * length)
         after = counted(motion.period, "release") + (f" and {counted(apart, 'separation')}" if apart else "")
-        return (
-            f"periodic: one period has {after}, and lasts {length:.6g} s. From one period to the next, the intervals "
-            f"between releases differ by at most {motion.closure:.0e} s"
-        )
+        period = f"periodic: one period has {after}, and lasts {length:.6g} s. From one period to the next, the"
+        return f"{period} intervals between releases differ by at most {motion.closure:.0e} s"
 
     @property
     def early(self) -> Range:
-        """Range of the contact force over the first 20 s, without the first second, N."""
+        """Range of the contact force from 1 to 21 s, N."""
         return self.range_of("P", 1.0, 1.0 + STRETCH)
 
     @property
@@ -162,34 +149,46 @@ class CaseView:
 
     @property
     def growth_rate(self) -> float:
-        """Largest growth rate of small disturbances of its cycle, 1/s; nan if there is none."""
-        return growth_or_nan(self.parameters)
+        return growth_of(self.parameters)
 
     @cached_property
     def events(self) -> xr.Dataset:
-        """Stored events; raises `Missing` if the case stores none."""
         return self._held(dataset.events)
 
+    @cached_property
+    def history(self) -> xr.Dataset:
+        """Least and greatest values of variables within the bins of the window `history`."""
+        return self._held(dataset.samples, "history", 1, envelope=True)
+
     def samples(self, window: str) -> xr.Dataset:
-        """Samples of a window, or of the section ``poincare``; raises `Missing`."""
+        """Samples of a window, or of the section ``poincare``."""
         return self._held(dataset.samples, window)
 
+    def _held(self, ask: Callable[..., xr.Dataset], *args: Any, **options: Any) -> xr.Dataset:
+        try:
+            return ask(self.node, *args, **options)
+        except Missing as reason:
+            raise Missing(f"case {self.name} {reason}") from None
+
     def range_of(self, name: str, start: float, stop: float) -> Range:
-        """Range of a variable from the whole bins of the window `history` between two times; raises `Missing`."""
-        history = self.history
-        time = history["time"].values
+        """Range of a variable from the whole bins of the history between two times, s."""
+        time = self.history["time"].values
         half = (time[1] - time[0]) / 2 if time.size > 1 else np.inf  # the width of a single bin is unknown
         inside = (time >= start + 0.99 * half) & (time <= stop - 0.99 * half)
         if not inside.any():
             raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
-        low, high = (history[f"{name}_{end}"].values[inside] for end in ("min", "max"))
+        low, high = (self.history[f"{name}_{end}"].values[inside] for end in ("min", "max"))
         return Range(float(low.min()), float(high.max()))
 
-    def last_widths(self, name: str, length: float, count: int) -> list[float]:
-        """Widths of a variable's ranges over `count` stretches of a length (s) up to the end, the last one first."""
+    def late_range(self, name: str) -> Range:
+        """Range over the last 20 s of the run."""
         end = self["time_reached"]
-        spans = [(end - (i + 1) * length, end - i * length) for i in range(count)]
-        return [self.range_of(name, *span).width for span in spans]
+        return self.range_of(name, end - STRETCH, end)
+
+    def last_widths(self, name: str, length: float, count: int) -> list[float]:
+        """Widths of a variable's ranges over stretches of a length, s, up to the end, the last one first."""
+        end = self["time_reached"]
+        return [self.range_of(name, end - (i + 1) * length, end - i * length).width for i in range(count)]
 
     def last_quarters(self, name: str) -> list[float]:
         """Widths over the last two quarters of the time after the first separation."""
@@ -208,33 +207,15 @@ class CaseView:
         moving = [each for each in whole_and_late[2:] if each.answer is Settled.CHANGING]
         return min(moving or whole_and_late[:2], key=lambda each: [*Settled].index(each.answer))
 
-    @cached_property
-    def history(self) -> xr.Dataset:
-        """Least and greatest values of variables within the bins of the window `history`; raises `Missing`."""
-        return self._held(dataset.samples, "history", 1, envelope=True)
-
-    def _held(self, ask: Callable[..., xr.Dataset], *args: Any, **options: Any) -> xr.Dataset:
-        try:
-            return ask(self.node, *args, **options)
-        except Missing as reason:
-            raise Missing(f"case {self.name} {reason}") from None
-
-    def late_range(self, name: str) -> Range:
-        """Range over the last 20 s of the run."""
-        end = self["time_reached"]
-        return self.range_of(name, end - STRETCH, end)
-
     def switches(self, kind: str) -> xr.Dataset:
         """The stored events of one kind."""
-        events = self.events
-        return events.isel(event=events["kind"].values == EVENT_KINDS.index(kind))
+        return self.events.isel(event=self.events["kind"].values == EVENT_KINDS.index(kind))
 
     def times_of(self, kind: str) -> Array:
-        """Times of the stored events of one kind, s."""
         return np.asarray(self.switches(kind)["time"])
 
     def intervals(self, kind: str = "stick_to_slip") -> Array:
-        """Times between successive releases, or separations, among the stored events, s; raises `Missing`."""
+        """Times between successive releases, or separations, among the stored events, s."""
         intervals = np.diff(self.times_of(kind))
         if intervals.size < FEWEST:
             what = "stick-slip cycles" if kind == "stick_to_slip" else f"{kind}s"
@@ -243,36 +224,33 @@ class CaseView:
 
     def rate_of(self, kind: str) -> float:
         """Rate of one kind of event within the stored events, 1/s."""
-        start, stop = self.kept_span()
-        return self.times_of(kind).size / (stop - start)
+        return self.times_of(kind).size / self.kept_span.width
 
+    @property
     def kept_span(self) -> Range:
         """Span of time for which a case stores its events, s."""
         attrs = self.events.attrs
         return Range(float(attrs["kept_from"]), min(float(attrs["kept_until"]), self["time_reached"]))
 
-    def separation_durations(self) -> tuple[Array, float]:
-        """Durations of the separations that begin and end within the stored events, s; and of one that lasts, or 0."""
+    @property
+    def longest_separation(self) -> float:
+        """Longest of the separations that begin within the stored events, s; one that lasts counts to their end."""
         apart, together = self.times_of("separation"), self.times_of("reattachment")
         ends = np.searchsorted(together, apart, side="right")
         whole = ends < together.size
         if not whole.any():
             raise Missing(f"case {self.name} keeps no whole separation")
-        return together[ends[whole]] - apart[whole], 0.0 if whole.all() else self.kept_span().high - float(apart[-1])
+        longest = float((together[ends[whole]] - apart[whole]).max())
+        return longest if whole.all() else max(longest, self.kept_span.high - float(apart[-1]))
 
     def phase_share(self, phase: str) -> float:
         """Fraction of time spent in a phase, within the stored events."""
-        events = self.events
-        lasting = np.diff(np.append(events["time"].values, self.kept_span().high))
-        spent = lasting[events["phase"].values == PHASES.index(phase)]
+        lasting = np.diff(np.append(self.events["time"].values, self.kept_span.high))
+        spent = lasting[self.events["phase"].values == PHASES.index(phase)]
         return ratio(float(spent.sum()), float(lasting.sum()), f"the time that events of case {self.name} cover")
 
-    def late_motion(self) -> Motion:
-        """Class of the in-plane motion within the stored events."""
-        return classify_intervals(tuple(self.intervals()))
-
-    def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> Signal:
-        """A variable between two times, from the samples of a window; raises `Missing` without any."""
+    def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> "Signal":
+        """A variable between two times, from the samples of a window."""
         samples = self.samples(window).sel(time=slice(start, stop))
         if samples.sizes["time"] < 100:
             raise Missing(f"case {self.name} has no samples in {window} from {start:g} to {stop:g} s")
@@ -331,12 +309,11 @@ def views(trees: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
 
 def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
     """Cases with separation, each with the case that ignores separation; raises `Missing` if one has no such case."""
-    free = [case for case in cases if not case.bonded]
     bonded = {case.parameters: case for case in cases if case.bonded}
-    wanted = {case.name: case.parameters.replace(contact="bilateral") for case in free}
-    if alone := [name for name, p in wanted.items() if p not in bonded]:
+    free = [(case, case.parameters.replace(contact="bilateral")) for case in cases if not case.bonded]
+    if alone := [case.name for case, p in free if p not in bonded]:
         raise Missing(f"without separation there is no case with the parameters of {', '.join(alone)}")
-    return [(case, bonded[wanted[case.name]]) for case in free]
+    return [(case, bonded[p]) for case, p in free]
 
 
 def ratio(part: float, whole: float, what: str) -> float:
@@ -346,47 +323,12 @@ def ratio(part: float, whole: float, what: str) -> float:
     return part / whole
 
 
-@lru_cache(maxsize=256)
-def classify_intervals(intervals: tuple[float, ...]) -> Motion:
-    """Class of a motion by its intervals, s; computed once, though several rows ask."""
-    return motion_of(np.array(intervals))
-
-
-class Falls(NamedTuple):
-    """Whether lowest speeds fall and rise with the preload; whether they fall again after that; how, in sentences."""
-
-    falls: bool
-    again: bool
-    words: str
-
-
-def lowest_speeds(study: xr.Dataset, depth: float) -> Falls:
-    """How the lowest speed with separation changes with the preload, by ``depth`` (rad/s) or more."""
-    loads, speeds = study["N"].values, study["critical_speed"].values
-    infinite = np.nanmax(speeds, initial=0.0) + 2 * depth  # stands for no separation
-    known = np.where(np.isnan(speeds), infinite, speeds)
-    dips, also_last = (find_peaks(-each, prominence=depth)[0] for each in (known, np.append(known, infinite)))
-    if not dips.size:
-        return Falls(False, False, f"The lowest speeds in turn are {listed(or_none(x, '.1f') for x in speeds)} rad/s.")
-    first, start = min(dips), int(np.isfinite(speeds).argmax())
-    later = [i for i in also_last if i > first]
-    top = first + np.nanargmax(speeds[first : later[0] if later else None])
-    never, rest = loads[:first][np.isnan(speeds[:first])], speeds[top + 1 :]
-    absent = f"At {listed(never, 'g')} N none of the speeds tried brings separation. "
-    begin = f"{absent}As the preload rises further" if never.size else "As the preload rises"
-    parts = [
-        f"falls from {speeds[start]:.1f} (at {loads[start]:g} N) to {speeds[first]:.1f} rad/s at {loads[first]:g} N",
-        f"rises to {speeds[top]:.1f} rad/s at {loads[top]:g} N",
-    ]
-    if later:
-        parts += [f"falls again ({extent(rest[np.isfinite(rest)]):.1f} rad/s at larger preloads up to {loads[-1]:g} N)"]
-    lowest = f"the lowest speed with separation {', '.join(parts[:-1])}, and {parts[-1]}"
-    return Falls(True, bool(later), f"{begin}, {lowest}.")
-
-
 def width_ratio(case: CaseView, bonded: CaseView) -> float:
     """Range of the disc in the end with separation over that without."""
     return ratio(case.disc.width, bonded.disc.width, f"the range of the disc in case {bonded.name}")
+
+
+# ---- Grid studies
 
 
 def published(study: xr.Dataset) -> xr.Dataset:
@@ -394,14 +336,33 @@ def published(study: xr.Dataset) -> xr.Dataset:
     return study.sel(normalization="as_published")
 
 
+def sound(study: xr.Dataset) -> xr.Dataset:
+    """The grid study; raises `Missing` if a point failed."""
+    by_outcome = "outcome" in study
+    words = flag_names(study["outcome" if by_outcome else "status"])
+    if np.any(words == "failed" if by_outcome else words != "ok"):
+        raise Missing(f"study {study.attrs.get('study', '')} has points that failed")
+    return study
+
+
+def facts(study: xr.Dataset) -> dict[str, Any]:
+    """What sentences say of a grid study: its base values, its options, and how far each axis of numbers extends."""
+    axes = {str(name): extent(axis) for name, axis in study.indexes.items() if axis.dtype.kind in "if"}
+    return stated_in(study, "base") | stated_in(study, "options") | axes
+
+
+# ---- Numbers in words
+
+
+def extent(values: Iterable[float]) -> Range:
+    """Least and greatest of some numbers."""
+    numbers = np.asarray([*values])
+    return Range(float(numbers.min()), float(numbers.max()))
+
+
 def listed(values: Iterable[Any], spec: str = "", without: str = "none") -> str:
     """Values in a format, with commas."""
     return ", ".join(format(value, spec) for value in values) or without
-
-
-def mm(length: float) -> str:
-    """A length in m, in mm and in words."""
-    return f"{1e3 * length:.1f} mm"
 
 
 def counted(count: int, name: str) -> str:
@@ -419,49 +380,26 @@ def place(N: float, Omega: float) -> str:
     return f"{N:g} N, {Omega:g} rad/s"
 
 
-def extent(values: Iterable[float]) -> Range:
-    """Least and greatest of some numbers."""
-    numbers = np.asarray([*values])
-    return Range(float(numbers.min()), float(numbers.max()))
-
-
-def facts(study: xr.Dataset) -> dict[str, Any]:
-    """What sentences say of a grid study: its base values, its options, and how far each axis of numbers extends."""
-    axes = {str(name): extent(axis) for name, axis in study.indexes.items() if axis.dtype.kind in "if"}
-    return stated_in(study, "base") | stated_in(study, "options") | axes
-
-
-def runs(values: Array, inside: NDArray[np.bool_]) -> list[Range]:
-    """The ranges of ascending values that lie inside, each as long as none between them lies outside."""
-    sides = np.diff(np.pad(inside.astype(int), 1))
-    ends = zip(np.flatnonzero(sides == 1), np.flatnonzero(sides == -1) - 1, strict=True)
-    return [Range(float(values[first]), float(values[last])) for first, last in ends]
-
-
 def or_none(value: float, spec: str, unit: str = "", without: str = "none") -> str:
     """A number with its unit, or a text if it is missing."""
     return without if math.isnan(value) else f"{value:{spec}}{unit}"
 
 
+def rate_text(rate: float, unit: str = "", without: str = "no cycle") -> str:
+    """A growth rate as text, or a text if there is no cycle."""
+    return or_none(rate, "+.4f", unit, without)
+
+
+# ---- Computed for the rows
+
+
 @cache
-def cycle_of(p: Parameters) -> FloquetResult:
-    """The search for a stick-slip cycle near the static start, made once also where there is none."""
+def growth_of(p: Parameters) -> float:
+    """Largest growth rate of small disturbances of the stick-slip cycle near the static start, stable or not, 1/s; nan
+    if there is none."""
     from disc_model.stability.cycle import floquet
 
-    return floquet(p)
-
-
-def growth_or_nan(p: Parameters) -> float:
-    """Largest growth rate of small disturbances of the cycle, stable or not, 1/s; nan if there is none."""
-    return cycle_of(p).growth_rate
-
-
-@cache
-def separates_within(p: Parameters, until: float) -> bool:
-    """Whether the static start separates before a time in s, in a simulation of its own."""
-    from disc_model.simulation.api import simulate
-
-    return math.isfinite(simulate(p, until, stop_at="first_separation").raise_for_status().first_separation)
+    return floquet(p).growth_rate
 
 
 @cache
@@ -472,6 +410,9 @@ def sliding_growth(p: Parameters) -> float:
     return steady_sliding(p).growth_rate
 
 
-def rate_text(rate: float, unit: str = "", without: str = "no cycle") -> str:
-    """A growth rate as text, or a text if there is no cycle."""
-    return or_none(rate, "+.4f", unit, without)
+@cache
+def separates_within(p: Parameters, until: float) -> bool:
+    """Whether the static start separates before a time in s, in a simulation of its own."""
+    from disc_model.simulation.api import simulate
+
+    return math.isfinite(simulate(p, until, stop_at="first_separation").raise_for_status().first_separation)

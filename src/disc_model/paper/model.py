@@ -1,54 +1,42 @@
-"""A row of the ledger: a quotation of the paper, and the function that judges it from cases and grid studies.
-
-The row is data, in a YAML file; see `Row` for its keys.  It names its check, a function of the module beside that file.
-"""
+"""A row of the ledger: a quotation of the paper, and the function that judges it from cases and grid studies."""
 
 import json
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from itertools import product
 from pathlib import Path
-from types import ModuleType
 from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
 import yaml
-from pydantic import BaseModel, ConfigDict, TypeAdapter, field_validator
+from pydantic import BaseModel, ConfigDict, TypeAdapter
 
 from disc_model.analysis.classify import Settled
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import fill
-from disc_model.paper.measures import Absent, CaseView
+from disc_model.paper.measures import Absent, CaseView, facts
 from disc_model.parameters import Parameters
 
 TRUE, PART, FALSE = "true", "true in part", "false"
 AMBIGUOUS, NOT_COMPUTED = "ambiguous in the paper", "not computed"
 VERDICTS = (TRUE, PART, FALSE, AMBIGUOUS, NOT_COMPUTED)
-FOLDER = Path(__file__).parent
 
 
 def read_texts(name: str) -> Any:
-    """A file of texts beside this module, or by its path from the package on."""
-    folder = FOLDER.parent if "/" in name else FOLDER
-    return yaml.safe_load((folder / name).read_text(encoding="utf-8"))
+    """A file of texts, by its path from the package on."""
+    return yaml.safe_load((Path(__file__).parents[1] / name).read_text(encoding="utf-8"))
 
 
 @cache
-def paper_cases() -> Mapping[str, Mapping[str, Any]]:
+def paper_cases() -> dict[str, dict[str, Any]]:
     """The named cases of the paper: the values of each, beside the study's base values."""
-    cases: Mapping[str, Mapping[str, Any]] = read_texts("config/paper.yaml")["cases"]
-    return cases
+    return dict(read_texts("config/paper.yaml")["cases"])
 
 
 class Answer:
-    """Result of a check.
-
-    verdict : one of `VERDICTS`, or whether the statement is true
-    here : what was computed, in words; "" if the row has the words
-    notes : what should be known besides; empty ones do not count
-    values : what the row's words are filled with
-    """
+    """Result of a check: a verdict, or whether the statement is true; what was computed and what should be known
+    besides, in words; and values for the words of the row, which has them where `here` is empty."""
 
     def __init__(self, verdict: bool | np.bool_ | str, here: str = "", *notes: str, **values: Any) -> None:
         self.verdict = verdict if isinstance(verdict, str) else TRUE if verdict else FALSE
@@ -61,11 +49,9 @@ def graded(holds: Iterable[bool | np.bool_]) -> str:
     return TRUE if all(each) else PART if any(each) else FALSE
 
 
-Names = Literal[True] | tuple[str, ...]
-
-
 class Row(BaseModel):
-    """A statement of the paper: what a file says of it, and the function that judges it."""
+    """A statement of the paper: what a file says of it, and the function that judges it. Its words may name values of
+    the answer, those in `given`, the `place` of the first case, and what the first grid study has `stated`."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     id: str
@@ -76,13 +62,13 @@ class Row(BaseModel):
     verdict: str = ""  # then the verdict
     here: str = ""  # and what is said for it; otherwise what is said of the check's values, as in the note
     matters: str = ""  # the consequence, in one sentence
-    judged: str = ""  # the rule, with the numbers below
+    judged: str = ""  # the rule by which the check judges, with the numbers below
     note: str = ""  # what should be known in any case
     given: dict[str, bool | float | str | list[float]] = {}  # for the check and for the rule
     cases: dict[str, float] = {}  # for the check, of config/paper.yaml: the time in s to which each must have run
     every: bool = False  # the check is given all cases instead, whatever their names
-    separates: Names = ()  # it speaks of these after separation; all that can separate if true
-    steady: Names = ()  # it is about the steady states of these
+    separates: Literal[True] | tuple[str, ...] = ()  # it speaks of these after separation; of all cases if true
+    steady: Literal[True] | tuple[str, ...] = ()  # it is about the steady states of these
     scans: tuple[str, ...] = ()  # the grid studies that the check is given besides
     beside: tuple[str, ...] = ()  # further ones, for notes: None instead of one that is missing
     tables: tuple[str, ...] = ()  # further ones of results on which it rests
@@ -90,13 +76,6 @@ class Row(BaseModel):
     print_error: bool = False  # it is an error in print, counted apart
     after_the_fact: bool = False  # the rule was chosen when the numbers were known
     also: str = ""  # the row of the ledger that judges the same, of a conclusion that is judged under several models
-
-    @field_validator("cases")
-    @classmethod
-    def _of_the_paper(cls, cases: dict[str, float]) -> dict[str, float]:
-        if unknown := cases.keys() - paper_cases().keys():
-            raise ValueError(f"no case {', '.join(sorted(unknown))} in the paper's")
-        return cases
 
     @property
     def rule(self) -> str:
@@ -120,30 +99,30 @@ class Row(BaseModel):
             needed = {name: case for name, case in cases.items() if not case.is_grid}
         if missing := [name for name in self.scans if name not in cases]:
             raise Missing(f"study {missing[0]} is not among those of this run")
-        for case in _named(needed, self.separates):
-            if not (case.separates or case.bonded):
+        for case in needed.values():
+            if (self.separates is True or case.name in self.separates) and not (case.separates or case.bonded):
                 raise Missing(f"no separation in {case['time_reached']:g} s (case {case.name})")
-        steady = _named(needed, self.steady)
+        steady = [case for name, case in needed.items() if self.steady is True or name in self.steady]
         for case in steady:
             if (settling := case.settling()).answer is not Settled.SETTLED:
                 raise Missing(f"case {case.name} has not settled in {case['time_reached']:g} s: {settling}")
-        wanted = (*self.scans, *self.beside)
-        studies = [cases[name].node.to_dataset() if name in cases else None for name in wanted]
-        answer = check(*needed.values(), *studies, **self.given)
+        studies = [cases[name].node.to_dataset() for name in self.scans]
+        beside = [cases[name].node.to_dataset() if name in cases else None for name in self.beside]
+        answer = check(*needed.values(), *studies, *beside, **self.given)
         which = {1: "The motion has", 2: "Both motions have"}.get(len(steady), f"All {len(steady)} motions have")
         if len(steady) < len(needed):
             noun, verb = ("motion", "has") if len(steady) == 1 else ("motions", "have")
             places = "; at ".join(case.place for case in steady)
             which = f"The {noun} from rest at {' and at '.join(places.rsplit('; at ', 1))} {verb}"
+        place, stated = next((case.place for case in needed.values()), ""), facts(studies[0]) if studies else {}
         texts = (self.here, self.note) if not answer.here or not self.here else ("", "")  # nothing fills them
-        here, note = (fill(text, **answer.values) for text in texts)
+        here, note = (fill(text, **{"place": place, "stated": stated} | self.given | answer.values) for text in texts)
         return Answer(answer.verdict, answer.here or here, answer.notes, note, f"{which} settled." * bool(steady))
 
 
-def rows_of(module: ModuleType) -> tuple[Row, ...]:
-    """The rows of the file beside a module, in its order; raises pydantic.ValidationError with all its faults."""
-    file, checks = Path(str(module.__file__)).with_suffix(".yaml"), vars(module)
-    texts = {f"{file.name}: {name}": {"id": name, **raw} for name, raw in read_texts(str(file)).items()}
+def rows_of(file: str, checks: Mapping[str, Any]) -> tuple[Row, ...]:
+    """The rows of a file, in its order, with their checks by name; raises pydantic.ValidationError with all faults."""
+    texts = {f"{file}: {name}": {"id": name, **raw} for name, raw in read_texts(file).items()}
     for text in texts.values():
         if "check" in text:
             text["check"] = checks.get(text["check"], text["check"])
@@ -154,14 +133,6 @@ def judge(rows: Iterable[Row], models: Mapping[str, Mapping[str, CaseView]]) -> 
     """Judge rows under models, each with its own cases: a row for every statement and model, see `Answer`."""
     pairs = product(models, rows)
     return pd.DataFrame({"id": row.id, "model": name, **vars(row.judge(models[name]))} for name, row in pairs)
-
-
-# ---- Checks of the evidence
-
-
-def _named(cases: Mapping[str, CaseView], names: Names) -> Sequence[CaseView]:
-    """The cases of these names, all if true."""
-    return [cases[name] for name in (cases if names is True else names)]
 
 
 def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import pandas as pd
 
@@ -16,7 +17,7 @@ from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, judge, read_texts
 from disc_model.paper.survival import CONCLUSIONS
 from disc_model.parameters import Parameters
 
-TEXTS: dict[str, str] = read_texts("pages.yaml")["normalisation"]
+TEXTS: dict[str, str] = read_texts("paper/pages.yaml")["normalisation"]
 OLD, NEW = "As published", "With Eq. (17)"
 SHOWN = ("F02", "F07", "F09", "F13", "F17", "F18", "F22", "F23")  # cases of the paper's figures with a separation
 
@@ -28,16 +29,16 @@ def compare(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseVie
     for name, case in published.items():
         if name in orthonormal and case.from_rest:
             shared.setdefault(case.parameters, name)
-    pairs = {name: (published[name], orthonormal[name]) for name in shared.values()}
-    failed = [name for name, pair in pairs.items() if "failed" in (case.status for case in pair)]
-    whole = {name: pair for name, pair in pairs.items() if name not in failed}
+    pairs = [(published[name], orthonormal[name]) for name in shared.values()]
+    whole = [(case, other) for case, other in pairs if "failed" not in (case.status, other.status)]
+    failed = [case.name for case, other in pairs if "failed" in (case.status, other.status)]
     verdicts = _verdicts(published, orthonormal)
-    before, after = (sum(case.separates for case in column) for column in zip(*whole.values(), strict=True))
+    before, after = (sum(case.separates for case in column) for column in zip(*whole, strict=True))
     text = fill(TEXTS["brief"], cases=len(whole), before=before, after=after, failed=failed)
     parts = {
-        "brief": ("", text, _brief([*whole.values()], verdicts)),
+        "brief": ("", text, _brief(whole, verdicts)),
         "modes": ("The modes", TEXTS["modes"], _modes()),
-        "cases": ("The cases of the paper", TEXTS["cases"], _cases(*zip(*pairs.values(), strict=True))),
+        "cases": ("The cases of the paper", TEXTS["cases"], _cases(*zip(*pairs, strict=True))),
     }
     if new := [case for name, case in orthonormal.items() if name not in published]:
         parts["instead"] = ("Where instability goes instead", TEXTS["instead"], _cases(new))
@@ -49,13 +50,10 @@ def _brief(pairs: Sequence[tuple[CaseView, CaseView]], verdicts: pd.DataFrame) -
     """How many cases separate, grow and agree with the paper under both; first separations of the paper's figures."""
     known = [pair for pair in pairs if not any(math.isnan(case.growth_rate) for case in pair)]
     judged = [verdicts[name] for name in (OLD, NEW)]
-    rows = {
-        f"cases that separate, of {len(pairs)}": [
-            sum(case.separates for case in column) for column in zip(*pairs, strict=True)
-        ],
-        f"cases whose stick-slip cycle grows, of {len(known)} that have one under both": [
-            sum(case.growth_rate > 0 for case in column) for column in zip(*known, strict=True)
-        ],
+    grow = f"cases whose stick-slip cycle grows, of {len(known)} that have one under both"
+    rows: dict[str, list[Any]] = {
+        f"cases that separate, of {len(pairs)}": [sum(pair[i].separates for pair in pairs) for i in (0, 1)],
+        grow: [sum(pair[i].growth_rate > 0 for pair in known) for i in (0, 1)],
         f"statements that are true, of {len(verdicts)} that are judged by cases": [sum(of == TRUE) for of in judged],
         "statements that are false": [sum(of == FALSE) for of in judged],
         "statements that no motion decides": [sum(of == NOT_COMPUTED) for of in judged],
@@ -65,35 +63,30 @@ def _brief(pairs: Sequence[tuple[CaseView, CaseView]], verdicts: pd.DataFrame) -
 
 
 def _modes() -> pd.DataFrame:
-    models = {", as published": section2.BASE, ", Eq. (17)": section2.BASE.replace(normalization="orthonormal")}
+    models = {", as published": section2.BASE, ", Eq. (17)": section2.NORMALISED}
     modes = plate_modes(section2.BASE)
-    squares = {f"psi²{which} (1/kg)": plate_modes(p)["psi"].to_numpy() ** 2 for which, p in models.items()}
-    before, after = squares.values()
-    shifted = {
-        f"With slider{which} (rad/s)": [f"{f:.2f}" for f in section2.shifted_frequencies(p)]
-        for which, p in models.items()
-    }
-    return pd.DataFrame(
-        {"Nodal diameters": modes["diameters"].astype(str), "Disc alone (rad/s)": modes["omega"].map("{:.2f}".format)}
-        | {name: [f"{x:.4f}" for x in values] for name, values in squares.items()}
-        | {"ratio": [f"{ratio:.2f}" for ratio in before / after]}
-        | shifted
-    )
+    table = pd.DataFrame({"Nodal diameters": modes["diameters"].astype(str)})
+    table["Disc alone (rad/s)"] = modes["omega"].map("{:.2f}".format)
+    squares = [plate_modes(p)["psi"] ** 2 for p in models.values()]
+    for which, square in zip(models, squares, strict=True):
+        table[f"psi²{which} (1/kg)"] = square.map("{:.4f}".format)
+    table["ratio"] = (squares[0] / squares[1]).map("{:.2f}".format)
+    for which, p in models.items():
+        table[f"With slider{which} (rad/s)"] = [f"{f:.2f}" for f in section2.shifted_frequencies(p)]
+    return table
 
 
 def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFrame:
     """Results of the cases, beside those of the same cases with orthonormal modes if these are given."""
     models = {", as published": cases, ", Eq. (17)": new} if new else {"": cases}
     values = [values_text(dict(case.parameters)) + (", separation ignored" if case.bonded else "") for case in cases]
-    return pd.DataFrame(
-        {"Case": [case.name for case in cases], "Parameters": values}
-        | {f"First separation{which}": [_first(case) for case in those] for which, those in models.items()}
-        | {
-            f"Growth{which} (1/s)": [rate_text(case.growth_rate, without="–") for case in those]
-            for which, those in models.items()
-        }
-        | {f"P in the end{[*models][-1]} (N)": [_late(case) for case in new or cases]}
-    )
+    table = pd.DataFrame({"Case": [case.name for case in cases], "Parameters": values})
+    for which, those in models.items():
+        table[f"First separation{which}"] = [*map(_first, those)]
+    for which, those in models.items():
+        table[f"Growth{which} (1/s)"] = [rate_text(case.growth_rate, without="–") for case in those]
+    table[f"P in the end{[*models][-1]} (N)"] = [*map(_late, new or cases)]
+    return table
 
 
 def _verdicts(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]) -> pd.DataFrame:

@@ -64,9 +64,9 @@ def table_2_lines(case: CaseView) -> list[spectra.Line]:
     return [signal.strongest(paper, SEARCHED if paper > 10 else SEARCHED / 4) for paper in LISTED]
 
 
-def stick_slip_rate(case: CaseView, window: str = "spectrum_a", start: float = 0.0, stop: float = 10.0) -> float:
-    """Stick-slip frequency, Hz: the strongest line of psi, in the slider's own frame."""
-    (line,) = case.signal(window, start, stop, "psi").lines(1, above=20.0)
+def stick_slip_rate(case: CaseView) -> float:
+    """Stick-slip frequency in the first 10 s, Hz: the strongest line of psi, in the slider's own frame."""
+    (line,) = case.signal("spectrum_a", 0, 10, "psi").lines(1, above=20.0)
     return line.frequency
 
 
@@ -129,10 +129,9 @@ def impact_law(cases: Mapping[str, CaseView]) -> pd.DataFrame:
     for name, words in zip(TABLE_CASES["impact_law"], TEXTS["impact_law"], strict=True):
         case = cases[name]
         try:
-            durations, still_open = case.separation_durations()
-            row = [case["first_separation"], case.rate_of("separation"), 1e3 * max(durations.max(), still_open)]
+            row = [case["first_separation"], case.rate_of("separation"), 1e3 * case.longest_separation]
             row += [100 * case.phase_share("separation"), 100 * case.stick, 1e3 * case.disc.width]
-            rows.append([words, *row, str(case.late_motion())])
+            rows.append([words, *row, str(case.late_motion)])
         except Missing as reason:
             rows.append([words, *[np.nan] * 6, str(reason)])
     columns = ["modes", "first_s", "rate_Hz", "longest_ms", "separated_%", "stick_%", "range_mm", "releases"]

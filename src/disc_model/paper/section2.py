@@ -1,22 +1,24 @@
-"""Rows on the abstract and Sections 2 to 4: the scale of the modes, disc and slider at rest, the number of modes."""
+"""Rows on the abstract, Sections 2 to 4 and the precursor: scale and number of modes, disc and slider at rest."""
 
 from collections.abc import Mapping, Sequence
+from functools import cache
+from itertools import product
 
 import numpy as np
 import pandas as pd
 import xarray as xr
-from numpy.typing import NDArray
 from scipy.integrate import fixed_quad
 
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import coupled_natural_frequencies, mode_shapes, plate_modes
-from disc_model.paper.measures import CaseView, extent, facts, or_none, pairs, separates_within, width_ratio
-from disc_model.paper.model import FALSE, PART, TRUE, Answer, graded, parameters_of
+from disc_model.paper import measures
+from disc_model.paper.measures import Array, CaseView, extent, or_none, pairs, sliding_growth
+from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded, parameters_of
 from disc_model.parameters import Parameters
 
-Array = NDArray[np.float64]
 BASE = Parameters(N=200, Omega=20)
+NORMALISED = BASE.replace(normalization="orthonormal")
 SEPARATING = {
     "Fig. 2": ("map_N", {"N": 200.0, "Omega": 20.0}),
     "Fig. 7": ("map_N", {"N": 300.0, "Omega": 20.0}),
@@ -49,31 +51,26 @@ def first_separations(maps: Mapping[str, xr.Dataset]) -> pd.DataFrame:
 
 
 def survive(*maps: xr.Dataset, share: float) -> Answer:
-    """Whether points of the map of speed and preload separate at low speed, with either scale of the modes."""
     critical, plane = moving_load_speed(BASE), maps[0].transpose("normalization", "Omega", ...)
     apart, run = (flag_names(plane[x]) == word for x, word in (("outcome", "separation"), ("method", "simulation")))
     lowest = [np.min(plane["Omega"].values[each.any(axis=1)], initial=np.inf) for each in apart]
     by_name = {study.attrs["study"]: study for study in maps}
     times, points = first_separations(by_name), _points(by_name)
     horizons = {figure: stated_in(by_name[SEPARATING[figure][0]], "options")["horizon"] for figure in points}
-    kinds = {
-        figure: str(flag_names(point.sel(normalization="orthonormal")["outcome"])) for figure, point in points.items()
-    }
+    kinds = {x: str(flag_names(point.sel(normalization="orthonormal")["outcome"])) for x, point in points.items()}
     quiet = {x: parameters_of(f"F{x[5:]:0>2}", "orthonormal") for x in points if kinds[x] != "separation"}
-    kept = [x for x, p in quiet.items() if not separates_within(p, horizons[x])]
+    kept = [x for x, p in quiet.items() if not measures.separates_within(p, horizons[x])]
     grow = [horizons[figure] for figure in kept if kinds[figure] == "growing"]
+    unless = {x: f"none within {horizons[x]:g} s ({kinds[x]})" for x in points}
+    rows = times.itertuples()
+    first = [f"{x}, {or_none(was, '.0f', ' s')} and {or_none(now, '.0f', ' s', unless[x])}" for x, was, now in rows]
     return Answer(
         graded(speed < share * critical for speed in lowest),
         counts=(len(times), times["as_published"].count(), len(times) - len(kept), len(kept) - len(grow), len(grow)),
         until=extent(grow) if grow else None,
         lowest=lowest,
         critical=critical,
-        area=facts(maps[0]),
-        first=[
-            f"{figure}, {or_none(was, '.0f', ' s')} and "
-            f"{or_none(now, '.0f', ' s', f'none within {horizons[figure]:g} s ({kinds[figure]})')}"
-            for figure, was, now in times.itertuples()
-        ],
+        first=first,
         points=(apart[0].size, *np.sum([*apart, *(apart & run)], axis=(1, 2))),
     )
 
@@ -88,50 +85,43 @@ def norms(p: Parameters) -> Array:
 
 def normalised(*, within: float) -> Answer:
     norms_of_base = norms(BASE)
-    squares = [plate_modes(p)["psi"][1] ** 2 for p in (BASE, BASE.replace(normalization="orthonormal"))]
+    squares = [plate_modes(p)["psi"][1] ** 2 for p in (BASE, NORMALISED)]
     return Answer(np.max(np.abs(norms_of_base - 1)) <= within, norms=[*norms_of_base], squares=squares)
 
 
 def second_relation(*, within: float) -> Answer:
-    p = BASE.replace(normalization="orthonormal")
+    p = NORMALISED
     second = norms(p) * plate_modes(p)["omega"].to_numpy() ** 2 / p.D  # of the biharmonic: rho h omega^2/D
     return Answer(np.max(np.abs(second - 1)) <= within, second=[*second])
 
 
 def slip_condition(*cases: CaseView) -> Answer:
     """Check the relation at a stop of the slider: ψ' = Ω there, and c_p = 0 in both cases."""
-    true, ends = 0, 0
+    true: list[bool] = []
     for case in cases:
         stops = case.switches("slip_to_stick")
         pull = case["r_0"] * np.abs(case["c_p"] * case["Omega"] + case["k_p"] * stops["psi"].values)
-        true += int(np.sum(pull < case["mu_s"] * stops["P"].values))
-        ends += stops.sizes["event"]
-    if not ends:
+        true += (pull < case["mu_s"] * stops["P"].values).tolist()
+    if not true:
         raise Missing("no case keeps an end of slip")
-    return Answer(not true, held=true, ends=ends, place=cases[0].place, spans=[x.kept_span().width for x in cases])
+    return Answer(not any(true), held=sum(true), ends=len(true), spans=[case.kept_span.width for case in cases])
 
 
 def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
     """Whether more modes change nothing: cases with 4, 5, 6 and 8 diameters, and with one and two circles."""
     first = [case["first_separation"] for case in evidence]
     soon, all_soon = np.ptp(first[:4]) <= seconds, np.ptp(first) <= seconds  # nan if one does not separate
-    nine, *others = (
-        (case.rate_of("separation"), case.phase_share("separation"), case.stick)
-        for case in (evidence[0], *evidence[3:])
-    )
-    more, *circles = [bool(np.allclose(norm, nine, rtol=share)) for norm in others]
-    return Answer(
-        TRUE if all_soon and more and all(circles) else PART if soon and more else FALSE,
-        change=["hardly change" if same else "change" for same in (more, all(circles))],
-        place=evidence[0].place,
-        rows=[nine, *others],
-        first=first,
-    )
+    shown = (evidence[0], *evidence[3:])
+    rows = [(case.rate_of("separation"), case.phase_share("separation"), case.stick) for case in shown]
+    more, *circles = [bool(np.allclose(row, rows[0], rtol=share)) for row in rows[1:]]
+    verdict = TRUE if all_soon and more and all(circles) else PART if soon and more else FALSE
+    change = ["hardly change" if same else "change" for same in (more, all(circles))]
+    return Answer(verdict, change=change, rows=rows, first=first)
 
 
 def attached_frequencies(*, printed: Sequence[float], within: float) -> Answer:
     ours = coupled_natural_frequencies(BASE)
-    shifted, other = (shifted_frequencies(p) for p in (BASE, BASE.replace(normalization="orthonormal")))
+    shifted, other = (shifted_frequencies(p) for p in (BASE, NORMALISED))
     return Answer(np.all(np.abs(ours - np.sort(printed)) <= within), ours=[*ours], shifted=shifted, other=other)
 
 
@@ -143,9 +133,8 @@ def shifted_frequencies(p: Parameters) -> list[float]:
 
 def moving_load(*, printed: float, within: float) -> Answer:
     ours, modes = moving_load_speed(BASE), plate_modes(BASE)
-    shifted = float(np.min(modes["omega"] / (modes["diameters"] + 1)))
     holds = abs(ours - printed) <= within
-    return Answer(holds, ours=ours, shifted="" if holds else shifted)
+    return Answer(holds, ours=ours, shifted="" if holds else float(np.min(modes["omega"] / (modes["diameters"] + 1))))
 
 
 def moving_load_speed(p: Parameters) -> float:
@@ -155,9 +144,47 @@ def moving_load_speed(p: Parameters) -> float:
 
 
 def often(*cases: CaseView, factor: float, share: float) -> Answer:
-    rows, differ = [], []
-    for case, bonded in pairs(cases):
-        rows.append((case.place, width_ratio(case, bonded), case.stick, bonded.stick))
-        _, ratio, *sticks = rows[-1]
-        differ.append(ratio * factor <= 1 or max(sticks) >= factor * min(sticks))
-    return Answer(sum(differ) >= share * len(differ), rows=rows, differ=sum(differ), factor=factor)
+    rows = [(case.place, measures.width_ratio(case, other), case.stick, other.stick) for case, other in pairs(cases)]
+    differ = sum(ratio * factor <= 1 or max(sticks) >= factor * min(sticks) for _, ratio, *sticks in rows)
+    return Answer(differ >= share * len(rows), rows=rows, differ=differ)
+
+
+# ---- The abstract of the model's precursor, J. Sound Vib. 209 (1998): steady sliding where friction falls
+SPEEDS = np.arange(5.0, 1501.0, 5.0)  # rad/s, up to where all speeds are unstable without friction
+
+
+@cache
+def growths(loads: tuple[float, ...], c: float, **friction: float) -> list[Array]:
+    """Largest growth rates of steady sliding in bilateral contact, 1/s: without friction, with it, and with it and a
+    damper: (3, load, speed); for modes as published, then for modes by Eq. (17)."""
+    rates = []
+    for scale in (BASE, NORMALISED):
+        p = scale.replace(contact="bilateral", **friction)
+        points = product((p.replace(mu_s=0.0, mu_k=0.0), p, p.replace(c=c)), loads, SPEEDS)
+        growth = [sliding_growth(each.replace(N=N, Omega=speed)) for each, N, speed in points]
+        rates.append(np.reshape(growth, (3, len(loads), SPEEDS.size)))
+    return rates
+
+
+def additional(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
+    """Whether friction makes speeds unstable that are stable without, and the damper raises growth at all of them; open
+    where it does at some, because the disc of the precursor, of which we have the abstract, is not known."""
+    verdicts, rows, critical = [], [], moving_load_speed(BASE)
+    for alone, both, damped in growths(tuple(loads), c, **friction):
+        new = (both > 0) & ~(alone > 0)
+        raised = new & (damped > both)
+        verdicts.append(FALSE if not raised.any() else TRUE if (raised == new).all() else NOT_COMPUTED)
+        slowest = SPEEDS[raised.any(axis=0)].min(initial=np.inf)
+        below = new & (critical > SPEEDS)
+        rows.append((new.sum(), raised.sum(), slowest, (new & (damped < 0)).sum(), below.sum()))
+    return Answer(verdicts[0], rows=rows, size=new.size, critical=critical)
+
+
+def reduced(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
+    verdicts, rows = [], []
+    for alone, both, _ in growths(tuple(loads), c, **friction):
+        old = alone > 0
+        stable, lower = ((old & each).sum() for each in (both < 0, both < alone))
+        verdicts.append(FALSE if not lower else TRUE if lower == old.sum() and stable else NOT_COMPUTED)
+        rows.append((old.sum(), stable, lower))
+    return Answer(verdicts[0], rows=rows, size=old.size)

@@ -7,14 +7,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
+from scipy.signal import find_peaks
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import irregularity
+from disc_model.analysis.classify import irregularity, motion_of
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.paper import measures
-from disc_model.paper.measures import Absent, Array, CaseView, listed, mm, pairs, published
+from disc_model.paper.measures import Absent, Array, CaseView, extent, facts, listed, or_none, pairs, published, sound
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 from disc_model.paper.section2 import BASE, moving_load_speed
 from disc_model.parameters import Parameters
@@ -25,18 +26,11 @@ def force_grows_to_zero(case: CaseView, *, factor: float) -> Answer:
         raise Absent(f"case {case.name}: no separation in {case['time_reached']:g} s")
     before = case["first_separation"]
     late = case.range_of("P", before - 20, before)
-    return Answer(
-        late.width > factor * case.early.width,
-        place=case.place,
-        ranges=(case.early, late),
-        first=before,
-        count=int(case["n_separations"]),
-        end=case["time_reached"],
-    )
+    grows, count, end = late.width > factor * case.early.width, int(case["n_separations"]), case["time_reached"]
+    return Answer(grows, ranges=(case.early, late), first=before, count=count, end=end)
 
 
 def upward(*cases: CaseView, share: float) -> Answer:
-    """Whether the disc, and with it the slider, moves upward where contact is lost, in that part of the separations."""
     rows, parts = [], []
     for case in cases:
         lost = case.switches("separation")
@@ -46,67 +40,51 @@ def upward(*cases: CaseView, share: float) -> Answer:
         parts.append(float(np.mean(velocity > 0)))
         heights = f"{1e3 * height.mean():.1f} mm ({1e3 * (case.late_range('u').high - case['u_0']):.1f} mm)"
         rows.append(f"{velocity.mean():+.2f} m/s and {heights} at {case.place}")
-    return Answer(min(parts) >= share, up=measures.extent(100 * part for part in parts), rows=rows)
+    return Answer(min(parts) >= share, up=extent(100 * part for part in parts), rows=rows)
 
 
 def separations_are_short(*cases: CaseView, share: float) -> Answer:
-    rows, parts, periods = [], [], [1 / case.rate_of("separation") for case in cases]
-    for case, period in zip(cases, periods, strict=True):
-        durations, still_open = case.separation_durations()
-        longest = max(durations.max(), still_open)
-        parts.append(longest / period)
-        rows.append(f"{1e3 * longest:.2f} ms at {case.place}")
-    return Answer(max(parts) < share, rows=rows, parts=(min(parts), max(parts)), periods=measures.extent(periods))
+    periods = [1 / case.rate_of("separation") for case in cases]
+    parts = extent(case.longest_separation / period for case, period in zip(cases, periods, strict=True))
+    rows = [f"{1e3 * case.longest_separation:.2f} ms at {case.place}" for case in cases]
+    return Answer(parts.high < share, rows=rows, parts=parts, periods=extent(periods))
 
 
 def preload_closes(case: CaseView, *, share: float) -> Answer:
-    """Whether the preload is the larger part of the force that drives the slider back while it is separated."""
     window = case.samples("zoom")
     apart = window["phase"].values == measures.SEPARATION
     if not apart.any():
         raise Missing(f"no separation in the window of case {case.name}")
     spring = case["k"] * float(np.mean(window["u"].values[apart] - case["u_0"]))
     part = case["N"] / (case["N"] + spring)
-    verdict = TRUE if part >= share else PART if part > 0 else FALSE
-    return Answer(verdict, part=part, place=case.place, N=case["N"], spring=spring)
+    return Answer(TRUE if part >= share else PART if part > 0 else FALSE, part=part, N=case["N"], spring=spring)
 
 
 def bounded_by_separation(*cases: CaseView, factor: float) -> Answer:
     """Whether what bounds the disc's vibration is separation: the control is the same motion without it."""
-    also, bounds = [], []
-    for _, bonded in pairs(cases):
-        late, before = bonded.last_widths("w_point", measures.STRETCH, 2)
-        also.append(late <= factor * before)
-        bounds.append(1e3 * late)
-    return Answer(PART if any(also) else TRUE, also=sum(also), of=len(also), bounds=measures.extent(bounds))
+    widths = [bonded.last_widths("w_point", measures.STRETCH, 2) for _, bonded in pairs(cases)]
+    also, bounds = [late <= factor * before for late, before in widths], extent(1e3 * late for late, _ in widths)
+    return Answer(PART if any(also) else TRUE, also=sum(also), of=len(also), bounds=bounds)
 
 
 def keeps_sticking(*evidence: Any, share: float) -> Answer:
     *cases, study = evidence
-    sticks = [case.stick for case in cases]
     settled = flag_names(study["settled"]) == "settled"
     shares = study["stick_fraction"].transpose(*study["settled"].dims).values
-    least = np.min(shares[settled], initial=np.inf)
-    return Answer(
-        min(*sticks, least) > share,
-        sticks=[f"{100 * stick:.0f} % at {case.place}" for case, stick in zip(cases, sticks, strict=True)],
-        size=settled.size,
-        settled=settled.sum(),
-        extent=(100 * least, 100 * np.max(shares[settled], initial=0.0)),
-        moving=measures.counted(settled.size - settled.sum(), "point") if not settled.all() else "",
-        waited=measures.facts(study)["max_transient"],
-    )
+    least, most = np.min(shares[settled], initial=np.inf), np.max(shares[settled], initial=0.0)
+    rows = [f"{100 * case.stick:.0f} % at {case.place}" for case in cases]
+    moving = measures.counted(settled.size - settled.sum(), "point") if not settled.all() else ""
+    told = {"size": settled.size, "settled": settled.sum(), "extent": (100 * least, 100 * most), "moving": moving}
+    return Answer(min(least, *(case.stick for case in cases)) > share, sticks=rows, **told)
 
 
 def releases_regularly(*cases: CaseView, within: float) -> Answer:
-    intervals = [case.intervals() for case in cases]
-    rows = [(case.place, 1e3 * each.mean(), irregularity(each)) for case, each in zip(cases, intervals, strict=True)]
-    return Answer(graded(irregularity(each) <= within for each in intervals), rows=rows)
+    rows = [(case.place, 1e3 * case.intervals().mean(), irregularity(case.intervals())) for case in cases]
+    return Answer(graded(spread <= within for *_, spread in rows), rows=rows)
 
 
 def more_frequencies(*cases: CaseView, floor: float) -> Answer:
-    rows: list[tuple[Any, ...]] = []
-    more, too = list[bool](), list[bool]()
+    rows, more, too = list[Any](), list[bool](), list[bool]()
     for free, bonded in pairs(cases):
         late = [(each["time"].values, each["w_point"].values) for each in (x.samples("late") for x in (free, bonded))]
         counts = [len(spectra.lines(*x, above=1.0, floor=least)) for least in (floor, floor / 10) for x in late]
@@ -119,33 +97,30 @@ def quasi_periodic(*cases: CaseView, count: float) -> Answer:
     """Whether the first ``count`` cases are quasi-periodic. As many follow with a spring 0.1 % stiffer, then others."""
     number = int(count)
     shown, stiffer, begun = cases[:number], cases[number : 2 * number], cases[2 * number :]
-    motions = [case.late_motion() for case in shown]
-    if any(motion.kind is Outcome.UNDECIDED for motion in motions):
+    kinds = [case.late_motion.kind for case in shown]
+    if Outcome.UNDECIDED in kinds:
         return Answer(NOT_COMPUTED, "The 0-1 test lies between regular and chaotic motion.")
-    near = [(case.place, measures.repeats(case.late_motion(), "release")) for case in stiffer]
-    slips = [case for case in begun if case.stick <= 1e-3]
-    separating = [measures.classify_intervals(tuple(case.intervals("separation"))) for case in slips]
-    other = [(case.place, measures.repeats(each, "separation")) for case, each in zip(slips, separating, strict=True)]
-    verdict = graded(motion.kind is Outcome.QUASI_PERIODIC for motion in motions)
-    return Answer(verdict, rows=[(case.place, case.motion) for case in shown], near=near, other=other)
+    near = [(case.place, measures.repeats(case.late_motion, "release")) for case in stiffer]
+    slips = [(case.place, case.intervals("separation")) for case in begun if case.stick <= 1e-3]
+    other = [(place, measures.repeats(motion_of(intervals), "separation")) for place, intervals in slips]
+    rows = [(case.place, case.motion) for case in shown]
+    return Answer(graded(kind is Outcome.QUASI_PERIODIC for kind in kinds), rows=rows, near=near, other=other)
 
 
 def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
     """Decided by the first ``shown`` pairs; the results of the others are told."""
     parts = [measures.width_ratio(*pair) for pair in pairs(cases)]
-    both = list(zip(pairs(cases), parts, strict=True))
-    first, others = both[: int(shown)], both[int(shown) :]
     rows = [
-        f"At {case.place}, the range of the disc is {mm(case.disc.width)} with separation and {mm(bonded.disc.width)} "
-        f"without it; the ratio is {part:.2f}."
-        for (case, bonded), part in first
+        f"At {case.place}, the range of the disc is {1e3 * case.disc.width:.1f} mm with separation and "
+        f"{1e3 * bonded.disc.width:.1f} mm without it; the ratio is {part:.2f}."
+        for (case, bonded), part in zip(pairs(cases), parts, strict=True)
     ]
-    over = measures.extent(1 / part for part in parts)
+    others = [f"{part:.2f} at {case.place}" for (case, _), part in zip(pairs(cases), parts, strict=True)][int(shown) :]
+    over = extent(1 / part for part in parts)
     return Answer(
         max(parts[: int(shown)]) < ratio,
-        " ".join(rows),
-        f"In the other pairs the ratio is {'; '.join(f'{part:.2f} at {case.place}' for (case, _), part in others)}."
-        * bool(others),
+        " ".join(rows[: int(shown)]),
+        f"In the other pairs the ratio is {'; '.join(others)}." * bool(others),
         f"In all {len(parts)} pairs, the range without separation is {over:.1f} times the range with separation.",
     )
 
@@ -159,7 +134,10 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
         withheld.append(measures.ratio(kept.supplied - held.supplied, kept.gained, f"the surplus of {bonded.name}"))
         told = np.array([held.supplied, kept.supplied, held.damped, held.impacts, kept.gained])  # W
         rows.append((free.place, *1e3 * free.intervals("separation").mean() * told))
-    steady = of_windows(pairs(cases)[0][1], "field")
+    bonded = pairs(cases)[0][1]
+    windows = [bonded.samples(f"field{i}") for i in range(2 * bonded.parameters.n_diameters + 1)]  # one for each angle
+    theta = np.array([window.attrs["theta"] for window in windows])
+    steady = powers(bonded.parameters, bonded["u_0"], theta, windows)
     return Answer(min(withheld) >= share, withheld=withheld, rows=rows, pushes=steady.pushes, pulls=-steady.pulls)
 
 
@@ -169,7 +147,6 @@ PHYSICAL = ("a", "b", "r_0", "h", "E", "nu", "rho", "D_star", "mu_s", "mu_k", "k
 
 
 def quiet(case: CaseView, *, share: float, newtons: float, within: float) -> Answer:
-    """Whether the range of the contact force is small and that of a point fixed on the disc is constant and small."""
     early, late = case.early, case.late
     before, after, under = (each.width for each in (case.range_of("w_point", 1, 21), case.disc, case.late_range("u")))
     force = max(early.width, late.width) < share * case["N"] and late.width <= early.width + newtons
@@ -180,58 +157,71 @@ def quiet(case: CaseView, *, share: float, newtons: float, within: float) -> Ans
 
 
 def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
-    """Whether only the second case separates; which parameters, 0.1 % larger, make it otherwise is told."""
-    lost = [
-        [
-            name
-            for name in PHYSICAL
-            if measures.separates_within(
-                case.parameters.replace(**{name: 1.001 * getattr(case.parameters, name)}), until
-            )
-            != case.separates
-        ]
-        for case in (below, above)
-    ]
+    lost = []
+    for case in (below, above):
+        larger = {name: case.parameters.replace(**{name: 1.001 * getattr(case.parameters, name)}) for name in PHYSICAL}
+        lost.append([x for x, p in larger.items() if measures.separates_within(p, until) != case.separates])
     fates, speeds, rate = (below.fate, above.fate), (below["Omega"], above["Omega"]), below.rate_of("stick_to_slip")
-    verdict = not below.separates and above.separates
-    return Answer(verdict, fates=fates, lost=lost, speeds=speeds, rate=rate, until=until)
+    return Answer(not below.separates and above.separates, fates=fates, lost=lost, speeds=speeds, rate=rate)
 
 
 def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
-    """Whether the lowest speed with separation has one minimum between higher ones, at every horizon."""
-    study = _scanned(study)
-    lowest = [measures.lowest_speeds(study.sel(horizon=horizon), depth) for horizon in study["horizon"]]
-    falls, last = all(each.falls for each in lowest), lowest[-1]
+    study = sound(published(study))
+    verdicts, words = zip(*(lowest_speeds(study.sel(horizon=x), depth) for x in study["horizon"]), strict=True)
+    speeds = study["scan_Omega"].values
     return Answer(
-        PART if falls and last.again else falls,
-        f"Runs from rest were tried for up to {float(study['horizon'][-1]):g} s, at speeds up to "
-        f"{float(study['scan_Omega'][-1]):g} rad/s in steps of {float(study['scan_Omega'].diff('scan_Omega')[0]):g} "
-        f"rad/s, and of {measures.facts(study)['precision']:g} rad/s where the outcome changes. {last.words}",
+        FALSE if FALSE in verdicts else verdicts[-1],
+        f"Runs from rest were tried for up to {float(study['horizon'][-1]):g} s, at speeds up to {speeds[-1]:g} rad/s "
+        f"in steps of {speeds[1] - speeds[0]:g} rad/s, and of {facts(study)['precision']:g} rad/s where the outcome "
+        f"changes. {words[-1]}",
     )
+
+
+def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[str, str]:
+    """Whether the lowest speed with separation falls and rises with the preload, by ``depth`` (rad/s) or more; in part
+    if it falls again after that; and how it changes, in sentences."""
+    loads, speeds = study["N"].values, study["critical_speed"].values
+    infinite = np.nanmax(speeds, initial=0.0) + 2 * depth  # stands for no separation
+    known = np.where(np.isnan(speeds), infinite, speeds)
+    dips, also_last = (find_peaks(-each, prominence=depth)[0] for each in (known, np.append(known, infinite)))
+    if not dips.size:
+        return FALSE, f"The lowest speeds in turn are {listed(or_none(x, '.1f') for x in speeds)} rad/s."
+    first, start = min(dips), int(np.isfinite(speeds).argmax())
+    later = [i for i in also_last if i > first]
+    top = first + np.nanargmax(speeds[first : later[0] if later else None])
+    never, rest = loads[:first][np.isnan(speeds[:first])], speeds[top + 1 :]
+    absent = f"At {listed(never, 'g')} N none of the speeds tried brings separation. "
+    begin = f"{absent}As the preload rises further" if never.size else "As the preload rises"
+    parts = [
+        f"falls from {speeds[start]:.1f} (at {loads[start]:g} N) to {speeds[first]:.1f} rad/s at {loads[first]:g} N",
+        f"rises to {speeds[top]:.1f} rad/s at {loads[top]:g} N",
+    ]
+    if later:
+        parts += [f"falls again ({extent(rest[np.isfinite(rest)]):.1f} rad/s at larger preloads up to {loads[-1]:g} N)"]
+    lowest = f"the lowest speed with separation {', '.join(parts[:-1])}, and {parts[-1]}"
+    return PART if later else TRUE, f"{begin}, {lowest}."
 
 
 def maintained_below(
     study: xr.Dataset, sweeps: xr.Dataset | None, basins: xr.Dataset | None, *, within: float
 ) -> Answer:
-    """Whether contact is kept below the critical speed of the static start by other starts as well."""
-    critical = _scanned(study)["critical_speed"].isel(horizon=-1)
+    critical = sound(published(study))["critical_speed"].isel(horizon=-1)
     known, loads = np.isfinite(critical.values), critical["N"].values
     if not known.any():
         return Answer(FALSE, "No separation at any preload and speed.")
-    begins, never = measures.extent(critical.values[known]), (listed(loads[~known], "g", ""), study["scan_Omega"][-1])
+    begins, never = extent(critical.values[known]), (listed(loads[~known], "g", ""), study["scan_Omega"][-1])
     below: list[tuple[float, ...]] = []
+    kicks: tuple[Any, ...] = (0,)
     if sweeps is not None:
         starts, turns = xr.align(critical, published(sweeps), join="inner")
-        rows = zip(
-            starts["N"].values, starts.values, turns["onset_speed"].values, turns["offset_speed"].values, strict=True
-        )
-        below = [(N, up, down, begin) for N, begin, up, down in rows if begin - min(up, down) > within]
-    kicks: tuple[Any, ...] = (0,)
+        columns = (starts["N"], turns["onset_speed"], turns["offset_speed"], starts)
+        rows = zip(*(column.values for column in columns), strict=True)
+        below = [(N, up, down, begin) for N, up, down, begin in rows if begin - min(up, down) > within]
     if basins is not None:
         total = basins.sizes["energy"] * basins.sizes["start"]
         apart = round(total * float(published(basins)["separating_fraction"].sel(Omega=15.0)))
-        kicks = apart, total, measures.extent(basins["energy"].values)
-    wait = float(study["horizon"][-1]), sweeps is not None and measures.facts(sweeps)["dwell"]
+        kicks = apart, total, extent(basins["energy"].values)
+    wait = float(study["horizon"][-1]), sweeps is not None and facts(sweeps)["dwell"]
     return Answer(PART if below or kicks[0] else TRUE, begins=begins, never=never, below=below, kicks=kicks, wait=wait)
 
 
@@ -243,29 +233,14 @@ def far_below(*cases: CaseView, share: float) -> Answer:
 
 
 def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
-    """Whether cycles grow, and separation occurs, far below the critical speed of a moving load."""
     study, critical = published(study), moving_load_speed(BASE)
     low, without = study["Omega"] < share * critical, study["growth_rate"].isnull()
     unstable, apart = study["growth_rate"] > 0, study["outcome"].copy(data=flag_names(study["outcome"]) == "separation")
     most, method, kept = float(study["Omega"].max()), flag_names(study["method"]), unstable & ~apart
     known = [int((kept & (method == how)).sum()) for how in ("simulation", "settled", "multipliers")]
-    return Answer(
-        bool((low & unstable).any() and (low & apart).any()),
-        most=most,
-        part=most / critical,
-        counts=[int(x.sum()) for x in (unstable, apart, kept, apart & (method == "simulation"), apart & without)],
-        known=known,
-        size=apart.size,
-        horizon=measures.facts(study)["horizon"],
-    )
-
-
-def _scanned(study: xr.Dataset) -> xr.Dataset:
-    """The scan with the published modes; raises `Missing` if a point failed."""
-    study = published(study)
-    if np.any(flag_names(study["status"]) != "ok"):
-        raise Missing("study critical_speed has points that failed")
-    return study
+    counts = [int(x.sum()) for x in (unstable, apart, kept, apart & (method == "simulation"), apart & without)]
+    holds = (low & unstable).any() and (low & apart).any()
+    return Answer(bool(holds), most=most, part=most / critical, counts=counts, known=known, size=apart.size)
 
 
 # ---- The transverse energy of a motion: what the slope supplies, and what damping and impacts take
@@ -306,11 +281,8 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[An
         for each in (mode_arrays(p).omega, mode_arrays(p).psi, modal_damping(p))
     )
     time, force, drive, u, velocity = (np.asarray(samples[0][name]) for name in ("time", "P", "psi", "u", "u_velocity"))
-    shapes = _waves(theta, p.n_diameters).T
-    angle, speed = (
-        np.linalg.solve(shapes, np.stack([np.asarray(each[name]) for each in samples]))
-        for name in ("w_point", "w_point_velocity")
-    )
+    disc = [np.stack([np.asarray(each[name]) for each in samples]) for name in ("w_point", "w_point_velocity")]
+    angle, speed = (np.linalg.solve(_waves(theta, p.n_diameters).T, values) for values in disc)
     power = force * (velocity - np.sum(speed * _waves(p.Omega * time - drive, p.n_diameters), axis=0))
     energy = np.sum((speed / psi) ** 2 + (omega * angle / psi) ** 2, axis=0)
     energy += p.m * velocity**2 + p.k * (u - u_0) ** 2 + 2 * p.N * (u - u_0)
@@ -318,13 +290,6 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[An
     pushes, pulls, taken = (float(np.mean(each)) for each in (power * (force > 0), power * (force < 0), damped))
     gained = float(energy[-1] - energy[0]) / 2 / float(time[-1] - time[0])
     return Powers(float(np.ptp(u)), pushes, pulls, taken, gained)
-
-
-def of_windows(case: CaseView, prefix: str) -> Powers:
-    """Powers in the windows of a case that are named by a prefix and a number, one for each angle."""
-    windows = [case.samples(f"{prefix}{i}") for i in range(2 * case.parameters.n_diameters + 1)]
-    theta = np.array([window.attrs["theta"] for window in windows])
-    return powers(case.parameters, case["u_0"], theta, windows)
 
 
 def _waves(angle: Array, most: int) -> Array:

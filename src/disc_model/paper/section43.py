@@ -6,30 +6,22 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 from scipy.stats import spearmanr
 
 from disc_model.analysis.classify import SAME, distinct_points, irregularity, separation_location, stick_disappears
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, values_text
 from disc_model.paper import measures
-from disc_model.paper.measures import STRETCH, CaseView, facts, growth_or_nan, mm, published, rate_text
+from disc_model.paper.measures import STRETCH, Array, CaseView, extent, published, sound
 from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
-from disc_model.paper.section2 import moving_load
-from disc_model.paper.section41 import upward
 from disc_model.parameters import Parameters
-
-__all__ = ["moving_load", "upward"]  # which the texts name as well
-STIFFENED = {
-    "k": (1e3, "kN/m", (20, 30, 50, 60, 70, 80, 90, 100, 110, 130, 148, 200)),
-    "k_p": (1e3, "kN/m", (2, 20, 30, 36, 47, 55, 63, 73, 84, 130, 200)),
-}
-"""Stiffnesses of the springs with units and values: those of the paper, and others between them."""
-GREW = 1.02  # least factor by which a grown range is wider: sampling causes far less
 
 
 def stays_calm(case: CaseView) -> bool:
-    """Whether contact is kept, and the contact force has no wider range at the end than at first."""
-    return not case.separates and not GREW * case.early.width < case.late.width
+    """Whether contact is kept, and the contact force has no wider range at the end than at first; sampling widens it by
+    far less than 2 %."""
+    return not case.separates and not 1.02 * case.early.width < case.late.width
 
 
 def calm_text(case: CaseView) -> str:
@@ -41,50 +33,40 @@ def calm_text(case: CaseView) -> str:
 
 
 def stays_small(case: CaseView, *_: CaseView, share: float, within: float, last: float = 0, same: float = 1) -> Answer:
-    """Whether contact force, releases and, with ``last``, a point fixed on the disc and its section are regular."""
     intervals = case.intervals()
     spread, points = irregularity(intervals), [_different(case, last, x) for x in (same, 1e-2)] if last else [0]
     holds = stays_calm(case) and case.late.width < share * case["N"] and spread <= within
     small = not last or (case.disc.width < case["h"] and points[0] <= last / 2)
-    return Answer(
-        holds if small or not holds else PART,
-        fate=calm_text(case),
-        points=points,
-        widths=(1e3 * case.disc.width, 1e6 * case.late_range("u").width) if last else (),
-        late=case.late,
-        rate=1 / intervals.mean(),
-        spread=spread,
-    )
+    widths = (1e3 * case.disc.width, 1e6 * case.late_range("u").width) if last else ()
+    told = {"fate": calm_text(case), "late": case.late, "rate": 1 / intervals.mean(), "spread": spread}
+    return Answer(holds if small or not holds else PART, points=points, widths=widths, **told)
 
 
 def becomes_unstable(case: CaseView) -> Answer:
-    return Answer(case.separates, case.fate, other=growth_or_nan(case.parameters.replace(normalization="orthonormal")))
+    other = measures.growth_of(case.parameters.replace(normalization="orthonormal"))
+    return Answer(case.separates, case.fate, other=other)
 
 
 def only_between(*cases: CaseView, largest: float) -> Answer:
-    """Whether preloads up to ``largest``, N, are unstable between stable ones, others stable, with ranges or not."""
     shown = sum(case["N"] <= largest for case in cases)
     stable = [stays_calm(x) if x["N"] <= largest or "history" in x.node else not x.separates for x in cases]
-    holds = stable[:shown] == [True, False, True]
-    return Answer(
-        PART if (part := holds and not all(stable[shown:])) else holds,
-        " ".join(calm_text(case) for case in cases),
-        f"The statement holds up to {largest:g} N. Only in Fig. 15 does the paper show larger preloads." * part,
-    )
+    holds, here = stable[:shown] == [True, False, True], " ".join(calm_text(case) for case in cases)
+    if holds and not all(stable[shown:]):
+        note = f"The statement holds up to {largest:g} N. Only in Fig. 15 does the paper show larger preloads."
+        return Answer(PART, here, note)
+    return Answer(holds, here)
 
 
 def hardly_moves(large: CaseView, huge: CaseView, *, held: float) -> Answer:
-    """Whether the larger of two preloads holds the slider throughout a run, and for as long as the paper's, s."""
     p = huge.parameters
     released = p.mu_s * p.N / (p.r_0 * p.k_p * p.Omega)
     rows = [(case.place, case.stick_in_all, case["time_reached"]) for case in (large, huge)]
     sticks = huge.stick_in_all == 1 and not huge.separates
     verdict = AMBIGUOUS if sticks and released < held else sticks
-    return Answer(verdict, rows=rows, released=released, held=held, needed=1e-6 * p.N * held / released)
+    return Answer(verdict, rows=rows, released=released, needed=1e-6 * p.N * held / released)
 
 
 def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: float) -> Answer:
-    """Whether the printed speed is the lowest that separates in the time that the paper's own case takes."""
     times = {case["Omega"]: case["first_separation"] for case in cases}
     horizon = known["first_separation"]
     lower = [speed for speed, time in times.items() if speed < printed - within and time <= horizon]
@@ -111,28 +93,26 @@ def undamped_separates_lower(*cases: CaseView) -> Answer:
 
 def twice_the_damping(*cases: CaseView) -> Answer:
     stable = [stays_calm(case) for case in cases]
-    simple = [growth_or_nan(case.parameters.replace(D_star=case["D_star"] / 2)) for case in cases]
+    simple = [measures.growth_of(case.parameters.replace(D_star=case["D_star"] / 2)) for case in cases]
     return Answer(stable[0] if len({*stable}) == 1 else AMBIGUOUS, fates=[calm_text(x) for x in cases], simple=simple)
 
 
 def inplane_damping(without: CaseView, case: CaseView) -> Answer:
     verdict = not without.separates and case.separates
-    return Answer(verdict, fates=(without.fate, case.fate), motion=case.motion, span=case.kept_span())
+    return Answer(verdict, fates=(without.fate, case.fate), motion=case.motion, span=case.kept_span)
 
 
 def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
-    """Whether a damper, and twice as much, lowers the growth of all growing cycles on a grid of loads and speeds."""
-    places, raised = [measures.place(p.N, p.Omega) for p in _grid(case.parameters)], list[str]()
-    lowered, growing = 0, list[int]()
-    for little in (0.0, value):
-        before, after = _growths(case.parameters, name, little), _growths(case.parameters, name, little + value)
+    grid, raised, growing, lowered = _grid(case.parameters), list[str](), list[int](), 0
+    values = (0.0, value, 2 * value)
+    none, some, twice = (np.array([measures.growth_of(p.replace(**{name: x})) for p in grid]) for x in values)
+    for before, after in ((none, some), (some, twice)):
         grows = (before > 0) & np.isfinite(after)
         growing, lowered = [*growing, int(grows.sum())], lowered + int((grows & (after < before)).sum())
-        raised += [
-            f"at {places[i]}, from a {'growing' if before[i] > 0 else 'stable'} cycle"
-            for i in np.flatnonzero(after > before)
-        ]
-    most, found = values_text({name: 2 * value}), [int(np.isfinite(before).sum()), int((before < 0).sum())]
+        for i in np.flatnonzero(after > before):
+            cycle = "growing" if before[i] > 0 else "stable"
+            raised.append(f"at {measures.place(grid[i].N, grid[i].Omega)}, from a {cycle} cycle")
+    most, found = values_text({name: 2 * value}), [int(np.isfinite(some).sum()), int((some < 0).sum())]
     return Answer(sum(growing) == lowered > 0, most=most, lowered=lowered, growing=growing, raised=raised, found=found)
 
 
@@ -142,13 +122,7 @@ def _grid(p: Parameters) -> list[Parameters]:
     return [p.replace(N=N, Omega=speed) for N, speed in grid]
 
 
-def _growths(p: Parameters, name: str, value: float) -> measures.Array:
-    """Growth rates of the cycles on the grid with a parameter of this value, 1/s; nan without a cycle."""
-    return np.array([growth_or_nan(each.replace(**{name: value})) for each in _grid(p)])
-
-
 def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
-    """Whether growth falls with a parameter, on a map over it and the speed."""
     growth = published(study)["growth_rate"].transpose("Omega", name).values
     rows = [known for row in growth if (known := row[np.isfinite(row)]).size > 2]
     if not rows:
@@ -157,11 +131,10 @@ def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
     ranks, grown = ([spearmanr(range(x.size), x)[0] for x in y if x.size > 2] for y in (rows, [r[r > 0] for r in rows]))
     rank, above = np.median(ranks), (int(np.sum(np.array(ranks) > -trend)), len(ranks))
     verdict = TRUE if part == 1 else PART if rank <= -trend else FALSE
-    return Answer(verdict, N=facts(study)["N"], part=part, rank=rank, above=above, only=np.median(grown or math.nan))
+    return Answer(verdict, part=part, rank=rank, above=above, only=np.median(grown or math.nan))
 
 
 def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = False) -> Answer:
-    """Whether a motion grows and is bounded in contact; of a cause that is given for it only that is known."""
     count = int(case["time_reached"] / (4 * STRETCH))
     if not count:
         if case.separates:  # where it was to be stopped
@@ -179,29 +152,24 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
 
 
 def is_kind(case: CaseView, *, kind: str) -> Answer:
-    motion = case.late_motion()
-    if motion.kind is Outcome.UNDECIDED:
+    if case.late_motion.kind is Outcome.UNDECIDED:
         return Answer(NOT_COMPUTED, "The 0-1 test for chaos lies between regular and chaotic motion.")
-    return Answer(motion.kind == kind, f"From {case.kept_span():g} s, the motion at {case.place} is {case.motion}.")
+    words = f"From {case.kept_span:g} s, the motion at {case.place} is {case.motion}."
+    return Answer(case.late_motion.kind == kind, words)
 
 
 def softer_separates_sooner(*evidence: Any) -> Answer:
-    """Whether softer springs separate sooner; true in part if on the map, at some speeds, a softer one does not."""
     *cases, study = evidence
-    speed, _, apart = _map(study, "Omega", "k")
-    returns = measures.runs(speed, np.any(np.diff(apart.astype(int)) > 0, axis=1))  # by rising stiffness
+    speed, _, apart, _ = plane(study, "Omega", "k")
+    again = np.any(np.diff(apart.astype(int)) > 0, axis=1)  # by rising stiffness
+    neighbours = np.split(np.flatnonzero(again), np.flatnonzero(np.diff(np.flatnonzero(again)) > 1) + 1)
+    returns = [extent(speed[each]) for each in neighbours if each.size]
     holds = bool(np.all(np.diff([x["first_separation"] for x in cases]) > 0))  # false if one does not separate
-    return Answer(
-        PART if holds and returns else holds,
-        place=measures.place(cases[0]["N"], cases[0]["Omega"]),
-        rows=[(1e-3 * case["k"], case.contact) for case in cases],
-        stated=facts(study),
-        returns=returns,
-    )
+    rows, place = [(1e-3 * case["k"], case.contact) for case in cases], measures.place(cases[0]["N"], cases[0]["Omega"])
+    return Answer(PART if holds and returns else holds, place=place, rows=rows, returns=returns)
 
 
 def stiff_enough(case: CaseView, *, name: str, larger: list[float]) -> Answer:
-    """Whether stiffnesses, that of a case and larger ones, make a grid stable, be it the cycle or steady sliding."""
     points = _grid(case.parameters)
     unstable = [p for p in points if not _growth(p) < 0]
     calm, stable = stays_calm(case), len(points) - len(unstable)
@@ -215,21 +183,16 @@ def stiff_enough(case: CaseView, *, name: str, larger: list[float]) -> Answer:
 
 def _growth(p: Parameters) -> float:
     """Largest growth rate of the stick-slip cycle, or of steady sliding where there is none, 1/s."""
-    rate = growth_or_nan(p)
+    rate = measures.growth_of(p)
     return measures.sliding_growth(p) if math.isnan(rate) else rate
 
 
 def wanders(case: CaseView, near: CaseView, *, last: float, same: float) -> Answer:
-    """Whether points of the disc's section differ, and the slider's releases do not repeat."""
-    points, motion = _different(case, last, same), case.late_motion()
-    return Answer(
-        graded([points > last / 2, motion.kind is Outcome.IRREGULAR]) if case.separates else FALSE,
-        fate=case.fate,
-        points=points,
-        motion=case.motion,
-        turns=float(case.intervals()[: motion.period].sum()) * case.drive,
-        near=measures.repeats(near.late_motion(), "release"),
-    )
+    points, motion = _different(case, last, same), case.late_motion
+    verdict = graded([points > last / 2, motion.kind is Outcome.IRREGULAR]) if case.separates else FALSE
+    turns = float(case.intervals()[: motion.period].sum()) * case.drive
+    other = measures.repeats(near.late_motion, "release")
+    return Answer(verdict, fate=case.fate, points=points, motion=case.motion, turns=turns, near=other)
 
 
 def _different(case: CaseView, last: float, same: float) -> int:
@@ -241,9 +204,8 @@ def _different(case: CaseView, last: float, same: float) -> int:
 
 def faster_and_sooner(soft: CaseView, base: CaseView) -> Answer:
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
-    return Answer(
-        graded([sooner, base.growth_rate > soft.growth_rate]), fates=(soft.fate, base.fate), k_p=1e-3 * base["k_p"]
-    )
+    verdict = graded([sooner, base.growth_rate > soft.growth_rate])
+    return Answer(verdict, fates=(soft.fate, base.fate), k_p=1e-3 * base["k_p"])
 
 
 def lowest_position(case: CaseView, *, share: float) -> Answer:
@@ -258,87 +220,48 @@ def lowest_position(case: CaseView, *, share: float) -> Answer:
     where, speed = (float(np.median(lost[name].values)) for name in ("u", "u_velocity"))
     above = float(np.median(height[starts - 1]) - height.min()) / np.ptp(height)
     swings = int(np.sum((np.diff(height)[1:] > 0) & (np.diff(height)[:-1] <= 0)))
-    return Answer(
-        location.kind == "at the lowest position" and above <= share,
-        place=case.place,
-        counts=(starts.size, swings),
-        heights=(where - case["u_0"], height.min(), height.max()),
-        span=measures.extent(time),
-        part=location.height,
-        speed=speed,
-    )
+    counts, heights = (starts.size, swings), (where - case["u_0"], height.min(), height.max())
+    holds = location.kind == "at the lowest position" and above <= share
+    return Answer(holds, counts=counts, heights=heights, span=extent(time), part=location.height, speed=speed)
 
 
 def seen_in_section(case: CaseView, *, share: float) -> Answer:
-    """Whether the section of the disc does not tell where contact is lost; a section at the loss of contact does."""
     samples = case.samples("poincare")
     late = samples.isel(time=samples["time"].values > case["first_separation"])
     w, apart = late["w_point"].values, late["phase"].values == measures.SEPARATION
     if not apart.any():
         raise Missing(f"case {case.name} has no point of the section in separation")
-    lost, every = measures.extent(1e3 * w[apart]), measures.extent(1e3 * w)
+    lost, every = extent(1e3 * w[apart]), extent(1e3 * w)
     return Answer(FALSE if lost.high <= every.low + share * every.width else PART, lost=lost, every=every)
 
 
 def bounded(*cases: CaseView, factor: float) -> Answer:
-    """Whether no range grows on after separation."""
     widths = [case.last_quarters("w_point") for case in cases]
-    return Answer(
-        graded(late <= factor * before for late, before in widths),
-        rows=[f"{mm(late)} at {case.place}" for case, (late, _) in zip(cases, widths, strict=True)],
-        widest=max(late / before for late, before in widths),
-        most=max(late for late, _ in widths) / cases[0]["h"],
-    )
+    rows = [f"{1e3 * late:.1f} mm at {case.place}" for case, (late, _) in zip(cases, widths, strict=True)]
+    widest, most = max(late / before for late, before in widths), max(late for late, _ in widths) / cases[0]["h"]
+    return Answer(graded(late <= factor * before for late, before in widths), rows=rows, widest=widest, most=most)
 
 
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     vanishes = any(stick_disappears(case.stick_in_all, case.stick, share) for case in cases if case.from_rest)
     shares = [(x.from_rest, f"{100 * x.stick:.1f} % ({100 * x.stick_in_all:.1f} %) at {x.place}") for x in cases]
     begun = [[text for from_rest, text in shares if from_rest == rest] for rest in (True, False)]
-    spans = sorted({f"{case['time_reached'] - case.kept_span().low:g}" for case in cases}, key=float)
+    spans = sorted({f"{case['time_reached'] - case.kept_span.low:g}" for case in cases}, key=float)
     return Answer(vanishes, begun=begun, spans=" to ".join([spans[0], *spans[1:][-1:]]))
 
 
 def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
-    """Whether, from some preload on, all that do not separate without the damper do with it."""
-    loads, damping, apart = _map(study, "N", "c_p")
+    loads, damping, apart, _ = plane(study, "N", "c_p")
     quiet = ~apart[:, 0]
     newly = loads[quiet & apart[:, damping == c_p][:, 0]]
     never = loads[quiet & ~apart[:, 1:].any(axis=1)]
-    return Answer(
-        bool(newly.size) and not (never > newly[-1]).any(),
-        stated=facts(study),
-        newly=[*newly],
-        c_p=c_p,
-        never=[*never[never > newly.max(initial=0)]],
-    )
+    never = never[never > newly.max(initial=0)]
+    return Answer(bool(newly.size) and not never.size, newly=[*newly], never=[*never])
 
 
-def _map(study: xr.Dataset, *names: str) -> tuple[measures.Array, measures.Array, np.ndarray]:
-    """Values of two parameters, ascending, and whether the static start separates: (first, second)."""
-    outcome = published(study)["outcome"].sortby(list(names)).transpose(*names)
-    words = flag_names(outcome)
-    if np.any(words == "failed"):
-        raise Missing(f"study {study.attrs.get('study', '')} has points that failed")
-    first, other = (outcome[name].values for name in names)
-    return first, other, words == "separation"
-
-
-def stiffened(p: Parameters, name: str, *speeds: float) -> dict[float, measures.Array]:
-    """Growth rates of cycles with the values of `STIFFENED`, 1/s, nan without one, at speeds in rad/s."""
-    unit, _, values = STIFFENED[name]
-    return {
-        speed: np.array([growth_or_nan(p.replace(**{name: unit * value, "Omega": speed})) for value in values])
-        for speed in speeds
-    }
-
-
-def stiffened_text(p: Parameters, name: str, *speeds: float) -> str:
-    """The same in words."""
-    _, symbol, values = STIFFENED[name]
-    rows = [
-        f"At {measures.place(p.N, speed)}, growth (1/s) at each {name} ({symbol}) is as follows: "
-        f"{'; '.join(f'{rate_text(rate)} at {x}' for x, rate in zip(values, rates, strict=True))}."
-        for speed, rates in stiffened(p, name, *speeds).items()
-    ]
-    return " ".join(rows)
+def plane(study: xr.Dataset, first: str, second: str) -> tuple[Array, Array, NDArray[np.bool_], Array]:
+    """Of a map with the published modes: values of two parameters, ascending; whether the static start separates, and
+    growth rates of cycles, 1/s: (first, second)."""
+    study = sound(published(study)).sortby([first, second]).transpose(first, second, ...)
+    apart = flag_names(study["outcome"]) == "separation"
+    return study[first].values, study[second].values, apart, study["growth_rate"].values

@@ -11,34 +11,27 @@ from disc_model.analysis import spectra
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
 from disc_model.paper import measures
-from disc_model.paper.measures import HIGH, LOW, CaseView, facts, pairs, published, rate_text, sliding_growth
+from disc_model.paper.measures import HIGH, LOW, Array, CaseView, pairs, rate_text, sliding_growth
 from disc_model.paper.model import AMBIGUOUS, FALSE, PART, TRUE, Answer, graded
 from disc_model.paper.paper_tables import COMBINED, SEARCHED, UNNAMED, stick_slip_rate, table_2, table_2_lines
-from disc_model.paper.section2 import BASE, attached_frequencies
-from disc_model.paper.section41 import both_at_low_speed, smaller_range
-from disc_model.paper.section43 import _map, damping_stabilises, soft_disc, stiffened, stiffened_text
+from disc_model.paper.section2 import BASE
+from disc_model.paper.section43 import plane
+from disc_model.parameters import Parameters
 
-# which the texts name as well
-__all__ = ["attached_frequencies", "both_at_low_speed", "damping_stabilises", "smaller_range", "soft_disc"]
 EARLY, LATER, LATE = ("spectrum_a", 0.0, 10.0), ("spectrum_b", 38.0, 48.0), ("spectrum_d", 100.0, 110.0)
 """Windows of N = 385 N, 15.1 rad/s, and their stretches that are compared, s."""
 
 
 def when_it_separates(case: CaseView, *, printed: float, within: float) -> Answer:
     off = abs(case["first_separation"] - printed)
-    return Answer(
-        off <= within,
-        f"{case.contact.capitalize()}, where the paper has {printed:g} s. "
-        + f"The difference is {off:.2f} s or {100 * off / printed:.2f} %. " * case.separates
-        + f"The time is that of the run at {case.place}.",
-    )
+    difference = f"The difference is {off:.2f} s or {100 * off / printed:.2f} %. " * case.separates
+    said = f"{case.contact.capitalize()}, where the paper has {printed:g} s. {difference}"
+    return Answer(off <= within, f"{said}The time is that of the run at {case.place}.")
 
 
 def rest_late(case: CaseView, *, within: float) -> Answer:
-    """Whether lines move at first, and still long after separation, so that a spectrum of a long record would smear."""
     drifts = [_drift(case, *stretch) for stretch in (EARLY, LATE)]
-    verdict = graded(each.high > within for each in drifts)
-    return Answer(verdict, place=case.place, drifts=drifts, first=case["first_separation"])
+    return Answer(graded(each.high > within for each in drifts), drifts=drifts, first=case["first_separation"])
 
 
 def _drift(case: CaseView, window: str, start: float, stop: float) -> measures.Range:
@@ -49,10 +42,8 @@ def _drift(case: CaseView, window: str, start: float, stop: float) -> measures.R
 
 
 def constant_by_separation(case: CaseView, bonded: CaseView, *, within: float) -> Answer:
-    """Whether lines come to rest, and not without separation."""
     drift, other = (_drift(each, *LATE).high for each in (case, bonded))
-    verdict = FALSE if drift > within else PART if other <= within else TRUE
-    return Answer(verdict, place=case.place, drift=drift, other=other)
+    return Answer(FALSE if drift > within else PART if other <= within else TRUE, drift=drift, other=other)
 
 
 def lines(case: CaseView, *, bound: float) -> Answer:
@@ -65,20 +56,13 @@ def lines(case: CaseView, *, bound: float) -> Answer:
         for line in signal.lines(above=1.0, below=300.0, floor=floor, apart=1.0)
         if np.min(np.abs(line.frequency - table["ours_Hz"])) > bound
     ]
-    return Answer(
-        off.max() <= bound and chance <= 1e-3,
-        place=case.place,
-        off=off.max(),
-        named=(table["ours_is"] != UNNAMED).sum(),
-        rate=stick_slip_rate(case),
-        rows=[f"{row.ours_Hz:.2f} ({row.paper_Hz:g}, {row.ours_is})" for row in table.itertuples()],
-        others=others,
-        chance=chance,
-    )
+    rows = [f"{row.ours_Hz:.2f} ({row.paper_Hz:g}, {row.ours_is})" for row in table.itertuples()]
+    named, rate, most = (table["ours_is"] != UNNAMED).sum(), stick_slip_rate(case), off.max()
+    holds = most <= bound and chance <= 1e-3
+    return Answer(holds, off=most, named=named, rate=rate, rows=rows, others=others, chance=chance)
 
 
 def follow(*cases: CaseView, within: float) -> Answer:
-    """Whether the rotation shifts the lines, and from natural frequencies or from multiples of the stick-slip rate."""
     rows, off, shifted, natural = [], list[float](), list[bool](), list[bool]()
     for case in cases:
         lines = sorted(case.signal(*EARLY).lines(6, above=100, below=300, apart=1.0))
@@ -90,52 +74,30 @@ def follow(*cases: CaseView, within: float) -> Answer:
         place = measures.place(case["N"], case["Omega"])
         rows.append((place, 1e-3 * case["k_p"], rate, [line.frequency for line in lines]))
     combined = [each <= within for each in off]
-    part = PART if all(combined) and np.mean(shifted) >= 0.5 else FALSE
-    return Answer(
-        TRUE if all(natural) else part,
-        combined=combined,
-        shifted=shifted,
-        natural=natural,
-        within=within,
-        off=max(off),
-        rows=rows,
-    )
+    verdict = TRUE if all(natural) else PART if all(combined) and np.mean(shifted) >= 0.5 else FALSE
+    return Answer(verdict, combined=combined, shifted=shifted, natural=natural, off=max(off), rows=rows)
 
 
 def inplane_frequency(case: CaseView, *, printed: float, within: float) -> Answer:
-    rate, free = stick_slip_rate(case), float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi)
-    pair, holds = table_2(case).iloc[1:3], abs(rate - printed) <= within
-    return Answer(
-        graded([[*pair["ours_is"]] == ["f_s − f_Ω", "f_s + f_Ω"], holds]),
-        place=case.place,
-        rate=rate,
-        drive=case.drive,
-        lines=[*pair["ours_Hz"]],
-        names=[*pair["ours_is"]],
-        free="" if holds else free,
-    )
+    rate, pair = stick_slip_rate(case), table_2(case).iloc[1:3]
+    frequencies, names, holds = [*pair["ours_Hz"]], [*pair["ours_is"]], abs(rate - printed) <= within
+    free = "" if holds else float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi)
+    verdict = graded([names == ["f_s − f_Ω", "f_s + f_Ω"], holds])
+    return Answer(verdict, rate=rate, drive=case.drive, lines=frequencies, names=names, free=free)
 
 
 def close_to_natural(case: CaseView, *, within: float) -> Answer:
     natural, computed = natural_frequencies(case), table_2(case)["ours_Hz"].to_numpy()[3:]
     nearest = np.array([natural[np.argmin(np.abs(natural - f))] for f in computed])
     far = np.abs(nearest - computed) > within
-    return Answer(
-        TRUE if not far.any() else PART if far.mean() <= 0.5 else FALSE,
-        place=case.place,
-        rows=[f"{f:.1f} Hz ({n:.1f} Hz)" for f, n in zip(computed, nearest, strict=True)],
-        far=(far.sum(), far.size),
-        within=within,
-        twice=2 * stick_slip_rate(case),
-        coupled=natural[0],
-    )
+    verdict = TRUE if not far.any() else PART if far.mean() <= 0.5 else FALSE
+    rows = [f"{f:.1f} Hz ({n:.1f} Hz)" for f, n in zip(computed, nearest, strict=True)]
+    twice = 2 * stick_slip_rate(case)
+    return Answer(verdict, rows=rows, far=(far.sum(), far.size), twice=twice, coupled=natural[0])
 
 
 def higher(*cases: CaseView, factor: float, floor: float, windows: str, spans: Sequence[float]) -> Answer:
-    """Whether power above the natural frequencies rises with the first separation, and not without separation.
-
-    spans : s, where what is compared begins before the separation of each pair's first case, and ends after it
-    """
+    """In `spans` what is compared begins before the separation of each pair's first case, and ends after it, s."""
     rows, rises = [], []
     pairs = zip(cases[::2], cases[1::2], windows.split(), spans[::2], spans[1::2], strict=True)
     for case, bonded, window, low, high in pairs:
@@ -151,29 +113,24 @@ def higher(*cases: CaseView, factor: float, floor: float, windows: str, spans: S
 
 
 def fuzz_goes(*pair: CaseView, share: float) -> Answer:
-    """Whether lines fill less of the spectrum of the disc later; the control without separation is told."""
     filled = [case.signal(*span).filled for case in pair for span in (LATER, LATE)]
-    return Answer(filled[1] < share * filled[0], place=pair[0].place, filled=filled)
+    return Answer(filled[1] < share * filled[0], filled=filled)
 
 
 def explained_by_slider(*pair: CaseView, share: float) -> Answer:
-    """Whether, with and without separation, the disc's spectrum clears where the slider's does; not whether by this."""
     first = pair[0]["first_separation"]
     length = first - 50
     begins = (("spectrum_c", 50.0), ("spectrum_c", first), ("spectrum_d", 100.0))
     disc = [[case.signal(*span).filled for span in (LATER, LATE)] for case in pair]
     slider = [[case.signal(name, start, start + length, "psi").filled for name, start in begins] for case in pair]
     clear, alike = ([each[-1] < share * each[0] for each in filled] for filled in (disc, slider))
-    verdict = PART if clear[0] and clear == alike else FALSE
-    return Answer(verdict, place=pair[0].place, length=length, disc=disc, slider=slider)
+    return Answer(PART if clear[0] and clear == alike else FALSE, length=length, disc=disc, slider=slider)
 
 
 def later_periodic(case: CaseView, bonded: CaseView) -> Answer:
-    return Answer(
-        case.late_motion().period > 0,
-        f"At {case.place}, from {case.kept_span():g} s, the slider's motion is {case.motion}.",
-        f"In the run without separation the slider's motion is {bonded.motion}." if bonded.late_motion().period else "",
-    )
+    here = f"At {case.place}, from {case.kept_span:g} s, the slider's motion is {case.motion}."
+    note = f"In the run without separation the slider's motion is {bonded.motion}." * (bonded.late_motion.period > 0)
+    return Answer(case.late_motion.period > 0, here, note)
 
 
 def growth_stages(case: CaseView, *, factor: float, least: float) -> Answer:
@@ -182,56 +139,49 @@ def growth_stages(case: CaseView, *, factor: float, least: float) -> Answer:
         raise Missing(f"case {case.name} does not run for 20 s both before and after its first separation")
     starts = np.arange(5.0, first - 5, 2.5)
     rates = np.array([case.slope("w_point", t, t + 5) for t in starts])
-    peak = int(np.argmax(rates))
-    slow, sharp = float(rates[starts < first / 2].mean()), float(rates[peak])
-    last = case.slope("w_point", first - 3, first)
-    rates_told = slow, sharp, last, case.slope("w_point", end - 20, np.inf)
-    verdict = sharp > max(factor * slow, least) and last < sharp
-    return Answer(verdict, place=case.place, rates=rates_told, when=starts[peak] + 2.5, first=first)
+    slow, sharp = float(rates[starts < first / 2].mean()), float(rates.max())
+    last, after = case.slope("w_point", first - 3, first), case.slope("w_point", end - 20, np.inf)
+    verdict, when = sharp > max(factor * slow, least) and last < sharp, starts[rates.argmax()] + 2.5
+    return Answer(verdict, rates=(slow, sharp, last, after), when=when, first=first)
 
 
 def fuzz_stays(*pair: CaseView, share: float) -> Answer:
     first = pair[0]["first_separation"]
     spans = (("spectrum_d", first - 4, first), ("spectrum_d", first, first + 4))
     filled = [case.signal(*span).filled for case in pair for span in spans]
-    return Answer(filled[1] >= share * filled[0], place=pair[0].place, filled=filled, first=first)
+    return Answer(filled[1] >= share * filled[0], filled=filled, first=first)
 
 
 def no_high_line(case: CaseView, *, share: float, printed: float) -> Answer:
     omega = float(plate_modes(case.parameters)["omega"].max())
     spans = (("spectrum_d", 465, 475), ("spectrum_late", 1490, 1500))
     first, last = (case.signal(*span).power_above(omega / (2 * np.pi)) for span in spans)
-    quiet = max(first, last) < share
-    right = abs(omega - printed) <= 0.01
-    verdict = TRUE if quiet and right else PART if quiet else FALSE
-    return Answer(verdict, place=case.place, shares=(first, last), omega=omega, base=BASE.E)
+    verdict = FALSE if max(first, last) >= share else TRUE if abs(omega - printed) <= 0.01 else PART
+    return Answer(verdict, shares=(first, last), omega=omega, base=BASE.E)
 
 
 def inplane_contribution(case: CaseView, *, share: float) -> Answer:
     rate, drive = stick_slip_rate(case), case.drive
+
+    def combined(frequency: float) -> bool:
+        return abs(spectra.identify(frequency, rate, drive).deviation) <= COMBINED
+
     lines = case.signal(*EARLY).lines(above=LOW, below=HIGH, floor=1e-3)
-    made = [line for line in lines if _is_combination(line.frequency, rate, drive)]
+    made = [line for line in lines if combined(line.frequency)]
     part = sum(line.amplitude**2 for line in made) / sum(line.amplitude**2 for line in lines)
-    counts = len(made), len(lines)
-    near = [_is_combination(f, rate, drive) for f in np.arange(LOW, HIGH, 0.2)]
-    return Answer(part > share, place=case.place, counts=counts, rate=rate, drive=drive, part=part, near=np.mean(near))
+    counts, near = (len(made), len(lines)), np.mean([combined(f) for f in np.arange(LOW, HIGH, 0.2)])
+    return Answer(part > share, counts=counts, rate=rate, drive=drive, part=part, near=near)
 
 
-def natural_frequencies(case: CaseView) -> measures.Array:
+def natural_frequencies(case: CaseView) -> Array:
     """Natural frequencies with the slider attached, Hz."""
     return np.asarray(coupled_natural_frequencies(case.parameters) / (2 * np.pi))
-
-
-def _is_combination(frequency: float, rate: float, drive: float) -> bool:
-    """Whether a frequency, Hz, lies within ``COMBINED`` of the nearest n f_s + m f_Omega."""
-    return abs(spectra.identify(frequency, rate, drive).deviation) <= COMBINED
 
 
 # ---- The conclusions, as far as the rows on the sections do not judge them
 
 
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
-    """Whether some cases separate for which sliding without friction is stable."""
     smooth = [sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0)) for case in cases]
     apart = any(case.separates and rate < growth for case, rate in zip(cases, smooth, strict=True))
     return Answer(apart, rows=[case.fate for case in cases], most=max(smooth))
@@ -240,78 +190,68 @@ def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
 def very_different(*cases: CaseView, factor: float) -> Answer:
     rows, differ = [], []
     for case, bonded in pairs(cases):
-        shares = case.stick, bonded.stick
-        narrow = measures.width_ratio(case, bonded) * factor <= 1
-        differ.append(narrow and max(shares) >= factor * min(shares))
-        rows.append((case.place, *shares, case.disc.width, bonded.disc.width))
+        sticks = case.stick, bonded.stick
+        differ.append(measures.width_ratio(case, bonded) * factor <= 1 and max(sticks) >= factor * min(sticks))
+        rows.append((case.place, *sticks, case.disc.width, bonded.disc.width))
     return Answer(any(differ), rows=rows)
 
 
 def not_monotonous(*evidence: Any) -> Answer:
-    """Whether each of three parameters acts both ways; damping by new separations, and by lower growth."""
     *cases, study = evidence
-    loads, damping, apart = _map(study, "N", "c_p")
-    growth = published(study)["growth_rate"].sortby(["N", "c_p"]).transpose("N", "c_p").values
+    loads, damping, apart, growth = plane(study, "N", "c_p")
     newly = (apart & ~apart[:, :1]).any(axis=1)
     growing = (growth[:, 0] > 0) & np.isfinite(growth[:, -1])
     lowered = growing & (growth[:, -1] < growth[:, 0])
-    p = cases[0].parameters.replace(N=300)
-    rates = stiffened(p, "k_p", 50)[50]
-    signs = {*np.sign(np.diff(rates[np.isfinite(rates)]))}
-    return Answer(
-        [(case.separates, case.growth_rate > 0) for case in cases] == [(False, False), (True, True), (False, False)]
-        and newly.any()
-        and lowered.any()
-        and {-1, 1} <= signs,
-        fates=[case.fate for case in cases],
-        stated=facts(study),
-        most=damping[-1],
-        newly=[*loads[newly]],
-        counts=(lowered.sum(), growing.sum()),
-        stiffened=stiffened_text(p, "k_p", 50),
-    )
+    [rates], words = stiffened(cases[0].parameters.replace(N=300), 50)
+    load = [(case.separates, case.growth_rate > 0) for case in cases] == [(False, False), (True, True), (False, False)]
+    both_ways = all([load, newly.any(), lowered.any(), {-1, 1} <= {*np.sign(np.diff(rates))}])
+    fates, most, counts = [case.fate for case in cases], damping[-1], (lowered.sum(), growing.sum())
+    return Answer(both_ways, fates=fates, most=most, newly=[*loads[newly]], counts=counts, stiffened=words)
 
 
 def damping_destabilises(study: xr.Dataset, *, fewest: float) -> Answer:
-    """Whether in-plane damping brings separation at some large preloads."""
-    loads, damping, apart = _map(study, "N", "c_p")
-    growth = published(study)["growth_rate"].sortby(["N", "c_p"]).transpose("N", "c_p").values
+    loads, damping, apart, growth = plane(study, "N", "c_p")
     newly = np.flatnonzero((apart & ~apart[:, :1]).any(axis=1) & (loads >= fewest))
     rows = [(loads[i], *(rate_text(growth[i, j]) for j in (0, apart[i].argmax()))) for i in newly]
     both = np.isfinite(growth[:, 0]) & np.isfinite(growth[:, -1])
     lower = int((both & (growth[:, -1] < growth[:, 0])).sum())
-    return Answer(bool(rows), stated=facts(study), most=damping[-1], rows=rows, both=both.sum(), lower=lower)
+    return Answer(bool(rows), most=damping[-1], rows=rows, both=both.sum(), lower=lower)
 
 
 def stiffer_inplane(case: CaseView) -> Answer:
-    """Whether growth rises with each stiffness up to its largest value."""
-    known = [rates[np.isfinite(rates)] for rates in stiffened(case.parameters, "k_p", 20, 50).values()]
+    known, words = stiffened(case.parameters, 20, 50)
     steps = np.concatenate([np.diff(rates[: np.argmax(rates) + 1]) for rates in known])
     falls = int((steps <= 0).sum()), steps.size
-    return Answer(falls[0] == 0, falls=falls, stiffened=stiffened_text(case.parameters, "k_p", 20, 50))
+    return Answer(falls[0] == 0, falls=falls, stiffened=words)
+
+
+STIFFENED = (2, 20, 30, 36, 47, 55, 63, 73, 84, 130, 200)
+"""In-plane stiffnesses, kN/m: those of the paper, and others between them."""
+
+
+def stiffened(p: Parameters, *speeds: float) -> tuple[list[Array], str]:
+    """Growth rates of the cycles that there are with `STIFFENED`, 1/s, for each speed in rad/s; and all in words."""
+    known, words = [], []
+    for speed in speeds:
+        rates = np.array([measures.growth_of(p.replace(k_p=1e3 * k_p, Omega=speed)) for k_p in STIFFENED])
+        told = "; ".join(f"{rate_text(rate)} at {k_p}" for k_p, rate in zip(STIFFENED, rates, strict=True))
+        words.append(f"At {measures.place(p.N, speed)}, growth (1/s) at each k_p (kN/m) is as follows: {told}.")
+        known.append(rates[np.isfinite(rates)])
+    return known, " ".join(words)
 
 
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
-    """Whether discs from some softness on do not separate at any speed, while stiffer ones do."""
-    E, Omega, apart = _map(study, "E", "Omega")
-    E, some = E / 1e9, apart.any(axis=1)
-    quiet = E[~some]
-    softer = E[some & (quiet.max(initial=0.0) > E)] if quiet.size else E[:0]
-    at_slow = apart[E <= BASE.E / 1e9][:, Omega == slow]
-    return Answer(
-        bool(quiet.size) and bool(some.any()) and not softer.size,
-        stated=facts(study),
-        quiet=[*quiet],
-        softer=[*softer],
-        slow=slow if at_slow.size and not at_slow.any() else "",
-        stiff=[*E[apart[:, Omega == slow].any(axis=1)]],
-        base=BASE.E,
-    )
+    E, Omega, apart, _ = plane(study, "E", "Omega")
+    E, some, at_slow = E / 1e9, apart.any(axis=1), apart[:, Omega == slow]
+    quiet, stiff = [*E[~some]], [*E[at_slow.any(axis=1)]]
+    softer = [*E[some & (max(quiet, default=0.0) > E)]]
+    soft = at_slow[E <= BASE.E / 1e9]
+    calm = slow if soft.size and not soft.any() else ""
+    holds = bool(quiet and some.any() and not softer)
+    return Answer(holds, quiet=quiet, softer=softer, slow=calm, stiff=stiff, base=BASE.E)
 
 
 def vertical_branch(*cases: CaseView, within: float) -> Answer:
-    """Whether the rate of separations rises with a stiffer spring as the frequency of slider and spring alone does.
-    Ambiguous if it rises as that of the mode in which they move with the disc."""
     rows, follows, alone = [], [], []
     for pair in zip(cases[::2], cases[1::2], strict=True):
         rates = [1 / float(case.intervals("separation").mean()) for case in pair]
@@ -321,25 +261,13 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
         alone.append(rise / (math.sqrt(pair[1]["k"] / pair[0]["k"]) - 1))
         spring = 2 * of_mode / (pair[1]["k"] / pair[0]["k"] - 1)
         rows.append((pair[0].place, rates[0]))
-    p = cases[0].parameters
-    free = float(np.sqrt(p.k / p.m)) / (2 * np.pi)
-    level = max(_level(case, free) for case in cases[::2])
-    by_mode = all(abs(each - 1) <= within for each in follows)
-    return Answer(
-        AMBIGUOUS if by_mode else all(abs(each - 1) <= within for each in alone),
-        rows=rows,
-        coupled=modes[0],
-        free=free,
-        follows=follows,
-        spring=spring,
-        level=level,
-        by_mode=by_mode,
-    )
-
-
-def _level(case: CaseView, frequency: float) -> float:
-    """Largest amplitude of the disc's point within 1 Hz of a frequency, relative to that of all above 1 Hz."""
-    signal = case.signal("late", 0.0, np.inf)
-    frequencies, amplitude = spectra.amplitude_spectrum(signal.time, signal.values)
-    near, every = (float(amplitude[band].max()) for band in (np.abs(frequencies - frequency) < 1, frequencies > 1))
-    return measures.ratio(near, every, f"the spectrum of case {case.name}")
+    free = float(np.sqrt(cases[0]["k"] / cases[0]["m"])) / (2 * np.pi)
+    levels = []
+    for case in cases[::2]:
+        signal = case.signal("late", 0.0, np.inf)
+        frequencies, amplitude = spectra.amplitude_spectrum(signal.time, signal.values)
+        near, every = (float(amplitude[band].max()) for band in (np.abs(frequencies - free) < 1, frequencies > 1))
+        levels.append(measures.ratio(near, every, f"the spectrum of case {case.name}"))
+    by_mode, by_spring = (all(abs(each - 1) <= within for each in rises) for rises in (follows, alone))
+    told = {"coupled": modes[0], "free": free, "follows": follows, "spring": spring, "level": max(levels)}
+    return Answer(AMBIGUOUS if by_mode else by_spring, rows=rows, by_mode=by_mode, **told)

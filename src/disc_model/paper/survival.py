@@ -1,27 +1,23 @@
-"""Model sensitivity: the paper's main conclusions, each judged under five models of disc and contact.
-
-Each model changes one more thing, so that the last has all changes. All conclusions are judged from the merged cases
-and grids of config/survival.yaml, by rows as the ledger's.
-"""
+"""Model sensitivity: the paper's main conclusions, each judged under five models of disc and contact, by rows as the
+ledger's, from the merged cases and grids of config/survival.yaml."""
 
 import math
-import sys
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.analysis.classify import FEWEST, stick_disappears
+from disc_model.analysis.classify import FEWEST, motion_of, stick_disappears
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Section
 from disc_model.data.variables import Outcome, flag_names, stated_in
 from disc_model.paper import measures
-from disc_model.paper.measures import STRETCH, STRETCHES, Array, CaseView, listed, pairs, rate_text
-from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, judge, read_texts, rows_of
+from disc_model.paper.measures import STRETCH, STRETCHES, Array, CaseView, listed, pairs, rate_text, sound
+from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, Answer, judge, read_texts, rows_of
 from disc_model.paper.section2 import moving_load_speed
+from disc_model.paper.section41 import lowest_speeds
 
 CHANGED = ("normalization", "contact_compliance", "contact_force", "friction_offset")
 MODELS = {
@@ -31,7 +27,8 @@ MODELS = {
     "+ normal contact force": ("orthonormal", True, "normal", False),
     "+ friction on the surface": ("orthonormal", True, "normal", True),
 }
-"""The models by name: normalization, whether the contact gives, contact_force, whether friction is offset."""
+"""The models by name, each with one more change: normalization, whether the contact gives, contact_force, whether
+friction is offset."""
 
 
 def by_model(cases: Mapping[str, CaseView]) -> dict[str, dict[str, CaseView]]:
@@ -39,16 +36,14 @@ def by_model(cases: Mapping[str, CaseView]) -> dict[str, dict[str, CaseView]]:
     models: dict[str, dict[str, CaseView]] = {name: {} for name in MODELS}
     for name, case in cases.items():
         study = case.node.to_dataset()
-        if case.is_grid:
-            varied: list[Any] = [study[parameter].values for parameter in CHANGED]
-        else:
-            varied = [[getattr(case.parameters, parameter)] for parameter in CHANGED]
+        holds = study.variables if case.is_grid else vars(case.parameters)
+        varied = [np.atleast_1d(holds[parameter]).tolist() for parameter in CHANGED]
         points = [(scale, give != 0, force, offset != 0) for scale, give, force, offset in zip(*varied, strict=True)]
-        for model, values in MODELS.items():
-            if case.is_grid and points.count(values) == 1:
-                point = {study["normalization"].dims[0]: points.index(values)}
-                models[model][name] = CaseView(name, xr.DataTree(study.isel(point)))
-            elif points == [values]:
+        for model in (model for model, values in MODELS.items() if points.count(values) == 1):
+            if case.is_grid:
+                point = study.isel({study["normalization"].dims[0]: points.index(MODELS[model])})
+                models[model][name] = CaseView(name, xr.DataTree(point))
+            else:
                 models[model][name] = case
     return models
 
@@ -61,28 +56,21 @@ def onset(points: xr.Dataset, rates: xr.Dataset, curves: xr.Dataset, *, beside: 
         growth = rates["growth_rate"].sel(N=points["N"], Omega=points["Omega"]).transpose("N", "Omega").values
     except KeyError as error:
         raise Missing(f"study survival_growth lacks points of survival_outcome: {error}") from None
-    outcome = flag_names(points["outcome"].transpose("N", "Omega"))
-    if (outcome == "failed").any():
-        raise Missing("study survival_outcome has points that failed")
+    outcome = flag_names(sound(points)["outcome"].transpose("N", "Omega"))
     apart, stable = outcome == "separation", growth < -SLOW
     unstable, without = (int((apart & kind).sum()) for kind in (growth > SLOW, np.isnan(growth)))
     early = [(float(points["N"][i]), float(points["Omega"][j])) for i, j in np.argwhere(apart & stable)]
     # where a stable cycle ends at a fold just above a speed, small disturbances suffice to leave it
     soon = all(any(0 <= fold - speed <= beside for fold in _folds_at(curves, load)) for load, speed in early)
     compared = unstable > 0 and bool(stable.any())
-    return Answer(
-        soon if compared or not soon else NOT_COMPUTED,
-        points=(int(apart.sum()), apart.size),
-        kinds=(unstable, without, len(early)),
-        keep=int((stable & ~apart).sum()),
-        early=[measures.place(*point) for point in early if soon],
-    )
+    verdict, places = soon if compared or not soon else NOT_COMPUTED, [measures.place(*x) for x in early if soon]
+    size, kinds, keep = (int(apart.sum()), apart.size), (unstable, without, len(early)), int((stable & ~apart).sum())
+    return Answer(verdict, points=size, kinds=kinds, keep=keep, early=places)
 
 
 def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: float, within: float) -> Answer:
     folds = np.array(sorted(_folds_at(curves, load)))
-    one = speed.sel(N=load).isel(horizon=0)
-    _require_ok(one, "survival_speed")
+    one = sound(speed.sel(N=load).isel(horizon=0))
     highs = one["crossing"].values[flag_names(one["crossing_kind"]) == "begins"]
     width = float(stated_in(speed, "options")["precision"])
     told = f"Folds end stable cycles at {listed(folds, '.3f')} rad/s; separation begins at {listed(highs, '.1f')} rad/s"
@@ -102,18 +90,15 @@ def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: floa
         raise Missing("study survival_growth does not reach as far as survival_speed") from None
     growth = [f"{rate_text(low, '/s')} to {rate_text(high, '/s')}" for low, high in beside]
     missed = int(curves["n_continuation_failures"])
-    goes_on = all(rate > SLOW for pair in beside for rate in pair)
-    return Answer(
-        NOT_COMPUTED if missed and not goes_on else FALSE,
-        f"{told}. Across this speed growth goes from {listed(growth)}.",
-        f"{missed} curves could not be followed." if missed and not goes_on else "",
-    )
+    here = f"{told}. Across this speed growth goes from {listed(growth)}."
+    if missed and not all(rate > SLOW for pair in beside for rate in pair):  # one of them may be the fold
+        return Answer(NOT_COMPUTED, here, f"{missed} curves could not be followed.")
+    return Answer(FALSE, here)
 
 
 def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
     """Speeds at which folds with a stable cycle beside them cross a preload, rad/s."""
-    _require_ok(curves, "survival_curves")
-    for i in np.flatnonzero(flag_names(curves["kind"]) == "fold"):
+    for i in np.flatnonzero(flag_names(sound(curves)["kind"]) == "fold"):
         one = curves.isel(curve=int(i))
         x, y = one["x"].values, one["y"].values
         border = flag_names(one["adjoins_stable_cycle"]) == "yes"
@@ -122,17 +107,12 @@ def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
             yield float(x[j] + (load - y[j]) / (y[j + 1] - y[j]) * (x[j + 1] - x[j]))
 
 
-def _require_ok(grid: xr.Dataset, name: str) -> None:
-    if not np.all(flag_names(grid["status"]) == "ok"):
-        raise Missing(f"study {name} has points that failed")
-
-
 def below_critical(*cases: CaseView, share: float) -> Answer:
     critical = moving_load_speed(cases[0].parameters) if cases else math.nan
-    lower = [case for case in _separating(cases) if case["Omega"] < share * critical]
-    rows = [f"{100 * case['Omega'] / critical:.1f} % of it at {case.place}" for case in lower]
-    told = f"The critical speed of a moving load is {critical:.2f} rad/s. Cases separate at {'; '.join(rows)}."
-    return Answer(bool(lower) or NOT_COMPUTED, told if lower else "No case separates.")
+    parts = [(case["Omega"] / critical, case.place) for case in _separating(cases)]
+    rows = "; ".join(f"{100 * part:.1f} % of it at {place}" for part, place in parts if part < share)
+    told = f"The critical speed of a moving load is {critical:.2f} rad/s. Cases separate at {rows}."
+    return Answer(bool(rows) or NOT_COMPUTED, told if rows else "No case separates.")
 
 
 def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
@@ -145,11 +125,9 @@ def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
 
 
 def falls_then_rises(speed: xr.Dataset, *, depth: float) -> Answer:
-    study = speed.isel(horizon=0)
-    _require_ok(study, "survival_speed")
-    found = measures.lowest_speeds(study, depth)
-    few = np.isfinite(study["critical_speed"].values).sum() < 3
-    return Answer(NOT_COMPUTED if few else PART if found.again else found.falls, found.words)
+    study = sound(speed.isel(horizon=0))
+    verdict, words = lowest_speeds(study, depth)
+    return Answer(NOT_COMPUTED if np.isfinite(study["critical_speed"].values).sum() < 3 else verdict, words)
 
 
 def smaller_vibration(*cases: CaseView, wider: float) -> Answer:
@@ -173,19 +151,17 @@ def stick_vanishes(*cases: CaseView, share: float) -> Answer:
     apart = _separating(cases)
     stays = [case.place for case in apart if not stick_disappears(case.stick_in_all, case.stick, share)]
     rows = "; ".join(f"{100 * case.stick:.2g} % of the time at {case.place}" for case in apart)
-    return Answer(
-        len(stays) < len(apart) if apart else NOT_COMPUTED,
-        f"After a separation the slider sticks for {rows}." if apart else "No case separates.",
-        f"Stick does not disappear at {'; '.join(stays)}." if len(stays) < len(apart) and stays else "",
-    )
+    if not apart:
+        return Answer(NOT_COMPUTED, "No case separates.")
+    vanishes, here = len(stays) < len(apart), f"After a separation the slider sticks for {rows}."
+    return Answer(vanishes, here, f"Stick does not disappear at {'; '.join(stays)}." if vanishes and stays else "")
 
 
 def normal_damping(study: xr.Dataset) -> Answer:
-    without, with_damper, _ = _damped(study, "c")
-    compared = (without > SLOW) & np.isfinite(with_damper)
-    lowered, stable = int((compared & (with_damper < without)).sum()), int((compared & (with_damper < 0)).sum())
-    verdict = lowered == compared.sum() if compared.any() else NOT_COMPUTED
-    return Answer(verdict, lowered=lowered, compared=int(compared.sum()), stable=stable)
+    without, damped, _ = _damped(study, "c")
+    compared = (without > SLOW) & np.isfinite(damped)
+    lowered, stable, every = (int((compared & each).sum()) for each in (damped < without, damped < 0, compared))
+    return Answer(lowered == every if every else NOT_COMPUTED, lowered=lowered, compared=every, stable=stable)
 
 
 def inplane_damping(study: xr.Dataset, *, large: float, fewest: float) -> Answer:
@@ -195,14 +171,9 @@ def inplane_damping(study: xr.Dataset, *, large: float, fewest: float) -> Answer
     higher = both & (damped > 0) & (damped > without + SLOW)
     ended = int(((without < -SLOW) & np.isin(status, ("no_cycle", "separates")) & heavy).sum())
     (above, of), (below, of_below) = ((int((higher & at).sum()), int((both & at).sum())) for at in (heavy, ~heavy))
-    destabilises = above + ended > 0
-    return Answer(
-        destabilises if destabilises or of >= fewest else NOT_COMPUTED,
-        large=large,
-        ended=measures.counted(ended, "stable cycle"),
-        higher=(above, of, below, of_below),
-        few=0 < 10 * (above + ended) <= of,
-    )
+    verdict = NOT_COMPUTED if not above + ended and of < fewest else above + ended > 0
+    told, few = measures.counted(ended, "stable cycle"), 0 < 10 * (above + ended) <= of
+    return Answer(verdict, ended=told, higher=(above, of, below, of_below), few=few)
 
 
 def _damped(study: xr.Dataset, name: str) -> tuple[Array, Array, NDArray[np.str_]]:
@@ -218,12 +189,10 @@ def _damped(study: xr.Dataset, name: str) -> tuple[Array, Array, NDArray[np.str_
 
 def not_periodic(*cases: CaseView) -> Answer:
     repeats = {case.place: _repeats(case) for case in _separating(cases)}
-    holds = [
-        None if kind is Outcome.UNDECIDED else kind in (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
-        for kind, _ in repeats.values()
-    ]
+    known = {Outcome.QUASI_PERIODIC: True, Outcome.IRREGULAR: True, Outcome.UNDECIDED: None}
     rows = [f"At {place} the motion {words}." for place, (_, words) in repeats.items()]
-    return Answer(_all_cases(holds), " ".join(rows) or "No case separates.")
+    verdict = _all_cases([known.get(kind, False) for kind, _ in repeats.values()])
+    return Answer(verdict, " ".join(rows) or "No case separates.")
 
 
 def _repeats(case: CaseView) -> tuple[Outcome, str]:
@@ -231,7 +200,7 @@ def _repeats(case: CaseView) -> tuple[Outcome, str]:
     for kind, name in (("stick_to_slip", "release"), ("separation", "separation")):
         intervals = np.diff(case.times_of(kind))
         if intervals.size >= 2 * FEWEST:
-            motion = measures.classify_intervals(tuple(intervals))
+            motion = motion_of(intervals)
             length = float(intervals[: motion.period].sum())
             how = f" ({length:.4g} s)" if motion.period else f", judged by its {name}s"
             return motion.kind, measures.repeats(motion, name) + how
@@ -243,12 +212,12 @@ def _all_cases(holds: Sequence[bool | None]) -> bool | str:
     return False if False in holds else NOT_COMPUTED if None in holds or not holds else True
 
 
-CONCLUSIONS = rows_of(sys.modules[__name__])
-TEXTS: dict[str, str] = read_texts("pages.yaml")["survival"]
+CONCLUSIONS = rows_of("paper/survival.yaml", globals())
+TEXTS: dict[str, str] = read_texts("paper/pages.yaml")["survival"]
 
 
 def judge_models(cases: Mapping[str, CaseView]) -> pd.DataFrame:
-    """The verdict on every conclusion under every model, with what was computed and what should be known besides."""
+    """Every conclusion under every model, see `judge`."""
     return judge(CONCLUSIONS, by_model(cases))
 
 

@@ -6,7 +6,6 @@ from typing import Annotated, Literal
 
 import numpy as np
 import xarray as xr
-from pydantic import Field
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
@@ -31,10 +30,10 @@ def separations(window: xr.Dataset) -> list[tuple[float, float]]:
     return [(time[a], time[b - 1]) for a, b in drawing.stretches(flag_names(window["phase"]) == "separation")]
 
 
-def complete_separations(window: xr.Dataset) -> list[tuple[float, float]]:
-    """Separations that begin and end inside the window."""
+def first_complete(window: xr.Dataset) -> tuple[float, float] | None:
+    """The first separation that begins and ends inside the window."""
     time = window["time"].values
-    return [(a, b) for a, b in separations(window) if a > time[0] and b < time[-1]]
+    return next(((a, b) for a, b in separations(window) if a > time[0] and b < time[-1]), None)
 
 
 def shade(ax: Axes, spans: Sequence[tuple[float, float]]) -> None:
@@ -44,7 +43,7 @@ def shade(ax: Axes, spans: Sequence[tuple[float, float]]) -> None:
 
 
 def displacements(ax: Axes, part: xr.Dataset, rest: float) -> None:
-    """Draw displacements of disc and slider relative to `rest` in m, and a legend."""
+    """Draw displacements of disc and slider relative to `rest`, m."""
     ax.plot(part["time"], (part["w"] - rest) * 1e3, color=DISC, label="disc")
     ax.plot(part["time"], (part["u"] - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
     ax.set_ylabel("Displacement (mm)")
@@ -63,7 +62,6 @@ class ContactForce(CasePlot):
         figure, [whole, zoom] = panels(PAGE, 2.3, 1, 2)
         with drawing.blank_if_missing(whole):
             drawing.show(whole, case, drawing.history(case, self.history), "P")
-            _show_zero(whole, case)
             drawing.letter(whole, "a")
         with drawing.blank_if_missing(zoom):
             window = dataset.samples(case, self.zoom)
@@ -72,24 +70,17 @@ class ContactForce(CasePlot):
             drawing.letter(zoom, "b")
             shade(zoom, spans := separations(window))
             zoom.plot(window["time"], window["P"], color=FORCE)
-            _show_zero(zoom, case)
             zoom.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel=drawing.axis_of("P")[0])
             if spans:
                 drawing.legend_above(zoom)
+        for ax in (whole, zoom):  # with zero if contact is lost; a force that hardly changes is shown in detail
+            if ax.has_data() and np.isfinite(float(case["first_separation"])):
+                ax.set_ylim(bottom=-0.03 * ax.get_ylim()[1])
         return figure
 
 
-def _show_zero(ax: Axes, case: xr.DataTree) -> None:
-    """Include zero if contact is lost; a force that hardly changes is shown in detail."""
-    if np.isfinite(float(case["first_separation"])):
-        ax.set_ylim(bottom=-0.03 * ax.get_ylim()[1])
-
-
 class OneSeparation(CasePlot):
-    """(a) Displacements from static equilibrium around the first complete separation of a window, (b) the gap.
-
-    The paper shows (a); the gap is a hundredth of the motion and needs an axis of its own.
-    """
+    """(a) Displacements from static equilibrium around the first complete separation of a window, (b) the gap."""
 
     shows = (("zoom", as_samples),)
     kind: Literal["paper.one_separation"] = "paper.one_separation"
@@ -100,10 +91,9 @@ class OneSeparation(CasePlot):
         figure, axes = panels(COLUMN, 3.2, 2, sharex=True, height_ratios=(2, 1))
         both, gap = axes
         window = dataset.samples(case, self.zoom)
-        complete = complete_separations(window)
-        if not complete:
+        if (complete := first_complete(window)) is None:
             raise Missing(f"has no complete separation in {self.zoom}")
-        start, stop = complete[0]
+        start, stop = complete
         margin = 0.5 * (stop - start)
         part = after(window.sel(time=slice(start - margin, stop + margin)), start)
         for ax in axes:
@@ -129,9 +119,8 @@ class LightSlider(CasePlot):
         [case] = cases
         figure, [ax] = panels(COLUMN, 2.5)
         window, rest = dataset.samples(case, self.zoom), float(case["u_0"])
-        complete = complete_separations(window)
-        length = 0.025  # of the stretch shown, s
-        start = complete[0][0] - 0.1 * length if complete else float(window["time"][0])
+        complete, length = first_complete(window), 0.025  # of the stretch shown, s
+        start = complete[0] - 0.1 * length if complete else float(window["time"][0])
         part = after(window.sel(time=slice(start, start + length)), start)
         spans = separations(part)
         shade(ax, spans)
@@ -147,10 +136,7 @@ class LightSlider(CasePlot):
 
 
 class WithAndWithout(CasePlot):
-    """Range of the disc at r_0 and a fixed angle over the run, with separation and bilateral.
-
-    ignored : the case with bilateral contact
-    """
+    """Range of the disc at r_0 and a fixed angle over the run, with separation and, in the case `ignored`, without."""
 
     shows = (("history", as_ranges),)
     further = ("ignored",)
@@ -171,11 +157,9 @@ class WithAndWithout(CasePlot):
 
 
 class Histories(CasePlot):
-    """Ranges of the contact force and of the disc at r_0 and a fixed angle, a column for each case, on common axes.
+    """Ranges of the contact force and of the disc at r_0 and a fixed angle, a column for each case, on common axes. A
+    range of the force below a twentieth of the axis is drawn once more.
 
-    A range that hardly shows on the common axis is drawn once more, on an axis of its own.
-
-    beside : further cases
     until : s, end of the part of the runs that is shown
     printed : s, time of the first separation of the last case that the paper prints
     """
@@ -189,51 +173,42 @@ class Histories(CasePlot):
     printed: Annotated[Positive, Unit("s")] | None = None
 
     def draw(self, *cases: xr.DataTree) -> Figure:
-        variables = ("P", "w_point")
         figure, axes = panels(PAGE, 3.2, 2, len(cases), sharex=True, sharey="row")
-        for k, case in enumerate(cases):
-            window = drawing.history(case, self.history, self.until)
+        forces, discs = axes[: len(cases)], axes[len(cases) :]
+        windows = [drawing.history(case, self.history, self.until) for case in cases]
+        for force, disc, case, window in zip(forces, discs, cases, windows, strict=True):
             p = json.loads(case.attrs["parameters"])
-            for ax, name in zip(axes[k :: len(cases)], variables, strict=True):
+            for ax, name in ((force, "P"), (disc, "w_point")):
                 drawing.show(ax, case, window, name, named=name == "P")
                 ax.label_outer()
-            axes[k].set_title(f"{p['N']:g} N, {p['Omega']:g} rad/s", loc="right")
-        for k, case in enumerate(cases):  # when the common axes are known
-            self._closer(axes[k], drawing.history(case, self.history, self.until))
-            drawing.show_thickness(axes[k + len(cases)], case, "y")
+            force.set_title(f"{p['N']:g} N, {p['Omega']:g} rad/s", loc="right")
+        for force, disc, case, window in zip(forces, discs, cases, windows, strict=True):  # now axes are known
+            low, high = float(window["P_min"].min()), float(window["P_max"].max())
+            if high - low < 0.05 * np.ptp(force.get_ylim()):
+                inset = force.inset_axes((0.3, 0.62, 0.66, 0.3))
+                drawing.envelope(inset, window, "P")
+                inset.set_ylim(low - 1, high + 1)
+                inset.tick_params(labelsize=6, labelbottom=False)
+            drawing.show_thickness(disc, case, "y")
         if self.printed is not None:
-            drawing.mark_printed(axes[len(cases) - 1], self.printed)
+            drawing.mark_printed(forces[-1], self.printed)
         drawing.letters(axes)
         figure.align_ylabels()
         return figure
-
-    def _closer(self, ax: Axes, window: xr.Dataset) -> None:
-        """Draw a range of the contact force that is less than a twentieth of the axis once more."""
-        low, high = float(window["P_min"].min()), float(window["P_max"].max())
-        if high - low < 0.05 * np.ptp(ax.get_ylim()):
-            inset = ax.inset_axes((0.3, 0.62, 0.66, 0.3))
-            drawing.envelope(inset, window, "P")
-            inset.set_ylim(low - 1, high + 1)
-            inset.tick_params(labelsize=6, labelbottom=False)
 
 
 # ---- The whole disc
 
 
 class Instants(CasePlot):
-    """The disc from above at four instants, and along its circle of radius r_0.
-
-    They are equidistant from the first loss of contact to the next, or over the whole stretch without two losses.
-
-    around : number of the windows `around0`, ...
-    """
+    """The disc from above, and along its circle of radius r_0, at four instants from the first loss of contact to the
+    next, or over the whole stretch without two losses, by nine windows `around0`, ..."""
 
     kind: Literal["paper.instants"] = "paper.instants"
-    around: Annotated[int, Field(ge=1)] = 9
 
     def needs(self) -> Iterator[Need]:
-        for i in range(self.around):
-            yield Need("around", self.case, f"around{i}", [as_samples])
+        for i in range(9):
+            yield Need("case", self.case, f"around{i}", [as_samples])
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         figure = drawing.new_figure(PAGE, 4.2)

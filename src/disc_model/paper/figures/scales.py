@@ -1,7 +1,4 @@
-"""Which of the paper's separations survive its own Eq. (17): the two scales of the modes side by side.
-
-This figure alone depends on what the ledger is judged by.
-"""
+"""Which of the paper's separations survive its own Eq. (17), by what the ledger is judged by, as no other figure."""
 
 from collections.abc import Mapping
 from typing import Any, ClassVar, Literal
@@ -17,16 +14,17 @@ from disc_model.figures.kind import Plot, Role, Roles
 
 SCALES = ("as_published", "orthonormal")
 LABELS = ("as published", "by Eq. (17)")
+LOOKS: tuple[dict[str, Any], ...] = (
+    {"marker": "o", "color": SEPARATED, "linestyle": "none"},
+    {"marker": "o", "markerfacecolor": "white", "color": drawing.BLUE, "linestyle": "none"},
+)
 CELLS = ("white", "#f2b69c", "#d5e5f3", "#8a8a8a")
 """Neither separates; only as published; only by Eq. (17), hatched; both. They differ in grey print."""
 
 
 class Scales(Plot):
-    """(a) Squared amplitudes under the slider, (b) where the static start separates, (c) first separations.
-
-    The study is the map over speed and preload; the overlays are the maps over one more parameter and the speed, or the
-    preload, which have the paper's further figures with separation.
-    """
+    """(a) Squared amplitudes under the slider, (b) where the static start separates on the map over speed and preload,
+    (c) first separations on this and further maps."""
 
     quantities: ClassVar = ("regions",)
     needs: ClassVar = ("N", "Omega")
@@ -51,7 +49,7 @@ def _amplitudes(ax: Axes) -> None:
     from disc_model.paper.section2 import BASE
 
     squares = [plate_modes(BASE.replace(normalization=scale))["psi"].to_numpy() ** 2 for scale in SCALES]
-    for values, label, look in zip(squares, LABELS, _looks(), strict=True):
+    for values, label, look in zip(squares, LABELS, LOOKS, strict=True):
         ax.plot(range(len(values)), values, label=label, markersize=5, **look)
     ratio = squares[0][1] / squares[1][1]
     arrow = {"arrowstyle": "-|>", "color": GREY, "linewidth": 1.0, "shrinkA": 4, "shrinkB": 4}
@@ -61,12 +59,6 @@ def _amplitudes(ax: Axes) -> None:
     ax.set(yscale="log", xlabel="Nodal diameters l", ylabel=label, xticks=range(5), ylim=(0.7, 110))
     ax.margins(x=0.12)
     ax.legend(loc="upper right", bbox_to_anchor=(1.04, 0.88))
-
-
-def _looks() -> tuple[dict[str, Any], dict[str, Any]]:
-    """Filled marks for the published scale, open ones for Eq. (17)."""
-    open_: dict[str, Any] = {"marker": "o", "markerfacecolor": "white", "color": drawing.BLUE, "linestyle": "none"}
-    return {"marker": "o", "color": SEPARATED, "linestyle": "none"}, open_
 
 
 def _regions(ax: Axes, study: xr.Dataset) -> None:
@@ -108,7 +100,7 @@ def _times(ax: Axes, maps: Mapping[str, xr.Dataset]) -> None:
         arrow = {"arrowstyle": "-|>" if none else "-", "color": GREY, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
         end = max(horizons[SEPARATING[str(name)][0]], 1.3 * was) if none else now
         ax.annotate("", (end, height), (was, height), arrowprops=arrow)
-        for time, look in zip((was, now), _looks(), strict=True):
+        for time, look in zip((was, now), LOOKS, strict=True):
             ax.plot([time], [height], markersize=5, **look)
         drawing.say(ax, str(name), (0, height), (-3, 0), xycoords=("axes fraction", "data"), fontsize=7)
     lost = int(times["orthonormal"].isna().sum())

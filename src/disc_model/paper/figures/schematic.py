@@ -1,7 +1,4 @@
-"""Drawing of the model: from the side, from above to scale, and the contact forces; figure 1 of the paper.
-
-The page docs/model.md shows the same drawing.
-"""
+"""Drawing of the model: from the side, from above to scale, and the contact forces; figure 1 of the paper."""
 
 from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, Literal
@@ -24,8 +21,8 @@ SOFT, BODY, PLATE, CLAMP = "0.45", "0.88", "#dbe9f4", "0.93"
 """Lines that only guide the eye; the slider; the disc and its clamped middle."""
 SMALL = 8.0  # size of the text that is no symbol, in points
 OUTER = 1.2  # radius of the disc as drawn
-STRETCH, PALE, DARK = 0.04, "0.72", "#8a5a00"
-"""Of the composite: its stretch of contact force, s; colours of ignored separation, and of words on the slider."""
+STRETCH = 0.04  # of contact force in the composite, s
+PALE, DARK = "0.72", "#8a5a00"  # of ignored separation; of words on the slider
 PHASES: dict[str, dict[str, Any]] = {  # looks that differ in grey print as well; slip is white
     "stick": {"facecolor": "none", "edgecolor": STICK, "hatch": "//////"},
     "separation": {"facecolor": SEPARATED, "alpha": 0.35},
@@ -42,9 +39,8 @@ class Schematic(CasePlot):
 
 
 class Composite(CasePlot):
-    """The whole in one picture: the model, the disc's vibration with separation and without, and the contact force.
+    """The model, the disc's vibration with separation and, in the case `ignored`, bilateral, and the contact force.
 
-    ignored : the case with bilateral contact
     force : window of the contact force, and the time in s at which the stretch shown begins
     until : s, end of the part of the runs that is shown
     """
@@ -105,12 +101,10 @@ class Composite(CasePlot):
 
 def _small(ax: Axes) -> None:
     """Draw the model from the side with the fewest words."""
-    from matplotlib.patches import Rectangle
-
     x = np.linspace(-2.0, 2.6, 200)
     ax.plot(x, 0.2 * np.sin(1.6 * x + 0.5) - 0.1, color=DISC, lw=3)
     ax.text(-2.0, -0.75, "elastic disc", color=DISC, fontsize=7)
-    ax.add_patch(Rectangle((-0.55, 0.05), 1.1, 0.55, fc=BODY, ec=BLACK, lw=1.2))
+    _slider(ax, (-0.55, 0.05), 1.1, 0.55, lw=1.2)
     ax.text(0, 0.31, "slider", ha="center", va="center", fontsize=7)
     _wall(ax, (-0.6, 1.6), (0.6, 1.6), (0.12, 0.14))
     _join(ax, SPRING, (0, 0.6), (0, 1.6))
@@ -149,30 +143,23 @@ def sketch(p: Parameters) -> Figure:
 
 def _side(ax: Axes) -> None:
     """Draw the side view, unrolled along the circle of radius r_0; the gap is open so that u and w are distinct."""
-    from matplotlib.patches import Rectangle
-
-    x = np.linspace(-2.5, 4.4, 300)
-
-    def surface(angle: NDArray[np.float64] | float) -> NDArray[np.float64]:
-        return np.asarray(0.22 * np.sin(1.15 * np.asarray(angle) + 0.55))
-
-    ax.plot(x, surface(x), color=DISC, lw=2.5)
+    x, bottom, top, drive = np.linspace(-2.5, 4.4, 300), 0.55, 2.15, 2.6
+    under, beside = (float(0.22 * np.sin(1.15 * angle + 0.55)) for angle in (0.0, 0.12))
+    ax.plot(x, 0.22 * np.sin(1.15 * x + 0.55), color=DISC, lw=2.5)
     ax.axhline(0, color=SOFT, lw=0.8, ls="--")
     ax.text(-2.45, 0.08, "disc at rest, no load", color=SOFT, va="bottom", fontsize=SMALL)
     ax.text(3.35, -0.5, r"disc, $w(r_0, \theta, t)$", color=DISC)
-    bottom = 0.55
-    ax.add_patch(Rectangle((-0.4, bottom), 0.8, 0.55, fc=BODY, ec=BLACK, lw=1.3))
+    _slider(ax, (-0.4, bottom), 0.8, 0.55)
     ax.text(0, bottom + 0.275, "$m$", ha="center", va="center")
-    ax.plot([0, 0], [float(surface(0)), bottom], color=SOFT, lw=0.8, ls=":")
+    ax.plot([0, 0], [under, bottom], color=SOFT, lw=0.8, ls=":")
     # heights, measured from the plane of the disc at rest, at the slider's place
     _arrow(ax, (-0.75, 0), (-0.75, bottom), "$u$", (-0.16, 0), SLIDER)
     ax.plot([-0.85, -0.4], [bottom, bottom], color=SLIDER, lw=0.7)
     _arrow(ax, (-1.2, 0), (-1.2, -0.38), colour=SLIDER)
     ax.plot([-1.35, -1.05], [-0.38, -0.38], color=SLIDER, lw=0.7)
     _write(ax, (-1.2, -0.52), "$u_0$ at the static start", color=SLIDER, fontsize=SMALL)
-    _arrow(ax, (0.18, 0), (0.18, float(surface(0.12))), "$w$", (0.2, -0.01), DISC, "->")
+    _arrow(ax, (0.18, 0), (0.18, beside), "$w$", (0.2, -0.01), DISC, "->")
     # vertical branch
-    top = 2.15
     _wall(ax, (-0.6, top), (0.6, top), (0.12, 0.15))
     _join(ax, SPRING, (-0.2, bottom + 0.55), (-0.2, top))
     _join(ax, DAMPER, (0.2, bottom + 0.55), (0.2, top))
@@ -182,7 +169,6 @@ def _side(ax: Axes) -> None:
     ax.plot([0.6, 1.0], [top, top], color=BLACK, lw=0.7)
     ax.text(1.02, top + 0.12, r"$\Delta$, kept: preload $N$", va="center")
     # in-plane branch
-    drive = 2.6
     _wall(ax, (drive, 0.5), (drive, 1.15), (0.13, 0.12))
     _join(ax, SPRING, (0.4, 0.97), (drive, 0.97), width=0.08)
     _join(ax, DAMPER, (0.4, 0.68), (drive, 0.68), width=0.08)
@@ -201,7 +187,7 @@ def _side(ax: Axes) -> None:
 
 def _above(ax: Axes, p: Parameters) -> None:
     """Draw the view from above: radii, to scale, and angles."""
-    from matplotlib.patches import Annulus, Circle
+    from matplotlib.patches import Annulus, Arc, Circle
 
     a, b, r_0 = (radius * OUTER / p.b for radius in (p.a, p.b, p.r_0))
     ax.add_patch(Annulus((0, 0), b, b - a, fc=PLATE, ec=DISC, lw=1.5))
@@ -216,11 +202,13 @@ def _above(ax: Axes, p: Parameters) -> None:
     ax.plot(*_at(ahead, r_0), "o", color=BLACK, ms=5, zorder=5)
     _write(ax, _at(ahead, 1.45, (0.05, 0)), r"drive point, $\Omega t$", va="baseline")
     _write(ax, _at(phi, 1.42, (0.16, 0.02)), "slider", va="baseline", color=SLIDER)
-    _angle(ax, 0.0, phi, r"$\varphi$")
-    _angle(ax, phi, ahead, r"$\psi$")
+    for low, high, text in ((0.0, phi, r"$\varphi$"), (phi, ahead, r"$\psi$")):
+        theta = {"theta1": np.degrees(low), "theta2": np.degrees(high) - 6}
+        ax.add_patch(Arc((0, 0), 1.44, 1.44, **theta, color=SLIDER, lw=1.5))
+        _arrow(ax, _at(high - 0.11, 0.72), _at(high, 0.72), colour=SLIDER)
+        _write(ax, _at((low + high) / 2, 0.85), text, color=SLIDER, fontsize=13)
     ax.plot(*_at(fixed, r_0), "x", color=BLACK, ms=7)
-    point = _at(fixed, 1.3, (0.38, -0.06))
-    _write(ax, point, "point of the disc\nat $r_0$, $\\theta$", fontsize=SMALL)
+    _write(ax, _at(fixed, 1.3, (0.38, -0.06)), "point of the disc\nat $r_0$, $\\theta$", fontsize=SMALL)
     ax.text(1.62, 0, r"$\theta = 0$", va="center", fontsize=SMALL)
     for degrees, radius, text in ((170, a, "$a$"), (212, r_0, "$r_0$"), (250, b, "$b$")):
         angle = np.radians(degrees)
@@ -234,9 +222,7 @@ def _above(ax: Axes, p: Parameters) -> None:
 
 def _forces(ax: Axes) -> None:
     """Draw the free-body diagrams of the slider and of the disc under it."""
-    from matplotlib.patches import Rectangle
-
-    ax.add_patch(Rectangle((-0.45, 0.55), 0.9, 0.6, fc=BODY, ec=BLACK, lw=1.3))
+    _slider(ax, (-0.45, 0.55), 0.9, 0.6)
     ax.text(0, 0.85, "$m$", ha="center", va="center")
     _arrow(ax, (-0.12, 2.0), (-0.12, 1.15), "$N + k\\,(u - u_0) + c\\,\\dot u$", (0.12, 0.58))
     _arrow(ax, (0, 0.02), (0, 0.55), "$P$", (0.2, -0.02), FORCE)
@@ -267,8 +253,7 @@ def _arrow(
     look = {"arrowstyle": style, "color": colour, "lw": 1.5, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", tuple(end), tuple(start), arrowprops=look)
     if text:
-        middle = 0.5 * (np.array(start) + np.array(end)) + offset
-        _write(ax, middle, text, color=colour)
+        _write(ax, 0.5 * (np.array(start) + np.array(end)) + offset, text, color=colour)
 
 
 def _write(ax: Axes, point: Point, text: str, **look: Any) -> None:
@@ -276,14 +261,10 @@ def _write(ax: Axes, point: Point, text: str, **look: Any) -> None:
     ax.text(float(point[0]), float(point[1]), text, ha="center", va=look.pop("va", "center"), **look)
 
 
-def _angle(ax: Axes, low: float, high: float, text: str, radius: float = 0.72) -> None:
-    """Draw an arc with an arrow, from one angle to another."""
-    from matplotlib.patches import Arc
+def _slider(ax: Axes, corner: Point, width: float, height: float, lw: float = 1.3) -> None:
+    from matplotlib.patches import Rectangle
 
-    wide = 2 * radius
-    ax.add_patch(Arc((0, 0), wide, wide, theta1=np.degrees(low), theta2=np.degrees(high) - 6, color=SLIDER, lw=1.5))
-    _arrow(ax, _at(high - 0.11, radius), _at(high, radius), colour=SLIDER)
-    _write(ax, _at((low + high) / 2, radius + 0.13), text, color=SLIDER, fontsize=13)
+    ax.add_patch(Rectangle(tuple(corner), width, height, fc=BODY, ec=BLACK, lw=lw))
 
 
 Strokes = Sequence[tuple[ArrayLike, ArrayLike]]  # lines: fractions of the way, and offsets to its left in widths
@@ -294,7 +275,7 @@ DAMPER: Strokes = [*_CUP, ([0.55, 0.55], [-0.7, 0.7]), ([0.55, 1], [0, 0])]  # a
 
 def _join(ax: Axes, strokes: Strokes, start: Point, end: Point, width: float = 0.1) -> None:
     """Draw a spring or a damper between two points."""
-    first, way = np.asarray(start, dtype=float), np.asarray(end, dtype=float) - np.asarray(start, dtype=float)
+    first, way = np.array(start, float), np.array(end, float) - np.array(start, float)
     normal = np.array([-way[1], way[0]]) / np.hypot(*way)
     for along, side in strokes:
         x, y = first[:, None] + way[:, None] * np.array(along) + normal[:, None] * (width * np.array(side))
@@ -304,6 +285,5 @@ def _join(ax: Axes, strokes: Strokes, start: Point, end: Point, width: float = 0
 def _wall(ax: Axes, start: Point, end: Point, depth: Point) -> None:
     """Draw a line with hatching on the side of `depth`, a vector."""
     ax.plot(*np.transpose([start, end]), color=BLACK, lw=1.5)
-    for share in np.linspace(0, 1, 9):
-        foot = np.array(start) + share * (np.array(end) - np.array(start))
+    for foot in np.array(start) + np.linspace(0, 1, 9)[:, None] * (np.array(end) - np.array(start)):
         ax.plot(*np.transpose([foot, foot + depth]), color=BLACK, lw=0.8)

@@ -14,7 +14,7 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import plate_modes
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, PAGE, SKY, Axes, Figure, new_figure
+from disc_model.figures.drawing import BLACK, PAGE, SKY, Figure, new_figure
 from disc_model.figures.kind import HIGHEST, CasePlot, Need, Sampled, as_ranges, as_samples, as_spectrum
 from disc_model.figures.motion import draw_power, draw_scale, span_of, spectrum_of
 from disc_model.parameters import Parameters
@@ -33,63 +33,62 @@ TABLE_2 = {  # lines of the paper, Hz, by their components; pairs are too close 
 
 
 class FourStretches(CasePlot):
-    """Range of the disc at r_0 and a fixed angle, and its power over time and frequency in several stretches.
-
-    The lines of Table 2 are named. The last row is the case in which separation is ignored, over the same times.
+    """Range of the disc at r_0 and a fixed angle, and its power over time and frequency in four stretches, with the
+    lines of Table 2. The last row is the bilateral case `ignored`, which has the same windows but the first.
 
     until : s, end of the part of the run that is shown
-    ignored : the case with bilateral contact, with the same windows but the first
     """
 
-    shows = (("history", as_ranges), ("spectra", as_spectrum))
     further = ("ignored",)
     kind: Literal["paper.four_stretches"] = "paper.four_stretches"
     history: str = "history"
-    spectra: Annotated[tuple[str, ...], Field(min_length=1)] = WINDOWS
     until: Annotated[Positive, Unit("s")] | None = None
-    ignored: str = ""
+    ignored: str
 
     def needs(self) -> Iterator[Need]:
-        for need in super().needs():
-            if need.case == self.case or need.name in self.spectra[1:]:
-                yield need
+        yield Need("history", self.case, self.history, [as_ranges])
+        for key, case, windows in (("case", self.case, WINDOWS), ("ignored", self.ignored, WINDOWS[1:])):
+            yield from (Need(key, case, name, [as_spectrum]) for name in windows)
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         from matplotlib.ticker import MaxNLocator
 
         figure = new_figure(PAGE, 6.2)
         top, below = np.asarray(figure.subfigures(2, 1, height_ratios=(1.1, 3)))
-        whole, names = top.subplots(), list(self.spectra)
-        shape, heights = (1 + len(cases), len(names)), (1, *[1.6] * len(cases))
-        axes = below.subplots(*shape, sharex="col", sharey="row", squeeze=False, height_ratios=heights)
-        rows = [(0, CLOSE, HIGHEST), *((i, 0.0, CLOSE) for i in range(len(cases)))]  # case, and frequencies
+        whole = top.subplots()
+        axes = below.subplots(3, len(WINDOWS), sharex="col", sharey="row", squeeze=False, height_ratios=(1, 1.6, 1.6))
+        rows = [(0, CLOSE, HIGHEST), (0, 0.0, CLOSE), (1, 0.0, CLOSE)]  # case, and frequencies
         spectra: dict[tuple[int, str], TimeFrequency] = {}
-        for i, j in product(range(len(cases)), range(len(names))):
+        for i, (j, name) in product((0, 1), enumerate(WINDOWS)):
             if i and not j:  # before any separation
                 continue
-            with drawing.blank_if_missing(*(ax for ax, (case, *_) in zip(axes[:, j], rows, strict=True) if case == i)):
-                spectra[i, names[j]] = spectrum_of(cases[i], names[j], "w_point")
+            with drawing.blank_if_missing(*(axes[2:, j] if i else axes[:2, j])):
+                spectra[i, name] = spectrum_of(cases[i], name, "w_point")
         reference = max((float(spectrum.power.max()) for spectrum in spectra.values()), default=1.0)
         for row, (i, low, high) in zip(axes, rows, strict=True):
-            for ax, name in zip(row, names, strict=True):
+            for ax, name in zip(row, WINDOWS, strict=True):
                 if (i, name) in spectra:
                     mesh = draw_power(ax, cases[i], spectra[i, name], reference, high)
                     ax.set_ylim(low, high)
             row[0].set_ylabel("Frequency (Hz)")
-        for ax, text in zip((*axes[0], *axes[2:, 1:].flat), "bcdefghi", strict=False):
+        for ax, text in zip((*axes[0], *axes[2, 1:]), "bcdefgh", strict=True):
             if ax.has_data():
                 drawing.letter(ax, text)
         for ax in axes[-1]:
             ax.set_xlabel("Time (s)")
             ax.xaxis.set_major_locator(MaxNLocator(3))
-        if len(cases) > 1:
-            look: dict[str, Any] = {"xycoords": "axes fraction", "ha": "right", "va": "top", "color": "white"}
-            for row, text in zip(axes[1:], ("with\nseparation", "separation\nignored"), strict=True):
-                row[-1].annotate(text, (0.97, 0.97), fontsize=6, **look)
-            axes[2, 0].set_facecolor("white")
-            axes[2, 0].annotate("as above:\nno separation yet", (0.9, 0.55), fontsize=7, **look | {"color": BLACK})
+        look: dict[str, Any] = {"xycoords": "axes fraction", "ha": "right", "va": "top", "color": "white"}
+        for row, text in zip(axes[1:], ("with\nseparation", "separation\nignored"), strict=True):
+            row[-1].annotate(text, (0.97, 0.97), fontsize=6, **look)
+        axes[2, 0].set_facecolor("white")
+        axes[2, 0].annotate("as above:\nno separation yet", (0.9, 0.55), fontsize=7, **look | {"color": BLACK})
         if spectra:
-            _name_lines(axes[1, -1])
+            names = axes[1, -1].secondary_yaxis("right")  # of the lines of Table 2
+            names.set_yticks([float(np.mean(pair)) for pair in TABLE_2.values()], labels=list(TABLE_2))
+            names.set_yticks([line for pair in TABLE_2.values() for line in pair], minor=True)
+            names.tick_params(length=0, pad=7)  # names keep clear of the ticks of single lines
+            names.tick_params(which="minor", length=3, width=0.6)
+            names.spines["right"].set_visible(False)
             draw_scale(below, mesh, list(axes.flat))
         with drawing.blank_if_missing(whole):
             for (i, _), spectrum, text in zip(spectra, spectra.values(), "bcdef", strict=False):
@@ -104,16 +103,6 @@ class FourStretches(CasePlot):
             drawing.show_thickness(whole, cases[0], "y")
             drawing.letter(whole, "a")
         return figure
-
-
-def _name_lines(ax: Axes) -> None:
-    """Draw ticks at the frequencies of Table 2, with the paper's symbols."""
-    right = ax.secondary_yaxis("right")
-    right.set_yticks([float(np.mean(pair)) for pair in TABLE_2.values()], labels=list(TABLE_2))
-    right.set_yticks([line for pair in TABLE_2.values() for line in pair], minor=True)
-    right.tick_params(length=0, pad=7)  # names keep clear of the ticks of single lines
-    right.tick_params(which="minor", length=3, width=0.6)
-    right.spines["right"].set_visible(False)
 
 
 ZOOM = 0.2  # length of a closer look, s
@@ -195,18 +184,14 @@ class Response(CasePlot):
                 ax.sharey(axes["c"])
                 ax.tick_params(labelleft=False)
             with drawing.blank_if_missing(ax):
-                label = _closer(ax, dataset.samples(case, name), self.variable, start)
+                window = dataset.samples(case, name)
+                part = window.sel(time=slice(start, start + ZOOM))
+                if part.sizes["time"] < 2:
+                    raise Missing(f"has no samples from {start:g} to {start + ZOOM:g} s")
+                label, scale, colour = drawing.sampled(self.variable, window)
+                milliseconds = (part["time"].values - start) * 1e3
+                ax.plot(milliseconds, part[self.variable].values * scale, color=colour, linewidth=0.6)
+                ax.set(xlabel=f"Time after {start:g} s (ms)", xlim=(0, ZOOM * 1e3))
                 ax.set_ylabel(label if letter == "c" else "")
                 drawing.letter(ax, letter)
         return figure
-
-
-def _closer(ax: Axes, window: xr.Dataset, variable: str, start: float) -> str:
-    """Draw a closer look; returns the label of the variable's axis."""
-    part = window.sel(time=slice(start, start + ZOOM))
-    if part.sizes["time"] < 2:
-        raise Missing(f"has no samples from {start:g} to {start + ZOOM:g} s")
-    label, scale, colour = drawing.sampled(variable, window)
-    ax.plot((part["time"].values - start) * 1e3, part[variable].values * scale, color=colour, linewidth=0.6)
-    ax.set(xlabel=f"Time after {start:g} s (ms)", xlim=(0, ZOOM * 1e3))
-    return label
