@@ -109,7 +109,9 @@ class Row(BaseModel):
         studies = [cases[name].node.to_dataset() for name in self.scans]
         beside = [cases[name].node.to_dataset() if name in cases else None for name in self.beside]
         answer = check(*needed.values(), *studies, *beside, **self.given)
-        which = {1: "The motion has", 2: "Both motions have"}.get(len(steady), f"All {len(steady)} motions have")
+        which = {1: "The motion has", 2: "Both motions have"}.get(
+            len(steady), f"The motions of all {len(steady)} cases have"
+        )
         if len(steady) < len(needed):
             noun, verb = ("motion", "has") if len(steady) == 1 else ("motions", "have")
             places = "; at ".join(case.place for case in steady)

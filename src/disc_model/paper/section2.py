@@ -52,7 +52,7 @@ def first_separations(maps: Mapping[str, xr.Dataset]) -> pd.DataFrame:
 
 def survive(*maps: xr.Dataset, share: float) -> Answer:
     critical, plane = moving_load_speed(BASE), maps[0].transpose("normalization", "Omega", ...)
-    apart, run = (flag_names(plane[x]) == word for x, word in (("outcome", "separation"), ("method", "simulation")))
+    apart = flag_names(plane["outcome"]) == "separation"
     lowest = [np.min(plane["Omega"].values[each.any(axis=1)], initial=np.inf) for each in apart]
     by_name = {study.attrs["study"]: study for study in maps}
     times, points = first_separations(by_name), _points(by_name)
@@ -71,7 +71,6 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
         lowest=lowest,
         critical=critical,
         first=first,
-        points=(apart[0].size, *np.sum([*apart, *(apart & run)], axis=(1, 2))),
     )
 
 

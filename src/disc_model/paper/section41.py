@@ -10,7 +10,7 @@ import xarray as xr
 from scipy.signal import find_peaks
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import irregularity, motion_of
+from disc_model.analysis.classify import irregularity
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.disc.plate import modal_damping, mode_arrays
@@ -73,8 +73,7 @@ def keeps_sticking(*evidence: Any, share: float) -> Answer:
     shares = study["stick_fraction"].transpose(*study["settled"].dims).values
     least, most = np.min(shares[settled], initial=np.inf), np.max(shares[settled], initial=0.0)
     rows = [f"{100 * case.stick:.0f} % at {case.place}" for case in cases]
-    moving = measures.counted(settled.size - settled.sum(), "point") if not settled.all() else ""
-    told = {"size": settled.size, "settled": settled.sum(), "extent": (100 * least, 100 * most), "moving": moving}
+    told = {"size": settled.size, "settled": settled.sum(), "extent": (100 * least, 100 * most)}
     return Answer(min(least, *(case.stick for case in cases)) > share, sticks=rows, **told)
 
 
@@ -93,18 +92,15 @@ def more_frequencies(*cases: CaseView, floor: float) -> Answer:
     return Answer(graded([*more, *too]) if any(more) else FALSE, rows=rows)
 
 
-def quasi_periodic(*cases: CaseView, count: float) -> Answer:
-    """Whether the first ``count`` cases are quasi-periodic. As many follow with a spring 0.1 % stiffer, then others."""
-    number = int(count)
-    shown, stiffer, begun = cases[:number], cases[number : 2 * number], cases[2 * number :]
+def quasi_periodic(*cases: CaseView) -> Answer:
+    """Whether the first half of the cases are quasi-periodic; the others have a spring that is 0.1 % stiffer."""
+    shown, stiffer = cases[: len(cases) // 2], cases[len(cases) // 2 :]
     kinds = [case.late_motion.kind for case in shown]
     if Outcome.UNDECIDED in kinds:
         return Answer(NOT_COMPUTED, "The 0-1 test lies between regular and chaotic motion.")
     near = [(case.place, measures.repeats(case.late_motion, "release")) for case in stiffer]
-    slips = [(case.place, case.intervals("separation")) for case in begun if case.stick <= 1e-3]
-    other = [(place, measures.repeats(motion_of(intervals), "separation")) for place, intervals in slips]
     rows = [(case.place, case.motion) for case in shown]
-    return Answer(graded(kind is Outcome.QUASI_PERIODIC for kind in kinds), rows=rows, near=near, other=other)
+    return Answer(graded(kind is Outcome.QUASI_PERIODIC for kind in kinds), rows=rows, near=near)
 
 
 def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
@@ -236,11 +232,10 @@ def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
     study, critical = published(study), moving_load_speed(BASE)
     low, without = study["Omega"] < share * critical, study["growth_rate"].isnull()
     unstable, apart = study["growth_rate"] > 0, study["outcome"].copy(data=flag_names(study["outcome"]) == "separation")
-    most, method, kept = float(study["Omega"].max()), flag_names(study["method"]), unstable & ~apart
-    known = [int((kept & (method == how)).sum()) for how in ("simulation", "settled", "multipliers")]
-    counts = [int(x.sum()) for x in (unstable, apart, kept, apart & (method == "simulation"), apart & without)]
+    most = float(study["Omega"].max())
+    counts = [int(x.sum()) for x in (unstable, apart, unstable & ~apart, apart & without)]
     holds = (low & unstable).any() and (low & apart).any()
-    return Answer(bool(holds), most=most, part=most / critical, counts=counts, known=known, size=apart.size)
+    return Answer(bool(holds), most=most, part=most / critical, counts=counts, size=apart.size)
 
 
 # ---- The transverse energy of a motion: what the slope supplies, and what damping and impacts take

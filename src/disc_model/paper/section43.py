@@ -79,7 +79,6 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
         never=[speed for speed in sorted(times) if math.isnan(times[speed])],
         end=cases[0]["time_reached"],
         horizon=horizon,
-        later=[speed for speed, time in times.items() if speed > printed and time > horizon],
         lower=[(speed, 1 - speed / printed) for speed in least],
     )
 

@@ -75,7 +75,7 @@ def follow(*cases: CaseView, within: float) -> Answer:
         rows.append((place, 1e-3 * case["k_p"], rate, [line.frequency for line in lines]))
     combined = [each <= within for each in off]
     verdict = TRUE if all(natural) else PART if all(combined) and np.mean(shifted) >= 0.5 else FALSE
-    return Answer(verdict, combined=combined, shifted=shifted, natural=natural, off=max(off), rows=rows)
+    return Answer(verdict, combined=combined, shifted=shifted, natural=natural, rows=rows)
 
 
 def inplane_frequency(case: CaseView, *, printed: float, within: float) -> Answer:
@@ -243,12 +243,12 @@ def stiffened(p: Parameters, *speeds: float) -> tuple[list[Array], str]:
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     E, Omega, apart, _ = plane(study, "E", "Omega")
     E, some, at_slow = E / 1e9, apart.any(axis=1), apart[:, Omega == slow]
-    quiet, stiff = [*E[~some]], [*E[at_slow.any(axis=1)]]
+    quiet = [*E[~some]]
     softer = [*E[some & (max(quiet, default=0.0) > E)]]
     soft = at_slow[E <= BASE.E / 1e9]
     calm = slow if soft.size and not soft.any() else ""
     holds = bool(quiet and some.any() and not softer)
-    return Answer(holds, quiet=quiet, softer=softer, slow=calm, stiff=stiff, base=BASE.E)
+    return Answer(holds, quiet=quiet, softer=softer, slow=calm, base=BASE.E)
 
 
 def vertical_branch(*cases: CaseView, within: float) -> Answer:
@@ -259,7 +259,6 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
         rise, of_mode = rates[1] / rates[0] - 1, modes[1] / modes[0] - 1
         follows.append(rise / of_mode)
         alone.append(rise / (math.sqrt(pair[1]["k"] / pair[0]["k"]) - 1))
-        spring = 2 * of_mode / (pair[1]["k"] / pair[0]["k"] - 1)
         rows.append((pair[0].place, rates[0]))
     free = float(np.sqrt(cases[0]["k"] / cases[0]["m"])) / (2 * np.pi)
     levels = []
@@ -269,5 +268,5 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
         near, every = (float(amplitude[band].max()) for band in (np.abs(frequencies - free) < 1, frequencies > 1))
         levels.append(measures.ratio(near, every, f"the spectrum of case {case.name}"))
     by_mode, by_spring = (all(abs(each - 1) <= within for each in rises) for rises in (follows, alone))
-    told = {"coupled": modes[0], "free": free, "follows": follows, "spring": spring, "level": max(levels)}
+    told = {"coupled": modes[0], "free": free, "follows": follows, "level": max(levels)}
     return Answer(AMBIGUOUS if by_mode else by_spring, rows=rows, by_mode=by_mode, **told)
