@@ -108,11 +108,9 @@ def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
     for before, after in ((none, some), (some, twice)):
         grows = (before > 0) & np.isfinite(after)
         growing, lowered = [*growing, int(grows.sum())], lowered + int((grows & (after < before)).sum())
-        for i in np.flatnonzero(after > before):
-            cycle = "growing" if before[i] > 0 else "stable"
-            raised.append(f"at {measures.place(grid[i].N, grid[i].Omega)}, from a {cycle} cycle")
-    most, found = values_text({name: 2 * value}), [int(np.isfinite(some).sum()), int((some < 0).sum())]
-    return Answer(sum(growing) == lowered > 0, most=most, lowered=lowered, growing=growing, raised=raised, found=found)
+        raised += [measures.place(grid[i].N, grid[i].Omega) for i in np.flatnonzero((before < 0) & (after > before))]
+    most = values_text({name: 2 * value})
+    return Answer(sum(growing) == lowered > 0, most=most, lowered=lowered, growing=growing, raised=raised)
 
 
 def _grid(p: Parameters) -> list[Parameters]:
