@@ -193,7 +193,8 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[str, str]:
         f"rises to {speeds[top]:.1f} rad/s at {loads[top]:g} N",
     ]
     if later:
-        parts += [f"falls again ({extent(rest[np.isfinite(rest)]):.1f} rad/s at larger preloads up to {loads[-1]:g} N)"]
+        ranges = f"is {extent(rest[np.isfinite(rest)]):.1f} rad/s at larger preloads up to {loads[-1]:g} N"
+        parts += [f"falls again: it {ranges}"]
     lowest = f"the lowest speed with separation {', '.join(parts[:-1])}, and {parts[-1]}"
     return PART if later else TRUE, f"{begin}, {lowest}."
 

@@ -121,14 +121,14 @@ def _grid(p: Parameters) -> list[Parameters]:
 
 def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
     growth = published(study)["growth_rate"].transpose("Omega", name).values
-    rows = [known for row in growth if (known := row[np.isfinite(row)]).size > 2]
+    rows = [growing for row in growth if (growing := row[row > 0]).size > 2]
     if not rows:
         raise Missing(f"study {study.attrs.get('study', '')} has no growing cycle")
     part = np.mean(np.concatenate([np.diff(row) < 0 for row in rows]))
-    ranks, grown = ([spearmanr(range(x.size), x)[0] for x in y if x.size > 2] for y in (rows, [r[r > 0] for r in rows]))
+    ranks = [spearmanr(range(row.size), row)[0] for row in rows]
     rank, above = np.median(ranks), (int(np.sum(np.array(ranks) > -trend)), len(ranks))
     verdict = TRUE if part == 1 else PART if rank <= -trend else FALSE
-    return Answer(verdict, part=part, rank=rank, above=above, only=np.median(grown or math.nan))
+    return Answer(verdict, part=part, rank=rank, above=above)
 
 
 def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = False) -> Answer:
@@ -148,11 +148,12 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
     )
 
 
-def is_kind(case: CaseView, *, kind: str) -> Answer:
+def quasi_periodic_and_irregular(case: CaseView) -> Answer:
     if case.late_motion.kind is Outcome.UNDECIDED:
         return Answer(NOT_COMPUTED, "The 0-1 test for chaos lies between regular and chaotic motion.")
     words = f"From {case.kept_span:g} s, the motion at {case.place} is {case.motion}."
-    return Answer(case.late_motion.kind == kind, words)
+    kinds = (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
+    return Answer(graded(case.late_motion.kind is kind for kind in kinds), words)
 
 
 def softer_separates_sooner(*evidence: Any) -> Answer:

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from scipy.stats import spearmanr
 
 from disc_model.analysis import spectra
 from disc_model.data.dataset import Missing
@@ -218,11 +219,13 @@ def damping_destabilises(study: xr.Dataset, *, fewest: float) -> Answer:
     return Answer(bool(rows), most=damping[-1], rows=rows, both=both.sum(), lower=lower)
 
 
-def stiffer_inplane(case: CaseView) -> Answer:
+def stiffer_inplane(case: CaseView, *, trend: float) -> Answer:
     known, words = stiffened(case.parameters, 20, 50)
-    steps = np.concatenate([np.diff(rates[: np.argmax(rates) + 1]) for rates in known])
+    rising = [rates[: np.argmax(rates) + 1] for rates in known]
+    steps, ranks = np.concatenate([*map(np.diff, rising)]), [spearmanr(range(x.size), x)[0] for x in rising]
     falls = int((steps <= 0).sum()), steps.size
-    return Answer(falls[0] == 0, falls=falls, stiffened=words)
+    verdict = TRUE if falls[0] == 0 else PART if min(ranks) >= trend else FALSE
+    return Answer(verdict, falls=falls, ranks=ranks, stiffened=words)
 
 
 STIFFENED = (2, 20, 30, 36, 47, 55, 63, 73, 84, 130, 200)
@@ -247,8 +250,8 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     softer = [*E[some & (max(quiet, default=0.0) > E)]]
     soft = at_slow[E <= BASE.E / 1e9]
     calm = slow if soft.size and not soft.any() else ""
-    holds = bool(quiet and some.any() and not softer)
-    return Answer(holds, quiet=quiet, softer=softer, slow=calm, base=BASE.E)
+    verdict = FALSE if not (quiet and some.any()) else AMBIGUOUS if softer else TRUE
+    return Answer(verdict, quiet=quiet, softer=softer, slow=calm, base=BASE.E)
 
 
 def vertical_branch(*cases: CaseView, within: float) -> Answer:
