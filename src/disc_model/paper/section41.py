@@ -193,9 +193,13 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[str, str]:
         f"rises to {speeds[top]:.1f} rad/s at {loads[top]:g} N",
     ]
     if later:
-        ranges = f"is {extent(rest[np.isfinite(rest)]):.1f} rad/s at larger preloads up to {loads[-1]:g} N"
-        parts += [f"falls again: it {ranges}"]
+        below = np.flatnonzero(np.isfinite(rest))
+        parts += [f"falls again, to {rest[below[0]]:.1f} rad/s at {loads[top + 1 + below[0]]:g} N"]
     lowest = f"the lowest speed with separation {', '.join(parts[:-1])}, and {parts[-1]}"
+    if later and len(below) > 1:
+        lowest += (
+            f". At larger preloads up to {loads[-1]:g} N it rises and falls within {extent(rest[below[1:]]):.1f} rad/s"
+        )
     return PART if later else TRUE, f"{begin}, {lowest}."
 
 
