@@ -83,13 +83,13 @@ def releases_regularly(*cases: CaseView, within: float) -> Answer:
 
 
 def more_frequencies(*cases: CaseView, floor: float) -> Answer:
-    rows, more, too = list[Any](), list[bool](), list[bool]()
+    rows, more = list[Any](), list[bool]()
     for free, bonded in pairs(cases):
         late = [(each["time"].values, each["w_point"].values) for each in (x.samples("late") for x in (free, bonded))]
         counts = [len(spectra.lines(*x, above=1.0, floor=least)) for least in (floor, floor / 10) for x in late]
-        (more if free.from_rest else too).append(counts[0] > counts[1])
+        more += [counts[0] > counts[1]] if free.from_rest else []
         rows.append((free.place, free.from_rest, *counts))
-    return Answer(graded([*more, *too]) if any(more) else FALSE, rows=rows)
+    return Answer(graded(more) if more else NOT_COMPUTED, rows=rows)
 
 
 def quasi_periodic(*cases: CaseView) -> Answer:

@@ -34,9 +34,9 @@ def calm_text(case: CaseView) -> str:
 
 def stays_small(case: CaseView, *_: CaseView, share: float, within: float, last: float = 0, same: float = 1) -> Answer:
     intervals = case.intervals()
-    spread, points = irregularity(intervals), [_different(case, last, x) for x in (same, 1e-2)] if last else [0]
+    spread, points = irregularity(intervals), [_different(case, last, x) for x in (same, 1e-4)] if last else [0]
     holds = stays_calm(case) and case.late.width < share * case["N"] and spread <= within
-    small = not last or (case.disc.width < case["h"] and points[0] <= last / 2)
+    small = not last or (case.disc.width / 2 < case["h"] and points[0] <= last / 2)
     widths = (1e3 * case.disc.width, 1e6 * case.late_range("u").width) if last else ()
     told = {"fate": calm_text(case), "late": case.late, "rate": 1 / intervals.mean(), "spread": spread}
     return Answer(holds if small or not holds else PART, points=points, widths=widths, **told)
@@ -52,7 +52,7 @@ def only_between(*cases: CaseView, largest: float) -> Answer:
     stable = [stays_calm(x) if x["N"] <= largest or "history" in x.node else not x.separates for x in cases]
     holds, here = stable[:shown] == [True, False, True], " ".join(calm_text(case) for case in cases)
     if holds and not all(stable[shown:]):
-        note = f"The statement holds up to {largest:g} N. Only in Fig. 15 does the paper show larger preloads."
+        note = f"The statement holds up to {largest:g} N. No case in the paper's text has a larger preload."
         return Answer(PART, here, note)
     return Answer(holds, here)
 
@@ -254,7 +254,8 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
     newly = loads[quiet & apart[:, damping == c_p][:, 0]]
     never = loads[quiet & ~apart[:, 1:].any(axis=1)]
     never = never[never > newly.max(initial=0)]
-    return Answer(bool(newly.size) and not never.size, newly=[*newly], never=[*never])
+    verdict = FALSE if not newly.size else PART if never.size else TRUE
+    return Answer(verdict, newly=[*newly], never=[*never])
 
 
 def plane(study: xr.Dataset, first: str, second: str) -> tuple[Array, Array, NDArray[np.bool_], Array]:

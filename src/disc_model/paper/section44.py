@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from scipy.stats import spearmanr
 
 from disc_model.analysis import spectra
 from disc_model.data.dataset import Missing
@@ -219,13 +218,11 @@ def damping_destabilises(study: xr.Dataset, *, fewest: float) -> Answer:
     return Answer(bool(rows), most=damping[-1], rows=rows, both=both.sum(), lower=lower)
 
 
-def stiffer_inplane(case: CaseView, *, trend: float) -> Answer:
+def stiffer_inplane(case: CaseView) -> Answer:
     known, words = stiffened(case.parameters, 20, 50)
-    rising = [rates[: np.argmax(rates) + 1] for rates in known]
-    steps, ranks = np.concatenate([*map(np.diff, rising)]), [spearmanr(range(x.size), x)[0] for x in rising]
-    falls = int((steps <= 0).sum()), steps.size
-    verdict = TRUE if falls[0] == 0 else PART if min(ranks) >= trend else FALSE
-    return Answer(verdict, falls=falls, ranks=ranks, stiffened=words)
+    growing = [rates[: np.argmax(np.append(rates, -1) < 0)] for rates in known]
+    rises = [rates.size > 1 and bool((np.diff(rates) > 0).all()) for rates in growing]
+    return Answer(graded(rises), rises=rises, stiffened=words)
 
 
 STIFFENED = (2, 20, 30, 36, 47, 55, 63, 73, 84, 130, 200)
