@@ -44,8 +44,7 @@ def _parameters(case: xr.DataTree) -> Parameters:
 def canvas(
     ax: Any, width: float, height: float, rows: int = 1, columns: int = 1, title: str | None = None, **shared: Any
 ) -> Iterator[list[Axes]]:
-    """The axes that a reader gives, one for each panel, which keep the style of their figure; or those of a new figure
-    in the common style, which pyplot shows, with a title above."""
+    """The axes that a reader gives, one for each panel, or those of a new figure of pyplot in the common style."""
     if ax is not None:
         known_axes = list(np.ravel(np.asarray(ax, dtype=object)))
         require((all(isinstance(each, mpl.axes.Axes) for each in known_axes), "ax", ax, "must be axes of matplotlib"))
