@@ -53,10 +53,10 @@ MOST_MODES = 1000  # largest number of modes in the table of a disc
 FREQUENCIES = (1e-3, 1e7)  # limits of natural frequencies, rad/s; above them a cycle would take minutes to compute
 AMPLITUDES = (1e-6, 1e6)  # limits of the largest modal amplitude, kg^-1/2: the modal mass is 1e-12 to 1e12 kg
 
+# words by which texts that identify cases and batches know the kinds of contact, and the field's own
 CONTACTS = {"separable": "unilateral", "bonded": "bilateral"}
-"""Words by which texts that identify cases and batches know the kinds of contact, and the field's own."""
+# added later: their defaults are left out of the canonical form, so that older hashes stay valid
 _LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc", "friction_offset", "friction_decay")
-"""Parameters added later: defaults are left out of the canonical form, so that older hashes stay valid."""
 
 
 def _or_word(word: str) -> BeforeValidator:

@@ -354,9 +354,8 @@ def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Artist]:
 
 
 def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Artist]:
-    """Draw borders between cells, but not around unresolved ones: where the same cycle changes its stability, and where
-    a stable one ends, because the next cell has no cycle and does not stay quiet. A start that follows no cycle, or
-    another one, does not prove an end. Upward: the study's first dimension is the vertical one."""
+    """Draw borders between resolved cells: where one cycle changes its stability, and where a stable one ends: the
+    next cell has none and does not stay quiet. Upward: the study's first dimension is the vertical one."""
     x, y = edges_of(data["outcome"])
     state = stability_of(data)
     state[unresolved(state)] = "unresolved"
