@@ -1,8 +1,5 @@
-"""Command line: ``disc-model run|floquet|sliding|modes|study|list|status|init|compile``.
-
-Invalid input is reported on stderr with exit code 2: one line, or for a study file a list of its faults. A simulation
-that ends early is reported and gives exit code 1. Options of commands on one case are made from the fields of pydantic
-models, and their values are passed on as text, so that the same rules and messages apply as everywhere else.
+"""Command line ``disc-model``. Invalid input gives exit code 2, a simulation that ends early 1. Options of commands on
+one case are made from the fields of pydantic models, which get the texts, so that the same rules and messages apply.
 """
 
 from __future__ import annotations
@@ -47,7 +44,7 @@ if TYPE_CHECKING:
 
 # ---- Options, one for each field of a model
 
-PANELS = {
+PANELS = {  # headings of the help, and the fields below them
     "Run": ["t_end", "stop_at", "window", "ramp", "plot", "save", "csv"],
     "Slider": ["N", "Omega", "m", "r_0", "k", "k_p", "c", "c_p"],
     "Disc": ["D_star", "E", "a", "b", "h", "nu", "rho", "normalization", "damping_ratio", "disc"],
@@ -56,19 +53,16 @@ PANELS = {
     ],
     "Numerics": ["n_diameters", "n_circles", *CHOOSING, "tol", "max_steps"],
 }  # fmt: skip
-"""Headings of the help, and the fields below them."""
-HELP = {
+HELP = {  # of fields of `Parameters` that take more on the command line, and of `CHOOSING`
     "n_diameters": f"highest number of nodal diameters, -1 for a rigid disc, {AUTO}: as many as a tolerance asks for",
     CHOOSING[0]: f"quantity by which {AUTO} chooses, {FREQUENCIES} if not given",
     CHOOSING[1]: f"relative tolerance of this quantity, at least {TRUSTED:g}; if not given, "
     + ", ".join(f"{default:g} for {name}" for name, default in CHOSEN_BY.items()),
 }
-"""Help texts of fields of `Parameters` that take more on the command line, and of `CHOOSING`."""
-WORDS = {
+WORDS = {  # values, in capitals those that stand for others, of options whose types do not name them
     "disc": ("FILE",), "n_diameters": ("VALUE", AUTO), CHOOSING[0]: tuple(CHOSEN_BY), "t_end": ("SECONDS",),
     "plot": ("FILE",), "save": ("FILE",), "window": ("NAME:KEY=VALUE,...",), "ramp": ("PARAMETER:KEY=VALUE,...",),
 }  # fmt: skip
-"""Values, in capitals those that stand for others, of options whose types do not name them."""
 
 
 def option_name(field: str) -> str:
@@ -366,9 +360,7 @@ def run(p: Parameters, choice: ModeChoice | None, options: RunOptions) -> None:
 
 # ---- Studies
 
-INTERRUPTED = 130
-"""Exit code after Ctrl-C, equal to typer's: 128 plus the number of the signal, as in shells."""
-LISTED = ("studies", "figures", "cases")
+INTERRUPTED = 130  # exit code after Ctrl-C, equal to typer's: 128 plus the number of the signal, as in shells
 Files = Annotated[list[Path], typer.Argument(help="study files, later ones laid over earlier ones")]
 
 
@@ -396,14 +388,9 @@ def study(
 
 
 def list_(
-    what: Annotated[
-        str, typer.Argument(metavar="|".join(LISTED), help="what to list", autocompletion=lambda: list(LISTED))
-    ],
-    files: Files,
+    what: Annotated[Literal["studies", "figures", "cases"], typer.Argument(help="what to list")], files: Files
 ) -> None:
     """List the grid studies, figures or cases of a study."""
-    if what not in LISTED:
-        raise ParameterError(Fault(("what",), repr(what), f"must be one of {', '.join(LISTED)}"))
     from disc_model.data.variables import values_text
 
     chosen, grids, requested = _read(files)
@@ -505,8 +492,7 @@ def _on_interrupt(handler: Any) -> Iterator[None]:
 
 
 def _run(command: list[str]) -> int:
-    """Run Snakemake and return its exit code. After Ctrl-C, which reaches both processes, wait until it has stopped its
-    jobs and unlocked the folder."""
+    """Snakemake's exit code; after Ctrl-C, which reaches both processes, wait for it to stop its jobs and unlock."""
     interrupts: list[int] = []
     with _on_interrupt(lambda number, _: interrupts.append(number)), subprocess.Popen(command) as process:
         if interrupts:  # Ctrl-C came before the second process

@@ -49,8 +49,7 @@ def counted(number: int, noun: str) -> str:
 
 
 def draw(picture: str, *inputs: Any, **options: Any) -> Any:
-    """Draw by a function of `disc_model.figures.results`, imported by its name, so that no result depends on it. Raises
-    ModuleNotFoundError without matplotlib."""
+    """Draw by a function of `disc_model.figures.results`, imported by its name, so that no result depends on it."""
     try:
         return getattr(import_module("disc_model.figures.results"), picture)(*inputs, **options)
     except ModuleNotFoundError as error:
@@ -120,8 +119,8 @@ def _open_bar(text: str, total: float, estimate: bool = True) -> Any:
 
 # ---- What Snakemake shows of a study
 
+# Snakemake's events that concern single jobs, or what it is about to do
 _OF_JOBS = re.compile("job_.*|group_info|progress|run_info|resources_info|shellcmd|workflow_started")
-"""Snakemake's events that concern single jobs, or what it is about to do."""
 _CHATTER = re.compile(
     "Assuming unrestricted|Building DAG|Using shell|Conda environments:|Select jobs|Execute [0-9]+ job"
     "|Exiting because a job|RuleException:\nCalledProcessError|Job [0-9]+ has been submitted"
@@ -132,10 +131,8 @@ _LAST = 10  # lines at the end of a log that are shown
 
 class StudyProgress(logging.Handler):
     """Stands in for Snakemake's handler of the terminal: shows how much of a study is done and how long the rest takes,
-    and at the end which jobs failed, by reason; what concerns no job is passed on.
-
-    durations : returns the expected durations (s) of the jobs that are to run, by number, and how many run at a time
-    """
+    and at the end which jobs failed, by reason; what concerns no job is passed on. `durations` returns the expected
+    durations (s) of the jobs that are to run, by number, and how many run at a time."""
 
     def __init__(self, own: Any, durations: Callable[[], tuple[Mapping[int, float], int]]) -> None:
         super().__init__()

@@ -17,8 +17,7 @@ class DiscModelError(Exception):
 
 
 def script(main: Callable[..., None]) -> Callable[..., None]:
-    """Call the main function of a script, unless it is only imported; errors of this package and Ctrl-C end it without
-    a traceback."""
+    """Call a script's main function, unless it is only imported; own errors and Ctrl-C end it without a traceback."""
     if main.__module__ == "__main__":
         logging.basicConfig(level=logging.INFO, format="%(name)s: %(message)s")
         try:
@@ -29,11 +28,7 @@ def script(main: Callable[..., None]) -> Callable[..., None]:
 
 
 class Fault(str):
-    """A fault of one value: the text ``path=value: rule``.
-
-    path : names and indices that lead to the value; empty if the fault concerns the whole input
-    value : the value as messages show it; "" if it is not shown
-    """
+    """A fault of one value, as ``path=value: rule``; of the whole input without a path; a value "" is not shown."""
 
     path: tuple[str, ...]
     value: str
@@ -147,7 +142,7 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
             yield Fault(path, "" if hidden else as_text(value), rule)
 
 
-_RULES = {
+_RULES = {  # by pydantic's kind of fault, whose context fills the braces
     "greater_than_equal": "must be >= {ge:g}",
     "greater_than": "must be > {gt:g}",
     "less_than": "must be < {lt:g}",
@@ -164,7 +159,6 @@ _RULES = {
     **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "must be a whole number"),
     "string_type": "must be text",
 }
-"""Rules by pydantic's kind of fault; pydantic's context of the fault fills the braces."""
 
 
 def as_text(value: Any) -> str:

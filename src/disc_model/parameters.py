@@ -42,23 +42,21 @@ CHOOSING = ("truncation_quantity", "truncation_tolerance")  # keys of files and 
 RESIDUAL = "residual"  # value of ``contact_compliance`` that stands for the static flexibility of the modes left out
 SURFACE = "surface"  # value of ``friction_offset`` by which friction acts on the disc's surface
 
-RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")
-"""Parameters in rules that relate several parameters."""
+RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")  # parameters in rules that relate several
+# parameters of the plate, which have no meaning for a disc that is given by its modes
 PLATE = ("D_star", "E", "a", "b", "h", "nu", "rho", "n_diameters", "n_circles", "normalization")
-"""Parameters of the plate, which have no meaning for a disc that is given by its modes."""
-RATIOS = {
+RATIOS = {  # of two parameters, which may stand for the first one
     f"{upper}_over_{lower}": (upper, lower)
     for upper, lower in (("mu_k", "mu_s"), ("k_p", "k"), ("c_p", "c"), ("a", "b"), ("r_0", "b"), ("h", "b"))
 }
-"""Ratios of two parameters, which may stand for the first one."""
 MOST_MODES = 1000  # largest number of modes in the table of a disc
 FREQUENCIES = (1e-3, 1e7)  # limits of natural frequencies, rad/s; above them a cycle would take minutes to compute
 AMPLITUDES = (1e-6, 1e6)  # limits of the largest modal amplitude, kg^-1/2: the modal mass is 1e-12 to 1e12 kg
 
+# words by which texts that identify cases and batches know the kinds of contact, and the field's own
 CONTACTS = {"separable": "unilateral", "bonded": "bilateral"}
-"""Words by which texts that identify cases and batches know the kinds of contact, and the field's own."""
+# added later: their defaults are left out of the canonical form, so that older hashes stay valid
 _LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc", "friction_offset", "friction_decay")
-"""Parameters added later: defaults are left out of the canonical form, so that older hashes stay valid."""
 
 
 def _or_word(word: str) -> BeforeValidator:
@@ -346,8 +344,7 @@ class Disc(Checked):
         return faults
 
     def _faults_of_modes(self, counted: bool) -> list[str]:
-        """Faults of the amplitudes, and of modes given twice, often as the halves of a pair, which must be given once.
-        Where circles are counted by frequency, modes 5 % apart in frequency are no halves of a pair."""
+        """Faults of amplitudes, and of modes given twice; those 5 % apart are no pair if circles are counted."""
         faults = limits_faults("largest amplitude", max(map(abs, self.amplitude)), AMPLITUDES)
         if not any(self.amplitude):
             faults = [Fault(("amplitude",), "", "must not be 0 for all modes: the slider would not feel the disc")]
@@ -559,7 +556,7 @@ class Parameters(Checked):
     @property
     def D(self) -> float:
         """Flexural rigidity E h^3/12/(1 - nu^2), N m."""
-        return _rigidity(self.E, self.h, self.nu)
+        return self.E * self.h**3 / 12 / (1 - self.nu**2)
 
     @property
     def canonical(self) -> dict[str, Any]:
@@ -592,7 +589,6 @@ class Parameters(Checked):
 UNITS.update(Parameters._units({}))  # type: ignore[arg-type]
 
 DEFAULTS = {name: field.default for name, field in Parameters.model_fields.items() if not field.is_required()}
-"""Values of parameters that are not given."""
 
 
 def _documented() -> str:
@@ -645,10 +641,6 @@ def foreign_case(p: object, name: str = "p") -> list[str]:
     return [] if isinstance(p, Parameters) else [Fault.of((name,), p, "must be Parameters")]
 
 
-def _rigidity(E: float, h: float, nu: float) -> float:
-    return E * h**3 / 12 / (1 - nu**2)
-
-
 _ORDER = (("mu_k", "<=", operator.le, "mu_s"), ("a", "<", operator.lt, "r_0"), ("r_0", "<=", operator.le, "b"))
 
 
@@ -662,10 +654,7 @@ def cross_faults(values: Mapping[str, Any]) -> list[Fault]:
             faults.append(Fault.of((low,), lower, f"must be {sign} {high}={as_text(upper)}"))
     E, h, nu = (values.get(name) for name in ("E", "h", "nu"))
     if E is not None and h is not None and nu is not None and E > 0 and h > 0 and abs(nu) < 1:
-        try:
-            rigidity = _rigidity(E, h, nu)
-        except OverflowError:
-            rigidity = math.inf
+        rigidity = E * (h * h * h) / 12 / (1 - nu**2)  # unlike a power, a product overflows to inf
         if not 0 < rigidity < math.inf:
             rule = f"must give a finite, positive E h^3/12/(1-nu^2), not {as_text(rigidity)}"
             faults.append(Fault.of(("h",), h, rule))

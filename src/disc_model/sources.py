@@ -23,21 +23,18 @@ from pathlib import Path
 import platformdirs
 
 PACKAGE = Path(__file__).resolve().parent
-ASIDE = {
+ASIDE = {  # modules that are not followed where they are imported, since they decide no result, with the reason
     "mode_choice": "is an entry point, where modes are chosen by the motion",
     "disc.plausibility": "warns",
     "display": "shows to a reader, and progress",
     "simulation.pictures": "draws for a reader",
 }
-"""Modules that are not followed where they are imported, since they decide no result, with the reason."""
 
 
 @functools.cache
 def source_hash(*entries: str | Path) -> str:
-    """Hash of the sources of a result, 16 hexadecimal digits. Comments, docstrings and layout do not count.
-
-    entries : names of modules and packages, with or without ``disc_model.``, and paths of scripts and further files
-    """
+    """Hash of the sources of a result without comments, docstrings and layout, 16 hexadecimal digits. Entries are names
+    of modules and packages, with or without ``disc_model.``, and paths of scripts and further files."""
     digest = hashlib.sha256()
     for path in source_files(*entries):
         # a script is hashed under its bare name, wherever it is installed

@@ -32,8 +32,7 @@ BITS = 17  # number of bits kept of the 23 of a 32-bit mantissa: five digits, as
 
 
 def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = None, text: str = "") -> dict[str, Any]:
-    """Contents of a merged study, with its motions and a text that describes these: parameters that do not vary,
-    dimensions, each variable that lies along one, and messages."""
+    """Contents of a merged study: fixed parameters, dimensions, variables, messages; motions, and a text on these."""
     study = study.transpose(*study.sizes)
     base = json.loads(study.attrs.get("base", "{}"))
     messages = None

@@ -52,7 +52,7 @@ class Bifurcation(Plot):
         settled = (flag_names(study["settled"]) == "settled")[:, None]
         dots = [("not settled, or undecided", ~settled & (phase >= 0), UNDECIDED)]
         for code, (name, color) in enumerate(PHASE_COLOURS.items()):
-            look = DOT | {"color": color} | MARKS.get(name, {})
+            look = {**DOT, "color": color, **MARKS.get(name, {})}
             dots.append((names.get(name, name), settled & (phase == code), look))
         for label, mask, look in dots:
             if mask.any():
@@ -60,10 +60,10 @@ class Bifurcation(Plot):
         drawing.mark_failed(ax, along[lost])
         moving = (phase >= 0).any(axis=1)
         slides = flag_names(study["kind"]) == "steady_sliding"
-        at_edge: dict[str, Any] = {"color": GREY, "markersize": 4, "transform": ax.get_xaxis_transform()}
+        edge = ax.get_xaxis_transform()
         for label, marker, mask in (("steady sliding", "_", slides), ("no event while sampled", "|", ~slides)):
             if (idle := along[mask & ~moving & ~lost]).size:
-                ax.plot(idle, np.full(idle.size, 0.02), marker, label=label, **at_edge)
+                ax.plot(idle, np.full(idle.size, 0.02), marker, color=GREY, markersize=4, label=label, transform=edge)
         axes[-1].set_xlabel(xlabel)
         ax.set_ylabel(ylabel)
         at, period = along[moving], study["period_events"].values[moving]

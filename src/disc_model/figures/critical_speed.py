@@ -68,8 +68,7 @@ class CriticalSpeed(Plot):
         _onsets(axes[0], study, horizon, label=f"separation begins, within {horizon:g} s", **ONSETS)
         if self.paper_points:
             load, speed = np.transpose([*self.paper_points.values()])
-            edge: dict[str, Any] = {"markeredgecolor": BLACK, "markeredgewidth": 0.6}
-            axes[0].plot(speed, load, "*", color=PAPER, markersize=9, zorder=5, clip_on=False, label="paper", **edge)
+            axes[0].plot(speed, load, "*", c=PAPER, ms=9, mec=BLACK, mew=0.6, zorder=5, clip_on=False, label="paper")
         titles = ["from the static start"]
         if sweep is not None:
             _onsets(axes[1], study, horizon, label="_nolegend_", **ONSETS)
@@ -92,8 +91,7 @@ def speeds_of(study: xr.Dataset, horizon: float, kind: str = "begins") -> list[A
 
 
 def branches(speeds: Sequence[Array], ends: Sequence[Iterable[float]]) -> list[tuple[int, float, float]]:
-    """Pairs of crossings at neighbouring loads: index of the lower load, speed there, speed at the next load. The two
-    are nearest, and separation does not end between them; a crossing without such a partner ends a branch."""
+    """Nearest crossings at neighbouring loads, if no end is between: index of the lower load, speed there, and next."""
     links = []
     for i, (current, ahead) in enumerate(pairwise(speeds)):
         if current.size and ahead.size:

@@ -96,8 +96,7 @@ def draw_disc(ax: Axes, motion: Motion, i: int, scale: Normalize, levels: Sequen
     arc = np.radians(np.linspace(-60, 60, 30))
     ax.plot(middle * np.cos(arc), middle * np.sin(arc), color=BLACK, lw=0.8)
     start, end = [(middle * np.cos(angle), middle * np.sin(angle)) for angle in np.radians([60, 75])]
-    look: dict[str, Any] = {"arrowstyle": "-|>", "lw": 0.8, "shrinkA": 0, "shrinkB": 0, "fc": BLACK}
-    ax.annotate("", end, start, arrowprops=look)
+    ax.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "lw": 0.8, "shrinkA": 0, "shrinkB": 0, "fc": BLACK})
     return mesh
 
 

@@ -93,8 +93,7 @@ def panels(width: float, height: float, rows: int = 1, columns: int = 1, **share
 
 
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
-    """Write a figure with its title in the format of the path's suffix; equal figures give equal bytes. The first file
-    decides the layout. Further ones take it over, which halves their cost."""
+    """Write a figure with its title; equal figures give equal bytes. Further files have the layout of the first."""
     metadata: dict[str, Any] = {"CreationDate": None} if Path(path).suffix == ".pdf" else {"Software": None}
     metadata |= {"Title": title} if title else {}
     with styled():
@@ -113,7 +112,6 @@ MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes
 WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}  # those of the paper first
 MODELS = {"normal": WORDS["normal"], "residual": "residual flexibility", "surface": "friction on the surface"}
 MODELS |= dict.fromkeys(("bilateral", "bonded"), "bilateral contact")  # the second in files of results
-"""Words in titles: of normalizations, of parameters in panels, and of models other than the paper's."""
 
 
 def sample(**look: Any) -> Artist:
@@ -205,8 +203,7 @@ def what_case(values: Mapping[str, Any]) -> str:
 
 
 def slices(variable: Any, by: str | None) -> list[tuple[str, Any]]:
-    """Label and values of each slice along a dimension, if there is one; those of a zip are labelled by its parameters.
-    Words are ordered as in `WORDS`, others by the number with which they begin, and not as in datasets."""
+    """Label and values of each slice along a dimension; words as in `WORDS`, or by the number they begin with."""
     if by is None:
         return [("", variable)]
     names = [str(name) for name, values in variable.coords.items() if values.dims == (by,)]
@@ -305,8 +302,7 @@ def show_thickness(ax: Axes, case: xr.DataTree, along: Literal["x", "y"]) -> Non
     if share > 0.8:
         return
     points = ([1 - share, 1], [1.04, 1.04]) if along == "x" else ([1.02, 1.02], [0, share])
-    look: dict[str, Any] = {"linewidth": 2.5, "solid_capstyle": "butt", "clip_on": False}
-    ax.plot(*points, color=BLACK, transform=ax.transAxes, **look)
+    ax.plot(*points, color=BLACK, linewidth=2.5, solid_capstyle="butt", transform=ax.transAxes, clip_on=False)
     point, offset, turn = ((1 - share, 1.04), (-3, 0), 0) if along == "x" else ((1.02, 0), (3, 1), 90)
     say(ax, f"thickness {1e3 * h:g} mm", point, offset, xycoords="axes fraction", fontsize=6, rotation=turn)
 
@@ -315,20 +311,19 @@ def mark_printed(ax: Axes, time: float) -> None:
     """Mark a time that the paper prints, at the lower edge of a panel that shows it."""
     low, high = ax.get_xlim()
     if low <= time <= high:
-        look: dict[str, Any] = {"marker": "^", "color": PAPER, "markeredgecolor": BLACK, "markersize": 6, "zorder": 6}
-        ax.plot([time], [0], transform=ax.get_xaxis_transform(), clip_on=False, **look)
-        beside: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "fontsize": 6, "path_effects": halo()}
-        say(ax, f"paper: {time:g} s", (time, 0), (-6, 4), **beside)
+        across, beside = ax.get_xaxis_transform(), ("data", "axes fraction")
+        ax.plot([time], [0], marker="^", c=PAPER, mec=BLACK, ms=6, zorder=6, transform=across, clip_on=False)
+        say(ax, f"paper: {time:g} s", (time, 0), (-6, 4), xycoords=beside, fontsize=6, path_effects=halo())
 
 
 def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:
     """Mark the first separation by a line with its time above it; nothing if the time shown has none."""
     time, (low, high) = float(case["first_separation"]), ax.get_xlim()
     if low <= time <= high:
-        dashed: dict[str, Any] = {"color": SEPARATED, "linewidth": 0.8, "linestyle": (0, (4, 2))}
-        ax.axvline(time, **dashed | look)
+        ax.axvline(time, **{"color": SEPARATED, "linewidth": 0.8, "linestyle": (0, (4, 2)), **look})
         if named:
-            say_above(ax, time, f"first separation {time:.2f} s", fontsize=7, color=SEPARATED)
+            beside = ("data", "axes fraction")
+            say(ax, f"first separation {time:.2f} s", (time, 1), (0, 2), xycoords=beside, fontsize=7, color=SEPARATED)
 
 
 def say(ax: Axes, text: str, point: tuple[float, float], offset: tuple[float, float], **look: Any) -> None:
@@ -336,11 +331,6 @@ def say(ax: Axes, text: str, point: tuple[float, float], offset: tuple[float, fl
     across, up = np.sign(offset)
     ha, va = {-1: "right", 0: "center", 1: "left"}[across], {-1: "top", 0: "center", 1: "bottom"}[up]
     ax.annotate(text, point, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
-
-
-def say_above(ax: Axes, x: float, text: str, **look: Any) -> None:
-    """Write a few words above the panel."""
-    say(ax, text, (x, 1), (0, 2), xycoords=("data", "axes fraction"), **look)
 
 
 def say_beside(ax: Axes, height: float, text: str, gap: float = 2, **look: Any) -> None:

@@ -16,15 +16,13 @@ from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, GREY, PAGE, Artist, Axes, Figure, FigureBase, cm, mpl, panels
 from disc_model.figures.kind import NORM, Plot
 from disc_model.figures.maps import CELL_LOOKS, CYCLE_LOOKS, edges_of, growth_panels, outcome_cells, patches
-from disc_model.parameters import Parameters
-from disc_model.units import Finite, Unit
+from disc_model.units import UNITS, Finite, Unit
 
 COLOURS = (drawing.BLUE, drawing.ORANGE, drawing.GREEN, drawing.VERMILION, drawing.SKY, drawing.PURPLE, GREY)
 HATCH: dict[str, Any] = {"facecolor": "white", "hatch": "//////", "edgecolor": GREY}  # look of missing values
 LINEAR = 0.1  # growth rate up to which its scale is linear, 1/s; a greater step breaks the line, or finds another cycle
 FEW = 12  # counts below which each has a colour of its own
 MARKS = "os^Dv<>"  # marks of the lines; they are open, so that lines on top of each other show
-UNITS = {name: Parameters.unit(name) for name in Parameters.model_fields}
 
 
 class General(Plot):
@@ -51,8 +49,7 @@ class General(Plot):
         return [drawing.coordinate_text(shown, name) for name in alone if name in shown.coords]
 
     def faults_among(self, dims: Mapping[str, Sequence[Any]], variables: Mapping[str, Any]) -> Iterator[Fault]:
-        """Faults that keep it from being drawn, by the values along each dimension, the quantity's own included (tuples
-        for a zip, none if it has faults), and the dimensions of each variable."""
+        """Faults by the values along each dimension (tuples for a zip, none if it has faults), and each variable's."""
         yield from self._wrong_overlays()
         if self.variable not in variables:
             yield Fault.of(("variable",), self.variable, f"unknown variable{suggestion(self.variable, variables)}")

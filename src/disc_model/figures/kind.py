@@ -1,9 +1,5 @@
-"""What all kinds of figures have in common.
-
-A kind is a class in a module of this package, or, of the paper's figures, of `disc_model.paper.figures`. Its fields are
-what a study file may say of such a figure; it has its rules (`faults`) and its drawing (`draw`). `kind_of` finds it by
-its name. Neither this module nor a kind imports matplotlib before something is drawn: it would double the time in which
-a study is checked.
+"""What all kinds of figures have in common: fields for study files, rules (`faults`) and a drawing (`draw`). None of
+their modules imports matplotlib before something is drawn, as that would double the time in which a study is checked.
 """
 
 from __future__ import annotations
@@ -118,8 +114,7 @@ class Kind(Strict):
 
 
 class Role(NamedTuple):
-    """Requirements on an overlay: its quantity, or an alternative with the same data; its dimensions except `NORM`, if
-    they differ from the figure's; and some options."""
+    """An overlay: quantity, or one with the same data; dimensions except `NORM`, if not the figure's; options."""
 
     quantity: str
     dims: tuple[str, ...] | None = None

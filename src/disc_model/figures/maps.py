@@ -87,8 +87,7 @@ def edges_of(plane: xr.DataArray, scale: Callable[[str, Array], str] = scale_of)
 
 
 def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below: Array | None = None) -> None:
-    """Fill cells in the look of their word, and hatch them, black over light colours and white over dark ones; cells
-    whose word has no look remain unchanged, as do colours drawn there before, shape (rows, columns, 4)."""
+    """Fill and hatch cells in the look of their word, if it has one, over colours `below`, shape (rows, columns, 4)."""
     colours = np.zeros((*words.shape, 4))
     for word, look in looks.items():
         colours[words == word] = mpl.colors.to_rgba(look.face)
@@ -258,8 +257,7 @@ def crossings(curve: Curve, load: float) -> Array:
 
 
 def draw_curves(ax: Axes, curves: Sequence[Curve]) -> list[Artist]:
-    """Draw curves, numbered if they have a label; returns legend entries of lines and numbers. Numbers ascend with
-    speed, equal labels share one, and they stand beyond the upper end, where they cover no line."""
+    """Draw curves, with a number beyond the upper end by label and speed; returns entries of a legend."""
     labelled = sorted((x for x in curves if x.label), key=lambda curve: float(np.nanmax(curve.Omega)))
     numbers = {label: i for i, label in enumerate(dict.fromkeys(curve.label for curve in labelled), 1)}
     for curve in curves:
@@ -267,13 +265,12 @@ def draw_curves(ax: Axes, curves: Sequence[Curve]) -> list[Artist]:
         if curve.label and np.isfinite(curve.N).any():
             i = int(np.nanargmax(curve.N))
             end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
-            look: dict[str, Any] = {"fontsize": 6, "annotation_clip": False, "path_effects": drawing.halo()}
-            drawing.say(ax, str(numbers[curve.label]), end, (0, 2), **look)
+            text, beside = str(numbers[curve.label]), drawing.halo()
+            drawing.say(ax, text, end, (0, 2), fontsize=6, annotation_clip=False, path_effects=beside)
     kinds = {curve.kind for curve in curves}
     handles = [drawing.sample(**drawing.BORDERS[kind]) for kind in drawing.BORDERS if kind in kinds]
-    mark: dict[str, Any] = {"linestyle": "", "color": BLACK, "markersize": 4, "markeredgewidth": 0}
-    handles += [drawing.sample(marker=f"${i}$", label=typeset(label), **mark) for label, i in numbers.items()]
-    return handles
+    numbered = [(f"${i}$", typeset(label)) for label, i in numbers.items()]
+    return handles + [drawing.sample(marker=mark, label=text, ls="", c=BLACK, ms=4, mew=0) for mark, text in numbered]
 
 
 # ---- Regions of outcomes, and below them the growth rates of the cycle
@@ -357,9 +354,8 @@ def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Artist]:
 
 
 def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Artist]:
-    """Draw borders between cells, but not around unresolved ones: where the same cycle changes its stability, and where
-    a stable one ends, because the next cell has no cycle and does not stay quiet. A start that follows no cycle, or
-    another one, does not prove an end. Upward: the study's first dimension is the vertical one."""
+    """Draw borders between resolved cells: where one cycle changes its stability, and where a stable one ends: the
+    next cell has none and does not stay quiet. Upward: the study's first dimension is the vertical one."""
     x, y = edges_of(data["outcome"])
     state = stability_of(data)
     state[unresolved(state)] = "unresolved"

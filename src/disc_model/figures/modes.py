@@ -79,8 +79,7 @@ class Campbell(Plot):
 
 def peaks(study: xr.Dataset) -> list[tuple[int, xr.Dataset | None]]:
     """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on: index of the speed, and the nearest
-    crossing, one of the mode that leads if there is any. Points by themselves beside speeds without a cycle are left
-    out: there another cycle than the one followed is found."""
+    crossing, of the leading mode if possible; without points by themselves beside gaps, which are of another cycle."""
     speeds, rate = study["Omega"].values, study["growth_rate"].values.copy()
     for first, after in drawing.stretches(unjoined(rate)):
         if np.isnan(rate[[max(first - 1, 0), min(after, rate.size - 1)]]).any():

@@ -93,12 +93,12 @@ def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
     (across, in_x, _), (up, in_y, _) = (drawing.sampled(name, samples) for name in (x, y))
     for i, name in enumerate(PHASES):
         inside = samples["phase"].values == i
-        look: dict[str, Any] = {"color": drawing.PHASE_COLOURS[name], "label": name}
         width = 1.5 if name == "separation" else 0.5  # distinct in grey print
         if inside.any():
             # broken where the phase changes, so that no chord is drawn across others
             height = np.where(inside, samples[y].values * in_y, np.nan)
-            ax.plot(samples[x].values * in_x, height, linewidth=width, rasterized=True, **look)
+            look: dict[str, Any] = {"color": drawing.PHASE_COLOURS[name], "linewidth": width, "label": name}
+            ax.plot(samples[x].values * in_x, height, rasterized=True, **look)
     ax.margins(0.04)
     for line in drawing.legend_above(ax).get_lines():
         line.set_linewidth(line.get_linewidth() + 0.5)
@@ -132,8 +132,7 @@ BY_SETTLING = ("not shown to have settled", "settled", "separated")
 
 
 def draw_sections(axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, compared: Any = ()) -> list[Artist]:
-    """Draw velocity over displacement, what is small in insets too, on axes that fit several sections; returns entries
-    of a legend."""
+    """Draw velocity over displacement, what is small in insets too, on axes for all sections; a legend's entries."""
     first = float(case["first_separation"])
     masks = stages(samples["time"].values, samples["phase"].values, first, _settled_since(case, samples))
     for ax, name in zip(axes, ("psi", "w_point"), strict=True):
@@ -168,8 +167,7 @@ def draw_sections(axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, 
 
 
 def _settled_since(case: xr.DataTree, samples: xr.Dataset) -> float:
-    """Time from which a motion has settled, s: all later points of its section lie on its end, to which they may return
-    after longer than the record. By the ranges of a window where the section does not show it."""
+    """Time from which all points of a motion's section lie on its end, s; by a window's ranges where it shows none."""
     window = next((node.to_dataset() for node in case.children.values() if "w_point_min" in node), None)
     since = []
     for name in ("psi", "w_point"):

@@ -44,8 +44,7 @@ def _parameters(case: xr.DataTree) -> Parameters:
 def canvas(
     ax: Any, width: float, height: float, rows: int = 1, columns: int = 1, title: str | None = None, **shared: Any
 ) -> Iterator[list[Axes]]:
-    """The axes that a reader gives, one for each panel, which keep the style of their figure; or those of a new figure
-    in the common style, which pyplot shows, with a title above."""
+    """The axes that a reader gives, one for each panel, or those of a new figure of pyplot in the common style."""
     if ax is not None:
         known_axes = list(np.ravel(np.asarray(ax, dtype=object)))
         require((all(isinstance(each, mpl.axes.Axes) for each in known_axes), "ax", ax, "must be axes of matplotlib"))
@@ -144,16 +143,13 @@ def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str 
     """Make a film of disc, slider and contact force through states; written to a path if there is one."""
     file = Path(path) if isinstance(path, str | Path) else None
     writer = {".gif": "pillow", ".mp4": "ffmpeg"}.get(file.suffix if file else "", "")
-    rules: list[Any] = [(is_number(fps) and fps > 0, "fps", fps, "must be a number > 0")]
-    if path is not None:
-        there = file and file.absolute().parent.is_dir()
-        available = not writer or mpl.animation.writers.is_available(writer)
-        rules += [
-            (there, "path", str(path), "must be in a folder that exists"),
-            (writer, "path", str(path), "must end in .gif or .mp4; a window is given by window="),
-            (available, "path", str(path), f"needs the program {writer}"),
-        ]
-    require(*rules)
+    there, available = file and file.absolute().parent.is_dir(), writer and mpl.animation.writers.is_available(writer)
+    require(
+        (is_number(fps) and fps > 0, "fps", fps, "must be a number > 0"),
+        (path is None or there, "path", str(path), "must be in a folder that exists"),
+        (path is None or writer, "path", str(path), "must end in .gif or .mp4; a window is given by window="),
+        (not writer or available, "path", str(path), f"needs the program {writer}"),
+    )
     with drawing.styled():
         figure = mpl.figure.Figure(figsize=(6.4, 2.7), layout="constrained")
         film = disc.film(figure, disc.Motion.of(p, states), window["time"].values, window["P"].values)

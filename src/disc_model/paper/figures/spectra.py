@@ -176,7 +176,7 @@ class Response(CasePlot):
                 axes["a"].axvspan(*marked, color=SKY, alpha=0.3, linewidth=0, zorder=0)
                 if marked[1] - marked[0] < 0.02 * axes["a"].get_xlim()[1]:
                     axes["a"].axvline(middle, color=BLACK, linewidth=0.8, zorder=0)
-                    drawing.say_above(axes["a"], middle, "(b)")
+                    drawing.say(axes["a"], "(b)", (middle, 1), (0, 2), xycoords=("data", "axes fraction"))
             drawing.letter(axes["a"], "a")
         for letter, (name, start) in zip(letters, self.zooms, strict=True):
             ax = axes[letter]
