@@ -5,17 +5,42 @@
     >>> result.first_separation
 
 Names are imported at their first use, so that `import disc_model` is fast and numba is loaded only for
-simulations. Their modules are read from the imports below, which only type checkers execute.
+simulations.
 """
 
 from __future__ import annotations
 
-import ast
 import importlib
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 __version__ = "0.3.0"
+
+_NAMES = {
+    "data.dataset": "load",
+    "disc.flexibility": "residual_flexibility",
+    "disc.plate": "plate_modes coupled_natural_frequencies",
+    "disc.plausibility": "ImplausibleValue",
+    "figures.results": "plot_modes plot_sweep",
+    "errors": (
+        "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite"
+    ),
+    "mode_choice": "choose_modes",
+    "parameters": "Parameters Disc",
+    "simulation.api": "simulate Execution",
+    "simulation.case": "Window Poincare Ramp",
+    "simulation.deflection": "snapshots deflection",
+    "simulation.result": "Result",
+    "simulation.states": "State",
+    "studies.functions": "outcome critical_speed basins hysteresis sweep run_study",
+    "stability.continuation": "continue_cycle",
+    "stability.curves": "neutral_curves critical",
+    "stability.cycle": "floquet",
+    "stability.lyapunov": "lyapunov_exponents",
+    "stability.sliding": "steady_sliding",
+}
+_HOMES = {name: module for module, names in _NAMES.items() for name in names.split()}
+
+__all__ = [*_HOMES, "__version__"]
 
 if TYPE_CHECKING:
     from disc_model.data.dataset import load
@@ -48,17 +73,11 @@ if TYPE_CHECKING:
     from disc_model.stability.sliding import steady_sliding
     from disc_model.studies.functions import basins, critical_speed, hysteresis, outcome, run_study, sweep
 
-_SOURCE = ast.parse(Path(__file__).read_text(encoding="utf-8"))
-_IMPORTS = [x for x in ast.walk(_SOURCE) if isinstance(x, ast.ImportFrom) and str(x.module).startswith("disc_model.")]
-_HOMES = {name.name: str(x.module) for x in _IMPORTS for name in x.names}
-
-__all__ = [*_HOMES, "__version__"]
-
 
 def __getattr__(name: str) -> Any:
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(importlib.import_module(_HOMES[name]), name)
+    value = getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)
     globals()[name] = value
     return value
 
