@@ -1,10 +1,8 @@
 """Classification of motions by numerical criteria, whether they have settled, and sections at the drive's period.
 
-A motion that does not repeat within half the record is quasi-periodic or irregular: `motion_of` decides by the 0-1 test
-for chaos (Gottwald and Melbourne, SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009), since a case stores events and no state.
-`disc_model.stability.attractor.arrival.regularity` has a state, and decides by the largest Lyapunov exponent. Neither
-can replace the other: an exponent does not see jumps that part neighbouring motions, such as a release that one of them
-has. With E = 100 GPa, N = 200 N and 11 rad/s it is zero within 3e-4/s, and the test gives 0.99.
+A motion that does not repeat within half the record is classified by the 0-1 test for chaos (Gottwald and Melbourne,
+SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009). The largest exponent, in `regularity` of `stability/attractor/arrival.py`,
+cannot replace it: it does not see jumps that part neighbouring motions, such as a release that one of them has.
 """
 
 import math
@@ -96,11 +94,8 @@ def closure(intervals: Array, period: int) -> float:
 
 
 def shortest_period(intervals: Array, tolerance: float, near_return: float = NEAR_RETURN) -> int:
-    """Least number of releases after which intervals repeat to `tolerance` s; 0 if there is none.
-
-    The period is at most half the intervals. One that closes no better than the near returns of a quasi-periodic motion
-    does not count (see `NEAR_RETURN`), but for a period of 1, where there is only a slow transient.
-    """
+    """Least number of releases, up to half of all, after which intervals repeat to `tolerance` s; 0 if there is none.
+    One that closes no better than near returns (`NEAR_RETURN`) does not count, but for 1: a slow transient."""
     extent = float(np.ptp(intervals)) if intervals.size else 0.0
     for n in range(1, intervals.size // 2 + 1):
         if abs(intervals[n] - intervals[0]) > tolerance:
@@ -144,8 +139,7 @@ def zero_one(values: Array) -> float:
 
 
 def stick_disappears(before: float, after: float, bound: float = 1e-3) -> bool:
-    """Whether stick, which takes the share of time `before` a separation, is absent `after` it. `bound` is the share of
-    time that counts as none: a single stick among thousands of cycles does not matter."""
+    """Whether stick has a share of the time `before` a separation, and none, or less than `bound`, `after` it."""
     return before > bound >= after
 
 
@@ -212,8 +206,7 @@ def share(hits: int, trials: int, unknown: int = 0, confidence: float = 0.95) ->
     return Share(hits / trials, float(low.low), float(high.high))
 
 
-# ---- Poincare sections: one sample every 2 pi/Omega. A motion whose period is n drive periods shows n points, a
-# quasi-periodic one a closed curve, an irregular one a cloud.
+# ---- Poincare sections: one sample every 2 pi/Omega
 
 SAME = 0.01  # share of the range, along every axis, within which two points count as one
 
@@ -288,17 +281,12 @@ def first_settled(points: Array, start: int = 0) -> int:
     return max(start, int(away[-1]) + 1 if away.size else 0)
 
 
-# ---- Whether a motion has settled: the rate at which a record of it still changes, and the least rate that it shows
-#
-# The one test behind "settled" in studies, figures and verdicts, unless the motion follows a stable cycle, whose
-# multipliers know every rate. A record does not exclude what stays unseen, such as a slow departure from an unstable
-# cycle or a sudden end of a chaotic transient.
+# ---- Whether a motion has settled: the rate at which a record of it still changes, and the least rate that it shows.
+# A record does not exclude what stays unseen, such as a slow departure from an unstable cycle or a sudden end of chaos.
 
 WINDOWS, LEAST_SAMPLES = 8, 8  # number of windows into which a record is cut, and least number of samples in each
 PARTS = 1 - np.geomspace(1, 0.05, 40)  # starts of later parts of a record, over its length: each omits 7 % of the rest
-QUANTILE = (
-    3.707  # of Student's t, `WINDOWS` - 2 degrees of freedom, 99 % on both sides: half-width in errors of a slope
-)
+QUANTILE = 3.707  # of Student's t, `WINDOWS` - 2 degrees of freedom, 99 % on both sides: half-width of a slope
 RESOLUTION = 0.01  # least change over a record that counts as visible, relative to the width of the motion
 SLOWEST = 5e-5  # 1/s: a settled motion's width changes by less than 5 % in 1000 s, and the record can show that
 STILL = 1e-3  # width, over the mean, below which a signal counts as constant: changes are then relative to this width

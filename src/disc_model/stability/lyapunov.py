@@ -158,7 +158,8 @@ def lyapunov_exponents(
     columns[rows, :count] = np.random.default_rng(1).standard_normal((len(rows), count)) / metric
     # components of a column below its tolerance, or below rounding, count as zero
     vanished = max(10 * tolerance, 1e-12)
-    _bind(model, state, t)
+    if state.x[layout.PHASE] != layout.SEPARATION:  # in contact some rows follow from others
+        saltation.slider_rows(model, state, t)
     _, remaining = _orthonormalise(columns, rows, metric, np.arange(count), vanished)
     if leave_out_trivial:
         saltation.rates(model, state, t.before)
@@ -176,7 +177,8 @@ def lyapunov_exponents(
         if code != transitions.TIME_OVER or not np.all(np.isfinite(columns)):
             status = Status.NON_FINITE if code == transitions.TIME_OVER else Status(ENDS[code])
             break
-        _bind(model, state, t)
+        if state.x[layout.PHASE] != layout.SEPARATION:
+            saltation.slider_rows(model, state, t)
         growth, remaining = _orthonormalise(columns, rows, metric, remaining, vanished)
         if i >= 0:
             logs[i, remaining] = growth
@@ -187,12 +189,8 @@ def lyapunov_exponents(
 def _orthonormalise(
     columns: Array, rows: NDArray[np.intp], metric: Array, remaining: NDArray[np.intp], vanished: float
 ) -> tuple[Array, NDArray[np.intp]]:
-    """Orthonormalise the remaining columns, of indices `remaining`, and set those to zero that depend on the others:
-    whose orthogonal part is shorter than `vanished`, relative to the column. Returns logarithms of growth, and the
-    indices that remain.
-
-    rows, metric : rows of the coordinates, (n,), and their `energy_scale`, (n, 1)
-    """
+    """Orthonormalise the columns of indices `remaining`, whose `rows` (n,) have the `metric` (n, 1), and set those to
+    zero whose orthogonal part is shorter than `vanished` of their own; logarithms of growth, and what remains."""
     while True:
         q, r = np.linalg.qr(columns[np.ix_(rows, remaining)] * metric)
         lengths = np.abs(np.diag(r))
@@ -232,9 +230,3 @@ def _averaged(
 def _is_within(value: object, least: float) -> bool:
     """Whether a value is a finite number and not below `least`."""
     return is_number(value) and least <= value <= sys.float_info.max  # type: ignore[operator]
-
-
-def _bind(model: layout.Model, state: layout.EngineState, t: tangent.Tangent) -> None:
-    """Set rows of columns that follow from others in contact, and are not integrated between events."""
-    if state.x[layout.PHASE] != layout.SEPARATION:
-        saltation.slider_rows(model, state, t)

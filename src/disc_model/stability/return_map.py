@@ -47,8 +47,7 @@ def case_faults(p: object, analysis: str) -> list[str]:
 
 
 def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
-    """Longest step of columns, time units: as `disc_model.engine.tangent.longest_step`, but shorter where dampers,
-    springs that act together or a fast drive make oscillations faster than that assumes."""
+    """As `columns.longest_step`, but shorter where dampers, springs together or a fast drive oscillate faster."""
     damping = max(model.damping.max(), model.damping0.max(initial=0.0), max(model.c, model.c_p) / model.m)
     contact = (1 / model.m + model.inverse_effective_mass) / model.compliance if model.compliant else 0.0
     stiffness = max((model.unit * model.free_unit) ** -2, max(model.k, model.k_p) / model.m) + contact
@@ -116,9 +115,8 @@ class Counts(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Flight:
-    """The motion between two returns to the section: exit code, one of `ENDS`, durations (s) and points of the section
-    (n,). The derivatives of the end by the start (n, n) and by the map's parameters (n, their number) mean nothing if
-    the motion did not return, or was followed without them."""
+    """The motion between two returns to the section: exit code, durations (s), and derivatives of the end by the start,
+    (n, n), and the map's parameters, (n, their number). Without a return, or tangents, these mean nothing."""
 
     outcome: int
     period: float

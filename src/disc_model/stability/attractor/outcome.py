@@ -34,8 +34,7 @@ from disc_model.stability.return_map import RETURNED, Array, ReturnMap
 
 @dataclass(frozen=True)
 class Segment:
-    """Description of a segment of a motion: ranges of the contact force (N) and of the slider's height over static
-    equilibrium (m), shares of the phases in the time, and separations per second."""
+    """Ranges of contact force (N) and height over static equilibrium (m); shares of time; separations per s."""
 
     P_min: float
     P_max: float
@@ -48,14 +47,13 @@ class Segment:
 
     @property
     def range(self) -> float:
-        """Range of the slider's height, m."""
         return self.u_max - self.u_min
 
 
 @dataclass(frozen=True, eq=False)
 class Attractor:
-    """An attractor: the outcome of motions on it, a segment of one; period (s), releases and growth rate (1/s) of a
-    periodic attractor; and its points on the section, shape (releases, n), if they are known."""
+    """Outcome of motions on an attractor, and a segment of one; of a periodic one also period (s), releases in it,
+    growth rate (1/s) and points on the section, shape (releases, n)."""
 
     kind: Outcome
     segment: Segment
@@ -122,12 +120,10 @@ class OutcomeResult:
 
     @property
     def status(self) -> Status:
-        """Status of the simulation."""
         return Status.OK if self.failed is None else self.failed.status
 
     @property
     def message(self) -> str:
-        """Reason for which the simulation ended early, or ""."""
         return "" if self.failed is None else self.failed.message
 
 
@@ -166,11 +162,7 @@ def find_outcome(
 
 @dataclass
 class _OutcomeSearch:
-    """A search for the outcome of a motion: one method a stage, each of which returns the next stage.
-
-    start_cycle : the cycle near the static start, if that may decide
-    furthest : see `find_outcome`; it is reduced if the search starts anew
-    """
+    """A search with one method a stage, which returns the next one; `start_cycle` may decide about the static start."""
 
     p: Parameters
     horizon: float
@@ -297,28 +289,26 @@ class _OutcomeSearch:
 
     def _find_followed_cycle(self) -> NearCycle | None:
         """The cycle that the motion follows linearly: the one near its start, if it comes back to that, or another."""
-        x, near, waits = self.section_point, self.cycle_to_come, len(thresholds.WAITS)
+        x, near = self.section_point, self.cycle_to_come
         assert self.map is not None
         assert x is not None
         if self.departed_from is not None:
-            if near is not None and self._comes_to(near, x, self.departed_from):
+            size = self.map.deflection
+            if (
+                near is not None
+                and np.linalg.norm(x - near.x) <= thresholds.NEAR * size
+                and np.linalg.norm(self.departed_from.x - near.x) > thresholds.SAME_POINT * size
+                and near.follows_multipliers(x)
+            ):
                 self.cycle_to_come = self.result.near = None
                 return replace(near, follows_cycle=True, distance=x - near.x)
             # a motion that comes near a cycle then changes less and less, down to errors of the simulation
             known = [change for change in self.result.changes if not math.isnan(change)]
             if known and known[-1] > max(known[-2:][0], thresholds.ARRIVED, thresholds.ERROR_OF_TOL * self.tol):
                 return None
-            waits = 1
-        near = find_cycle_near(self.map, x, self.near_return, unstable=thresholds.WAITS[:waits])
+        waits = thresholds.WAITS if self.departed_from is None else thresholds.WAITS[:1]
+        near = find_cycle_near(self.map, x, self.near_return, unstable=waits)
         return near if near is not None and near.follows_cycle else None
-
-    @staticmethod
-    def _comes_to(near: NearCycle, x: Array, last: NearCycle) -> bool:
-        """Whether the motion at a point of the section follows a cycle, after it has departed from another one."""
-        size = near.map.deflection
-        if not np.linalg.norm(x - near.x) <= thresholds.NEAR * size:
-            return False
-        return bool(np.linalg.norm(last.x - near.x) > thresholds.SAME_POINT * size) and near.follows_multipliers(x)
 
     @property
     def _grows(self) -> bool:
@@ -352,8 +342,7 @@ def growing(changes: Sequence[float]) -> bool:
 def final_segment(
     p: Parameters, state: State | None, duration: float, late: float, tol: float
 ) -> tuple[Result, Segment | None]:
-    """Simulate from a state (None: the static start) for a duration (s), and describe the last segment of it. The
-    segment is None if the simulation ended early."""
+    """Simulate from a state (None: the static start) for a duration (s); its last segment, if it is complete."""
     begin = 0.0 if state is None else state.time
     stop = begin + duration
     if stop - late > begin:
