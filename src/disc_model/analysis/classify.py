@@ -16,19 +16,14 @@ from disc_model.data.variables import PHASES, Outcome, Variable
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-CLOSES = 1e-8
-"""Tolerance to which the intervals of a periodic motion repeat, s. The remaining transient after minutes is smaller;
-the intervals of a motion on a torus mostly differ by far more."""
+CLOSES = 1e-8  # s, to which intervals of a periodic motion repeat; those on a torus mostly differ by far more
+# of its first n returns a quasi-periodic motion has one that misses by 1/n of its spread: a period must be far closer
 NEAR_RETURN = 1e-3
-"""A quasi-periodic motion also nearly returns: among its first n returns one misses by about 1/n of its spread. A
-period of n must close a thousand times better than that."""
 FEWEST = 20  # fewest intervals from which a motion is classified
+# largest relative change of ranges, rates and shares over 40 s of a settled motion: aperiodic ones vary by half of it
 VARIATION = 0.01
-"""Largest relative change of ranges, rates and shares over 40 s and more of a motion that has settled. Aperiodic
-motions vary by half of it. Growth or decay at 0.00025/s or faster changes them by more."""
+# a motion is regular if the 0-1 test gives less, chaotic above one minus this; known signals are within 0.1 of the ends
 REGULAR = 0.3
-"""A motion is regular if the 0-1 test gives less than this, and chaotic above one minus this. The result tends to 0 or
-to 1 with more intervals. Signals of known nature stay within a tenth of these ends."""
 
 
 class Motion(NamedTuple):
@@ -343,7 +338,6 @@ def settling(time: ArrayLike, values: ArrayLike, slowest: float = SLOWEST, still
 
 
 def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:
-    """The answer of one record."""
     edges = np.linspace(t[0], t[-1], WINDOWS + 1)
     parts = np.split(x, np.searchsorted(t, edges[1:-1]))
     if min(part.size for part in parts) < LEAST_SAMPLES:

@@ -43,9 +43,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
+# typical values of parameters whose value in Table 1 is missing or 0
 USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5, "contact_compliance": 1e-8}
 USUAL |= {"damping_ratio": 1e-3, "friction_decay": 1.0}
-"""Typical values of parameters whose value in Table 1 is missing or 0."""
 DIFFERENCE = 1e-5  # over a parameter's scale: flights are accurate to 1e-13, their second derivatives of order one
 
 
@@ -76,10 +76,6 @@ class Place:
     def basis(self) -> Array:
         """Orthonormal basis of the null space of `by`: (number of parameters, n + number of parameters)."""
         return np.asarray(np.linalg.svd(self.by)[2][len(self.residual) :], dtype=float)
-
-    def predicted(self, move: Array) -> complex:
-        """The multiplier after a move, to first order."""
-        return self.mu + complex(self.turning @ move)
 
 
 class CycleProblem:
@@ -275,7 +271,6 @@ def newton_step(matrix: Array, right: Array) -> Array:
 
 
 def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
-    """Faults of the names of free parameters."""
     known = p.numbers
     wrong = [name for name in names if not isinstance(name, str) or name not in known]
     return [Fault.of(("name",), name, f"must be a number of the case{suggestion(name, known)}") for name in wrong]
@@ -506,8 +501,8 @@ def changed_event(cycle: Result, other: Result) -> str:
 Kind = Literal["neutral", "fold"]
 CLOSED = "the curve is closed"
 _DIFFERENCE = 1e-4  # arclength of the finite difference for a multiplier's gradient along the surface
+# on the way to a curve: longest step, largest change of the multiplier in a step, and number of steps
 LONGEST_REACH, LARGEST_TURN, REACHES = 0.1, 0.1, 60
-"""On the way to a curve: longest step, largest change of the multiplier in a step, and number of steps."""
 
 
 class BorderProblem(CycleProblem):
@@ -555,10 +550,11 @@ class BorderProblem(CycleProblem):
             move *= min(1.0, LONGEST_REACH / float(np.linalg.norm(move)), LARGEST_TURN / max(turn, 1e-300))
             rows = np.vstack([new.tangent, new.gradient / np.linalg.norm(new.gradient)])
             for halvings in range(6):
-                guess = new.z + move * 0.5**halvings
+                step = move * 0.5**halvings
+                guess, expected = new.z + step, new.mu + complex(new.turning @ step)
                 try:
                     point = self.correct(guess, rows, rows @ guess)
-                    value, mu = self._evaluate_test(point.jacobian, new.predicted(move * 0.5**halvings))
+                    value, mu = self._evaluate_test(point.jacobian, expected)
                     break
                 except CorrectorFailed:
                     if halvings == 5:
@@ -567,7 +563,7 @@ class BorderProblem(CycleProblem):
 
     def next_place(self, start: Place, ds: float) -> Place:
         """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
-        expected = start.predicted(ds * start.tangent)
+        expected = start.mu + complex(start.turning @ (ds * start.tangent))
         if abs(expected - start.mu) > 2 * LARGEST_TURN:
             raise CorrectorFailed("the multiplier turns too fast")
         guess, rows = start.z + ds * start.tangent, start.tangent[None, :]

@@ -179,7 +179,6 @@ def floquet(p: Parameters, *, tol: float = 1e-12, guess: State | None = None, re
 
 
 def guess_faults(guess: object, releases: object) -> list[str]:
-    """Faults of a guess and of the number of releases in a period of the cycle near it."""
     counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or releases == 1)
     return violations(
         (isinstance(guess, State | None), "guess", guess, "must be a State"),
@@ -269,7 +268,6 @@ def never_pulls(p: Parameters) -> bool:
 
 
 def _none(p: Parameters, tol: float, status: CycleStatus, reason: str) -> FloquetResult:
-    """The result without a cycle."""
     return FloquetResult(p, tol, status, f"{status}: {reason}")
 
 

@@ -134,12 +134,13 @@ def lyapunov_exponents(
     most = layout.WIDTH if faults else min(layout.WIDTH, len(coordinate_rows(engine_case(p).model)))
     leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
     most -= leaves_out and bool(leave_out_trivial)
-    lasts = _is_within(duration, sys.float_info.min)
+    lasts = is_number(duration) and sys.float_info.min <= duration < math.inf
     shortest = max(duration / MOST_INTERVALS if lasts else 0.0, sys.float_info.min)
+    fits = is_number(interval) and shortest <= interval < math.inf
     faults += violations(
         (lasts, "duration", duration, "must be finite and > 0"),
         (is_whole(count) and 1 <= count <= most, "count", count, f"must be a whole number from 1 to {most}"),
-        (_is_within(interval, shortest), "interval", interval, f"must be finite and >= {as_text(shortest)}"),
+        (fits, "interval", interval, f"must be finite and >= {as_text(shortest)}"),
         (isinstance(initial_state, State | None), "initial_state", initial_state, "must be a State"),
         (leaves_out, "leave_out_trivial", leave_out_trivial, "must be True or False"),
     )
@@ -225,8 +226,3 @@ def _averaged(
         order = order[order != 0]
     order, separations = order[:count], int(log[tangent.SEPARATIONS])
     return Lyapunov(status, exponents[order], errors[order], covered, separations, converged[order], end, trivial)
-
-
-def _is_within(value: object, least: float) -> bool:
-    """Whether a value is a finite number and not below `least`."""
-    return is_number(value) and least <= value <= sys.float_info.max  # type: ignore[operator]

@@ -146,8 +146,7 @@ class ReturnMap:
     scale : (n,), factor from modal displacements and velocities to coordinates: omega, or 1; u and u' likewise
     diameters : nodal diameters of the mode of each coordinate, without the slider's coordinates, which come last
     static : (n,), static equilibrium under the preload: the static start, and the first guess of Newton's method
-    deflection : norm of `static`, the unit of distances on the section
-    tol : tolerance of cycles: residual over deflection
+    deflection : norm of `static`, the unit of distances on the section; `tol` is the residual of cycles over it
     patient : whether a return may take 60 times as long, about 5 s: after a separation the slider may slip for long
     """
 
@@ -198,7 +197,7 @@ class ReturnMap:
         self, x: Array, *, releases: int = 1, tangent: bool = True, may_separate: bool = False, coarse: bool = False
     ) -> Flight:
         """Follow the motion from `x` to the `releases`-th next release; `coarse` suffices for a direction."""
-        t = self._tangent
+        t, start = self._tangent, np.array(x, dtype=float)
         order, tolerance, of_columns = self.order, self.tolerance, 10 * self.tolerance
         if coarse:
             order, tolerance, of_columns = min(20, order), 1e-9, 1e-5
@@ -206,7 +205,6 @@ class ReturnMap:
         course = event_loop.IntegrationLimits(
             order, tolerance, longest, int(releases) * self.longest, int(releases), bool(may_separate), bool(tangent)
         )
-        start = np.array(x, dtype=float)
         code = event_loop.integrate(self.model, self._series, self._state, t, course, self._section, start)
         whole, stick = t.log[[columns.DURATION, columns.STICK_TIME]].tolist()
         counts = Counts(*t.log[columns.RELEASES : columns.STICKS + 1].astype(int).tolist())

@@ -122,7 +122,6 @@ class SteadySliding(Summarised):
 
     @property
     def unstable_modes(self) -> int:
-        """Number of modes that grow."""
         return self.growing.size
 
 

@@ -82,15 +82,12 @@ class OutcomeResult:
     """The outcome of a motion; while it is sought, what is known so far.
 
     outcome : None if the simulation failed
-    simulated : s, simulated time; 0 if multipliers decide
+    simulated, time : s, simulated time, 0 if multipliers decide; time at which the outcome was known
     near : the stable cycle that the motion approaches, or else the first unstable cycle from which it departs
     extrapolated : the unstable cycle of slowest growth from which a departure was computed by multipliers
-    time : s, at which the outcome was known
-    state : last state of the simulation
     failed : the simulation that ended early
     changes, times : changes from one period to the next, over the static deflection, and times of these (s)
-    distance : distance from the cycle, over the static deflection, at the end of the search
-    segment : the last segment before the horizon, if it was requested and reached
+    distance : from the cycle, over the static deflection, at the end of the search
     """
 
     outcome: Outcome | None = None
@@ -142,9 +139,7 @@ def find_outcome(
 
     near : result of `cycle_of_static_start`, if it is known
     furthest : distance from a cycle, over the static deflection, up to which multipliers may represent a departure. A
-        shorter one makes the time of the first separation more accurate; with 0 all of the departure is simulated.
-        A departure that comes to a stable cycle is simulated from `thresholds.CERTAIN` in any case
-    start : initial state, at time 0; None is the static start
+        shorter one makes the time of the first separation more accurate; with 0 all of the departure is simulated
     early : whether the search ends once the outcome is shown; otherwise the motion is followed to the horizon
     late : s, length of the segment before the horizon that is described
     """
@@ -176,7 +171,6 @@ class _OutcomeSearch:
     simulated_before: float = 0.0
 
     def run(self) -> OutcomeResult:
-        """Pass from stage to stage, until the outcome is known."""
         stages = {
             Stage.START: self._begin,
             Stage.NEAR_CYCLE: self._judge_cycle,
@@ -260,7 +254,7 @@ class _OutcomeSearch:
         return Stage.ON_ITS_WAY
 
     def _simulate_leg(self) -> Result:
-        """Simulate a leg, or to the first separation; the segment to be described is a leg of its own."""
+        """Simulate a leg to its end or the first separation; the segment to be described is a leg of its own."""
         result = self.result
         marks = (self.horizon - self.late, self.horizon)
         stop = next(min(result.time + self.leg, mark) for mark in marks if result.time < mark)
