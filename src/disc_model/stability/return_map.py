@@ -147,7 +147,7 @@ class ReturnMap:
     diameters : nodal diameters of the mode of each coordinate, without the slider's coordinates, which come last
     static : (n,), static equilibrium under the preload: the static start, and the first guess of Newton's method
     deflection : norm of `static`, the unit of distances on the section; `tol` is the residual of cycles over it
-    patient : whether a return may take 60 times as long, about 5 s: after a separation the slider may slip for long
+    patient : whether motions that separate are followed; their returns may take 60 times as long, about 5 s
     """
 
     def __init__(

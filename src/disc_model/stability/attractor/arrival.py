@@ -58,8 +58,7 @@ def cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
     code, x = map_.next_release(leg.final_state)
     if code != RETURNED:
         return None
-    near_return = find_near_return(map_, x, max(1, min(most, releases // 2)), may_separate=True)
-    return find_cycle_near(map_, x, near_return, may_separate=True)
+    return find_cycle_near(map_, x, find_near_return(map_, x, max(1, min(most, releases // 2))))
 
 
 def sweep(

@@ -175,28 +175,22 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
 
 
 def find_cycle_near(
-    map_: ReturnMap,
-    x: Array,
-    near_return: NearReturn | None,
-    may_separate: bool = False,
-    unstable: Sequence[float] = (),
+    map_: ReturnMap, x: Array, near_return: NearReturn | None, unstable: Sequence[float] = ()
 ) -> NearCycle | None:
     """The cycle near a motion at a point of the section, and whether the motion follows it. If the cycle is unstable,
     tests for that begin at the times `unstable`, s."""
     if near_return is None or not near_return.change <= thresholds.NEAR / 2:
         return None
-    flight = newton(map_, x, releases=near_return.releases, may_separate=may_separate)
+    flight = newton(map_, x, releases=near_return.releases, may_separate=map_.patient)
     if flight is None or np.linalg.norm(flight.start - x) > thresholds.NEAR * map_.deflection:
         return None
     cycle = cycle_of(map_, run_through_once(map_, flight))
     return _relate(map_, cycle, x, thresholds.WAITS if cycle.stable else unstable)
 
 
-def find_near_return(
-    map_: ReturnMap, x: Array, most: int = thresholds.LARGEST_PERIOD, *, may_separate: bool = False
-) -> NearReturn | None:
+def find_near_return(map_: ReturnMap, x: Array, most: int = thresholds.LARGEST_PERIOD) -> NearReturn | None:
     """The nearest return of a motion to its point of the section; None if it does not return at all."""
-    later = map_.returns(x, most, may_separate=may_separate, coarse=True)
+    later = map_.returns(x, most, may_separate=map_.patient, coarse=True)
     changes = [float(np.linalg.norm(point - x) / map_.deflection) for point in later]
     # the shortest of those with about the least change
     returns = (NearReturn(change, i) for i, change in enumerate(changes, 1) if change <= 2 * min(changes))

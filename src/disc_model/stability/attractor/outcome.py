@@ -190,7 +190,6 @@ class _OutcomeSearch:
         self.departed_from: NearCycle | None = None  # the last unstable cycle that it followed
         self.cycle_to_come: NearCycle | None = None  # an unstable one near the start, until the motion follows it
         self.angles: list[Array] = []
-        self.section_point: Array | None = None  # at the end of the last leg
         if self.start_cycle is None:
             return Stage.ON_ITS_WAY
         if not self.start_cycle.follows_cycle:
@@ -245,7 +244,8 @@ class _OutcomeSearch:
         if examined and (calm := find_calm(self.p, leg, self.tol)) is not None:
             result.outcome, result.near = calm, None
             return Stage.SETTLED
-        if self._returns_to_section(leg.final_state) and examined and (near := self._find_followed_cycle()) is not None:
+        x = self._next_section_point(leg.final_state)
+        if x is not None and examined and (near := self._find_followed_cycle(x)) is not None:
             self.cycle = near
             return Stage.NEAR_CYCLE
         if self._has_settled():
@@ -270,22 +270,20 @@ class _OutcomeSearch:
         result.state, result.time = leg.final_state, leg.final_state.time
         return leg
 
-    def _returns_to_section(self, state: State) -> bool:
-        """Whether the motion comes to the section again; its nearest return is then measured."""
+    def _next_section_point(self, state: State) -> Array | None:
+        """Where the motion comes to the section again, if it does; its nearest return to there is then measured."""
         code, x = self.map.next_release(state) if self.map is not None else (None, None)
-        self.section_point = x if code == RETURNED else None
-        if self.map is None or self.section_point is None:
-            return False
-        self.near_return = find_near_return(self.map, self.section_point)
+        if self.map is None or x is None or code != RETURNED:
+            return None
+        self.near_return = find_near_return(self.map, x)
         self.result.times.append(self.result.time)
         self.result.changes.append(math.nan if self.near_return is None else self.near_return.change)
-        return True
+        return x
 
-    def _find_followed_cycle(self) -> NearCycle | None:
+    def _find_followed_cycle(self, x: Array) -> NearCycle | None:
         """The cycle that the motion follows linearly: the one near its start, if it comes back to that, or another."""
-        x, near = self.section_point, self.cycle_to_come
+        near = self.cycle_to_come
         assert self.map is not None
-        assert x is not None
         if self.departed_from is not None:
             size = self.map.deflection
             if (
