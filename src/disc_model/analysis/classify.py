@@ -1,10 +1,8 @@
 """Classification of motions by numerical criteria, whether they have settled, and sections at the drive's period.
 
-A motion that does not repeat within half the record is quasi-periodic or irregular: `motion_of` decides by the 0-1 test
-for chaos (Gottwald and Melbourne, SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009), since a case stores events and no state.
-`disc_model.stability.attractor.arrival.regularity` has a state, and decides by the largest Lyapunov exponent. Neither
-can replace the other: an exponent does not see jumps that part neighbouring motions, such as a release that one of them
-has. With E = 100 GPa, N = 200 N and 11 rad/s it is zero within 3e-4/s, and the test gives 0.99.
+A motion that does not repeat within half the record is classified by the 0-1 test for chaos (Gottwald and Melbourne,
+SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009). The largest exponent, in `regularity` of `stability/attractor/arrival.py`,
+cannot replace it: it does not see jumps that part neighbouring motions, such as a release that one of them has.
 """
 
 import math
@@ -18,19 +16,14 @@ from disc_model.data.variables import PHASES, Outcome, Variable
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-CLOSES = 1e-8
-"""Tolerance to which the intervals of a periodic motion repeat, s. The remaining transient after minutes is smaller;
-the intervals of a motion on a torus mostly differ by far more."""
+CLOSES = 1e-8  # s, to which intervals of a periodic motion repeat; those on a torus mostly differ by far more
+# of its first n returns a quasi-periodic motion has one that misses by 1/n of its spread: a period must be far closer
 NEAR_RETURN = 1e-3
-"""A quasi-periodic motion also nearly returns: among its first n returns one misses by about 1/n of its spread. A
-period of n must close a thousand times better than that."""
 FEWEST = 20  # fewest intervals from which a motion is classified
+# largest relative change of ranges, rates and shares over 40 s of a settled motion: aperiodic ones vary by half of it
 VARIATION = 0.01
-"""Largest relative change of ranges, rates and shares over 40 s and more of a motion that has settled. Aperiodic
-motions vary by half of it. Growth or decay at 0.00025/s or faster changes them by more."""
+# a motion is regular if the 0-1 test gives less, chaotic above one minus this; known signals are within 0.1 of the ends
 REGULAR = 0.3
-"""A motion is regular if the 0-1 test gives less than this, and chaotic above one minus this. The result tends to 0 or
-to 1 with more intervals. Signals of known nature stay within a tenth of these ends."""
 
 
 class Motion(NamedTuple):
@@ -96,11 +89,8 @@ def closure(intervals: Array, period: int) -> float:
 
 
 def shortest_period(intervals: Array, tolerance: float, near_return: float = NEAR_RETURN) -> int:
-    """Least number of releases after which intervals repeat to `tolerance` s; 0 if there is none.
-
-    The period is at most half the intervals. One that closes no better than the near returns of a quasi-periodic motion
-    does not count (see `NEAR_RETURN`), but for a period of 1, where there is only a slow transient.
-    """
+    """Least number of releases, up to half of all, after which intervals repeat to `tolerance` s; 0 if there is none.
+    One that closes no better than near returns (`NEAR_RETURN`) does not count, but for 1: a slow transient."""
     extent = float(np.ptp(intervals)) if intervals.size else 0.0
     for n in range(1, intervals.size // 2 + 1):
         if abs(intervals[n] - intervals[0]) > tolerance:
@@ -144,8 +134,7 @@ def zero_one(values: Array) -> float:
 
 
 def stick_disappears(before: float, after: float, bound: float = 1e-3) -> bool:
-    """Whether stick, which takes the share of time `before` a separation, is absent `after` it. `bound` is the share of
-    time that counts as none: a single stick among thousands of cycles does not matter."""
+    """Whether stick has a share of the time `before` a separation, and none, or less than `bound`, `after` it."""
     return before > bound >= after
 
 
@@ -212,8 +201,7 @@ def share(hits: int, trials: int, unknown: int = 0, confidence: float = 0.95) ->
     return Share(hits / trials, float(low.low), float(high.high))
 
 
-# ---- Poincare sections: one sample every 2 pi/Omega. A motion whose period is n drive periods shows n points, a
-# quasi-periodic one a closed curve, an irregular one a cloud.
+# ---- Poincare sections: one sample every 2 pi/Omega
 
 SAME = 0.01  # share of the range, along every axis, within which two points count as one
 
@@ -288,17 +276,12 @@ def first_settled(points: Array, start: int = 0) -> int:
     return max(start, int(away[-1]) + 1 if away.size else 0)
 
 
-# ---- Whether a motion has settled: the rate at which a record of it still changes, and the least rate that it shows
-#
-# The one test behind "settled" in studies, figures and verdicts, unless the motion follows a stable cycle, whose
-# multipliers know every rate. A record does not exclude what stays unseen, such as a slow departure from an unstable
-# cycle or a sudden end of a chaotic transient.
+# ---- Whether a motion has settled: the rate at which a record of it still changes, and the least rate that it shows.
+# A record does not exclude what stays unseen, such as a slow departure from an unstable cycle or a sudden end of chaos.
 
 WINDOWS, LEAST_SAMPLES = 8, 8  # number of windows into which a record is cut, and least number of samples in each
 PARTS = 1 - np.geomspace(1, 0.05, 40)  # starts of later parts of a record, over its length: each omits 7 % of the rest
-QUANTILE = (
-    3.707  # of Student's t, `WINDOWS` - 2 degrees of freedom, 99 % on both sides: half-width in errors of a slope
-)
+QUANTILE = 3.707  # of Student's t, `WINDOWS` - 2 degrees of freedom, 99 % on both sides: half-width of a slope
 RESOLUTION = 0.01  # least change over a record that counts as visible, relative to the width of the motion
 SLOWEST = 5e-5  # 1/s: a settled motion's width changes by less than 5 % in 1000 s, and the record can show that
 STILL = 1e-3  # width, over the mean, below which a signal counts as constant: changes are then relative to this width
@@ -355,7 +338,6 @@ def settling(time: ArrayLike, values: ArrayLike, slowest: float = SLOWEST, still
 
 
 def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:
-    """The answer of one record."""
     edges = np.linspace(t[0], t[-1], WINDOWS + 1)
     parts = np.split(x, np.searchsorted(t, edges[1:-1]))
     if min(part.size for part in parts) < LEAST_SAMPLES:

@@ -211,8 +211,7 @@ def power_share(time: Array, values: Array, above: float, reference: float) -> f
 
 
 def coverage(time: Array, values: Array, low: float, high: float, floor: float = 1e-3) -> float:
-    """Share of the band from `low` to `high` Hz where the amplitude exceeds `floor` of the band's strongest line. The
-    share is 0 without a line. It is small for a few lines, and large for a broadband spectrum."""
+    """Share of the band `low` to `high`, Hz, where the amplitude exceeds `floor` of its strongest line (0 without)."""
     frequency, amplitude = amplitude_spectrum(time, values)
     band = (frequency >= low) & (frequency <= high)
     peaks = _maxima(amplitude, RESOLVED)

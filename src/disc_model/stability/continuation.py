@@ -43,9 +43,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
+# typical values of parameters whose value in Table 1 is missing or 0
 USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5, "contact_compliance": 1e-8}
 USUAL |= {"damping_ratio": 1e-3, "friction_decay": 1.0}
-"""Typical values of parameters whose value in Table 1 is missing or 0."""
 DIFFERENCE = 1e-5  # over a parameter's scale: flights are accurate to 1e-13, their second derivatives of order one
 
 
@@ -59,9 +59,8 @@ class CorrectorFailed(Exception):
 
 @dataclass(frozen=True)
 class Place:
-    """A point of the surface F = 0 in the unknowns z, with F's derivative `by` them; of a curve also its unit tangent;
-    of a border the multiplier `mu` that is followed, and the gradients of the test function and of `mu` within the
-    surface."""
+    """A point z of the surface F = 0, with F's derivative `by` z; of a curve also its unit tangent; of a border the
+    multiplier `mu` that is followed, and the gradients of the test function and of `mu` within the surface."""
 
     z: Array
     residual: Array
@@ -78,17 +77,10 @@ class Place:
         """Orthonormal basis of the null space of `by`: (number of parameters, n + number of parameters)."""
         return np.asarray(np.linalg.svd(self.by)[2][len(self.residual) :], dtype=float)
 
-    def predicted(self, move: Array) -> complex:
-        """The multiplier after a move, to first order."""
-        return self.mu + complex(self.turning @ move)
-
 
 class CycleProblem:
-    """F(x, q) in scaled unknowns z = (x / size, q / scales); a `scale` replaces a parameter's value, or a fifth of a
-    typical one, which weighs as much as the static deflection.
-
-    Derivatives by `PARAMETERS` come from the variational equations, those by other numbers from differences. With an
-    `order` cycles may lose contact, and must have these numbers of events: elsewhere the map has a corner.
+    """F(x, q) in unknowns z = (x / size, q / scales); a `scale` replaces a parameter's value, or a fifth of a typical
+    one. With an `order` cycles may lose contact, and must have these numbers of events: elsewhere the map has a corner.
     """
 
     def __init__(
@@ -125,7 +117,7 @@ class CycleProblem:
         flight, turn, residual = self._fly(p, z, self._analytic)
         if self.order and flight.counts != self.order:
             counts = zip(Counts._fields, self.order, flight.counts, strict=True)
-            changes = (f"{name.replace('_', ' ')} {before} to {two}" for name, before, two in counts if before != two)
+            changes = (f"{name.replace('_', ' ')} {before} to {now}" for name, before, now in counts if before != now)
             raise CorrectorFailed(f"the order of events changes: {', '.join(changes)}", z)
         jacobian = flight.jacobian * turn[:, None] / turn[None, :]
         if not (np.all(np.isfinite(jacobian)) and np.all(np.isfinite(flight.by)) and np.all(np.isfinite(residual))):
@@ -154,8 +146,7 @@ class CycleProblem:
 
     def correct(self, z: Array, rows: Array, targets: Array) -> Place:
         """Solve F = 0 with `rows` z = `targets`, in at most seven steps of Newton's method."""
-        point = self.evaluate(z)
-        last = math.inf
+        point, last = self.evaluate(z), math.inf
         for _ in range(8):
             right = np.concatenate([point.residual, rows @ point.z - targets])
             error = float(np.linalg.norm(right))
@@ -259,7 +250,6 @@ class CycleProblem:
             return self.correct(start + s * chord, tangent[None, :], np.array([tangent @ start + s]))
 
         def turned(s: float) -> float:
-            """The parameter's component of the curve's tangent."""
             tangent_there = point_at(s).basis[0]
             return float(tangent_there[-1] / (tangent_there @ tangent))
 
@@ -281,9 +271,8 @@ def newton_step(matrix: Array, right: Array) -> Array:
 
 
 def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
-    """Faults of the names of free parameters."""
     known = p.numbers
-    wrong = [name for name in names if not (isinstance(name, str) and name in known)]
+    wrong = [name for name in names if not isinstance(name, str) or name not in known]
     return [Fault.of(("name",), name, f"must be a number of the case{suggestion(name, known)}") for name in wrong]
 
 
@@ -394,11 +383,8 @@ class StepControl:
 def follow_curve(
     start: Place, take: Callable[[Place, float], Place], steps: StepControl
 ) -> Iterator[tuple[Place, float]]:
-    """Places along a curve and the arclengths of the steps to them, until it raises `CorrectorFailed`.
-
-    take : returns the place at an arclength, with either sign of the tangent; raises `CorrectorFailed` if a shorter
-        step may succeed
-    """
+    """Places along a curve, by `take` with either sign of the tangent, and arclengths of the steps to them, until it
+    raises `CorrectorFailed`."""
     last, ds = start, steps.step
     for _ in range(steps.max_points - 1):
         while True:
@@ -499,8 +485,7 @@ def continue_cycle(
 
 
 def changed_event(cycle: Result, other: Result) -> str:
-    """The event that appears or disappears between a cycle and a motion just beyond the end of its branch. Up to this
-    event, which grazes between the two, their events are the same."""
+    """The first event by which a cycle and a motion just beyond the end of its branch differ: it grazes between."""
     names = {"stick_to_slip": "release", "slip_to_stick": "stop", "slip_reversal": "slip reversal"}
     same = 0.01 * cycle.t_end / len(cycle.events)  # far more than the small difference of parameters changes times by
     events = (zip(run.events["kind"].to_list(), run.events["time"].to_list(), strict=True) for run in (cycle, other))
@@ -516,8 +501,8 @@ def changed_event(cycle: Result, other: Result) -> str:
 Kind = Literal["neutral", "fold"]
 CLOSED = "the curve is closed"
 _DIFFERENCE = 1e-4  # arclength of the finite difference for a multiplier's gradient along the surface
+# on the way to a curve: longest step, largest change of the multiplier in a step, and number of steps
 LONGEST_REACH, LARGEST_TURN, REACHES = 0.1, 0.1, 60
-"""On the way to a curve: longest step, largest change of the multiplier in a step, and number of steps."""
 
 
 class BorderProblem(CycleProblem):
@@ -565,10 +550,11 @@ class BorderProblem(CycleProblem):
             move *= min(1.0, LONGEST_REACH / float(np.linalg.norm(move)), LARGEST_TURN / max(turn, 1e-300))
             rows = np.vstack([new.tangent, new.gradient / np.linalg.norm(new.gradient)])
             for halvings in range(6):
-                guess = new.z + move * 0.5**halvings
+                step = move * 0.5**halvings
+                guess, expected = new.z + step, new.mu + complex(new.turning @ step)
                 try:
                     point = self.correct(guess, rows, rows @ guess)
-                    value, mu = self._evaluate_test(point.jacobian, new.predicted(move * 0.5**halvings))
+                    value, mu = self._evaluate_test(point.jacobian, expected)
                     break
                 except CorrectorFailed:
                     if halvings == 5:
@@ -577,15 +563,12 @@ class BorderProblem(CycleProblem):
 
     def next_place(self, start: Place, ds: float) -> Place:
         """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
-        expected = start.predicted(ds * start.tangent)
+        expected = start.mu + complex(start.turning @ (ds * start.tangent))
         if abs(expected - start.mu) > 2 * LARGEST_TURN:
             raise CorrectorFailed("the multiplier turns too fast")
-        guess = start.z + ds * start.tangent
-        rows = start.tangent[None, :]
-        point = self.evaluate(guess)
+        guess, rows = start.z + ds * start.tangent, start.tangent[None, :]
+        point, gradient, errors = self.evaluate(guess), start.gradient, [math.inf, math.inf]
         value, mu = self._evaluate_test(point.jacobian, expected)
-        gradient = start.gradient
-        errors = [math.inf, math.inf]
         for _ in range(12):
             right = np.concatenate([point.residual, [value], rows @ point.z - rows @ guess])
             errors.append(float(np.linalg.norm(right)))
@@ -612,15 +595,10 @@ def continue_border(
     tol: float = 1e-12,
     steps: StepControl = BORDER,
 ) -> Branch:
-    """Follow a border of stability in two parameters from a place near a case, both ways until the curve leaves the
-    bounds, closes or ends.
+    """Follow a border of stability in two parameters from the cycle of a case near the point `guess` of the section,
+    both ways until it leaves the bounds, closes or ends; raises `ParameterError` if no cycle, or no curve, is near.
 
-    kind : "neutral", on which the leading multiplier of the first cycle has modulus one; or "fold", on which a
-        multiplier is one, starting from the point of a branch nearest to its fold
-    guess : the point of the section near which the cycle of `p` is sought; by default the static equilibrium
-    tol, steps : as in `continue_cycle`; the number of points is that in each direction
-
-    Raises `ParameterError` if no cycle is found to start from, or no curve of this kind is near it.
+    A "neutral" border is one of the first cycle's leading multiplier; a "fold" starts from a branch's point next to it.
     """
     problem = BorderProblem(kind, p, names, tol)
     point = problem.start(find_cycle(p, tol, guess))

@@ -269,7 +269,6 @@ def _known(curves: Sequence[StabilityCurve], kind: str, point: Array, period: fl
 
 
 def _curve(seed: _Seed, branch: Branch) -> StabilityCurve:
-    """The curve through a seed, as it was followed."""
     border = branch.growth_rate < 1e-3  # 1/s; no other multiplier grows
     middle = int(np.flatnonzero(border)[border.sum() // 2]) if border.any() else len(branch) // 2
     case = seed.case.replace(**dict(zip(branch.parameters, map(float, branch.values[middle]), strict=True)))

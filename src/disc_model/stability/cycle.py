@@ -179,7 +179,6 @@ def floquet(p: Parameters, *, tol: float = 1e-12, guess: State | None = None, re
 
 
 def guess_faults(guess: object, releases: object) -> list[str]:
-    """Faults of a guess and of the number of releases in a period of the cycle near it."""
     counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or releases == 1)
     return violations(
         (isinstance(guess, State | None), "guess", guess, "must be a State"),
@@ -269,7 +268,6 @@ def never_pulls(p: Parameters) -> bool:
 
 
 def _none(p: Parameters, tol: float, status: CycleStatus, reason: str) -> FloquetResult:
-    """The result without a cycle."""
     return FloquetResult(p, tol, status, f"{status}: {reason}")
 
 
@@ -301,16 +299,13 @@ def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
 
 # ---- Frequencies of the cycle's multipliers, beside those of steady sliding
 #
-# A multiplier's angle gives a frequency modulo that of the cycle, f = (angle / 2 pi + n) / T, and up to its sign, since
-# multipliers come in conjugate pairs.  One assignment matches all multipliers to the modes of sliding by the modal
-# assurance criterion; of two conjugates, the one that resembles the mode of positive frequency counts.  The number n
-# brings f nearest to the frequency of the mode.
+# A multiplier gives a frequency (angle / 2 pi + n) / T.  One assignment matches all multipliers to the modes of sliding
+# by the modal assurance criterion (MAC); n brings the frequency nearest to the mode's.
 
 
 class Frequencies(NamedTuple):
-    """The stick-slip cycle of a case; modes of steady sliding, by ascending frequency in the slider's frame; and of the
-    multipliers matched to each mode, all (n,): frequency (Hz), the larger growth rate of two (1/s), and modal assurance
-    criterion between the shapes. These are nan without a cycle, and for the slider's in-plane motion."""
+    """Cycle and modes of steady sliding; of the multipliers matched to each mode, (n,): frequency (Hz), larger growth
+    rate of two (1/s), MAC of the shapes; nan without a cycle, and for the slider's in-plane motion."""
 
     cycle: FloquetResult
     modes: SlidingModes
@@ -355,7 +350,7 @@ def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexA
         growth = np.log(np.abs(multipliers)) * rate
     frequency = (angle + np.round(seen / rate - angle)) * rate
     values = np.array([frequency, np.maximum(growth[first], growth[other]), mac[np.arange(len(first)), first]])
-    # with fewer multipliers than places, some modes have none
+    # with fewer multipliers than shapes, some modes have none
     values[:, (first < 0) | (other < 0)] = math.nan
     return values
 

@@ -134,12 +134,13 @@ def lyapunov_exponents(
     most = layout.WIDTH if faults else min(layout.WIDTH, len(coordinate_rows(engine_case(p).model)))
     leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
     most -= leaves_out and bool(leave_out_trivial)
-    lasts = _is_within(duration, sys.float_info.min)
+    lasts = is_number(duration) and sys.float_info.min <= duration < math.inf
     shortest = max(duration / MOST_INTERVALS if lasts else 0.0, sys.float_info.min)
+    fits = is_number(interval) and shortest <= interval < math.inf
     faults += violations(
         (lasts, "duration", duration, "must be finite and > 0"),
         (is_whole(count) and 1 <= count <= most, "count", count, f"must be a whole number from 1 to {most}"),
-        (_is_within(interval, shortest), "interval", interval, f"must be finite and >= {as_text(shortest)}"),
+        (fits, "interval", interval, f"must be finite and >= {as_text(shortest)}"),
         (isinstance(initial_state, State | None), "initial_state", initial_state, "must be a State"),
         (leaves_out, "leave_out_trivial", leave_out_trivial, "must be True or False"),
     )
@@ -158,7 +159,8 @@ def lyapunov_exponents(
     columns[rows, :count] = np.random.default_rng(1).standard_normal((len(rows), count)) / metric
     # components of a column below its tolerance, or below rounding, count as zero
     vanished = max(10 * tolerance, 1e-12)
-    _bind(model, state, t)
+    if state.x[layout.PHASE] != layout.SEPARATION:  # in contact some rows follow from others
+        saltation.slider_rows(model, state, t)
     _, remaining = _orthonormalise(columns, rows, metric, np.arange(count), vanished)
     if leave_out_trivial:
         saltation.rates(model, state, t.before)
@@ -176,7 +178,8 @@ def lyapunov_exponents(
         if code != transitions.TIME_OVER or not np.all(np.isfinite(columns)):
             status = Status.NON_FINITE if code == transitions.TIME_OVER else Status(ENDS[code])
             break
-        _bind(model, state, t)
+        if state.x[layout.PHASE] != layout.SEPARATION:
+            saltation.slider_rows(model, state, t)
         growth, remaining = _orthonormalise(columns, rows, metric, remaining, vanished)
         if i >= 0:
             logs[i, remaining] = growth
@@ -187,12 +190,8 @@ def lyapunov_exponents(
 def _orthonormalise(
     columns: Array, rows: NDArray[np.intp], metric: Array, remaining: NDArray[np.intp], vanished: float
 ) -> tuple[Array, NDArray[np.intp]]:
-    """Orthonormalise the remaining columns, of indices `remaining`, and set those to zero that depend on the others:
-    whose orthogonal part is shorter than `vanished`, relative to the column. Returns logarithms of growth, and the
-    indices that remain.
-
-    rows, metric : rows of the coordinates, (n,), and their `energy_scale`, (n, 1)
-    """
+    """Orthonormalise the columns of indices `remaining`, whose `rows` (n,) have the `metric` (n, 1), and set those to
+    zero whose orthogonal part is shorter than `vanished` of their own; logarithms of growth, and what remains."""
     while True:
         q, r = np.linalg.qr(columns[np.ix_(rows, remaining)] * metric)
         lengths = np.abs(np.diag(r))
@@ -227,14 +226,3 @@ def _averaged(
         order = order[order != 0]
     order, separations = order[:count], int(log[tangent.SEPARATIONS])
     return Lyapunov(status, exponents[order], errors[order], covered, separations, converged[order], end, trivial)
-
-
-def _is_within(value: object, least: float) -> bool:
-    """Whether a value is a finite number and not below `least`."""
-    return is_number(value) and least <= value <= sys.float_info.max  # type: ignore[operator]
-
-
-def _bind(model: layout.Model, state: layout.EngineState, t: tangent.Tangent) -> None:
-    """Set rows of columns that follow from others in contact, and are not integrated between events."""
-    if state.x[layout.PHASE] != layout.SEPARATION:
-        saltation.slider_rows(model, state, t)

@@ -37,10 +37,8 @@ class Resonance:
 def nearest_resonance(p: Parameters, period: float, multiplier: complex, diameters: int | None = None) -> Resonance:
     """The resonance to which a cycle's multiplier belongs, among modes of so many nodal diameters, or among all.
 
-    Over a period the slider turns by Omega T against the disc.  In its frame a free mode of frequency f and l diameters
-    therefore has the frequency f -/+ l Omega / 2 pi; a mode that is bound to the slider has f itself.  Modulo f_s that
-    is the multiplier's angle over 2 pi T.  The harmonic is the nearest multiple of f_s (of f_s / 2 for a negative real
-    multiplier).
+    In the slider's frame a free mode of l diameters has the frequency f -/+ l Omega / 2 pi; one bound to the slider, f.
+    Modulo f_s that is the multiplier's angle over 2 pi T. The harmonic is the nearest multiple of f_s, or of f_s / 2.
     """
     rate = 1 / float(period)
     angle = math.atan2(multiplier.imag, multiplier.real) / (2 * math.pi)
@@ -61,9 +59,8 @@ def nearest_resonance(p: Parameters, period: float, multiplier: complex, diamete
 
 
 def modes_at_rest(p: Parameters) -> list[tuple[float, int, bool]]:
-    """Frequency (Hz), number of diameters and whether the slider takes part, for every mode of disc and slider at rest.
-    A coupled mode has the diameters of the disc's mode with most of its energy; the uncoupled mode of a pair keeps its
-    own. A compliant contact adds one mode, in which the slider moves against the disc."""
+    """Frequency (Hz), diameters and whether the slider takes part, for every mode of disc and slider at rest. A coupled
+    mode has the diameters of the disc's mode with most of its energy; a compliant contact adds one mode."""
     modes = mode_arrays(p)
     frequencies, shapes = coupled_shapes(p, contact_compliance(p))
     coupled = [

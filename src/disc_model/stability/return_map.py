@@ -47,8 +47,7 @@ def case_faults(p: object, analysis: str) -> list[str]:
 
 
 def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
-    """Longest step of columns, time units: as `disc_model.engine.tangent.longest_step`, but shorter where dampers,
-    springs that act together or a fast drive make oscillations faster than that assumes."""
+    """As `columns.longest_step`, but shorter where dampers, springs together or a fast drive oscillate faster."""
     damping = max(model.damping.max(), model.damping0.max(initial=0.0), max(model.c, model.c_p) / model.m)
     contact = (1 / model.m + model.inverse_effective_mass) / model.compliance if model.compliant else 0.0
     stiffness = max((model.unit * model.free_unit) ** -2, max(model.k, model.k_p) / model.m) + contact
@@ -116,9 +115,8 @@ class Counts(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Flight:
-    """The motion between two returns to the section: exit code, one of `ENDS`, durations (s) and points of the section
-    (n,). The derivatives of the end by the start (n, n) and by the map's parameters (n, their number) mean nothing if
-    the motion did not return, or was followed without them."""
+    """The motion between two returns to the section: exit code, durations (s), and derivatives of the end by the start,
+    (n, n), and the map's parameters, (n, their number). Without a return, or tangents, these mean nothing."""
 
     outcome: int
     period: float
@@ -148,9 +146,8 @@ class ReturnMap:
     scale : (n,), factor from modal displacements and velocities to coordinates: omega, or 1; u and u' likewise
     diameters : nodal diameters of the mode of each coordinate, without the slider's coordinates, which come last
     static : (n,), static equilibrium under the preload: the static start, and the first guess of Newton's method
-    deflection : norm of `static`, the unit of distances on the section
-    tol : tolerance of cycles: residual over deflection
-    patient : whether a return may take 60 times as long, about 5 s: after a separation the slider may slip for long
+    deflection : norm of `static`, the unit of distances on the section; `tol` is the residual of cycles over it
+    patient : whether motions that separate are followed; their returns may take 60 times as long, about 5 s
     """
 
     def __init__(
@@ -200,7 +197,7 @@ class ReturnMap:
         self, x: Array, *, releases: int = 1, tangent: bool = True, may_separate: bool = False, coarse: bool = False
     ) -> Flight:
         """Follow the motion from `x` to the `releases`-th next release; `coarse` suffices for a direction."""
-        t = self._tangent
+        t, start = self._tangent, np.array(x, dtype=float)
         order, tolerance, of_columns = self.order, self.tolerance, 10 * self.tolerance
         if coarse:
             order, tolerance, of_columns = min(20, order), 1e-9, 1e-5
@@ -208,7 +205,6 @@ class ReturnMap:
         course = event_loop.IntegrationLimits(
             order, tolerance, longest, int(releases) * self.longest, int(releases), bool(may_separate), bool(tangent)
         )
-        start = np.array(x, dtype=float)
         code = event_loop.integrate(self.model, self._series, self._state, t, course, self._section, start)
         whole, stick = t.log[[columns.DURATION, columns.STICK_TIME]].tolist()
         counts = Counts(*t.log[columns.RELEASES : columns.STICKS + 1].astype(int).tolist())

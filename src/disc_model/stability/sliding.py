@@ -1,8 +1,6 @@
-"""Steady sliding: the slider rests in space, f = Omega, and the disc stands still in the slider's frame.
+"""Steady sliding, f = Omega: equilibrium of the equations of slip (docs/model.md, Slip), its eigenvalues and modes.
 
-The module computes the equilibrium of the equations of slip (docs/model.md, Slip), its stability, and its modes, which
-brake engineers call complex eigenvalues.  With
-d = 2 xi omega the disc's response to the force P that rotates over it is
+With d = 2 xi omega the disc's response to the force P that rotates over it is
 
     a_l = (gap psi_l V + lag t_l T) / (gap^2 + lag^2),  gap = l^2 Omega^2 - omega^2,
     b_l = (lag psi_l V - gap t_l T) / (gap^2 + lag^2),  lag = d l Omega,
@@ -10,8 +8,6 @@ d = 2 xi omega the disc's response to the force P that rotates over it is
 with V for the vertical force, T = mu R for friction (mu = mu_k, unless it falls with the speed) and t_l for the
 tangential amplitude of a mode where friction acts.  With C for the contact's compliance, V = N + k (w - C V - u_0).
 R = V; under the normal force, with beta = B / r_0, V = R (1 - mu beta) and r_0 F = (mu + beta) R.
-
-Modes are followed over a parameter by the modal assurance criterion (MAC), the squared cosine of their shapes.
 """
 
 from __future__ import annotations
@@ -126,7 +122,6 @@ class SteadySliding(Summarised):
 
     @property
     def unstable_modes(self) -> int:
-        """Number of modes that grow."""
         return self.growing.size
 
 
@@ -318,8 +313,8 @@ HALVINGS = 6
 
 
 class FollowedModes(NamedTuple):
-    """Steady sliding of a case and its modes by frequency; their numbers, and their likeness (MAC) to the modes of the
-    case before that have them, nan for new ones, both (n,)."""
+    """Steady sliding of a case and its modes; their numbers, and likeness (modal assurance criterion, the squared
+    cosine of shapes) to the modes of the case before that have them, nan for new ones, both (n,)."""
 
     sliding: SteadySliding
     modes: SlidingModes

@@ -1,7 +1,4 @@
-"""What a motion has come to: whether it has settled, on what, and how regular it is; sweeps through a parameter.
-
-Maps and critical speeds need none of this, so that a change of exponents does not compute them again.
-"""
+"""What a motion has come to, and sweeps through a parameter; without a change of maps, which need no exponents."""
 
 import math
 import sys
@@ -25,8 +22,7 @@ from disc_model.stability.return_map import RETURNED, ReturnMap
 
 
 class Arrival(NamedTuple):
-    """What a motion has come to: whether it has settled; rest or steady sliding, if it has come to that; the stable
-    cycle that it follows by its multipliers, if there is one."""
+    """Whether a motion has settled, with the rest or sliding, or the stable cycle by its multipliers, as proof."""
 
     settling: Settling
     calm: Outcome | None = None
@@ -37,22 +33,21 @@ class Arrival(NamedTuple):
         return self.settling.answer is Settled.SETTLED
 
 
-def arrival(p: Parameters, legs: Sequence[Result], tol: float) -> Arrival:
-    """What a motion has come to at the end of its successive legs: what rest, eigenvalues of steady sliding or
-    multipliers of a stable cycle prove; otherwise what the record of angles at releases and separations shows."""
+def arrival(p: Parameters, legs: Sequence[Result], tol: float, most: int = sys.maxsize) -> Arrival:
+    """What a motion has come to at the end of its legs: what rest, eigenvalues of steady sliding or multipliers of a
+    cycle of up to `most` releases prove; otherwise what the record of angles at releases and separations shows."""
     leg = legs[-1]
     if (calm := find_calm(p, leg, tol)) is not None:
         return Arrival(Settling(Settled.SETTLED, least=0.0, since=leg.final_state.time), calm)
-    near = cycle_reached(p, leg)
+    near = cycle_reached(p, leg, most)
     if near is not None and near.follows_cycle:  # of stable cycles only
-        rate, since = near.cycle.growth_rate, leg.final_state.time
-        return Arrival(Settling(Settled.SETTLED, rate, 0.0, since), near=near)
+        return Arrival(Settling(Settled.SETTLED, near.cycle.growth_rate, 0.0, leg.final_state.time), near=near)
     if near is not None and near.lingers:
         return Arrival(Settling(Settled.CHANGING, near.cycle.growth_rate, 0.0))
     return Arrival(settling(*np.hstack([switch_angles(leg) for leg in legs])))
 
 
-def cycle_reached(p: Parameters, leg: Result, most: int = sys.maxsize) -> NearCycle | None:
+def cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
     """The cycle near the end of a simulated motion, recorded with its events; the cycle may lose contact. Periods of up
     to half the releases of the last `FIRST_LEG` are tried, and of up to `most` releases."""
     last = leg.events[leg.events["time"] > leg.final_state.time - thresholds.FIRST_LEG]
@@ -63,8 +58,7 @@ def cycle_reached(p: Parameters, leg: Result, most: int = sys.maxsize) -> NearCy
     code, x = map_.next_release(leg.final_state)
     if code != RETURNED:
         return None
-    near_return = find_near_return(map_, x, max(1, min(most, releases // 2)), may_separate=True)
-    return find_cycle_near(map_, x, near_return, may_separate=True)
+    return find_cycle_near(map_, x, find_near_return(map_, x, max(1, min(most, releases // 2))))
 
 
 def sweep(
@@ -79,9 +73,9 @@ def sweep(
 ) -> Iterator[tuple[tuple[int, int], Result, Segment | None, Arrival]]:
     """Follow the motion through values of a parameter, up from that of index ``lowest`` and down again to the first.
 
-    It stays ``dwell`` s at each value, then up to twice as long again and again until it has settled, ``longest`` s at
-    most; from a stable cycle that it follows it continues exactly. Yields the direction (0 up, 1 down) and the index of
-    the value, the last run there, its last segment of ``late`` s, or None if a run ends early, and the arrival.
+    It stays ``dwell`` s at each value, then twice as long until it has settled, ``longest`` s at most; from a stable
+    cycle it continues exactly. Yields direction (0 up, 1 down) and index of the value, the last run there, its last
+    segment of ``late`` s, or None if a run ends early, and the arrival.
     """
     state: State | None = None
     for step in [(0, i) for i in range(lowest, len(values))] + [(1, i) for i in reversed(range(len(values)))]:

@@ -1,7 +1,6 @@
 """Assignment of many motions of a case to attractors: the quiet cycle, a known attractor, or a new one.
 
-docs/study_method.md, Settled motions, describes the legs and tests. A new attractor that is not periodic must persist
-to the horizon, in a record that has settled, because the motion might only be passing an unstable one.
+docs/study_method.md, Settled motions, describes the legs and tests.
 """
 
 import math
@@ -12,7 +11,7 @@ from itertools import chain, pairwise
 
 import numpy as np
 
-from disc_model.analysis.classify import VARIATION, Settled, settling
+from disc_model.analysis.classify import VARIATION
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
@@ -21,16 +20,9 @@ from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State, perturb, static_start
 from disc_model.stability.attractor import thresholds
-from disc_model.stability.attractor.arrival import cycle_reached, regularity
+from disc_model.stability.attractor.arrival import arrival, regularity
 from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start
-from disc_model.stability.attractor.outcome import (
-    Attractor,
-    OutcomeResult,
-    Segment,
-    find_calm,
-    segment_of,
-    switch_angles,
-)
+from disc_model.stability.attractor.outcome import Attractor, OutcomeResult, Segment, segment_of
 from disc_model.stability.return_map import RETURNED, Array, ReturnMap
 
 
@@ -38,9 +30,8 @@ class Basins:
     """The attractors of a case, `known` in the order in which they were found: the quiet cycle, and those reached from
     `OWN_STARTS` and from later starts.
 
-    horizon : s, longest simulated time of a motion
-    near : relative difference in range from an attractor within which an approaching motion counts as being on it;
-        with 0 all motions are followed to the horizon
+    Motions are followed to the horizon (s). One that approaches an attractor counts as being on it within a relative
+    difference `near` in range; never with 0.
     """
 
     def __init__(self, p: Parameters, horizon: float, *, near: float = 0.1, tol: float = 1e-10) -> None:
@@ -62,8 +53,7 @@ class Basins:
 
     def follow(self, state: State) -> OutcomeResult:
         """Outcome of the motion from a state at time 0; a new attractor is added to `known`."""
-        segments: list[Segment] = []
-        angles: list[Array] = []
+        legs, segments = list[Result](), list[Segment]()
         first_separation, least_tested, steady = math.nan, math.inf, False
         while True:
             leg = self._leg(state, min(state.time + thresholds.FIRST_LEG, self.horizon))
@@ -71,8 +61,8 @@ class Basins:
             first_separation = leg.first_separation if math.isnan(first_separation) else first_separation
             if not leg.status.complete:
                 return OutcomeResult(None, state.time, first_separation=first_separation, failed=leg)
+            legs.append(leg)
             segments.append(segment_of(leg))
-            angles.append(switch_angles(leg))
             over, attractor = state.time >= self.horizon, None
             if self.near:
                 # tested only nearer to the quiet cycle than ever before
@@ -84,13 +74,10 @@ class Basins:
                 least_tested = min(distance, least_tested)
             was_steady, steady = steady, self._is_steady(segments)
             if attractor is None and (over or (self.near and steady and not was_steady)):
-                settled = over and settling(*np.hstack(angles)).answer is Settled.SETTLED
-                attractor = self._settled_on(leg, steady, settled)
-            if attractor is not None:
-                kind = attractor.kind
+                attractor = self._settled_on(legs, segments[-1], steady, over)
+            if attractor is not None or over:
+                kind = Outcome.UNDECIDED if attractor is None else attractor.kind
                 return OutcomeResult(kind, state.time, attractor=attractor, first_separation=first_separation)
-            if over:
-                return OutcomeResult(Outcome.UNDECIDED, state.time, first_separation=first_separation)
 
     def _leg(self, state: State, end: float) -> Result:
         # the range is taken over thirty oscillations or more
@@ -98,8 +85,7 @@ class Basins:
         return simulate(self.p, end, {"late": window}, tol=self.tol, initial_state=state)
 
     def _difference(self, first: Segment, second: Segment) -> float:
-        """Largest relative difference of ranges, shares of the phases and separations per second. Differences of shares
-        below `SAME`, and of less than two separations in a leg, are relative to these limits."""
+        """Largest difference of ranges, rates and shares, relative to the larger one or to a floor."""
         ranges = [max(segment.range, self.smallest) for segment in (first, second)]
         compared = [
             (*ranges, self.smallest),
@@ -144,26 +130,24 @@ class Basins:
         stays = abs(ranges[-1] - ranges[0]) <= thresholds.STEADY * ranges[-1]
         return stays or _rest_of_drift(ranges) <= thresholds.SAME / 2 * ranges[-1]
 
-    def _settled_on(self, leg: Result, steady: bool, settled: bool) -> Attractor | None:
-        """The attractor on which a motion is, if that is proven, the record has settled, or the last legs are as steady
-        as those on a known attractor; None near an unstable cycle."""
-        attractor, near = Attractor(Outcome.UNDECIDED, segment_of(leg)), None
-        if (calm := find_calm(self.p, leg, self.tol)) is not None:
-            attractor = replace(attractor, kind=calm)
-        elif (near := cycle_reached(self.p, leg, thresholds.LARGEST_PERIOD)) is not None and near.follows_cycle:
-            attractor = self._periodic(near, attractor.segment)  # of stable cycles only
-        elif near is not None and near.lingers:
+    def _settled_on(self, legs: Sequence[Result], segment: Segment, steady: bool, over: bool) -> Attractor | None:
+        """The attractor on which a motion is, if that is proven, the whole record has settled, or the last legs are as
+        steady as those on a known attractor; None near an unstable cycle."""
+        reached = arrival(self.p, legs, self.tol, thresholds.LARGEST_PERIOD)
+        if not reached.settled and reached.settling.least == 0:  # by multipliers
             return None
-        same = next((known for known in self.known if self._same(attractor, known)), None)
+        attractor = Attractor(reached.calm or Outcome.UNDECIDED, segment)
+        if reached.near is not None:
+            attractor = self._periodic(reached.near, segment)
         proven = attractor.kind is not Outcome.UNDECIDED
-        if not (proven or settled or (steady and same)):
+        same = next((known for known in self.known if self._same(attractor, known)), None)
+        if not (proven or (over and reached.settled) or (steady and same)):
             return None
         if same is None:
             if not proven:
-                attractor = replace(attractor, kind=regularity(self.p, leg.final_state, self.tol).kind)
+                attractor = replace(attractor, kind=regularity(self.p, legs[-1].final_state, self.tol).kind)
             self.known.append(attractor)
-            return attractor
-        return same
+        return same or attractor
 
     def _same(self, first: Attractor, second: Attractor) -> bool:
         """Whether two attractors are the same: periodic ones by their fixed points, others by their segments."""

@@ -1,7 +1,6 @@
 """Motions near a cycle, or near steady sliding: whether they depart or approach as its multipliers predict.
 
-Near a cycle the return map is linear, and the distance d from the cycle after n periods is J^n d.  This is tested by
-following the motion over some seconds: near repetition alone proves nothing, because a torus shows it as well.
+That is tested over some seconds: near repetition alone proves nothing, because a torus shows it as well.
 """
 
 import math
@@ -33,9 +32,8 @@ from disc_model.stability.sliding import SteadySliding, energy_weights, join_row
 
 @dataclass(frozen=True, eq=False)
 class NearCycle:
-    """A motion near a cycle: whether it follows the linear map, and so stays on the cycle if that is stable; the cycle,
-    the motion's distance from it and the map's Jacobian, on the section of `map`; the time waited (s) until the motion
-    follows the linear map, at which the distance is taken."""
+    """A cycle, a motion's distance from it and the Jacobian, on the section of `map`; whether the motion follows the
+    linear map, and the time waited (s) until it does, at which the distance is taken."""
 
     cycle: FloquetResult
     follows_cycle: bool
@@ -87,7 +85,7 @@ class NearCycle:
     def stays_linear_until(self, horizon: float) -> bool:
         """Whether the static start, near an unstable cycle, follows the linear map until the horizon (s)."""
         room = self.periods_left(first_release(self.cycle.parameters), horizon)
-        # the leading part alone excludes most motions at once
+        # the leading part alone excludes most motions
         right = _left_vector(self.jacobian.T)
         part = float(abs(self.leading @ self.distance)) / float(abs(self.leading @ right))
         grown = math.log(max(part / self.map.deflection, 1e-300)) + room * math.log(abs(self.cycle.multipliers[0]))
@@ -118,8 +116,7 @@ class NearCycle:
         return _grows_at_rate(parts, periods * cycle.period, cycle.growth_rate, least)
 
     def extrapolate_departure(self, room: int, furthest: float = thresholds.NEAR) -> tuple[float, Array] | None:
-        """Time (s) over which multipliers represent the departure, at most `room` periods, and the distance at its end
-        from the cycle; None if they do not represent it."""
+        """Time (s) over which multipliers represent the departure, at most `room` periods, and distance at its end."""
         period = self.cycle.period
         powers = [self.jacobian]
         most = math.log(1e100) / max(math.log(abs(self.cycle.multipliers[0])), 1e-300)
@@ -145,16 +142,16 @@ class NearCycle:
     def _excess_rate(self, distance: Array) -> float | None:
         """Relative excess of the growth rate over the leading multiplier's; None unless the motion departs. Its phase,
         which drifts with the amplitude long before the growth rate does and matters only near borders, is ignored."""
-        leading_left, right = self.leading, _left_vector(self.jacobian.T)
-        right = right / (leading_left @ right)
+        right = _left_vector(self.jacobian.T)
+        right = right / (self.leading @ right)
         real = self.cycle.multipliers[0].imag == 0
-        part, count = leading_left @ distance, 0
+        part, count = self.leading @ distance, 0
         before = float(abs(part))
         for periods, flight in self.flights(self.x + distance, thresholds.TEST_TIMES[-1]):
             if not flight.returned:
                 return None
             apart, count = flight.end - self.x, count + periods
-            part = leading_left @ apart
+            part = self.leading @ apart
             plane = np.real(part * right) * (1 if real else 2)
             if not np.linalg.norm(apart - plane) <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(apart):
                 return None
@@ -178,31 +175,22 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
 
 
 def find_cycle_near(
-    map_: ReturnMap,
-    x: Array,
-    near_return: NearReturn | None,
-    may_separate: bool = False,
-    unstable: Sequence[float] = (),
+    map_: ReturnMap, x: Array, near_return: NearReturn | None, unstable: Sequence[float] = ()
 ) -> NearCycle | None:
-    """The cycle near a motion at a point of the section, and whether the motion follows it; None if there is none.
-
-    near_return : of the motion, by `find_near_return`
-    unstable : times at which the test begins on an unstable cycle, s; with none, no motion follows it
-    """
+    """The cycle near a motion at a point of the section, and whether the motion follows it. If the cycle is unstable,
+    tests for that begin at the times `unstable`, s."""
     if near_return is None or not near_return.change <= thresholds.NEAR / 2:
         return None
-    flight = newton(map_, x, releases=near_return.releases, may_separate=may_separate)
+    flight = newton(map_, x, releases=near_return.releases, may_separate=map_.patient)
     if flight is None or np.linalg.norm(flight.start - x) > thresholds.NEAR * map_.deflection:
         return None
     cycle = cycle_of(map_, run_through_once(map_, flight))
     return _relate(map_, cycle, x, thresholds.WAITS if cycle.stable else unstable)
 
 
-def find_near_return(
-    map_: ReturnMap, x: Array, most: int = thresholds.LARGEST_PERIOD, *, may_separate: bool = False
-) -> NearReturn | None:
+def find_near_return(map_: ReturnMap, x: Array, most: int = thresholds.LARGEST_PERIOD) -> NearReturn | None:
     """The nearest return of a motion to its point of the section; None if it does not return at all."""
-    later = map_.returns(x, most, may_separate=may_separate, coarse=True)
+    later = map_.returns(x, most, may_separate=map_.patient, coarse=True)
     changes = [float(np.linalg.norm(point - x) / map_.deflection) for point in later]
     # the shortest of those with about the least change
     returns = (NearReturn(change, i) for i, change in enumerate(changes, 1) if change <= 2 * min(changes))
@@ -240,8 +228,7 @@ def _grows_at_rate(parts: Sequence[float], time: float, rate: float, least: floa
 
 
 def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs) -> ComplexArray:
-    """Left eigenvector of the leading eigenvalue: its product with a distance is that eigenvalue's part of it. Leading
-    has most `size`: the modulus for a map, the real part for differential equations."""
+    """Left eigenvector of the eigenvalue of most `size`: its product with a distance is the eigenvalue's part of it."""
     values, vectors = np.linalg.eig(jacobian.T)
     return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
 

@@ -34,8 +34,7 @@ from disc_model.stability.return_map import RETURNED, Array, ReturnMap
 
 @dataclass(frozen=True)
 class Segment:
-    """Description of a segment of a motion: ranges of the contact force (N) and of the slider's height over static
-    equilibrium (m), shares of the phases in the time, and separations per second."""
+    """Ranges of contact force (N) and height over static equilibrium (m); shares of time; separations per s."""
 
     P_min: float
     P_max: float
@@ -48,14 +47,13 @@ class Segment:
 
     @property
     def range(self) -> float:
-        """Range of the slider's height, m."""
         return self.u_max - self.u_min
 
 
 @dataclass(frozen=True, eq=False)
 class Attractor:
-    """An attractor: the outcome of motions on it, a segment of one; period (s), releases and growth rate (1/s) of a
-    periodic attractor; and its points on the section, shape (releases, n), if they are known."""
+    """Outcome of motions on an attractor, and a segment of one; of a periodic one also period (s), releases in it,
+    growth rate (1/s) and points on the section, shape (releases, n)."""
 
     kind: Outcome
     segment: Segment
@@ -84,15 +82,12 @@ class OutcomeResult:
     """The outcome of a motion; while it is sought, what is known so far.
 
     outcome : None if the simulation failed
-    simulated : s, simulated time; 0 if multipliers decide
+    simulated, time : s, simulated time, 0 if multipliers decide; time at which the outcome was known
     near : the stable cycle that the motion approaches, or else the first unstable cycle from which it departs
     extrapolated : the unstable cycle of slowest growth from which a departure was computed by multipliers
-    time : s, at which the outcome was known
-    state : last state of the simulation
     failed : the simulation that ended early
     changes, times : changes from one period to the next, over the static deflection, and times of these (s)
-    distance : distance from the cycle, over the static deflection, at the end of the search
-    segment : the last segment before the horizon, if it was requested and reached
+    distance : from the cycle, over the static deflection, at the end of the search
     """
 
     outcome: Outcome | None = None
@@ -122,12 +117,10 @@ class OutcomeResult:
 
     @property
     def status(self) -> Status:
-        """Status of the simulation."""
         return Status.OK if self.failed is None else self.failed.status
 
     @property
     def message(self) -> str:
-        """Reason for which the simulation ended early, or ""."""
         return "" if self.failed is None else self.failed.message
 
 
@@ -146,9 +139,7 @@ def find_outcome(
 
     near : result of `cycle_of_static_start`, if it is known
     furthest : distance from a cycle, over the static deflection, up to which multipliers may represent a departure. A
-        shorter one makes the time of the first separation more accurate; with 0 all of the departure is simulated.
-        A departure that comes to a stable cycle is simulated from `thresholds.CERTAIN` in any case
-    start : initial state, at time 0; None is the static start
+        shorter one makes the time of the first separation more accurate; with 0 all of the departure is simulated
     early : whether the search ends once the outcome is shown; otherwise the motion is followed to the horizon
     late : s, length of the segment before the horizon that is described
     """
@@ -166,11 +157,7 @@ def find_outcome(
 
 @dataclass
 class _OutcomeSearch:
-    """A search for the outcome of a motion: one method a stage, each of which returns the next stage.
-
-    start_cycle : the cycle near the static start, if that may decide
-    furthest : see `find_outcome`; it is reduced if the search starts anew
-    """
+    """A search with one method a stage, which returns the next one; `start_cycle` may decide about the static start."""
 
     p: Parameters
     horizon: float
@@ -184,7 +171,6 @@ class _OutcomeSearch:
     simulated_before: float = 0.0
 
     def run(self) -> OutcomeResult:
-        """Pass from stage to stage, until the outcome is known."""
         stages = {
             Stage.START: self._begin,
             Stage.NEAR_CYCLE: self._judge_cycle,
@@ -204,7 +190,6 @@ class _OutcomeSearch:
         self.departed_from: NearCycle | None = None  # the last unstable cycle that it followed
         self.cycle_to_come: NearCycle | None = None  # an unstable one near the start, until the motion follows it
         self.angles: list[Array] = []
-        self.section_point: Array | None = None  # at the end of the last leg
         if self.start_cycle is None:
             return Stage.ON_ITS_WAY
         if not self.start_cycle.follows_cycle:
@@ -259,7 +244,8 @@ class _OutcomeSearch:
         if examined and (calm := find_calm(self.p, leg, self.tol)) is not None:
             result.outcome, result.near = calm, None
             return Stage.SETTLED
-        if self._returns_to_section(leg.final_state) and examined and (near := self._find_followed_cycle()) is not None:
+        x = self._next_section_point(leg.final_state)
+        if x is not None and examined and (near := self._find_followed_cycle(x)) is not None:
             self.cycle = near
             return Stage.NEAR_CYCLE
         if self._has_settled():
@@ -268,7 +254,7 @@ class _OutcomeSearch:
         return Stage.ON_ITS_WAY
 
     def _simulate_leg(self) -> Result:
-        """Simulate a leg, or to the first separation; the segment to be described is a leg of its own."""
+        """Simulate a leg to its end or the first separation; the segment to be described is a leg of its own."""
         result = self.result
         marks = (self.horizon - self.late, self.horizon)
         stop = next(min(result.time + self.leg, mark) for mark in marks if result.time < mark)
@@ -284,41 +270,37 @@ class _OutcomeSearch:
         result.state, result.time = leg.final_state, leg.final_state.time
         return leg
 
-    def _returns_to_section(self, state: State) -> bool:
-        """Whether the motion comes to the section again; its nearest return is then measured."""
+    def _next_section_point(self, state: State) -> Array | None:
+        """Where the motion comes to the section again, if it does; its nearest return to there is then measured."""
         code, x = self.map.next_release(state) if self.map is not None else (None, None)
-        self.section_point = x if code == RETURNED else None
-        if self.map is None or self.section_point is None:
-            return False
-        self.near_return = find_near_return(self.map, self.section_point)
+        if self.map is None or x is None or code != RETURNED:
+            return None
+        self.near_return = find_near_return(self.map, x)
         self.result.times.append(self.result.time)
         self.result.changes.append(math.nan if self.near_return is None else self.near_return.change)
-        return True
+        return x
 
-    def _find_followed_cycle(self) -> NearCycle | None:
+    def _find_followed_cycle(self, x: Array) -> NearCycle | None:
         """The cycle that the motion follows linearly: the one near its start, if it comes back to that, or another."""
-        x, near, waits = self.section_point, self.cycle_to_come, len(thresholds.WAITS)
+        near = self.cycle_to_come
         assert self.map is not None
-        assert x is not None
         if self.departed_from is not None:
-            if near is not None and self._comes_to(near, x, self.departed_from):
+            size = self.map.deflection
+            if (
+                near is not None
+                and np.linalg.norm(x - near.x) <= thresholds.NEAR * size
+                and np.linalg.norm(self.departed_from.x - near.x) > thresholds.SAME_POINT * size
+                and near.follows_multipliers(x)
+            ):
                 self.cycle_to_come = self.result.near = None
                 return replace(near, follows_cycle=True, distance=x - near.x)
             # a motion that comes near a cycle then changes less and less, down to errors of the simulation
             known = [change for change in self.result.changes if not math.isnan(change)]
             if known and known[-1] > max(known[-2:][0], thresholds.ARRIVED, thresholds.ERROR_OF_TOL * self.tol):
                 return None
-            waits = 1
-        near = find_cycle_near(self.map, x, self.near_return, unstable=thresholds.WAITS[:waits])
+        waits = thresholds.WAITS if self.departed_from is None else thresholds.WAITS[:1]
+        near = find_cycle_near(self.map, x, self.near_return, unstable=waits)
         return near if near is not None and near.follows_cycle else None
-
-    @staticmethod
-    def _comes_to(near: NearCycle, x: Array, last: NearCycle) -> bool:
-        """Whether the motion at a point of the section follows a cycle, after it has departed from another one."""
-        size = near.map.deflection
-        if not np.linalg.norm(x - near.x) <= thresholds.NEAR * size:
-            return False
-        return bool(np.linalg.norm(last.x - near.x) > thresholds.SAME_POINT * size) and near.follows_multipliers(x)
 
     @property
     def _grows(self) -> bool:
@@ -352,8 +334,7 @@ def growing(changes: Sequence[float]) -> bool:
 def final_segment(
     p: Parameters, state: State | None, duration: float, late: float, tol: float
 ) -> tuple[Result, Segment | None]:
-    """Simulate from a state (None: the static start) for a duration (s), and describe the last segment of it. The
-    segment is None if the simulation ended early."""
+    """Simulate from a state (None: the static start) for a duration (s); its last segment, if it is complete."""
     begin = 0.0 if state is None else state.time
     stop = begin + duration
     if stop - late > begin:

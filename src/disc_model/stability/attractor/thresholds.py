@@ -17,28 +17,20 @@ NEAR = AMPLITUDES[0]  # distance from a cycle within which a motion counts as ne
 SAME_POINT = 1e-4  # nearer fixed points are the same: known cycles differ by 0.1, and residuals are 1e-10
 ARRIVED = 1e-8  # a motion as near to a stable cycle is on it: the limit is 10,000 times the rounding
 ERROR_OF_TOL = 100  # errors of a long simulation, over its tolerance: 12 were seen on a cycle that attracts at 0.008/s
+# s, at which a motion is compared with the linear one; if the first test fails, the longer one resolves slower rates
 TEST_TIMES = ((0.3, 1.2), (1.5, 6.0))
-"""s, at which a motion is compared with the linear one; its growth rate is taken between them. The longer test follows
-if the shorter one fails, because it resolves slower rates."""
-WAITS = (0.0, 1.5, 6.0, 15.0)
-"""s, at which the test begins. Near a resonance the start lies outside the range of the linear map, and enters it when
-the strongly damped modes have decayed."""
-LARGEST_ERROR = 0.1
-"""Largest difference between the two motions, relative to the linear one. The error of the linear map is of second
-order in the distance, which is at most a tenth of the static deflection."""
+WAITS = (0.0, 1.5, 6.0, 15.0)  # s, at which tests begin: near a resonance the strongly damped modes must decay first
+LARGEST_ERROR = 0.1  # of the linear motion, relative to it: second order in the distance, at most a tenth
 LARGEST_RATE_ERROR = 0.5  # of the growth rate, relative to the linear motion's: it decides the sign of the rate
+# largest share of a departure outside the leading eigenspace, and difference of growth rates for which it is corrected
 LARGEST_OUTSIDE = 0.25
-"""Largest share of a departing motion outside the leading eigenspace. It also bounds the relative difference between
-the growth rate and the multiplier's, for which the departure is corrected."""
+# distance from which a departure that came to a stable cycle is simulated: beyond, its phase may lead to separation
 CERTAIN = 0.02
-"""Distance from a cycle from which a departure that came to a stable cycle is simulated: farther away, its phase may
-decide between that cycle and separation."""
 LINGERS = 1e-3  # largest change over a period of a motion that stays near an unstable cycle: on a torus it would move
 LARGEST_PERIOD = 8  # releases in a period of cycles that are sought from the section alone, to limit the time
 RISE = 1.5  # factor between changes of periods that shows growth: rounding and beats with decaying modes cause less
+# s, settled in contact, until a motion is left: of 190 in `map_N`, 2 separated by 1000 s, and after 200 s 5 would have
 STEADY_FOR = 360.0
-"""s for which a motion must have settled in contact until it is left. Of about 190 such motions of
-`map_N`, 2 lost contact before 1000 s, both in the last 30 s; after 200 s about 5 would have."""
 
 # ---- Attractors of many motions of a case
 
