@@ -36,12 +36,11 @@ from disc_model.units import Finite, Strict, canonical_json, is_whole
 
 def _quantity(name: str, case: Parameters, start: Mapping[str, float] | None = None, **options: Any) -> xr.Dataset:
     """The variables of a quantity for a case, flags as words; what went wrong is the attribute `message`."""
-    faults = foreign_case(case, "case")
+    faults, arguments = foreign_case(case, "case"), {"perturbation": "start", "horizons": "horizon"}
     try:
         begin = Start.model_validate({} if start is None else {"perturbation": start})
         quantity = quantity_of(name).model_validate(options)
     except ParameterError as error:
-        arguments = {"perturbation": "start", "horizons": "horizon"}
         for fault in error.faults:
             faults.append(Fault(tuple(arguments.get(part, part) for part in fault.path), fault.value, fault.rule))
     raise_faults(faults)
@@ -396,9 +395,7 @@ def _stacked(
     first = {name: variable for row in reversed(rows) for name, variable in row.items()}
     fixed = {name: variable for name, variable in first.items() if variable.dims == (name,)}
     stacked = {}
-    for name, variable in first.items():
-        if name in fixed:
-            continue
+    for name, variable in [(name, variable) for name, variable in first.items() if name not in fixed]:
         present = [(i, row[name].values) for i, row in enumerate(rows) if name in row]
         shape = np.max([values.shape for _, values in present], axis=0) if variable.ndim else ()
         kinds = {values.dtype.kind for _, values in present}
@@ -459,16 +456,12 @@ def run_study(
     study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.grids([folder])
     datasets: dict[str, Any] = {}
-    for name in names:
-        grid = grids[name]
+    for grid in (grids[name] for name in names):
         texts = [text for _, text in sorted(grid.batches.items())]
         batches = _in_parallel(run_batch, texts, workers, processes)
-        datasets[name] = merge_batches(batches, grid.grid, grid.attrs)
+        datasets[grid.name] = merge_batches(batches, grid.grid, grid.attrs)
     if study.specs:
         run = partial(run_case, choose=choose_when_run)
         cases = _in_parallel(run, [*study.specs.values()], workers, processes)
         datasets["cases"] = merge_cases(dict(zip(study.specs, cases, strict=True)), study.labels)
-    if len(datasets) == 1:
-        (only,) = datasets.values()
-        return only
-    return xr.DataTree.from_dict(datasets)
+    return next(iter(datasets.values())) if len(datasets) == 1 else xr.DataTree.from_dict(datasets)

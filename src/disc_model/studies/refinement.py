@@ -57,7 +57,7 @@ class Tile:
         return start if isinstance(start, NearCycle) and start.follows_cycle else None
 
     def _check_what_is_filled(self) -> None:
-        """Compute points whose start follows a growing cycle and yet counts as calm, or none though most neighbours do."""
+        """Compute points whose start follows a growing cycle but counts as calm, or none though most neighbours do."""
         for (i, j), outcome in (self.presumed | self.filled).items():
             beside = [index for index in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if index in self.starts]
             doubtful = outcome in CALM
