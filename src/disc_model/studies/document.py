@@ -31,8 +31,8 @@ def _but(taken: Collection[str], rule: str) -> AfterValidator:
 _REPETITION = must(lambda name: not re.search(r"(.+)\1{19}$", name), "must not end in 20 equal parts")
 _LETTERS = pydantic.StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=100)
 Name = Annotated[str, _LETTERS, AfterValidator(_REPETITION)]
-CaseName = Annotated[Name, _but(TAKEN, "is taken by a variable")]
-WindowName = Annotated[Name, _but(TAKEN | BESIDE_WINDOWS, "is taken by a variable or group")]
+CaseName = Annotated[Name, _but(TAKEN, "must not be the name of a variable")]
+WindowName = Annotated[Name, _but(TAKEN | BESIDE_WINDOWS, "must not be the name of a variable or group")]
 StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 
 # ---- Values along an axis: lists, linear and logarithmic ranges, and blocks of them

@@ -69,7 +69,7 @@ class Range(Ruled):
         (lambda r: r.start < r.stop, "start={0.start:g} must be < stop={0.stop:g}"),
         (lambda r: math.isfinite(r.stop - r.start), "stop - start must be finite"),
         (lambda r: (r.count is None) != (r.step is None), "must give either count or step"),
-        (lambda r: r.scale == "linear" or (r.count and r.start > 0), "a log scale needs count, and start > 0"),
+        (lambda r: r.scale == "linear" or (r.count and r.start > 0), "a logarithmic range needs count and start > 0"),
         (lambda r: r._steps < MOST, f"must be at most {MOST} values"),
         (lambda r: math.isclose(r._steps, r.intervals), "stop - start must be a multiple of step={0.step:g}"),
     )

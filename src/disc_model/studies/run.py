@@ -108,11 +108,10 @@ def describe(name: str) -> dict[str, Any]:
 
 
 def coordinates_of(coordinates: Mapping[str, Coordinate], quantity: Quantity) -> dict[str, xr.Variable]:
-    variables = {}
-    for name, (units, long_name, values) in coordinates.items():
-        attrs = Variable(units, long_name.format(quantity)).attributes
-        variables[name] = xr.Variable(name, np.array(values(quantity)), attrs)
-    return variables
+    return {
+        name: xr.Variable(name, np.array(values(quantity)), Variable(units, words.format(quantity)).attributes)
+        for name, (units, words, values) in coordinates.items()
+    }
 
 
 def variables_of(
@@ -123,20 +122,19 @@ def variables_of(
     for name, column in columns.items():
         array = column.empty((len(rows), *(coords[dim].size for dim in column.dims)))
         for i, row in enumerate(rows):
-            _store(row.get(name), array, (i,), column)
+            _store(row.get(name), array[i, ...], column)
         array = array.reshape((*sizes.values(), *array.shape[1:]))
         variables[name] = xr.Variable((*sizes, *column.dims), array, column.attributes)
     return variables
 
 
-def _store(value: Any, array: NDArray[Any], index: tuple[int, ...], column: Variable) -> None:
-    """Store a value in an array: flags as numbers; lists and arrays are cut to fit."""
-    cell = array[index]
+def _store(value: Any, cell: NDArray[Any], column: Variable) -> None:
+    """Store a value in a view of an array: flags as numbers; lists and arrays are cut to fit."""
     if isinstance(value, list):
         for i, item in enumerate(value[: len(cell)]):
-            _store(item, array, (*index, i), column)
+            _store(item, cell[i, ...], column)
     elif isinstance(value, np.ndarray) and value.ndim:
         part = value[tuple(map(slice, cell.shape))]
         cell[tuple(map(slice, part.shape))] = part
     elif value is not None:
-        array[index] = column.flags.index(value) if isinstance(value, str) else value
+        cell[...] = column.flags.index(value) if isinstance(value, str) else value

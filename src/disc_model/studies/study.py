@@ -16,6 +16,7 @@ import yaml
 from disc_model.data.variables import values_text
 from disc_model.disc.plausibility import RULES
 from disc_model.disc.tables import read_disc
+from disc_model.display import counted
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kind import NORM, CasePlot, Plot
 from disc_model.simulation.case import CaseSpec
@@ -30,10 +31,8 @@ class StudyError(DiscModelError, ValueError):
 
     def __init__(self, *faults: str, source: str = "study") -> None:
         texts = (fault.in_file if isinstance(fault, Fault) and fault.path else str(fault) for fault in faults)
-        self.faults = tuple(dict.fromkeys(texts))
-        self.source = source
-        count = f"{len(self.faults)} fault{'s' if len(self.faults) > 1 else ''}"
-        super().__init__("\n  ".join([f"{source}: {count}", *self.faults]))
+        self.faults, self.source = tuple(dict.fromkeys(texts)), source
+        super().__init__("\n  ".join([f"{source}: {counted(len(self.faults), 'fault')}", *self.faults]))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (partial(type(self), source=self.source), self.faults)
@@ -178,8 +177,7 @@ class Study:
                 yield f"{texts[0]} ({len(texts)} of {len(self.specs)} cases)"
 
     def grids(self, folders: Sequence[Path] = (Path(),)) -> tuple[dict[str, GridStudy], tuple[str, ...]]:
-        """All grids, the file's own and those of its further files, and the names of the requested ones. Grids that
-        figures show besides are read from files beside it. The first of the folders that has a file counts."""
+        """All grids, also those that only figures show, and the names of the requested ones: its own, and its files'."""
         grids = {} if self.grid is None else {self.name: self.grid}
         paths = [path for pattern in self.studies for path in _matching(pattern, folders)]
         requested = (*grids, *(path.stem for path in paths))
@@ -215,8 +213,7 @@ class Study:
     def _add_grid(self, path: Path, grids: dict[str, GridStudy], faults: list[str]) -> None:
         try:
             content = inherit(mapping(read_file(path)), self.document.overrides.get(path.stem, {}))
-            raw = {"resolution": self.document.resolution, **content}
-            study = parse_study(raw, path.parent, _shown_path(path))
+            study = parse_study({"resolution": self.document.resolution, **content}, path.parent, _shown_path(path))
         except StudyError as error:
             faults += [f"{error.source}: {fault}" for fault in error.faults]
             return
@@ -373,7 +370,7 @@ def closing_lines(study: Study, figures: Sequence[Path], grids: Mapping[str, Gri
     if figures:
         folders = {str(figure.parent) for figure in figures}
         folder = folders.pop() if len(folders) == 1 else "results/*/figures"
-        yield f"{study.name}: {len(figures)} figure{'s' * (len(figures) > 1)} in {folder}"
+        yield f"{study.name}: {counted(len(figures), 'figure')} in {folder}"
     if grids:
         lists = [Path(f"results/{name}/{name}.failed.txt") for name in grids]
         failures = {file: file.read_text(encoding="utf-8").splitlines() for file in lists}
