@@ -346,13 +346,13 @@ def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: 
         return computed(lambda _: next(results), arguments, "points")
 
 
-def _row(function: Any, case: Parameters, own: frozenset[str], numbered: tuple[int, Any]) -> dict[str, xr.Variable]:
+def _row(function: Any, case: Parameters, arguments: frozenset[str], numbered: tuple[int, Any]) -> dict[str, xr.Variable]:
     """The variables of one call; a fault of the function's own arguments at the first point is that of all."""
     number, point = numbered
     try:
         result = function(case.replace(**point))
     except NUMERICAL as error:
-        if number == 0 and own & {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}:
+        if number == 0 and arguments & {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}:
             raise
         return {"status": xr.Variable((), "failed"), "message": xr.Variable((), f"{type(error).__name__}: {error}")}
     words = {"status": str(getattr(result, "status", "ok")), "message": getattr(result, "message", "")}
@@ -448,10 +448,8 @@ def run_study(
         text = f"studies need {error.name}: pip install 'disc_model[workflow]' brings it"
         raise ModuleNotFoundError(text, name=error.name) from None
     named = isinstance(source, str | Path | Mapping)
-    require(
-        (named, "source", source, "must be the path of a study file, or a mapping"),
-        *_rules_of_workers(workers, processes),
-    )
+    rule = "must be the path of a study file, or a mapping"
+    require((named, "source", source, rule), *_rules_of_workers(workers, processes))
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
     study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.grids([folder])

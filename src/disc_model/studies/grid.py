@@ -21,7 +21,7 @@ from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.general import General
 from disc_model.figures.kind import Kind, Plot
 from disc_model.figures.maps import RegionMap
-from disc_model.mode_choice import ModeRequest, asked_modes
+from disc_model.mode_choice import asked_modes
 from disc_model.parameters import AUTO, PLATE, RATIOS, RELATED, RESIDUAL, SURFACE, Parameters, case_of
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.document import STATIC, VARIED, BatchSpec, Document, blocks_of
@@ -76,7 +76,10 @@ class GridStudy:
         self.name, self.title, self.quantity = document.study, document.title, str(document.quantity)
         self.where, self.discs, self.starts = document.where, document.discs, {STATIC: Start(), **document.starts}
         self.options: Quantity = document.options
-        self.base, self.mode_request = self._read_base()  # what does not vary, and a choice of modes at each point
+        try:  # what does not vary, and a choice of modes at each point
+            self.base, self.mode_request = asked_modes(given_values(document.base))
+        except ParameterError as error:
+            raise ParameterError(*(fault.inside(("base",)) for fault in error.faults)) from None
         of_options = [Dimension([name], map(zip, blocks)) for name, blocks in self.options.dimensions.items()]
         self.dims = (*sorted(self._read_dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *of_options)
         self.varied = [name for dim in self.dims for name in dim.names]
@@ -179,15 +182,6 @@ class GridStudy:
 
     # ---- what the file says
 
-    def _read_base(self) -> tuple[dict[str, Any], ModeRequest | None]:
-        try:
-            base, request = asked_modes(given_values(self.document.base))
-        except ParameterError as error:
-            raise ParameterError(*(fault.inside(("base",)) for fault in error.faults)) from None
-        if request is not None and "n_circles" in base:
-            raise ParameterError(Fault(("base", "n_circles"), "", _CHOSEN))
-        return base, request
-
     def _read_dimensions(self) -> list[Dimension]:
         faults: list[Fault] = []
         dims = []
@@ -237,6 +231,8 @@ class GridStudy:
         quantity, counts = f"the quantity {self.quantity}", Counter(self.varied)
         for name in sorted({*scanned} & {*counts, *in_base}):
             yield Fault(("axes" if name in counts else "base", name), "", f"is varied by {quantity}")
+        if self.mode_request is not None and "n_circles" in in_base:
+            yield Fault(("base", "n_circles"), "", _CHOSEN)
         for name in sorted(in_base & RATIOS.keys()):
             if RATIOS[name][0] in {*in_base, *counts}:
                 yield Fault(("base", name), "", f"stands for {RATIOS[name][0]}, which is given as well")

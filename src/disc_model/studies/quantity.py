@@ -1,7 +1,6 @@
 """What all quantities of grid studies have in common, and ranges and rules as parts of files.
 
-A quantity is a module of `disc_model.studies.quantities` under its own name. It imports the engine only where it
-computes: reading a study file does not wait for it.
+A quantity imports the engine only where it computes: reading a study file does not wait for it.
 """
 
 import ast

@@ -177,7 +177,7 @@ class Study:
                 yield f"{texts[0]} ({len(texts)} of {len(self.specs)} cases)"
 
     def grids(self, folders: Sequence[Path] = (Path(),)) -> tuple[dict[str, GridStudy], tuple[str, ...]]:
-        """All grids, also those that only figures show, and the names of the requested ones: its own, and its files'."""
+        """All grids, also those that only figures show, and the names of those of this file and the files it names."""
         grids = {} if self.grid is None else {self.name: self.grid}
         paths = [path for pattern in self.studies for path in _matching(pattern, folders)]
         requested = (*grids, *(path.stem for path in paths))

@@ -1,7 +1,6 @@
 """Sensitivity: the stick-slip cycle at samples of distributed parameters, from one scrambled Sobol' sequence.
 
-Wilson intervals assume independent samples; the errors of quasi-random ones, more even, are mostly smaller. A failed
-sample counts as stable at the lower end of an interval, as unstable at the upper one.
+Wilson intervals assume independent samples. A failed one counts as stable at the lower end, as unstable at the upper.
 """
 
 from collections.abc import Iterator, Mapping
@@ -32,6 +31,7 @@ Array = NDArray[np.float64]
 # ---- Distributions of uncertain parameters
 EDGE = 1e-10  # fraction of a normal distribution that is cut off, in both tails together
 FARTHEST = 6.47  # standard deviations at which it is cut off, rounded up
+_FAR = f"low and high must be within {FARTHEST:g} deviations of mean={{0.mean:g}}"
 
 
 class _Distribution(Ruled):
@@ -74,13 +74,7 @@ class TruncatedNormal(_Bounded):
     mean: Finite
     deviation: Positive
 
-    _rules = (
-        *_Bounded._rules,
-        (
-            lambda d: max(d.low - d.mean, d.mean - d.high) <= FARTHEST * d.deviation,
-            f"low and high must be within {FARTHEST:g} deviations of mean={{0.mean:g}}",
-        ),
-    )
+    _rules = (*_Bounded._rules, (lambda d: max(d.low - d.mean, d.mean - d.high) <= FARTHEST * d.deviation, _FAR))
 
 
 Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator="distribution")]
