@@ -346,13 +346,13 @@ def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: 
         return computed(lambda _: next(results), arguments, "points")
 
 
-def _row(function: Any, case: Parameters, arguments: frozenset[str], numbered: tuple[int, Any]) -> dict[str, xr.Variable]:
+def _row(function: Any, case: Parameters, names: frozenset[str], numbered: tuple[int, Any]) -> dict[str, xr.Variable]:
     """The variables of one call; a fault of the function's own arguments at the first point is that of all."""
     number, point = numbered
     try:
         result = function(case.replace(**point))
     except NUMERICAL as error:
-        if number == 0 and arguments & {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}:
+        if number == 0 and names & {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}:
             raise
         return {"status": xr.Variable((), "failed"), "message": xr.Variable((), f"{type(error).__name__}: {error}")}
     words = {"status": str(getattr(result, "status", "ok")), "message": getattr(result, "message", "")}
