@@ -31,9 +31,8 @@ def _but(taken: Collection[str], rule: str) -> AfterValidator:
 _REPETITION = must(lambda name: not re.search(r"(.+)\1{19}$", name), "must not end in 20 equal parts")
 _LETTERS = pydantic.StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=100)
 Name = Annotated[str, _LETTERS, AfterValidator(_REPETITION)]
-CaseName = Annotated[Name, _but(TAKEN, "a case must not be called so, the name is taken by a variable")]
-_WINDOW = "a window must not be called so, the name is taken by a variable or group"
-WindowName = Annotated[Name, _but(TAKEN | BESIDE_WINDOWS, _WINDOW)]
+CaseName = Annotated[Name, _but(TAKEN, "must not be the name of a variable")]
+WindowName = Annotated[Name, _but(TAKEN | BESIDE_WINDOWS, "must not be the name of a variable or group")]
 StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 
 # ---- Values along an axis: lists, linear and logarithmic ranges, and blocks of them
@@ -87,15 +86,16 @@ class _Columns(Strict):
     _unknown: ClassVar[str] = "cannot be an axis"
 
 
+_WORDS = {START: "where the motion starts: names of starts", "disc": "discs: tables of modes, or names of `discs`"}
+
+
 def _described(name: str) -> dict[str, Any]:
-    words = {START: "where the motion starts: names of starts", "disc": "discs: tables of modes, or names of `discs`"}
-    if name in words:
-        return {"description": words[name]}
-    if name in (*PERTURBATIONS, *RATIOS):
-        stated = attributes(name)
-        return {"description": stated["long_name"], "json_schema_extra": {"unit": stated["units"]}}
-    field = Parameters.model_fields[name]
-    return {"description": field.description, "json_schema_extra": field.json_schema_extra}
+    if name in _WORDS:
+        return {"description": _WORDS[name]}
+    if field := Parameters.model_fields.get(name):
+        return {"description": field.description, "json_schema_extra": field.json_schema_extra}
+    stated = attributes(name)
+    return {"description": stated["long_name"], "json_schema_extra": {"unit": stated["units"]}}
 
 
 _columns: dict[str, Any] = {name: (Axis, Field(None, **_described(name))) for name in VARIED}
@@ -117,8 +117,7 @@ class BatchSpec(Strict):
 
 
 def _in_part(model: type[pydantic.BaseModel], **others: Any) -> type[Strict]:
-    """What may be said of a model in part, since the rest is inherited; null drops what is inherited. The other types
-    are those of fields that are models themselves."""
+    """What may be said of a model in part: the rest is inherited. The others are types of fields that are models."""
     fields: dict[str, Any] = {
         name: (others.get(name, Annotated[field.annotation, *field.metadata, "in part"]) | None, None)
         for name, field in model.model_fields.items()
@@ -205,10 +204,10 @@ class NamedCase(Strict):
         raise_faults(faults)
         events = spans.pop(("events",), None)
         windows = tuple((name, window) for (_, name), window in spans.items())
-        of_case = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
-        of_record = {name: getattr(record, name) for name in ("poincare", "audit_every_step")}
-        recorded = of_record | {"windows": windows, "events": events and (events.start, events.stop)}
-        return CaseSpec(parameters=p, truncation=truncation, modes=modes, **of_case, **recorded)
+        rest = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
+        rest |= {name: getattr(record, name) for name in ("poincare", "audit_every_step")}
+        rest |= {"windows": windows, "events": events and (events.start, events.stop)}
+        return CaseSpec(parameters=p, truncation=truncation, modes=modes, **rest)
 
 
 # ---- Figures

@@ -36,12 +36,11 @@ from disc_model.units import Finite, Strict, canonical_json, is_whole
 
 def _quantity(name: str, case: Parameters, start: Mapping[str, float] | None = None, **options: Any) -> xr.Dataset:
     """The variables of a quantity for a case, flags as words; what went wrong is the attribute `message`."""
-    faults = foreign_case(case, "case")
+    faults, arguments = foreign_case(case, "case"), {"perturbation": "start", "horizons": "horizon"}
     try:
         begin = Start.model_validate({} if start is None else {"perturbation": start})
         quantity = quantity_of(name).model_validate(options)
     except ParameterError as error:
-        arguments = {"perturbation": "start", "horizons": "horizon"}
         for fault in error.faults:
             faults.append(Fault(tuple(arguments.get(part, part) for part in fault.path), fault.value, fault.rule))
     raise_faults(faults)
@@ -347,13 +346,13 @@ def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: 
         return computed(lambda _: next(results), arguments, "points")
 
 
-def _row(function: Any, case: Parameters, own: frozenset[str], numbered: tuple[int, Any]) -> dict[str, xr.Variable]:
+def _row(function: Any, case: Parameters, names: frozenset[str], numbered: tuple[int, Any]) -> dict[str, xr.Variable]:
     """The variables of one call; a fault of the function's own arguments at the first point is that of all."""
     number, point = numbered
     try:
         result = function(case.replace(**point))
     except NUMERICAL as error:
-        if number == 0 and own & {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}:
+        if number == 0 and names & {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}:
             raise
         return {"status": xr.Variable((), "failed"), "message": xr.Variable((), f"{type(error).__name__}: {error}")}
     words = {"status": str(getattr(result, "status", "ok")), "message": getattr(result, "message", "")}
@@ -396,9 +395,7 @@ def _stacked(
     first = {name: variable for row in reversed(rows) for name, variable in row.items()}
     fixed = {name: variable for name, variable in first.items() if variable.dims == (name,)}
     stacked = {}
-    for name, variable in first.items():
-        if name in fixed:
-            continue
+    for name, variable in [(name, variable) for name, variable in first.items() if name not in fixed]:
         present = [(i, row[name].values) for i, row in enumerate(rows) if name in row]
         shape = np.max([values.shape for _, values in present], axis=0) if variable.ndim else ()
         kinds = {values.dtype.kind for _, values in present}
@@ -451,24 +448,18 @@ def run_study(
         text = f"studies need {error.name}: pip install 'disc_model[workflow]' brings it"
         raise ModuleNotFoundError(text, name=error.name) from None
     named = isinstance(source, str | Path | Mapping)
-    require(
-        (named, "source", source, "must be the path of a study file, or a mapping"),
-        *_rules_of_workers(workers, processes),
-    )
+    rule = "must be the path of a study file, or a mapping"
+    require((named, "source", source, rule), *_rules_of_workers(workers, processes))
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
     study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.grids([folder])
     datasets: dict[str, Any] = {}
-    for name in names:
-        grid = grids[name]
+    for grid in (grids[name] for name in names):
         texts = [text for _, text in sorted(grid.batches.items())]
         batches = _in_parallel(run_batch, texts, workers, processes)
-        datasets[name] = merge_batches(batches, grid.grid, grid.attrs)
+        datasets[grid.name] = merge_batches(batches, grid.grid, grid.attrs)
     if study.specs:
         run = partial(run_case, choose=choose_when_run)
         cases = _in_parallel(run, [*study.specs.values()], workers, processes)
         datasets["cases"] = merge_cases(dict(zip(study.specs, cases, strict=True)), study.labels)
-    if len(datasets) == 1:
-        (only,) = datasets.values()
-        return only
-    return xr.DataTree.from_dict(datasets)
+    return next(iter(datasets.values())) if len(datasets) == 1 else xr.DataTree.from_dict(datasets)

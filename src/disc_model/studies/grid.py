@@ -1,8 +1,7 @@
 """A grid study: its points, their batches, and the rules between its parts.
 
-A workflow job receives one batch as a text, which holds everything that its result depends on. Its hash is the name of
-the batch, which is therefore not computed again, however a file describes it. Blocks of values are cut into batches of
-similar cost, only inside a block: a finer axis adds batches and keeps the others.
+The hash of a batch's text is its name. Blocks of values are cut into batches of similar cost, only inside a block: a
+finer axis adds batches and keeps the others.
 """
 
 import math
@@ -22,7 +21,7 @@ from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.general import General
 from disc_model.figures.kind import Kind, Plot
 from disc_model.figures.maps import RegionMap
-from disc_model.mode_choice import ModeRequest, asked_modes
+from disc_model.mode_choice import asked_modes
 from disc_model.parameters import AUTO, PLATE, RATIOS, RELATED, RESIDUAL, SURFACE, Parameters, case_of
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.document import STATIC, VARIED, BatchSpec, Document, blocks_of
@@ -77,7 +76,10 @@ class GridStudy:
         self.name, self.title, self.quantity = document.study, document.title, str(document.quantity)
         self.where, self.discs, self.starts = document.where, document.discs, {STATIC: Start(), **document.starts}
         self.options: Quantity = document.options
-        self.base, self.mode_request = self._read_base()  # what does not vary, and a choice of modes at each point
+        try:  # what does not vary, and a choice of modes at each point
+            self.base, self.mode_request = asked_modes(given_values(document.base))
+        except ParameterError as error:
+            raise ParameterError(*(fault.inside(("base",)) for fault in error.faults)) from None
         of_options = [Dimension([name], map(zip, blocks)) for name, blocks in self.options.dimensions.items()]
         self.dims = (*sorted(self._read_dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *of_options)
         self.varied = [name for dim in self.dims for name in dim.names]
@@ -111,7 +113,7 @@ class GridStudy:
         shared = {"quantity": self.quantity, "options": self.options.model_dump(), "base": self.base}
         texts = []
         for part in parts:
-            points = [*self._points(self.varied, part["points"], self.base)]
+            points = [*self.points_along(self.dims, every=part["points"])]
             named: dict[str, Any] = {"names": self.varied}
             for name, kind, known in ((START, "starts", self.starts), ("disc", "discs", self.discs)):
                 if name in self.varied:
@@ -121,17 +123,15 @@ class GridStudy:
                 texts.append(canonical_json(shared | named | content))
         return {content_key(text): text for text in texts}
 
-    def _points(self, names: Sequence[str], points: Iterable[Any], base: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
-        """The varying values, by name, at those of some points that keep the file's rules."""
-        for point in points:
-            values = dict(zip(names, chain.from_iterable(point), strict=True))
-            if not self.where or holds(self.where, {**base, **values}):
-                yield values
-
-    def points_along(self, dims: Sequence[Dimension], base: Mapping[str, Any] = {}) -> Iterator[dict[str, Any]]:
+    def points_along(
+        self, dims: Sequence[Dimension], base: Mapping[str, Any] = {}, every: Iterable[Any] | None = None
+    ) -> Iterator[dict[str, Any]]:
         """The varying values, by name, at every point along some dimensions that keeps the file's rules."""
         names = [name for dim in dims for name in dim.names]
-        return self._points(names, product(*(dim.values for dim in dims)), base or self.base)
+        for point in product(*(dim.values for dim in dims)) if every is None else every:
+            values = dict(zip(names, chain.from_iterable(point), strict=True))
+            if not self.where or holds(self.where, {**(base or self.base), **values}):
+                yield values
 
     def points_of(self, names: Iterable[str]) -> Iterator[dict[str, Value]]:
         """Points that keep the file's rules, along the dimensions of some names and those that the rules compare."""
@@ -182,22 +182,13 @@ class GridStudy:
 
     # ---- what the file says
 
-    def _read_base(self) -> tuple[dict[str, Any], ModeRequest | None]:
-        try:
-            base, request = asked_modes(given_values(self.document.base))
-        except ParameterError as error:
-            raise ParameterError(*(fault.inside(("base",)) for fault in error.faults)) from None
-        if request is not None and "n_circles" in base:
-            raise ParameterError(Fault(("base", "n_circles"), "", _CHOSEN))
-        return base, request
-
     def _read_dimensions(self) -> list[Dimension]:
         faults: list[Fault] = []
-        axes = self._columns(self.document.axes, ("axes",), faults, self.document.resolution)
-        for name, blocks in axes.items():
-            repeated = isinstance(getattr(self.document.axes, name), list) and len({*blocks[0]}) < len(blocks[0])
-            faults += [Fault.of(("axes", name), [*blocks[0]], "must be different values")] if repeated else []
-        dims = [Dimension([name], map(zip, blocks)) for name, blocks in axes.items()]
+        dims = []
+        for name, blocks in self._columns(self.document.axes, ("axes",), faults, self.document.resolution).items():
+            if isinstance(getattr(self.document.axes, name), list) and len({*blocks[0]}) < len(blocks[0]):
+                faults.append(Fault.of(("axes", name), [*blocks[0]], "must be different values"))
+            dims.append(Dimension([name], map(zip, blocks)))
         for i, group in enumerate(self.document.zip):
             path = ("zip", str(i))
             columns = {name: [*chain(*blocks)] for name, blocks in self._columns(group, path, faults).items()}
@@ -236,11 +227,12 @@ class GridStudy:
     # ---- rules between its parts
 
     def _wrong_names(self) -> Iterator[Fault]:
-        """Faults of the names that vary and that are given, and names that are lacking."""
         in_base, scanned = self.document.base.model_fields_set, self.options.scanned
         quantity, counts = f"the quantity {self.quantity}", Counter(self.varied)
         for name in sorted({*scanned} & {*counts, *in_base}):
             yield Fault(("axes" if name in counts else "base", name), "", f"is varied by {quantity}")
+        if self.mode_request is not None and "n_circles" in in_base:
+            yield Fault(("base", "n_circles"), "", _CHOSEN)
         for name in sorted(in_base & RATIOS.keys()):
             if RATIOS[name][0] in {*in_base, *counts}:
                 yield Fault(("base", name), "", f"stands for {RATIOS[name][0]}, which is given as well")
@@ -282,7 +274,6 @@ class GridStudy:
                     yield Fault(("options", key), "", "must not be given where the start varies: say it under starts")
 
     def _wrong_extent(self) -> Iterator[Fault]:
-        """Faults of the plane and number of points, and of rules, which must compare known values and leave points."""
         over, known = self.document.batch.over, [*dict.fromkeys((*Parameters.model_fields, *self.varied))]
         if self.options.tiled and len(_plane(self.dims, over)) != 2:
             rule = f"must name the two dimensions, single numbers, of {self.quantity}'s plane first"
@@ -291,8 +282,7 @@ class GridStudy:
             yield Fault(("axes",), "", f"must make at most {MOST_POINTS} points, and not {size}")
         unknown = [(name, rule) for rule in self.where for name in compiled_rule(rule).co_names if name not in known]
         for name, rule in unknown:
-            more = suggestion(name, known, all_of_them=False)
-            yield Fault.of(("where",), rule, f"{name} is no value of a point{more}")
+            yield Fault.of(("where",), rule, f"{name} is no value of a point{suggestion(name, known, False)}")
         if self.where and not unknown and next(self.points_of(()), None) is None:
             yield Fault(("where",), "", "leaves no point")
 
@@ -326,23 +316,20 @@ class GridStudy:
     # ---- its figures
 
     def faults_of(self, plot: Plot) -> Iterable[Fault]:
-        if isinstance(plot, General):
-            return self._faults_of_general(plot)
-        if self.quantity in plot.quantities:
-            return plot.faults(self.values)
-        return [Fault.of(("kind",), plot.kind, f"needs the quantity {plot.quantities[0]}")]
-
-    def _faults_of_general(self, plot: General) -> Iterator[Fault]:
-        """Faults of a general figure, checked against the variables and dimensions of the quantity."""
+        """What keeps a figure from showing this study; general ones look at the quantity's variables and dimensions."""
+        if not isinstance(plot, General):
+            if self.quantity in plot.quantities:
+                return plot.faults(self.values)
+            return [Fault.of(("kind",), plot.kind, f"needs the quantity {plot.quantities[0]}")]
         from disc_model.studies.run import coordinates_of  # reads xarray, which other figures do not need
 
-        quantity, values = self.options, dict[str, list[Any]]()
-        for name, along in self.values.items():
-            values[name] = [value[0] if len(value) == 1 else value for value in along]
-        others, variables = [name for name in values if name != quantity.over], dict[str, Any]()
+        quantity, variables = self.options, dict[str, Any]()
+        values: dict[str, list[Any]] = {
+            name: [value[0] if len(value) == 1 else value for value in along] for name, along in self.values.items()
+        }
         of_points = quantity.COLUMNS, quantity.COORDINATES, [*values]
-        of_summary = quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others
-        for columns, coordinates, dims in (of_points, of_summary):
+        others = [name for name in values if name != quantity.over]
+        for columns, coordinates, dims in (of_points, (quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others)):
             variables |= {name: (*dims, *column.dims) for name, column in columns.items()}
             values |= {name: along.values.tolist() for name, along in coordinates_of(coordinates, quantity).items()}
         return plot.faults_among(values, variables)
@@ -383,6 +370,10 @@ def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[An
 
 def _tiles(dims: Sequence[Dimension], batch: BatchSpec, marks: list[dict[str, float]]) -> Iterator[dict[str, Any]]:
     """Points of each tile, and the values along its sides, with those of the next tiles that bound its last cells."""
+
+    def index_of(value: float, side: Sequence[Value]) -> int | None:
+        return next((i for i, other in enumerate(side) if math.isclose(value, float(other), rel_tol=1e-12)), None)
+
     plane = _plane(dims, batch.over)
     others = [dim for dim in dims if dim not in plane]
     names = [dim.name for dim in plane]
@@ -391,7 +382,7 @@ def _tiles(dims: Sequence[Dimension], batch: BatchSpec, marks: list[dict[str, fl
     for chosen, tile in product(product(*shares), product(*(_cuts(dim.values, batch.tile) for dim in plane))):
         along, within_tile = zip(*tile, strict=True)
         values = dict(zip([dim.name for dim in (*others, *plane)], [*chosen, *within_tile], strict=True))
-        indices = [[_index(mark[name], side) for name, side in zip(names, along, strict=True)] for mark in marks]
+        indices = [[index_of(mark[name], side) for name, side in zip(names, along, strict=True)] for mark in marks]
         inside = sorted(index for index in indices if None not in index)
         points = product(*(values[dim.name] for dim in dims))
         yield {"points": points, "tile": {"names": names, "along": along, "sampled": inside}}
@@ -401,10 +392,6 @@ def _plane(dims: Sequence[Dimension], over: Sequence[str] | None) -> list[Dimens
     """The dimensions of a plane of tiles: those that are named first, or else all numeric ones."""
     numbers = [dim for dim in dims if len(dim.names) == 1 and is_number(dim.values[0][0])]
     return [dim for dim in numbers if over is None or dim.name in over[:2]]
-
-
-def _index(value: float, along: Sequence[Value]) -> int | None:
-    return next((i for i, other in enumerate(along) if math.isclose(value, float(other), rel_tol=1e-12)), None)
 
 
 def _cuts(values: Sequence[tuple[Value, ...]], size: int) -> list[tuple[list[Value], Sequence[tuple[Value, ...]]]]:

@@ -7,15 +7,12 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import PHASES, SERIES, Variable
-from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
-from disc_model.simulation.states import State
 from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity
 from disc_model.studies.run import run_batch
 
-SAMPLES = 256
-"""Samples of a history: nearly four per oscillation of the fastest mode of the paper's disc in the longest one."""
+SAMPLES = 256  # of a history: nearly four per oscillation of the fastest mode of the paper's disc in the longest one
 CYCLES_SHOWN = 2  # number of stick-slip cycles in a history
 LONGEST = 0.05  # greatest length of a cycle, s, where stick is very long or nothing pulls the slider back
 SHOWN = ("P", "u", "psi")
@@ -37,7 +34,12 @@ class Motions:
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         start, p = self.quantity.state_at(point).replace(time=0.0, time_low=0.0), point.parameters
-        length = CYCLES_SHOWN * cycle_length(p, start)
+        # of a cycle: the mean time between releases, at least the free period, which stands for it without releases
+        free = 2 * math.pi * math.sqrt(p.m / p.k_p) if p.k_p > 0 else LONGEST
+        events = simulate(p, 0.5, initial_state=start).events
+        released = events["time"][events["kind"] == "stick_to_slip"].to_numpy()
+        between = np.ptp(released) / (len(released) - 1) if len(released) > 1 else 0.0
+        length = CYCLES_SHOWN * min(max(float(between), free), LONGEST)
         window = Window(start=0.0, stop=length, rate=(SAMPLES - 1) / length)
         result = simulate(p, length, {"history": window}, events=False, initial_state=start).raise_for_status()
         samples = result.samples["history"]
@@ -49,12 +51,3 @@ def run_motions(text: str) -> xr.Dataset:
     """Histories along `point` and `sample`, for a text from `disc_model.studies.grid.GridStudy.motions`."""
     histories = run_batch(text, Motions)
     return histories.assign({name: histories[name].astype(np.float32) for name in SHOWN})
-
-
-def cycle_length(p: Parameters, state: State) -> float:
-    """Mean time between the releases of 0.5 s after a state, s; at least, or without releases, the free period."""
-    free = 2 * math.pi * math.sqrt(p.m / p.k_p) if p.k_p > 0 else LONGEST
-    events = simulate(p, 0.5, initial_state=state).events
-    released = events["time"][events["kind"] == "stick_to_slip"].to_numpy()
-    between = np.ptp(released) / (len(released) - 1) if len(released) > 1 else 0.0
-    return min(max(float(between), free), LONGEST)

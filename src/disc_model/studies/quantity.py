@@ -1,7 +1,6 @@
 """What all quantities of grid studies have in common, and ranges and rules as parts of files.
 
-A quantity is a module of `disc_model.studies.quantities` under its own name. It imports the engine only where it
-computes: reading a study file does not wait for it.
+A quantity imports the engine only where it computes: reading a study file does not wait for it.
 """
 
 import ast
@@ -69,10 +68,7 @@ class Range(Ruled):
         (lambda r: r.start < r.stop, "start={0.start:g} must be < stop={0.stop:g}"),
         (lambda r: math.isfinite(r.stop - r.start), "stop - start must be finite"),
         (lambda r: (r.count is None) != (r.step is None), "must give either count or step"),
-        (
-            lambda r: r.scale == "linear" or (r.count and r.start > 0),
-            "a logarithmic range must give count, and start > 0",
-        ),
+        (lambda r: r.scale == "linear" or (r.count and r.start > 0), "a logarithmic range needs count and start > 0"),
         (lambda r: r._steps < MOST, f"must be at most {MOST} values"),
         (lambda r: math.isclose(r._steps, r.intervals), "stop - start must be a multiple of step={0.step:g}"),
     )
@@ -91,8 +87,7 @@ class Range(Ruled):
         return [float(value) for value in self.blocks()[0]]
 
     def blocks(self, resolution: int = 1) -> Blocks:
-        """The range's own values, then those that divide each interval further. A finer grid adds blocks and keeps the
-        existing ones: resolution 4 has the blocks of 2, and one more."""
+        """The own values, then those that divide each interval further: resolution 4 adds a block to those of 2."""
         n = self.intervals * resolution
         if n >= MOST:
             raise ValueError(f"must be at most {MOST} values, and not {n + 1}")
@@ -185,8 +180,7 @@ def failed(error: Exception, flag: str = "status") -> tuple[Row, str]:
 
 
 def tried(flag: str, compute: Callable[..., tuple[Row, str]], subject: Any, *options: Any) -> tuple[Row, str]:
-    """Values and message that a function returns; with an error (see `NUMERICAL`), which the subject may be already,
-    this flag is `failed`."""
+    """Values and message that a function returns, or those of an error, which the subject may be already."""
     try:
         return failed(subject, flag) if isinstance(subject, Exception) else compute(subject, *options)
     except NUMERICAL as error:
@@ -204,7 +198,7 @@ def with_ends(name: str, values: Iterable[Any]) -> dict[str, Any]:
 
 
 def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
-    """Columns of the rows along a quantity's own dimension; None, which means missing, where rows lack a value."""
+    """Columns of the rows along a quantity's own dimension; None, which is missing, where rows lack a value."""
     names = dict.fromkeys(name for row in rows for name in row)
     return {name: [row.get(name) for row in rows] for name in names}
 
@@ -251,8 +245,7 @@ class Quantity(Ruled):
         return ()
 
     def compute_point(self, point: Point) -> tuple[Row, str]:
-        """Values at one point by column (flags as words), and a message. Omitted columns are missing. Lists and arrays
-        shorter than their dimension are padded with missing values, longer ones are cut."""
+        """Values at one point by column, flags as words, and a message. Too short lists are padded, long ones cut."""
         raise NotImplementedError
 
     def compute_tile(self, points: Sequence[Sequence[Made]], sampled: Sequence[tuple[int, int]]) -> list[list[Any]]:
@@ -264,8 +257,7 @@ class Quantity(Ruled):
         raise NotImplementedError
 
     def summarise(self, cell: Dataset) -> Row:
-        """Values of the summary by column, for a merged dataset that has only the dimension `over` left. A rule of the
-        grid may leave out some of its points, or all."""
+        """The summary by column of a dataset along `over` alone, of which a rule may leave out some points, or all."""
         raise NotImplementedError
 
 

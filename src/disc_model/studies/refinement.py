@@ -1,9 +1,7 @@
 """Outcome of the static start over two parameters, refined at borders, and the cycle at every point.
 
-A batch is a tile of the plane. At each of its points the multipliers of the cycle give the outcome if the start stays
-quiet, or grows too slowly for anything else within the horizon. Elsewhere the start is simulated at the corners of
-coarse cells, which are divided as docs/study_method.md, Regions, describes. In an undivided cell, points not decided by
-multipliers take the outcome of the simulated ones.
+Multipliers give the outcome where the start stays quiet, or grows too slowly for anything else. Elsewhere it is
+simulated at the corners of coarse cells, which are divided as docs/study_method.md, Regions, describes, or filled.
 """
 
 import math
@@ -59,8 +57,7 @@ class Tile:
         return start if isinstance(start, NearCycle) and start.follows_cycle else None
 
     def _check_what_is_filled(self) -> None:
-        """Compute the points that their cell's corners do not decide. Their start follows a growing cycle and yet was
-        taken to stay quiet, or follows none though most neighbours do."""
+        """Compute points whose start follows a growing cycle but counts as calm, or none though most neighbours do."""
         for (i, j), outcome in (self.presumed | self.filled).items():
             beside = [index for index in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if index in self.starts]
             doubtful = outcome in CALM
@@ -71,8 +68,8 @@ class Tile:
                 self.outcome((i, j))
 
     def _confirm(self) -> bool:
-        """Whether an outcome changes if its departure is simulated as a whole, where both points beside have another.
-        Multipliers do not keep the phase of a departure. Near a border it may decide about separation."""
+        """Whether an outcome changes if its departure, of which multipliers do not keep the phase, is simulated as a
+        whole, where both points beside have another."""
         changed = False
         for (i, j), result in list(self.results.items()):
             if not isinstance(result, OutcomeResult) or result.extrapolated is None:
@@ -162,8 +159,7 @@ class Tile:
         return [[self._row((i, j), others[i, j]) for j in range(self.shape[1])] for i in range(self.shape[0])]
 
     def _follow(self, index: Index) -> NearCycle | None:
-        """The cycle that the static start follows at a point, if that is known. As long as the motion departs from the
-        point's own cycle it is that one: the later is known at few points."""
+        """The cycle that the static start follows at a point, if that is known, before any later one."""
         cycle, result = self._own(index), self.results.get(index)
         if not isinstance(result, OutcomeResult):
             return cycle
@@ -176,8 +172,7 @@ class Tile:
             return "no"
         if near.cycle.releases != further.cycle.releases:
             return "no"
-        size = further.map.deflection
-        # in units of the static deflection, which varies with the parameters
+        size = further.map.deflection  # the unit of points, which varies with the parameters
         x = near.x * size / near.map.deflection
         if np.linalg.norm(x - further.x) <= 0.002 * size:  # smoothly
             return "yes"
@@ -185,25 +180,22 @@ class Tile:
         return "yes" if orbit is not None and np.linalg.norm(orbit.start - further.x) <= SAME_POINT * size else "no"
 
     def _row(self, index: Index, others: int) -> tuple[Row, str]:
-        start, result = self.starts[index], self.results.get(index)
+        (i, j), start, result = index, self.starts[index], self.results.get(index)
         if isinstance(start, Exception):
             return failed(start)
         if isinstance(result, Exception):
             return failed(result)
-        row: dict[str, Any] = {
-            "status": "ok", "other_cycles": others,
-            "branch_continues_first": self._joined(index, (index[0] + 1, index[1])),
-            "branch_continues_second": self._joined(index, (index[0], index[1] + 1)),
-        }  # fmt: skip
+        row: dict[str, Any] = {"status": "ok", "other_cycles": others}
+        row["branch_continues_first"] = self._joined(index, (i + 1, j))
+        row["branch_continues_second"] = self._joined(index, (i, j + 1))
         if result is None:
             row |= {"outcome": self._shown(index), "method": "multipliers" if self.trends[index] else "inferred"}
         else:
-            row |= {"status": result.status, "outcome": result.word, "simulated_time": result.simulated}
             method = "simulation" if result.simulated else "multipliers"
             row["method"] = "settled" if result.stage is Stage.STEADY else method
+            row |= {"status": result.status, "outcome": result.word, "simulated_time": result.simulated}
             row["first_separation"] = result.first_separation
-        followed = self.followed[index]
-        if followed is None:
+        if (followed := self.followed[index]) is None:
             row["cycle"] = _without(start, result)
         else:
             cycle = followed.cycle
@@ -213,8 +205,7 @@ class Tile:
         return row, "" if result is None else result.message
 
     def _others(self) -> dict[Index, int]:
-        """Number of known cycles at each point besides the one nearest to the start. Each row is followed in both
-        directions. A cycle that does not continue into the next point's own cycle is searched for there."""
+        """Number of known cycles at each point besides the one nearest to the start, carried along rows both ways."""
         known = {index: [start.x] if isinstance(start, NearCycle) else [] for index, start in self.starts.items()}
         for i in range(self.shape[0]):
             row = [(i, j) for j in range(self.shape[1])]
@@ -226,8 +217,7 @@ class Tile:
         start, last = self.starts[index], self.starts[before]
         if not (isinstance(start, NearCycle) and isinstance(last, NearCycle)) or start.x.shape != last.x.shape:
             return
-        size = start.map.deflection
-        # in units of the static deflection, which varies with the parameters
+        size = start.map.deflection  # the unit of points, which varies with the parameters
         scale = size / last.map.deflection
         for cycle in known[before]:
             if len(known[index]) >= 4:  # further ones cost too much

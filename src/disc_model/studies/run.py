@@ -15,7 +15,7 @@ from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Var
 from disc_model.disc.plate import mode_arrays
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import chosen_modes, read_asked
-from disc_model.parameters import AUTO, Parameters, case_of, in_words
+from disc_model.parameters import AUTO, case_of, in_words
 from disc_model.simulation.case import Start
 from disc_model.sources import git_commit, source_hash, versions
 from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, quantity_of, tried
@@ -25,19 +25,17 @@ POINT = "point"
 
 
 def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Dataset:
-    """Compute a batch, given as a text from `disc_model.studies.grid.GridStudy.batches`. The dataset has the quantity's
-    variables along `point`, and the parameters that vary beside them. A function `of` the quantity makes what is
-    computed instead of it."""
+    """Variables along `point` of the batch in a text of `disc_model.studies.grid.GridStudy.batches`: those of the
+    quantity, or of what a function `of` it makes."""
     data = json.loads(text)
     quantity = quantity_of(data["quantity"]).model_validate(data["options"])
     computed = quantity if of is None else of(quantity)
     names = data["names"]
     varied = [in_words(dict(zip(names, point, strict=True))) for point in data["points"]]
-    chosen = data["base"].get("n_diameters") == AUTO
-    # a tile makes its own
-    parameters = [_made(data, values) for values in varied] if chosen or "tile" not in data else []
+    chosen, tiled = data["base"].get("n_diameters") == AUTO, "tile" in data
+    parameters = [_made(data, values) for values in varied] if chosen or not tiled else []  # a tile makes its own
     began = time.process_time()
-    if "tile" in data and of is None:
+    if tiled and of is None:
         results = list(_over_tile(quantity, data))
     else:
         stated = {None: {name: value for name, value in data["options"].items() if name in Start.model_fields}}
@@ -66,8 +64,7 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
 
 
 def _over_tile(quantity: Quantity, data: Mapping[str, Any]) -> Iterator[tuple[Row, str]]:
-    """Compute a tile with its margin, which belongs to the next tiles; yield its own points in the text's order. Each
-    combination of the other varying parameters is a tile of its own."""
+    """A tile's points in the text's order, without its margin; one tile for each combination of other parameters."""
     (first, second), (rows, columns) = data["tile"]["names"], data["tile"]["along"]
     tiles: dict[tuple[Any, ...], Sequence[Sequence[tuple[Row, str]]]] = {}
     for point in data["points"]:
@@ -94,11 +91,8 @@ def _point(p: Made, varied: Mapping[str, Any], starts: Mapping[str | None, Start
 
 def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
     """The parameters of a point, or the error if no number of modes meets the tolerance."""
-    values = case_of({**data["base"], **varied}, data.get("discs", {}))
     try:
-        if values.get("n_diameters") != AUTO:
-            return Parameters(**values)
-        p, request = read_asked(values)
+        p, request = read_asked(case_of({**data["base"], **varied}, data.get("discs", {})))
         return p if request is None else chosen_modes(p, request).parameters
     except DiscModelError as error:
         return error
@@ -114,11 +108,10 @@ def describe(name: str) -> dict[str, Any]:
 
 
 def coordinates_of(coordinates: Mapping[str, Coordinate], quantity: Quantity) -> dict[str, xr.Variable]:
-    variables = {}
-    for name, (units, long_name, values) in coordinates.items():
-        attrs = Variable(units, long_name.format(quantity)).attributes
-        variables[name] = xr.Variable(name, np.array(values(quantity)), attrs)
-    return variables
+    return {
+        name: xr.Variable(name, np.array(values(quantity)), Variable(units, words.format(quantity)).attributes)
+        for name, (units, words, values) in coordinates.items()
+    }
 
 
 def variables_of(
@@ -129,20 +122,19 @@ def variables_of(
     for name, column in columns.items():
         array = column.empty((len(rows), *(coords[dim].size for dim in column.dims)))
         for i, row in enumerate(rows):
-            _store(row.get(name), array, (i,), column)
+            _store(row.get(name), array[i, ...], column)
         array = array.reshape((*sizes.values(), *array.shape[1:]))
         variables[name] = xr.Variable((*sizes, *column.dims), array, column.attributes)
     return variables
 
 
-def _store(value: Any, array: NDArray[Any], index: tuple[int, ...], column: Variable) -> None:
-    """Store a value in an array: flags as numbers; lists and arrays are cut to fit."""
-    cell = array[index]
+def _store(value: Any, cell: NDArray[Any], column: Variable) -> None:
+    """Store a value in a view of an array: flags as numbers; lists and arrays are cut to fit."""
     if isinstance(value, list):
         for i, item in enumerate(value[: len(cell)]):
-            _store(item, array, (*index, i), column)
+            _store(item, cell[i, ...], column)
     elif isinstance(value, np.ndarray) and value.ndim:
         part = value[tuple(map(slice, cell.shape))]
         cell[tuple(map(slice, part.shape))] = part
     elif value is not None:
-        array[index] = column.flags.index(value) if isinstance(value, str) else value
+        cell[...] = column.flags.index(value) if isinstance(value, str) else value

@@ -1,7 +1,6 @@
 """Studies: their files are read and checked, and yield named cases and grids.
 
-What reads raises one `StudyError` that lists the faults with their paths: those of single values first, and those
-between values once these are right.
+One `StudyError` lists all faults: those of single values, or those between values once these are right.
 """
 
 from collections import Counter
@@ -17,6 +16,7 @@ import yaml
 from disc_model.data.variables import values_text
 from disc_model.disc.plausibility import RULES
 from disc_model.disc.tables import read_disc
+from disc_model.display import counted
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kind import NORM, CasePlot, Plot
 from disc_model.simulation.case import CaseSpec
@@ -31,10 +31,8 @@ class StudyError(DiscModelError, ValueError):
 
     def __init__(self, *faults: str, source: str = "study") -> None:
         texts = (fault.in_file if isinstance(fault, Fault) and fault.path else str(fault) for fault in faults)
-        self.faults = tuple(dict.fromkeys(texts))
-        self.source = source
-        count = f"{len(self.faults)} fault{'s' if len(self.faults) > 1 else ''}"
-        super().__init__("\n  ".join([f"{source}: {count}", *self.faults]))
+        self.faults, self.source = tuple(dict.fromkeys(texts)), source
+        super().__init__("\n  ".join([f"{source}: {counted(len(self.faults), 'fault')}", *self.faults]))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (partial(type(self), source=self.source), self.faults)
@@ -106,6 +104,7 @@ def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
 
 # ---- Studies
 
+OTHER_FOLDERS = ("compiled", "bench")  # in results/, beside those of studies
 MODES = {"as_published": "modes scaled as in the published results", "orthonormal": "modes normalised as Eq. (17) says"}
 
 
@@ -125,7 +124,7 @@ class Study:
             except ParameterError as error:
                 faults += [fault.inside(("cases", name)) for fault in error.faults]
         keys = document.model_fields_set
-        if self.name in ("compiled", "bench"):  # folders beside those of studies
+        if self.name in OTHER_FOLDERS:
             faults.append(Fault.of(("study",), self.name, "is the name of another folder of results"))
         if document.quantity is not None:
             try:
@@ -178,8 +177,7 @@ class Study:
                 yield f"{texts[0]} ({len(texts)} of {len(self.specs)} cases)"
 
     def grids(self, folders: Sequence[Path] = (Path(),)) -> tuple[dict[str, GridStudy], tuple[str, ...]]:
-        """All grids, the file's own and those of its further files, and the names of the requested ones. Grids that
-        figures show besides are read from files beside it. The first of the folders that has a file counts."""
+        """All grids, also those that only figures show, and the names of those of this file and the files it names."""
         grids = {} if self.grid is None else {self.name: self.grid}
         paths = [path for pattern in self.studies for path in _matching(pattern, folders)]
         requested = (*grids, *(path.stem for path in paths))
@@ -203,10 +201,10 @@ class Study:
                 rule = f"no such study{suggestion(plot.study, sorted(known))}"
                 faults.append(Fault.of(("figures", figure, "study"), plot.study, rule).in_file)
         for grid, figure, plot in plots:
+            owner = grid.name if figure in grid.plots else self.name
             for role, other in plot.overlays.items():
                 rules = [f"no such study{suggestion(other, sorted(known))}"] if other not in known else []
                 rules += _misfits(plot, role, grid, grids[other]) if other in grids else []
-                owner = grid.name if figure in grid.plots else self.name
                 faults += [f"{owner}: figures.{figure}.overlays.{role} = {other!r}: {rule}" for rule in rules]
         if faults:
             raise StudyError(*faults, source="grid studies")
@@ -215,8 +213,7 @@ class Study:
     def _add_grid(self, path: Path, grids: dict[str, GridStudy], faults: list[str]) -> None:
         try:
             content = inherit(mapping(read_file(path)), self.document.overrides.get(path.stem, {}))
-            raw = {"resolution": self.document.resolution, **content}
-            study = parse_study(raw, path.parent, _shown_path(path))
+            study = parse_study({"resolution": self.document.resolution, **content}, path.parent, _shown_path(path))
         except StudyError as error:
             faults += [f"{error.source}: {fault}" for fault in error.faults]
             return
@@ -242,11 +239,10 @@ def read_files(*paths: str | Path) -> Any:
 
 
 def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
-    """The study from Snakemake's merged configuration files, later ones first, and its command line. The files are
-    searched for duplicate keys, which the mapping no longer shows."""
+    """The study from Snakemake's merged configuration files, and its command line."""
     paths = [Path(file) for file in files]
     for path in paths:
-        read_file(path)
+        read_file(path)  # finds duplicate keys, which the mapping no longer shows
     return parse_study(config, paths[-1].parent if paths else Path(), ", ".join(map(_shown_path, paths)) or "study")
 
 
@@ -278,8 +274,7 @@ def _document(raw: Any) -> Document:
 
 
 def _with_discs(raw: Any, folder: Path, path: tuple[str, ...] = ()) -> Any:
-    """A file's content in which the names of disc tables, relative to the folder, are replaced by the discs.
-    Recomputation thus depends on a table's content and not on its name."""
+    """A file's content with discs in place of the names of their tables: recomputation depends on a table's content."""
     if not isinstance(raw, Mapping):
         return raw
     if not path:  # names along an axis of discs are tables too
@@ -337,12 +332,12 @@ def _misfits(plot: Plot, role: str, study: GridStudy, other: GridStudy) -> Itera
 
 
 def check_owner(name: str, results: str, files: list[str], owner: Path) -> None:
-    """Raise DiscModelError if other study files of this name, listed by the file `owner`, have made the results. The
-    same files with further ones laid over them, or without these, are the same study in other detail."""
+    """Raise DiscModelError if other study files of this name, listed by the file `owner`, have made the results."""
     former = owner.read_text(encoding="utf-8").splitlines() if owner.exists() else files
-    shorter = min(len(files), len(former))
+    # further files laid over the same ones are the same study in other detail
+    differ = any(file != before for file, before in zip(files, former, strict=False))
     exist = all(Path(file).is_file() for file in former)
-    if exist and former[:shorter] != files[:shorter] and mapping(read_files(*former)).get("study") == name:
+    if exist and differ and mapping(read_files(*former)).get("study") == name:
         raise DiscModelError(
             f"study = {name!r}: is also the name of the study in {', '.join(former)}, whose results are in {results}"
             " and would be overwritten; give one of them another name, or another folder with --directory"
@@ -352,12 +347,11 @@ def check_owner(name: str, results: str, files: list[str], owner: Path) -> None:
 def check_targets(
     targets: Iterable[str], study: Study, grids: Mapping[str, GridStudy], figures: Mapping[str, Sequence[str]]
 ) -> None:
-    """Raise DiscModelError if a file is requested by a name that no study, figure or case has, and say which there are.
-    The names of figures are given by the study in whose folder of results they are."""
+    """Raise DiscModelError if a file is requested by a name that no study, figure (here by study) or case has."""
     known: Collection[str]
     for target in targets:
         match Path(target).parts:
-            case ["results", name, _, *_] if name not in (*figures, "compiled", "bench"):
+            case ["results", name, _, *_] if name not in (*figures, *OTHER_FOLDERS):
                 kind, wanted, known, where = "study", name, figures, ""
             case ["results", name, "figures", file] if name in figures:
                 kind, wanted, known, where = "figure", Path(file).stem, figures[name], f" in {name}"
@@ -376,7 +370,7 @@ def closing_lines(study: Study, figures: Sequence[Path], grids: Mapping[str, Gri
     if figures:
         folders = {str(figure.parent) for figure in figures}
         folder = folders.pop() if len(folders) == 1 else "results/*/figures"
-        yield f"{study.name}: {len(figures)} figure{'s' * (len(figures) > 1)} in {folder}"
+        yield f"{study.name}: {counted(len(figures), 'figure')} in {folder}"
     if grids:
         lists = [Path(f"results/{name}/{name}.failed.txt") for name in grids]
         failures = {file: file.read_text(encoding="utf-8").splitlines() for file in lists}

@@ -1,8 +1,6 @@
 """Basins of attraction at one point, from many starts: attractors, basin fractions and the critical energy.
 
-Start i of each energy is perturbed in a random direction. The direction depends only on the study's seed, the place of
-the energy in its list, and i. The first starts of all energies come first, then all second ones, so that further starts
-leave the earlier ones unchanged.
+The first starts of all energies come first, then all second ones: further starts leave the earlier ones unchanged.
 """
 
 import math
@@ -18,7 +16,7 @@ from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
 from disc_model.display import computed
 from disc_model.simulation.case import Start
 from disc_model.studies import quantity
-from disc_model.studies.quantity import STATUS, Attractor, Coordinate, OutcomeResult, Point, Quantity, listed
+from disc_model.studies.quantity import STATUS, Coordinate, OutcomeResult, Point, Quantity, listed
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
@@ -102,8 +100,9 @@ class AttractorBasins(Start, Quantity):
         results = list(zip(*by_start, strict=True))
         rows = [reached for row in results for reached in row]
         starts = Counter(reached.attractor for reached in rows if reached.attractor is not None)
-        attractors = [attractor for attractor, _ in starts.most_common()]
-        numbers = {attractor: i for i, attractor in enumerate([None, *attractors])}
+        # by decreasing number of starts; of equal numbers the one reached first comes first
+        attractors = starts.most_common()
+        numbers = {attractor: i for i, (attractor, _) in enumerate([(None, 0), *attractors])}
         failed = [reached for reached in rows if reached.outcome is None]
         values: dict[str, Any] = {
             "status": failed[0].status if len(failed) == len(rows) else "ok",
@@ -116,7 +115,12 @@ class AttractorBasins(Start, Quantity):
         values |= {name: part for name, (part,) in _shares("basin_fraction", [rows], self.confidence).items()}
         shown = share(sum(reached.separates for reached in rows), len(rows), confidence=self.confidence)
         values |= quantity.with_ends("separating_fraction", shown)
-        values |= self._critical_energy(results, follow) | _described(starts)
+        described: list[dict[str, Any]] = []
+        for attractor, count in attractors:
+            facts = {name: getattr(attractor, name) for name in ("kind", "releases", "period", "growth_rate")}
+            facts |= {name: getattr(attractor.segment, name) for name in SHOWN} | {"starts": count}
+            described.append({f"attractor_{name}": value for name, value in facts.items()})
+        values |= self._critical_energy(results, follow) | listed(described)
         return values, f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
 
     def _critical_energy(self, results: Sequence[Sequence[OutcomeResult]], follow: Follow) -> dict[str, float]:
@@ -154,13 +158,3 @@ def _shares(name: str, results: Sequence[Sequence[OutcomeResult]], confidence: f
         counts = Counter(reached.word for reached in row)
         shares.append([share(counts[word], len(row), confidence=confidence) for word in CLASSES])
     return quantity.with_ends(name, np.moveaxis(np.array(shares), -1, 0))
-
-
-def _described(starts: Counter[Attractor]) -> dict[str, Any]:
-    """Attractors by decreasing number of starts; of equal numbers the one reached first comes first."""
-    rows = []
-    for attractor, count in starts.most_common():
-        row = {f"attractor_{name}": getattr(attractor, name) for name in ("kind", "releases", "period", "growth_rate")}
-        row |= {f"attractor_{name}": getattr(attractor.segment, name) for name in SHOWN}
-        rows.append(row | {"attractor_starts": count})
-    return listed(rows)

@@ -1,11 +1,8 @@
-"""Frequencies and growth rates of steady sliding and of the stick-slip cycle, for Campbell diagrams; crossings of mode
-frequencies with multiples of the stick-slip or rotation frequency, and their effect on growth.
+"""Campbell diagrams: modes of steady sliding and of the stick-slip cycle, and crossings of their frequencies with
+multiples of the stick-slip or rotation frequency, by linear interpolation between two speeds.
 
-At a crossing the frequency of a mode equals that of a line, by linear interpolation between two speeds. The mode's
-frequency is that of the cycle's multiplier. Without a multiplier of the mode's shape, as in a resonance, it is that of
-steady sliding, with the difference interpolated. The stick-slip frequency is interpolated over speeds without a cycle.
-The effect is read, mode by mode, from the cycle's growth rates within a window about the crossing, compared with those
-at its ends.
+A mode's frequency is that of the cycle's multiplier. Without one of its shape, as in a resonance, it is that of steady
+sliding, with the difference interpolated. The stick-slip frequency is interpolated over speeds without a cycle.
 """
 
 import math
@@ -22,13 +19,12 @@ from disc_model.studies.quantity import CYCLE, Coordinate, Dataset, Point, Quant
 from disc_model.units import Count, CycleTolerance, Positive, Unit
 
 KINDS = ("none", "disc", "slider")
-_each = along("mode")
+_each, _crossing = along("mode"), along("crossing")
 Array = NDArray[np.float64]
 LINES = ("none", "stick_slip", "rotation")
 EFFECTS = ("none", "no_rise", "mode_rises", "rises", "destabilises", "no_cycle", "unresolved")
 """At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable
 there and on neither side; there is no cycle; or fewer than three speeds, or an end of the axis, lie in the window."""
-_crossing = along("crossing")
 
 
 class Campbell(Quantity):
@@ -143,9 +139,8 @@ def frequency_of(mode: Dataset) -> Array:
 
 
 def effect_of(detuning: Array, index: int, growth: Array, leading: Array, options: Campbell) -> dict[str, Any]:
-    """The effect of a crossing after the speed of an index, the largest growth rate, and the largest rise with its
-    mode's number, as far as they are known. In the window line and mode are at most `half_bandwidth` apart. Shapes:
-    growth, of the modes, (speeds, modes), nan without a cycle; detuning and leading, of the cycle, (speeds,)."""
+    """The effect of a crossing after the speed of an index, as far as it is known, by the growth rates of the modes,
+    shape (speeds, modes), and of the cycle, (speeds,), in the window, compared with those at its ends."""
     outside = np.flatnonzero(~(np.abs(detuning) <= options.half_bandwidth))  # nan lies outside
     first = outside.max(initial=-1, where=outside <= index)
     last = outside.min(initial=len(detuning), where=outside > index)

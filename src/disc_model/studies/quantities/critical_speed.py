@@ -1,7 +1,6 @@
 """Critical speeds: all speeds at which separation within a horizon begins or ends, since there may be several.
 
-Motions are simulated from their start to the first separation. To extrapolate departures from a cycle would save a
-quarter of the time, but moves first separations by more than 0.05 times of growth by e in a fifth of all cases.
+To extrapolate departures from a cycle would save a quarter of the time, but moves first separations too far.
 """
 
 import math
@@ -108,8 +107,7 @@ def motion(case: Parameters, options: CriticalSpeed) -> OutcomeResult:
 
 
 def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
-    """Pairs of neighbours on the lattice of which only one separates within the horizon. Of the first separations by
-    place, s, those without one within the longest horizon are inf, and unknown ones, which belong to no pair, nan."""
+    """Pairs of neighbours on the lattice of which only one separates within the horizon; nan, unknown, is in none."""
     pairs = ((a, b) for a, b in pairwise(sorted(known)) if not math.isnan(known[a] + known[b]))
     return [(a, b) for a, b in pairs if (known[a] <= horizon) != (known[b] <= horizon)]
 

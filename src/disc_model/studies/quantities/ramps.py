@@ -47,8 +47,7 @@ class Ramps(Quantity):
 
 
 def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], Result | None]:
-    """One run: up from the lowest speed, a dwell at the highest, down again, and a dwell at the lowest. Returns values
-    of the columns, as far as they are known, and the part of the run that failed, if any."""
+    """Columns, as far as they are known, of one run, with a dwell at both speeds, and its part that failed, if any."""
     from disc_model.engine.event_loop import EVENT_ROW, LOSS_OF_CONTACT
     from disc_model.simulation.api import simulate
 
@@ -56,8 +55,8 @@ def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], 
     top = (options.high - options.low) / rate
     down = top + options.dwell
     bottom = down + top
-    up = Ramp(parameter="Omega", to=options.high, start=0.0, end=top)
-    ramps = up, Ramp(parameter="Omega", to=options.low, start=down, end=bottom)
+    ways = (options.high, 0.0, top), (options.low, down, bottom)
+    ramps = tuple(Ramp(parameter="Omega", to=to, start=start, end=end) for to, start, end in ways)
 
     def on(state: State | None, until: float, **more: Any) -> Result:
         """Continue the motion to a later time."""

@@ -51,10 +51,8 @@ class Regions(Quantity):
 
         p = point.parameters
         result = find_outcome(p, self.horizon, tol=self.tol)
-        if result.near is not None and result.near.cycle.stable:
-            state = result.near.cycle.state
-            assert state is not None
-            return state
+        if result.near is not None and result.near.cycle.stable and result.near.cycle.state is not None:
+            return result.near.cycle.state
         # to the horizon, or to what the separation leads to
         end = self.horizon if result.state is None else result.state.time + 5.0
         return simulate(p, end, tol=self.tol, initial_state=result.state).raise_for_status().final_state

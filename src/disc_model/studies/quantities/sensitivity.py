@@ -1,7 +1,6 @@
 """Sensitivity: the stick-slip cycle at samples of distributed parameters, from one scrambled Sobol' sequence.
 
-The Wilson intervals assume independent samples. Quasi-random samples are more even, so that their errors are mostly
-smaller. The lower and upper ends of an interval count a failed sample as stable and as unstable.
+Wilson intervals assume independent samples. A failed one counts as stable at the lower end, as unstable at the upper.
 """
 
 from collections.abc import Iterator, Mapping
@@ -24,16 +23,15 @@ from disc_model.studies.quantity import NUMBERS, STATUS, Blocks, Coordinate, Dat
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Seconds, Tolerance, Units, is_number
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
-SAMPLE_CYCLES = ("failed", *STABLE_CYCLES, *UNSTABLE)
-"""Classes of the cycle near the static start: one of `STABLE_CYCLES`; or an unstable cycle, none though the slider
-sticks and slips, immediate separation, or unstable sliding."""
-SAMPLE_OUTCOMES = ("not_simulated", *variables.OUTCOMES_TO_HORIZON)
 FAILED = "failed"
+SAMPLE_CYCLES = (FAILED, *STABLE_CYCLES, *UNSTABLE)
+SAMPLE_OUTCOMES = ("not_simulated", *variables.OUTCOMES_TO_HORIZON)
 Array = NDArray[np.float64]
 
 # ---- Distributions of uncertain parameters
 EDGE = 1e-10  # fraction of a normal distribution that is cut off, in both tails together
 FARTHEST = 6.47  # standard deviations at which it is cut off, rounded up
+_FAR = f"low and high must be within {FARTHEST:g} deviations of mean={{0.mean:g}}"
 
 
 class _Distribution(Ruled):
@@ -76,13 +74,7 @@ class TruncatedNormal(_Bounded):
     mean: Finite
     deviation: Positive
 
-    _rules = (
-        *_Bounded._rules,
-        (
-            lambda d: max(d.low - d.mean, d.mean - d.high) <= FARTHEST * d.deviation,
-            f"low and high must be within {FARTHEST:g} deviations of mean={{0.mean:g}}",
-        ),
-    )
+    _rules = (*_Bounded._rules, (lambda d: max(d.low - d.mean, d.mean - d.high) <= FARTHEST * d.deviation, _FAR))
 
 
 Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator="distribution")]
@@ -142,13 +134,12 @@ class Sensitivity(Quantity):
         return {SAMPLE: tuple(tuple(range(*block)) for block in pairwise(ends))}
 
     def faults(self, grid: Any) -> Iterator[Fault]:
-        """Check distributions: of numbers only, of no parameter that varies otherwise, and within valid values. Each
-        rule is reported where it is broken first."""
+        """Distributions must be of numbers, of no parameter that varies otherwise, and within valid values."""
         path, numbers = ("options", "distributions"), _numbers(grid)
         varied = {*grid.varied, *({*numbers}.difference(NUMBERS) if "disc" in grid.varied else ())}
         faults = []
         for name, distribution in self.distributions.items():
-            nominal, relative = _own(name, grid.base), distribution.relative
+            nominal, relative = _nominal(name, grid.base), distribution.relative
             scales = is_number(nominal) and nominal != 0
             rules = {
                 f"must be of a parameter that is a number (known: {', '.join(numbers)})": name not in numbers,
@@ -157,7 +148,7 @@ class Sensitivity(Quantity):
             }
             faults += [Fault((*path, name), "", rule) for rule, broken in rules.items() if broken][:1]
         yield from faults
-        first: dict[str, Fault] = {}
+        first: dict[str, Fault] = {}  # where each rule is broken first
         for fault in () if faults else self._out_of_reach(grid):
             first.setdefault(fault.path[0], fault)
         for fault in first.values():
@@ -172,7 +163,7 @@ class Sensitivity(Quantity):
             case = case_of({**grid.base, **dict(point)}, grid.discs)
             ends: dict[str, list[float]] = {}
             for name, distribution in self.distributions.items():
-                scale = _own(name, case) if distribution.relative else 1.0
+                scale = _nominal(name, case) if distribution.relative else 1.0
                 ends[name] = [scale * end for end in distribution.ends]
                 for end in ends[name]:
                     try:
@@ -188,8 +179,9 @@ class Sensitivity(Quantity):
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         p, names = point.parameters, sorted(self.distributions)
         numbers = dict(p) | ({} if p.disc is None else p.disc.numbers)
-        draws = zip(names, unit_draw(self.seed, len(names), point.sample), strict=True)
-        drawn = [quantile(self.distributions[name], float(numbers[name]), draw) for name, draw in draws]
+        block, row = divmod(point.sample, BLOCK)
+        draws = zip(names, unit_draws(self.seed, len(names), block)[row], strict=True)
+        drawn = [quantile(self.distributions[name], float(numbers[name]), float(draw)) for name, draw in draws]
         p = p.replace(**dict(zip(names, drawn, strict=True)))
         cycle, message = tried("cycle", evaluate, p, self.tol)
         outcome: tuple[Row, str] = {"outcome": "not_simulated"}, ""
@@ -223,7 +215,7 @@ def _numbers(grid: Any) -> list[str]:
     return [*(name for name in NUMBERS if name not in (*PLATE, "damping_ratio")), *common]
 
 
-def _own(name: str, values: Mapping[str, Any]) -> Any:
+def _nominal(name: str, values: Mapping[str, Any]) -> Any:
     """A point's own value of a parameter, if it has one."""
     numbers = disc.numbers if isinstance(disc := values.get("disc"), Disc) else {}
     return (DEFAULTS | {**values} | numbers).get(name)
@@ -233,14 +225,9 @@ def _own(name: str, values: Mapping[str, Any]) -> Any:
 BLOCK = 64  # number of samples that are drawn at once
 
 
-def unit_draw(seed: int, count: int, number: int) -> Array:
-    """Point of one sample in the unit cube, shape (count,)."""
-    block, row = divmod(number, BLOCK)
-    return np.asarray(_block(seed, count, block)[row], dtype=float)
-
-
 @lru_cache(maxsize=8)
-def _block(seed: int, count: int, block: int) -> Array:
+def unit_draws(seed: int, count: int, block: int) -> Array:
+    """Points of a block of samples in the unit cube, shape (BLOCK, count)."""
     from scipy.stats import qmc
 
     sequence = qmc.Sobol(count, scramble=True, rng=np.random.default_rng(seed))

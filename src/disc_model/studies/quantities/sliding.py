@@ -2,11 +2,10 @@
 
 from typing import Annotated, Any, ClassVar
 
-import numpy as np
 from pydantic import Field
 
 from disc_model.data.variables import Variable
-from disc_model.studies.quantity import STATUS, Coordinate, Free, Point, Quantity, Range
+from disc_model.studies.quantity import STATUS, Coordinate, Free, Point, Quantity, Range, listed
 from disc_model.units import Count, Unit
 
 _ONE, _EACH = ("value",), ("value", "mode")
@@ -43,9 +42,10 @@ class Sliding(Quantity):
         p, values = point.parameters, self.scan.values
         least = {"mu_s": max(p.mu_s, values[-1])} if self.parameter == "mu_k" else {}
         followed = follow_modes([p.replace(**{self.parameter: value}, **least) for value in values])
-        shape = len(values), self.modes
+        shape, message = (len(values), self.modes), ""
         columns = {name: column.empty(shape) for name, column in self.COLUMNS.items() if column.dims == _EACH}
-        for i, (_, modes, numbers, mac) in enumerate(followed):
+        rows = []
+        for i, (sliding, modes, numbers, mac) in enumerate(followed):
             room = numbers < self.modes
             row = {
                 "frequency": modes.frequency, "mode_growth_rate": modes.growth_rate, "mac": mac,
@@ -54,10 +54,8 @@ class Sliding(Quantity):
             }  # fmt: skip
             for name, column in row.items():
                 columns[name][i, numbers[room]] = column[room]
-        states = [sliding for sliding, *_ in followed]
-        for name in ("unstable_modes", "contact_force"):
-            columns[name] = np.array([getattr(sliding, name) for sliding in states])
-        columns["largest_growth_rate"] = np.array([sliding.growth_rate for sliding in states])
-        absent = [i for i, sliding in enumerate(states) if sliding.status is not SlidingStatus.OK]
-        message = f"{self.parameter}={values[absent[0]]:g}: {states[absent[0]].message}" if absent else ""
-        return columns | {"status": "ok"}, message
+            of_value = {"unstable_modes": sliding.unstable_modes, "contact_force": sliding.contact_force}
+            rows.append(of_value | {"largest_growth_rate": sliding.growth_rate})
+            if sliding.status is not SlidingStatus.OK:
+                message = message or f"{self.parameter}={values[i]:g}: {sliding.message}"
+        return columns | listed(rows) | {"status": "ok"}, message
