@@ -38,17 +38,14 @@ def run(
     flags: Flags | None = None,
     **about: Any,
 ) -> xr.Dataset:
-    """Measure points, and log what comes out.
+    """Measure the variables of a table at points, and log what comes out.
 
-    table : of the variables in ``variables.toml``
     points : coordinates and settings by name, or the axes of a grid, which are ``dims`` then
     measure : is called with those of a point and yields results by variable: one, several, or none for a skipped point
     dims : coordinates that become dimensions; without any, the dataset has a ``row`` for each result
     rounds : number of times that all points are measured in turn, so that a disturbance affects all alike
-    cores : number of cores on which this process and its children run
     summarise : of the results grouped by ``dims``: one row a point
     flags : meanings of flags, the last of which stands where nothing was measured; other variables are nan there
-    about : attributes of the dataset beside machine and versions
     """
     if isinstance(points, Mapping):
         dims, points = [*points], [dict(zip(points, values, strict=True)) for values in product(*points.values())]
@@ -93,7 +90,6 @@ def few_cores(count: int) -> Iterator[None]:
 
 
 def machine() -> str:
-    """Processor and number of cores, as the system reports them."""
     model = platform.processor() or platform.machine()
     with suppress(OSError, StopIteration):
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()

@@ -257,7 +257,6 @@ def _arrow(
 
 
 def _write(ax: Axes, point: Point, text: str, **look: Any) -> None:
-    """Write a text centred at a point."""
     ax.text(float(point[0]), float(point[1]), text, ha="center", va=look.pop("va", "center"), **look)
 
 
@@ -274,7 +273,6 @@ DAMPER: Strokes = [*_CUP, ([0.55, 0.55], [-0.7, 0.7]), ([0.55, 1], [0, 0])]  # a
 
 
 def _join(ax: Axes, strokes: Strokes, start: Point, end: Point, width: float = 0.1) -> None:
-    """Draw a spring or a damper between two points."""
     first, way = np.array(start, float), np.array(end, float) - np.array(start, float)
     normal = np.array([-way[1], way[0]]) / np.hypot(*way)
     for along, side in strokes:
