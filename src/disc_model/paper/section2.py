@@ -65,8 +65,8 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
     rows = times.itertuples()
     first = [f"{x}, {or_none(was, '.0f', ' s')} and {or_none(now, '.0f', ' s', unless[x])}" for x, was, now in rows]
     counts = (len(times), times["as_published"].count(), len(times) - len(kept), len(kept) - len(grow), len(grow))
-    told = {"until": extent(grow) if grow else None, "lowest": lowest, "critical": critical, "first": first}
-    return Answer(graded(speed < share * critical for speed in lowest), counts=counts, **told)
+    verdict, until = graded(speed < share * critical for speed in lowest), extent(grow) if grow else None
+    return Answer(verdict, counts=counts, until=until, lowest=lowest, critical=critical, first=first)
 
 
 def norms(p: Parameters) -> Array:

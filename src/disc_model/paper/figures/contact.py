@@ -157,19 +157,15 @@ class WithAndWithout(CasePlot):
 
 class Histories(CasePlot):
     """Ranges of the contact force and of the disc at r_0 and a fixed angle, a column for each case, on common axes. A
-    range of the force below a twentieth of the axis is drawn once more.
-
-    until : s, end of the part of the runs that is shown
-    printed : s, time of the first separation of the last case that the paper prints
-    """
+    range of the force below a twentieth of the axis is drawn once more."""
 
     shows = (("history", as_ranges),)
     further = ("beside",)
     kind: Literal["paper.histories"] = "paper.histories"
     beside: tuple[str, ...] = ()
     history: str = "history"
-    until: Annotated[Positive, Unit("s")] | None = None
-    printed: Annotated[Positive, Unit("s")] | None = None
+    until: Annotated[Positive, Unit("s")] | None = None  # end of the part of the runs that is shown
+    printed: Annotated[Positive, Unit("s")] | None = None  # first separation of the last case that the paper prints
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         figure, axes = panels(PAGE, 3.2, 2, len(cases), sharex=True, sharey="row")

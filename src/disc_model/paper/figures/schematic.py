@@ -39,19 +39,15 @@ class Schematic(CasePlot):
 
 
 class Composite(CasePlot):
-    """The model, the disc's vibration with separation and, in the case `ignored`, bilateral, and the contact force.
-
-    force : window of the contact force, and the time in s at which the stretch shown begins
-    until : s, end of the part of the runs that is shown
-    """
+    """The model, the disc's vibration with separation and, in the case `ignored`, bilateral, and the contact force."""
 
     shows = (("history", as_ranges),)
     further = ("ignored",)
     kind: Literal["paper.composite"] = "paper.composite"
     ignored: str
     history: str = "history"
-    force: tuple[str, Finite]
-    until: Annotated[Positive, Unit("s")]
+    force: tuple[str, Finite]  # window of the contact force, and the time at which the stretch shown begins, s
+    until: Annotated[Positive, Unit("s")]  # end of the part of the runs that is shown
 
     def needs(self) -> Iterator[Need]:
         yield from super().needs()
