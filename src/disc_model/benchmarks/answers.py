@@ -1,9 +1,7 @@
 """What each answer costs: questions that methods are compared by, their correct answers, and replies to them.
 
-``data/answers.json`` has correct answers with their errors, by ``tests/references/make_answer_references.py``, which
-shares no code with the engine. Of a method the tolerance or step varies. The line ``cycle`` finds onset and growth rate
-without a simulation. In the lines ``rigid`` and ``residual`` the number of nodal diameters varies, and errors are those
-of the model, its distance from the `RICHEST`.
+Of a method the tolerance or step varies. The line ``cycle`` finds onset and growth rate without a simulation. In the
+lines ``rigid`` and ``residual`` the number of nodal diameters varies, and errors are distances from the `RICHEST`.
 """
 
 import enum
@@ -80,7 +78,7 @@ def verdict(question: str, reply: Reply, right: float) -> AnswerVerdict:
 
 
 def reference(name: str) -> SimpleNamespace:
-    """The correct answer to a question, or ``fold``: its ``value``, its own ``error``, and ``by`` which method."""
+    """The correct answer to a question, or ``fold``: its ``value``, its ``error``, and ``by`` which other method."""
     return SimpleNamespace(**stored("answers")["references"][name])
 
 
@@ -99,7 +97,6 @@ TRIED = 4  # number of cells from which the affordable number is estimated
 
 
 def setting_of(method: Method, value: float) -> Solve:
-    """A method at one setting."""
     return lambda problem, budget: method.solve(problem, value, budget)
 
 
@@ -107,7 +104,6 @@ class Broken(Exception):
     """The result of a run on which an answer depends, and which did not reach its end."""
 
     def reply(self, seconds: float) -> Reply:
-        """A reply without a value, and the reason."""
         (result,) = self.args
         name = "UNSTABLE" if result.outcome is RunStatus.NON_FINITE else result.outcome.name
         return Reply(math.nan, seconds, AnswerStatus[name], result.message or f"{result.outcome}")
@@ -126,13 +122,12 @@ def first_separation(
 
 
 def after_separation(solve: Solve, budget: float, p: Parameters = SETTLED, start: State | None = None) -> Replies:
-    """Separations per second, the disc's range and the period in releases, long after contact was first lost. The time
-    leaves out the disc's range, for which some methods make a call per step."""
+    """Separations per second, the disc's range and the period in releases, long after contact was first lost."""
     start = start_of("settled") if start is None else start
     problem = Problem(p, start, start.time + SETTLED_SPAN, watched=True)
     result = solve(problem, budget)
     seconds = result.seconds
-    if seconds < 3.0:
+    if seconds < 3.0:  # without the disc's range, for which some methods make a call per step
         _, seconds = _timed(solve, Problem(p, start, problem.t_end), budget)
     if result.outcome is not RunStatus.FINISHED:
         return dict.fromkeys(AFTER_SEPARATION, Broken(result).reply(seconds))
@@ -306,13 +301,8 @@ def answers(
     asked: Sequence[str] = tuple(ASKED),
     models: Sequence[int] = (0, 1, 2, 3, 4, 6, 8),
 ) -> xr.Dataset:
-    """Measure a method, the cycle itself or models; a question for which it is too slow is skipped at finer settings.
-
-    part : name of a method, ``cycle`` or ``models``
-    settings : of a method, from coarse to fine; those of the scene ``stick_slip`` if not given
-    asked, models : questions put to a method; numbers of nodal diameters, for each contact
-    """
-    hopeless: set[str] = set()
+    """Measure a method at settings from coarse to fine, the ``cycle``, or ``models`` by numbers of nodal diameters."""
+    hopeless: set[str] = set()  # questions for which it is too slow, which are skipped at finer settings
 
     def measure(line: str, setting: Any, question: str = "") -> Iterator[Row]:
         if question in hopeless:
@@ -335,18 +325,15 @@ def answers(
             row = {"answer": answer, "label": label, "varies": varies, "right": right[answer], "found": reply.value}
             yield row | {"error": error, "verdict": judgement} | reply._asdict()
 
-    points: Sequence[Row]
     if part == "cycle":
-        points = [{"line": part, "setting": tol} for tol in CYCLE_SETTINGS]
+        points: list[Row] = [{"line": part, "setting": tol} for tol in CYCLE_SETTINGS]
     elif part == "models":
         points = [{"line": line, "setting": count} for line in CONTACTS for count in models]
     else:
         values = settings or METHODS[part].settings["stick_slip"]
         points = [{"line": part, "setting": value, "question": name} for value in values for name in asked]
-    about = {}
-    for name, question in QUESTIONS.items():
-        right = reference(name)
-        about[name] = question | {"error": f"{right.error:.2g}, {right.by}"}
+    known = {name: reference(name) for name in QUESTIONS}
+    about = {name: QUESTIONS[name] | {"error": f"{right.error:.2g}, {right.by}"} for name, right in known.items()}
     flags = {"status": AnswerStatus, "verdict": AnswerVerdict}
     title = "What each answer costs"
     return run("answers", points, measure, flags=flags, title=title, questions=json_attribute(about))
@@ -362,8 +349,6 @@ def in_words(dataset: xr.Dataset) -> pd.DataFrame:
 
 
 # ---- Answers of this package with other modes at its default tolerance, and from the cycle itself
-
-
 def ask_model(model: Mapping[str, Any]) -> Replies:
     """The answers to all questions with these modes, given as fields of the parameters."""
     replies = first_separation(SERIES, NEVER, SEPARATING.replace(**model))
@@ -427,5 +412,4 @@ def cycle_growth_rate(p: Parameters, tol: float) -> Reply:
 
 @lru_cache(maxsize=CELLS)
 def _right_cell(index: int) -> bool:
-    """Separation in a cell under the richest model."""
     return cell(SERIES, NEVER, index, **RICHEST)[0]

@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -36,8 +36,6 @@ Look = dict[str, Any]
 
 
 # ---- Speed against accuracy
-
-
 def overview(dataset: xr.Dataset) -> Figure:
     """Cost against event-time error, a panel for each scene; the legend names the methods with a point in any. Dotted:
     without the time in Python; hollow at the right edge: wrong events."""
@@ -166,7 +164,6 @@ def prices(dataset: xr.Dataset) -> Figure:
 
 
 def _price(ax: Axes, part: pd.DataFrame, column: int, row: int, colors: ScalarMappable) -> None:
-    """Draw a cell of `prices`."""
     wrong = (part["verdict"] == WRONG).sum()
     face: Any = "#F4F4F4"
     texts = [("wrong", 6.5, _RED) if wrong else ("no answer", 6.5, GREY)]
@@ -218,8 +215,6 @@ def scaling(dataset: xr.Dataset) -> Figure:
 
 
 # ---- Where methods fail
-
-
 def failure_maps(*maps: xr.Dataset) -> Figure:
     """One panel per method: verdict over setting and number of modes, with lines that explain the borders."""
     borders = {
@@ -284,9 +279,7 @@ def _borders(dataset: xr.Dataset) -> Iterator[tuple[str, np.ndarray]]:
 
 
 # ---- How many modes
-_CASES: tuple[Look, ...] = tuple(
-    {"color": color, "marker": marker} for color, marker in ((BLUE, "o"), (GREEN, "s"), (ORANGE, "^"), (PURPLE, "D"))
-)
+_CASES = [Look(color=color, marker=mark) for color, mark in zip((BLUE, GREEN, ORANGE, PURPLE), "os^D", strict=True)]
 _CONTACTS: dict[str, Look] = {
     "residual": {"linestyle": "-"},
     "rigid": {"linestyle": "--", "markerfacecolor": "white"},
@@ -351,7 +344,6 @@ def contact_truncation(dataset: xr.Dataset) -> Figure:
 
 def draw(name: str, datasets: Iterable[xr.Dataset]) -> Figure:
     """Draw a figure by its name, in the common style."""
-    known: tuple[Callable[..., Figure], ...] = (overview, failure_maps, contact_truncation, scaling)
-    known += (answers, prices, answer_maps)
     with drawing.styled():
-        return {function.__name__: function for function in known}[name](*datasets)
+        figure: Figure = globals()[name](*datasets)
+    return figure

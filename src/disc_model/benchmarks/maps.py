@@ -1,8 +1,4 @@
-"""Maps of where methods fail, over step or tolerance and number of modes.
-
-What is correct comes from the series engine at `REFERENCE_TOL` with the same modes; the stored references confirm it
-for the base model.
-"""
+"""Maps of where methods fail, over step or tolerance and number of modes, against the engine at `REFERENCE_TOL`."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -1,8 +1,4 @@
-"""How cost grows: of maps with the number of points, and of a point with the number of modes and the horizon.
-
-Each measurement is a whole study by `disc_model.run_study` in two processes. The points are the centres of equal cells
-of the same area, so that fine and coarse grids have the same mix of motions.
-"""
+"""How cost grows: of maps with the number of points, and of a point with the number of modes and the horizon."""
 
 import os
 import time
@@ -44,7 +40,7 @@ def scaling(
 def measure(
     varies: str, quantity: str, grid: tuple[int, int], model: tuple[int, int] = (4, 0), horizon: float = HORIZON
 ) -> Iterator[Row]:
-    """The cost of one study as a row."""
+    """The cost of a study in `CORES` processes as a row; coarse and fine grids have the same mix of motions."""
     options = {"horizon": horizon} if quantity == "outcome" else {}
     base = dict(zip(("n_diameters", "n_circles"), model, strict=True))
     axes = {"Omega": _centres(*SPEEDS, grid[0]), "N": _centres(*PRELOADS, grid[1])}

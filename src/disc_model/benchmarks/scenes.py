@@ -1,7 +1,4 @@
-"""The benchmark's scenes: four motions with known correct answers, and the errors of a method's answer.
-
-The answers in ``data/benchmark_reference.json`` are in long double, by ``tests/references/make_stored_references.py``.
-"""
+"""The benchmark's scenes: four motions with known correct answers, and the errors of a method's answer."""
 
 import enum
 import json
@@ -46,8 +43,7 @@ class Errors(NamedTuple):
 @lru_cache
 def stored(name: str) -> dict[str, Any]:
     """The content of a file of ``data``: answers by other methods, and what belongs to them."""
-    content: dict[str, Any] = json.loads((Path(__file__).parent / "data" / f"{name}.json").read_text(encoding="utf-8"))
-    return content
+    return dict(json.loads((Path(__file__).parent / "data" / f"{name}.json").read_text(encoding="utf-8")))
 
 
 def static_start(p: Parameters) -> State:
@@ -70,18 +66,14 @@ def separating_start(p: Parameters) -> State:
 
 
 def read_state(stored_state: Mapping[str, Any]) -> State:
-    """Convert a state from its form in JSON."""
     values: dict[str, Any] = {name: np.array(x) if isinstance(x, list) else x for name, x in stored_state.items()}
     return State(**values)
 
 
 MOTIONS: Mapping[str, tuple[dict[str, Any], Callable[[Parameters], State], float, float]] = {
-    # stick-slip without separation, 135 switches
-    "stick_slip": ({}, static_start, 1.0, math.inf),
-    # 398 switches, 131 separations among them
-    "separating": ({}, separating_start, 55.4, 2e-5),
-    # frequencies from 1492 to 33711 rad/s
-    "many_modes": ({"n_diameters": 12}, static_start, 0.2, math.inf),
+    "stick_slip": ({}, static_start, 1.0, math.inf),  # 135 switches, no separation
+    "separating": ({}, separating_start, 55.4, 2e-5),  # 398 switches, 131 separations among them
+    "many_modes": ({"n_diameters": 12}, static_start, 0.2, math.inf),  # frequencies from 1492 to 33711 rad/s
     # the classical stick-slip cycle; frequencies up to 3.9e7 rad/s that nothing excites
     "rigid": ({"E": 1e20, "n_diameters": 1}, static_start, 0.02, math.inf),
 }
@@ -91,7 +83,6 @@ RK45 and DOP853, with longer ones of which losses of contact are missed at any t
 
 @lru_cache(maxsize=8)
 def problem(name: str) -> Problem:
-    """The problem of a scene."""
     further, start, t_end, max_step = MOTIONS[name]
     p = Parameters(N=385.0, Omega=15.1, **further)
     return Problem(p, start(p), t_end, max_step=max_step)
@@ -99,7 +90,7 @@ def problem(name: str) -> Problem:
 
 @lru_cache(maxsize=8)
 def answer(name: str) -> Answer:
-    """The correct answer of a scene."""
+    """The correct answer of a scene; those stored are in long double, by ``tests/references/``."""
     if name == "rigid":
         return rigid_cycle(problem(name))
     right = stored("benchmark_reference")[name]
@@ -110,9 +101,8 @@ def answer(name: str) -> Answer:
 
 
 def rigid_cycle(problem: Problem) -> Answer:
-    """Stick-slip on a rigid disc from a relaxed spring, in closed form (contact force N, no damping). A rigid disc is
-    the limit of E to infinity. At E = 1e20 Pa the disc's remaining flexibility, k psi^2/omega^2, is 3e-9, and the
-    answer is exact to about that."""
+    """Stick-slip on a rigid disc from a relaxed spring, in closed form (contact force N, no damping). At E = 1e20 Pa
+    the disc's remaining flexibility, k psi^2/omega^2, is 3e-9, and the answer is exact to about that."""
     p = problem.parameters
     w, Omega = math.sqrt(p.k_p / p.m), p.Omega
     held, slipping = p.mu_s * p.N / (p.k_p * p.r_0), p.mu_k * p.N / (p.k_p * p.r_0)
@@ -133,18 +123,15 @@ def rigid_cycle(problem: Problem) -> Answer:
 
 
 def errors(problem: Problem, answer: Answer, result: MethodResult) -> Errors:
-    """Compare a result with the correct answer."""
     state = Physics(problem.parameters).distance(result.final, answer.final)
     time = event_time_error(answer, result, problem.t_end)
     if result.outcome is RunStatus.NON_FINITE or not math.isfinite(state):
         return Errors(math.nan, math.nan, Verdict.UNSTABLE)
     if result.outcome is not RunStatus.FINISHED:
         return Errors(math.nan, math.nan, Verdict.GAVE_UP)
-    if state > LOST:
-        return Errors(time, state, Verdict.UNSTABLE)
-    if math.isnan(time):
-        return Errors(time, state, Verdict.WRONG_EVENTS)
-    return Errors(time, state, Verdict.CONVERGED if time <= CONVERGED else Verdict.INACCURATE)
+    finished = Verdict.CONVERGED if time <= CONVERGED else Verdict.INACCURATE
+    verdict = Verdict.UNSTABLE if state > LOST else Verdict.WRONG_EVENTS if math.isnan(time) else finished
+    return Errors(time, state, verdict)
 
 
 def event_time_error(answer: Answer, result: MethodResult, t_end: float) -> float:

@@ -28,28 +28,17 @@ Flags = Mapping[str, type[enum.IntEnum]]
 
 def run(
     table: str,
-    points: Sequence[Row] | Mapping[str, Sequence[Any]],
-    measure: Callable[..., Iterable[Row]],
-    dims: Sequence[str] = (),
+    points: Sequence[Row] | Mapping[str, Sequence[Any]],  # coordinates and settings by name, or a grid's axes
+    measure: Callable[..., Iterable[Row]],  # yields results by variable: one, several, or none for a skipped point
+    dims: Sequence[str] = (),  # the axes, or coordinates that become dimensions; without any, results are rows
     *,
-    rounds: int = 1,
+    rounds: int = 1,  # in which all points are measured in turn, so that a disturbance affects all alike
     cores: int = 1,
-    summarise: Callable[[Any], pd.DataFrame] = lambda groups: groups.median(),
-    flags: Flags | None = None,
+    summarise: Callable[[Any], pd.DataFrame] = lambda groups: groups.median(),  # results grouped by dims, to one each
+    flags: Flags | None = None,  # meanings; the last stands where nothing was measured, and nan in other variables
     **about: Any,
 ) -> xr.Dataset:
-    """Measure points, and log what comes out.
-
-    table : of the variables in ``variables.toml``
-    points : coordinates and settings by name, or the axes of a grid, which are ``dims`` then
-    measure : is called with those of a point and yields results by variable: one, several, or none for a skipped point
-    dims : coordinates that become dimensions; without any, the dataset has a ``row`` for each result
-    rounds : number of times that all points are measured in turn, so that a disturbance affects all alike
-    cores : number of cores on which this process and its children run
-    summarise : of the results grouped by ``dims``: one row a point
-    flags : meanings of flags, the last of which stands where nothing was measured; other variables are nan there
-    about : attributes of the dataset beside machine and versions
-    """
+    """Measure the variables of a table at points, and log what comes out."""
     if isinstance(points, Mapping):
         dims, points = [*points], [dict(zip(points, values, strict=True)) for values in product(*points.values())]
     meanings = {name: tuple(flag.name.lower() for flag in values) for name, values in (flags or {}).items()}
@@ -93,7 +82,6 @@ def few_cores(count: int) -> Iterator[None]:
 
 
 def machine() -> str:
-    """Processor and number of cores, as the system reports them."""
     model = platform.processor() or platform.machine()
     with suppress(OSError, StopIteration):
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()

@@ -137,8 +137,6 @@ def fitted_order(n: np.ndarray, error: np.ndarray) -> float:
 
 
 # ---- The measured points as a table, and costs at equal error
-
-
 def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
     """One row for each measured point; ``further`` is the cost of a further second, or of a second of a long run."""
     frame = dataset.to_dataframe(dim_order=["scene", "solver", "point"]).reset_index()
@@ -147,9 +145,8 @@ def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
 
 
 def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
-    """Cost with events correct to `DEFAULT` s over that of the series engine at its default, by scene and method. Costs
-    are those of a further second, at that error by `cost_at`. If the series engine's own error is larger, all methods
-    are allowed that error."""
+    """Cost of a further second with events correct to `DEFAULT` s, or to the series engine's own error if that is
+    larger, over the cost of the series engine at its default, by scene and method."""
     ratios: dict[str, dict[str, float]] = {}
     for scene in JUDGED:
         part = points[points["scene"] == scene]
@@ -174,7 +171,6 @@ def cost_at(line: pd.DataFrame, wanted: float, cost: str = "further") -> float:
 
 
 def at_default(points: pd.DataFrame) -> pd.DataFrame:
-    """Points of the series engine at its default."""
     return points[(points["solver"] == "series") & (points["value"] == DEFAULT)]
 
 

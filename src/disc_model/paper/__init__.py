@@ -1,5 +1,4 @@
-"""The paper's claims, in our own words, as data and checks against merged cases, grid studies and the disc's modes;
-`ledger.check_claims` makes the table. Names that the workflow reads stand here, without the computations."""
+"""The paper's claims as data and checks: `ledger.check_claims`. Here are names that the workflow reads."""
 
 _MAPS = (f"map_{name}" for name in ("D_star", "E", "N", "c_p", "k", "k_p", "m"))
 SCANS = ("basins", "bonded", "critical_speed", "hysteresis", *_MAPS)

@@ -20,8 +20,7 @@ COLUMNS += ["rule", "figures", "data", "counts"]
 
 
 def check_claims(cases: Mapping[str, CaseView]) -> pd.DataFrame:
-    """Judge all rows by cases and grid studies of the paper, in its order: a table with `COLUMNS`, whose figures and
-    data are links from the folder of the paper's results, each with its words."""
+    """Judge all rows: a table with `COLUMNS`; figures and data are links from the paper's results, by their words."""
     return judge(ROWS, {"": cases}).join(pd.DataFrame(map(_stated, ROWS)))[COLUMNS]
 
 
@@ -44,13 +43,11 @@ def _link(figure: str) -> str:
 
 
 def summary(table: pd.DataFrame) -> dict[str, Any]:
-    """What the page says on top: counts of verdicts, by part of the paper too, and sentences with their numbers. A
-    sentence is said only if its row has the verdict that it speaks of."""
+    """What the page says on top: counts of verdicts, and sentences whose rows have the verdicts that they speak of."""
     texts = read_texts("paper/ledger.yaml")
     counted = table[table["counts"] != "error in print"]
-    parts = pd.crosstab(counted["section"], counted["verdict"]).reindex(
-        index=counted["section"].unique(), columns=[*VERDICTS], fill_value=0
-    )
+    parts = pd.crosstab(counted["section"], counted["verdict"])
+    parts = parts.reindex(index=counted["section"].unique(), columns=[*VERDICTS], fill_value=0)
     verdicts = table.set_index("id")["verdict"]
     numbers = table.set_index("id")["here"].str.findall(r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
     for name, verdict in (("headline", TRUE), ("stands", TRUE), ("falls", FALSE)):

@@ -195,9 +195,9 @@ class CaseView:
         return self.last_widths(name, (self["time_reached"] - self["first_separation"]) / 4, 2)
 
     def settling(self) -> Settling:
-        """Whether the ranges of contact force and disc have settled, by the history's bins but the last, which is cut.
-        The last stretches are looked at once more, since a change that has just begun hardly shows in a long record."""
-        whole = self.history.isel(time=slice(None, -1))
+        """Whether the ranges of contact force and disc have settled, over the run and over its last stretches, in which
+        alone a change that has just begun shows."""
+        whole = self.history.isel(time=slice(None, -1))  # the last bin is cut
         late = whole.sel(time=slice(self["time_reached"] - STRETCHES * STRETCH, None))
         whole_and_late = [
             settling(part["time"].values, (part[f"{name}_max"] - part[f"{name}_min"]).values, STEADY, still=1.0)
@@ -329,10 +329,7 @@ def width_ratio(case: CaseView, bonded: CaseView) -> float:
 
 
 # ---- Grid studies
-
-
 def published(study: xr.Dataset) -> xr.Dataset:
-    """A grid study with the modes as published."""
     return study.sel(normalization="as_published")
 
 
@@ -352,10 +349,7 @@ def facts(study: xr.Dataset) -> dict[str, Any]:
 
 
 # ---- Numbers in words
-
-
 def extent(values: Iterable[float]) -> Range:
-    """Least and greatest of some numbers."""
     numbers = np.asarray([*values])
     return Range(float(numbers.min()), float(numbers.max()))
 
@@ -366,7 +360,6 @@ def listed(values: Iterable[Any], spec: str = "", without: str = "none") -> str:
 
 
 def counted(count: int, name: str) -> str:
-    """A count with its noun, singular or plural."""
     return f"{count} {name}{'s' if count != 1 else ''}"
 
 
@@ -376,7 +369,6 @@ def repeats(motion: Motion, name: str) -> str:
 
 
 def place(N: float, Omega: float) -> str:
-    """Preload and speed in words."""
     return f"{N:g} N, {Omega:g} rad/s"
 
 
@@ -391,12 +383,9 @@ def rate_text(rate: float, unit: str = "", without: str = "no cycle") -> str:
 
 
 # ---- Computed for the rows
-
-
 @cache
 def growth_of(p: Parameters) -> float:
-    """Largest growth rate of small disturbances of the stick-slip cycle near the static start, stable or not, 1/s; nan
-    if there is none."""
+    """Largest growth rate of small disturbances of the stick-slip cycle near the static start, 1/s; nan without one."""
     from disc_model.stability.cycle import floquet
 
     return floquet(p).growth_rate

@@ -35,8 +35,7 @@ def paper_cases() -> dict[str, dict[str, Any]]:
 
 
 class Answer:
-    """Result of a check: a verdict, or whether the statement is true; what was computed and what should be known
-    besides, in words; and values for the words of the row, which has them where `here` is empty."""
+    """Result of a check: verdict, or whether the statement is true; words; values for the words of the row."""
 
     def __init__(self, verdict: bool | np.bool_ | str, here: str = "", *notes: str, **values: Any) -> None:
         self.verdict = verdict if isinstance(verdict, str) else TRUE if verdict else FALSE
@@ -50,8 +49,8 @@ def graded(holds: Iterable[bool | np.bool_]) -> str:
 
 
 class Row(BaseModel):
-    """A statement of the paper: what a file says of it, and the function that judges it. Its words may name values of
-    the answer, those in `given`, the `place` of the first case, and what the first grid study has `stated`."""
+    """A statement of the paper, as a file has it. Its words may name values of the answer, those in `given`, the
+    `place` of the first case, and what the first grid study has `stated`."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     id: str
@@ -88,17 +87,16 @@ class Row(BaseModel):
             return Answer(self.verdict, self.here, self.note)
         try:
             return self._judge(self.check, cases)
-        except Absent as absent:
-            return Answer(FALSE, f"{absent}.")
         except Missing as missing:
-            return Answer(NOT_COMPUTED, f"{missing}.")
+            return Answer(FALSE if isinstance(missing, Absent) else NOT_COMPUTED, f"{missing}.")
 
     def _judge(self, check: Callable[..., Answer], cases: Mapping[str, CaseView]) -> Answer:
         needed = {name: _needed(cases, name, until) for name, until in self.cases.items()}
         if self.every:
             needed = {name: case for name, case in cases.items() if not case.is_grid}
-        if missing := [name for name in self.scans if name not in cases]:
-            raise Missing(f"study {missing[0]} is not among those of this run")
+        for name in self.scans:
+            if name not in cases:
+                raise Missing(f"study {name} is not among those of this run")
         for case in needed.values():
             if (self.separates is True or case.name in self.separates) and not (case.separates or case.bonded):
                 raise Missing(f"no separation in {case['time_reached']:g} s (case {case.name})")
@@ -109,9 +107,8 @@ class Row(BaseModel):
         studies = [cases[name].node.to_dataset() for name in self.scans]
         beside = [cases[name].node.to_dataset() if name in cases else None for name in self.beside]
         answer = check(*needed.values(), *studies, *beside, **self.given)
-        which = {1: "The motion has", 2: "Both motions have"}.get(
-            len(steady), f"The motions of all {len(steady)} cases have"
-        )
+        all_of = f"The motions of all {len(steady)} cases have"
+        which = {1: "The motion has", 2: "Both motions have"}.get(len(steady), all_of)
         if len(steady) < len(needed):
             noun, verb = ("motion", "has") if len(steady) == 1 else ("motions", "have")
             places = "; at ".join(case.place for case in steady)

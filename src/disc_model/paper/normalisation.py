@@ -12,7 +12,7 @@ from disc_model.data.variables import values_text
 from disc_model.disc.plate import plate_modes
 from disc_model.paper import section2
 from disc_model.paper.ledger import ROWS
-from disc_model.paper.measures import CaseView, rate_text
+from disc_model.paper.measures import CaseView, or_none, rate_text
 from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, judge, read_texts
 from disc_model.paper.survival import CONCLUSIONS
 from disc_model.parameters import Parameters
@@ -23,8 +23,7 @@ SHOWN = ("F02", "F07", "F09", "F13", "F17", "F18", "F22", "F23")  # cases of the
 
 
 def compare(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]) -> dict[str, Section]:
-    """What changes with orthonormal modes: in "brief", then in the "modes", the "cases" and the "verdicts". Cases of
-    the second set alone are "instead", if there are any."""
+    """What changes with orthonormal modes; cases of the second set alone are "instead", if there are any."""
     shared: dict[Parameters, str] = {}  # without repetitions at another tolerance
     for name, case in published.items():
         if name in orthonormal and case.from_rest:
@@ -105,12 +104,9 @@ def _verdicts(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseV
 
 
 def _first(case: CaseView) -> str:
-    time = case["first_separation"]
-    if case.status == "failed":
-        return "failed"
-    if case.bonded:
-        return "ignored"
-    return f"none in {case['time_reached']:g} s" if math.isnan(time) else f"{time:.2f} s"
+    if case.status == "failed" or case.bonded:
+        return "failed" if case.status == "failed" else "ignored"
+    return or_none(case["first_separation"], ".2f", " s", f"none in {case['time_reached']:g} s")
 
 
 def _late(case: CaseView) -> str:

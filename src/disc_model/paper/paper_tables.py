@@ -1,5 +1,4 @@
-"""Tables 1 and 2 of the paper beside ours, with the origin of every line of Table 2; and two tables of what results
-rest on: periods under other tolerances and numbers of modes, and what follows impacts with more modes."""
+"""Tables 1 and 2 of the paper beside ours; periods under other tolerances and modes; impacts with more modes."""
 
 from __future__ import annotations
 
@@ -37,17 +36,14 @@ UNNAMED = "no n f_s + m f_Ω"
 
 def table_1(p: Parameters) -> pd.DataFrame:
     """Table 1: symbol, meaning, unit, the paper's value and the value used here."""
-    rows = [
-        (name, Parameters.model_fields[name].description or name, Parameters.unit(name), value, getattr(p, name))
-        for name, value in TABLE_1.items()
-    ]
+    meanings = {name: Parameters.model_fields[name].description or name for name in TABLE_1}
+    rows = [(x, meanings[x], Parameters.unit(x), value, getattr(p, x)) for x, value in TABLE_1.items()]
     return pd.DataFrame(rows, columns=["symbol", "quantity", "unit", "paper", "ours"])
 
 
 def table_2(case: CaseView) -> pd.DataFrame:
     """Table 2: the lines of the disc's displacement at r_0, theta = 1 during the first 10 s, with `COLUMNS`: level_dB
-    is relative to the drive's line, ours_is `UNNAMED` if no combination is within `COMBINED` of the line, predicted_Hz
-    of the nearest combination."""
+    is relative to the drive's line, predicted_Hz of the nearest combination."""
     rate, lines = stick_slip_rate(case), table_2_lines(case)
     names = [spectra.identify(line.frequency, rate, case.drive) for line in lines]
     return TABLE_2.assign(
@@ -76,9 +72,8 @@ VARIED: dict[str, tuple[float, dict[str, int]]] = {
     "8 nodal diameters": (1e-10, {"n_diameters": 8}), "one nodal circle": (1e-10, {"n_circles": 1}),
 }  # fmt: skip
 """Tolerance and numbers of modes of further runs."""
-RECORD, SETTLE = 60.0, 150.0
-"""Length of the record from which a motion is classified, s: four of the longest periods; time to settle before it, s,
-after a small change of the speed."""
+RECORD = 60.0  # length of the record from which a motion is classified, s: four of the longest periods
+SETTLE = 150.0  # time to settle before it after a small change of the speed, s
 
 
 def motion_to(p: Parameters, t_end: float, tol: float = 1e-10, start: State | None = None) -> tuple[Motion, State]:

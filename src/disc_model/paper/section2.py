@@ -64,20 +64,14 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
     unless = {x: f"none within {horizons[x]:g} s ({kinds[x]})" for x in points}
     rows = times.itertuples()
     first = [f"{x}, {or_none(was, '.0f', ' s')} and {or_none(now, '.0f', ' s', unless[x])}" for x, was, now in rows]
-    return Answer(
-        graded(speed < share * critical for speed in lowest),
-        counts=(len(times), times["as_published"].count(), len(times) - len(kept), len(kept) - len(grow), len(grow)),
-        until=extent(grow) if grow else None,
-        lowest=lowest,
-        critical=critical,
-        first=first,
-    )
+    counts = (len(times), times["as_published"].count(), len(times) - len(kept), len(kept) - len(grow), len(grow))
+    verdict, until = graded(speed < share * critical for speed in lowest), extent(grow) if grow else None
+    return Answer(verdict, counts=counts, until=until, lowest=lowest, critical=critical, first=first)
 
 
 def norms(p: Parameters) -> Array:
     """Left side of the first relation of Eq. (17), which should be 1, for the modes of 0, 1, ... nodal diameters."""
-    # plate_modes has one amplitude for the two modes of a pair
-    pairs = np.where(plate_modes(p)["diameters"] > 0, 2.0, 1.0)
+    pairs = np.where(plate_modes(p)["diameters"] > 0, 2.0, 1.0)  # whose two modes have one amplitude in `plate_modes`
     square, _ = fixed_quad(lambda r: mode_shapes(p, r) ** 2 * r, p.a, p.b, n=40)
     return np.asarray(2 * np.pi * p.rho * p.h * square / pairs)
 
@@ -154,8 +148,7 @@ SPEEDS = np.arange(5.0, 1501.0, 5.0)  # rad/s, up to where all speeds are unstab
 
 @cache
 def growths(loads: tuple[float, ...], c: float, **friction: float) -> list[Array]:
-    """Largest growth rates of steady sliding in bilateral contact, 1/s: without friction, with it, and with it and a
-    damper: (3, load, speed); for modes as published, then for modes by Eq. (17)."""
+    """Largest growth rates of sliding, 1/s: without friction, with it, and with a damper too: (3, load, speed)."""
     rates = []
     for scale in (BASE, NORMALISED):
         p = scale.replace(contact="bilateral", **friction)
@@ -166,12 +159,12 @@ def growths(loads: tuple[float, ...], c: float, **friction: float) -> list[Array
 
 
 def additional(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
-    """Whether friction makes speeds unstable that are stable without, and the damper raises growth at all of them; open
-    where it does at some, because the disc of the precursor, of which we have the abstract, is not known."""
+    """Whether friction makes speeds unstable that are stable without, and the damper raises growth at all of them."""
     verdicts, rows, critical = [], [], moving_load_speed(BASE)
     for alone, both, damped in growths(tuple(loads), c, **friction):
         new = (both > 0) & ~(alone > 0)
         raised = new & (damped > both)
+        # open if it raises some: the disc of the precursor, of which we have the abstract, is not known
         verdicts.append(FALSE if not raised.any() else TRUE if (raised == new).all() else NOT_COMPUTED)
         slowest = SPEEDS[raised.any(axis=0)].min(initial=np.inf)
         below = new & (critical > SPEEDS)

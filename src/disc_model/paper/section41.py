@@ -174,8 +174,8 @@ def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
 
 
 def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[str, str]:
-    """Whether the lowest speed with separation falls and rises with the preload, by ``depth`` (rad/s) or more; in part
-    if it falls again after that; and how it changes, in sentences."""
+    """Whether the lowest speed with separation falls, rises and does not fall again with the preload, by ``depth``
+    (rad/s) or more; and how it changes, in sentences."""
     loads, speeds = study["N"].values, study["critical_speed"].values
     infinite = np.nanmax(speeds, initial=0.0) + 2 * depth  # stands for no separation
     known = np.where(np.isnan(speeds), infinite, speeds)
@@ -244,23 +244,18 @@ def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
 
 
 # ---- The transverse energy of a motion: what the slope supplies, and what damping and impacts take
-STAGES, LENGTH, RATE = 60, 5.0, 400.0
-"""Stages of a run; greatest time in s at the end of each over which powers are averaged, and samples per s there."""
+STAGES = 60  # of a run
+LENGTH, RATE = 5.0, 400.0  # greatest time at the end of each over which powers are averaged, s; samples per s
 
 
 class Powers(NamedTuple):
-    """Mean powers, W, over a time in which the range of the slider's height is ``width``, m.
+    """Mean powers, W, over a time."""
 
-    pushes, pulls : supplied by the contact force on the slope, P f B, while it is positive and negative
-    damped : taken by the damping of the disc and of the slider
-    gained : rise of the energy of the disc and of the slider's vertical motion
-    """
-
-    width: float
-    pushes: float
-    pulls: float
-    damped: float
-    gained: float
+    width: float  # range of the slider's height, m
+    pushes: float  # supplied by the contact force on the slope, P f B, while it is positive,
+    pulls: float  # and while it is negative
+    damped: float  # taken by the damping of the disc and of the slider
+    gained: float  # rise of the energy of the disc and of the slider's vertical motion
 
     @property
     def supplied(self) -> float:

@@ -19,9 +19,8 @@ from disc_model.parameters import Parameters
 
 
 def stays_calm(case: CaseView) -> bool:
-    """Whether contact is kept, and the contact force has no wider range at the end than at first; sampling widens it by
-    far less than 2 %."""
-    return not case.separates and not 1.02 * case.early.width < case.late.width
+    """Whether contact is kept, and the contact force has no wider range at the end than at first."""
+    return not case.separates and not 1.02 * case.early.width < case.late.width  # sampling adds far less than 2 %
 
 
 def calm_text(case: CaseView) -> str:
@@ -71,15 +70,15 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
     horizon = known["first_separation"]
     lower = [speed for speed, time in times.items() if speed < printed - within and time <= horizon]
     apart = times[printed] <= horizon
-    least = [min(lower), min(speed for speed, time in times.items() if not math.isnan(time))] if lower else []
+    known_times = {speed: times[speed] for speed in sorted(times) if not math.isnan(times[speed])}
     return Answer(
         PART if apart and lower else apart,
         N=known["N"],
-        rows=[f"{times[x]:.0f} s at {x:g} rad/s" for x in sorted(times) if not math.isnan(times[x])],
-        never=[speed for speed in sorted(times) if math.isnan(times[speed])],
+        rows=[f"{time:.0f} s at {speed:g} rad/s" for speed, time in known_times.items()],
+        never=sorted(times.keys() - known_times),
         end=cases[0]["time_reached"],
         horizon=horizon,
-        lower=[(speed, 1 - speed / printed) for speed in least],
+        lower=[(speed, 1 - speed / printed) for speed in (min(lower), min(known_times))] if lower else [],
     )
 
 
@@ -259,8 +258,7 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
 
 
 def plane(study: xr.Dataset, first: str, second: str) -> tuple[Array, Array, NDArray[np.bool_], Array]:
-    """Of a map with the published modes: values of two parameters, ascending; whether the static start separates, and
-    growth rates of cycles, 1/s: (first, second)."""
+    """Values of two parameters of a map, ascending; whether the static start separates, and growth rates, 1/s."""
     study = sound(published(study)).sortby([first, second]).transpose(first, second, ...)
     apart = flag_names(study["outcome"]) == "separation"
     return study[first].values, study[second].values, apart, study["growth_rate"].values

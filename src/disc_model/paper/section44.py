@@ -179,8 +179,6 @@ def natural_frequencies(case: CaseView) -> Array:
 
 
 # ---- The conclusions, as far as the rows on the sections do not judge them
-
-
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
     smooth = [sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0)) for case in cases]
     apart = any(case.separates and rate < growth for case, rate in zip(cases, smooth, strict=True))

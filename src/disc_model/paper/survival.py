@@ -1,5 +1,4 @@
-"""Model sensitivity: the paper's main conclusions, each judged under five models of disc and contact, by rows as the
-ledger's, from the merged cases and grids of config/survival.yaml."""
+"""Model sensitivity: the paper's main conclusions, judged like rows of the ledger under five models."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -27,8 +26,7 @@ MODELS = {
     "+ normal contact force": ("orthonormal", True, "normal", False),
     "+ friction on the surface": ("orthonormal", True, "normal", True),
 }
-"""The models by name, each with one more change: normalization, whether the contact gives, contact_force, whether
-friction is offset."""
+"""The models by name, each with one more change; of contact_compliance and friction_offset: whether there is any."""
 
 
 def by_model(cases: Mapping[str, CaseView]) -> dict[str, dict[str, CaseView]]:
@@ -40,11 +38,10 @@ def by_model(cases: Mapping[str, CaseView]) -> dict[str, dict[str, CaseView]]:
         varied = [np.atleast_1d(holds[parameter]).tolist() for parameter in CHANGED]
         points = [(scale, give != 0, force, offset != 0) for scale, give, force, offset in zip(*varied, strict=True)]
         for model in (model for model, values in MODELS.items() if points.count(values) == 1):
+            models[model][name] = case
             if case.is_grid:
                 point = study.isel({study["normalization"].dims[0]: points.index(MODELS[model])})
                 models[model][name] = CaseView(name, xr.DataTree(point))
-            else:
-                models[model][name] = case
     return models
 
 
@@ -82,16 +79,14 @@ def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: floa
     # at the map's nearest speeds below and above each interval; nan without a cycle
     at_load = rates["growth_rate"].sel(N=load)
     try:
-        beside = [
-            (float(at_load.sel(Omega=high - width, method="pad")), float(at_load.sel(Omega=high, method="backfill")))
-            for high in highs
-        ]
+        before, after = at_load.sel(Omega=highs - width, method="pad"), at_load.sel(Omega=highs, method="backfill")
     except KeyError:
         raise Missing("study survival_growth does not reach as far as survival_speed") from None
+    beside = list(zip(before.values.tolist(), after.values.tolist(), strict=True))
     growth = [f"{rate_text(low, '/s')} to {rate_text(high, '/s')}" for low, high in beside]
     missed = int(curves["n_continuation_failures"])
     here = f"{told}. Across this speed growth goes from {listed(growth)}."
-    if missed and not all(rate > SLOW for pair in beside for rate in pair):  # one of them may be the fold
+    if missed and not np.all(np.array(beside) > SLOW):  # one of them may be the fold
         return Answer(NOT_COMPUTED, here, f"{missed} curves could not be followed.")
     return Answer(FALSE, here)
 
@@ -108,20 +103,21 @@ def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
 
 
 def below_critical(*cases: CaseView, share: float) -> Answer:
-    critical = moving_load_speed(cases[0].parameters) if cases else math.nan
-    parts = [(case["Omega"] / critical, case.place) for case in _separating(cases)]
+    apart, critical = _separating(cases), moving_load_speed(cases[0].parameters)
+    parts = [(case["Omega"] / critical, case.place) for case in apart]
     rows = "; ".join(f"{100 * part:.1f} % of it at {place}" for part, place in parts if part < share)
     told = f"The critical speed of a moving load is {critical:.2f} rad/s. Cases separate at {rows}."
     return Answer(bool(rows) or NOT_COMPUTED, told if rows else "No case separates.")
 
 
 def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
-    """Cases that lose contact; raises `Missing` if one did not reach its end. Bilateral contact may end in Painlevé's
-    paradox, when the disc has grown so steep under the slider."""
-    for case in cases:
+    """Cases that lose contact; raises `Missing` if there is none, or if one did not reach its end."""
+    for case in cases:  # bilateral contact may end in Painlevé's paradox, when the disc has grown so steep
         if case.status != "ok" and not (case.bonded and case.status == "paradox"):
             raise Missing(f"{case.status} (case {case.name})")
-    return [case for case in cases if not case.bonded and case.separates]
+    if not (apart := [case for case in cases if not case.bonded and case.separates]):
+        raise Missing("No case separates")
+    return apart
 
 
 def falls_then_rises(speed: xr.Dataset, *, depth: float) -> Answer:
@@ -144,15 +140,13 @@ def smaller_vibration(*cases: CaseView, wider: float) -> Answer:
         steep += [f"{free.place} after {bonded['time_reached']:.0f} s"] * ends
     note = f"Bilateral contact ends in Painlevé's paradox at {'; '.join(steep)}." if steep else ""
     told = f"The range of the disc with separation against that without is {'; '.join(rows)}."
-    return Answer(_all_cases(smaller), told if rows else "No case separates.", note)
+    return Answer(_all_cases(smaller), told, note)
 
 
 def stick_vanishes(*cases: CaseView, share: float) -> Answer:
     apart = _separating(cases)
     stays = [case.place for case in apart if not stick_disappears(case.stick_in_all, case.stick, share)]
     rows = "; ".join(f"{100 * case.stick:.2g} % of the time at {case.place}" for case in apart)
-    if not apart:
-        return Answer(NOT_COMPUTED, "No case separates.")
     vanishes, here = len(stays) < len(apart), f"After a separation the slider sticks for {rows}."
     return Answer(vanishes, here, f"Stick does not disappear at {'; '.join(stays)}." if vanishes and stays else "")
 
@@ -192,7 +186,7 @@ def not_periodic(*cases: CaseView) -> Answer:
     known = {Outcome.QUASI_PERIODIC: True, Outcome.IRREGULAR: True, Outcome.UNDECIDED: None}
     rows = [f"At {place} the motion {words}." for place, (_, words) in repeats.items()]
     verdict = _all_cases([known.get(kind, False) for kind, _ in repeats.values()])
-    return Answer(verdict, " ".join(rows) or "No case separates.")
+    return Answer(verdict, " ".join(rows))
 
 
 def _repeats(case: CaseView) -> tuple[Outcome, str]:
@@ -209,7 +203,7 @@ def _repeats(case: CaseView) -> tuple[Outcome, str]:
 
 def _all_cases(holds: Sequence[bool | None]) -> bool | str:
     """The verdict on a statement about every case: one counterexample refutes it, an open case (None) keeps it open."""
-    return False if False in holds else NOT_COMPUTED if None in holds or not holds else True
+    return False if False in holds else NOT_COMPUTED if None in holds else True
 
 
 CONCLUSIONS = rows_of("paper/survival.yaml", globals())
@@ -217,7 +211,6 @@ TEXTS: dict[str, str] = read_texts("paper/pages.yaml")["survival"]
 
 
 def judge_models(cases: Mapping[str, CaseView]) -> pd.DataFrame:
-    """Every conclusion under every model, see `judge`."""
     return judge(CONCLUSIONS, by_model(cases))
 
 
@@ -232,8 +225,5 @@ def page_of(table: pd.DataFrame) -> Section:
 def evidence_of(table: pd.DataFrame) -> list[Section]:
     """What was computed under each model, a section for every conclusion."""
     columns = {"model": "Model", "verdict": "Verdict", "here": "Found", "notes": "Remark"}
-    rows = table.rename(columns=columns)
-    return [
-        (row.id, f"{row.statement} True if {row.rule}.", rows.loc[rows["id"] == row.id, [*columns.values()]])
-        for row in CONCLUSIONS
-    ]
+    parts = {name: part[[*columns]].rename(columns=columns) for name, part in table.groupby("id")}
+    return [(row.id, f"{row.statement} True if {row.rule}.", parts[row.id]) for row in CONCLUSIONS]

@@ -1,7 +1,6 @@
-"""The table of methods, from ``rivals.toml``: the package's engine and its rivals behind one interface.
+"""The table of methods, from ``rivals.toml``: the package's engine and its rivals, which share only physics, `kernels`.
 
-Each is written as a competent user would; `base` states the contract. They share the physics (`kernels`), not the
-engine. This module imports nothing heavy: the workflow reads it at every start.
+This module imports nothing heavy: the workflow reads it at every start.
 """
 
 from __future__ import annotations
@@ -54,8 +53,7 @@ class Method(BaseModel):
         return self if self.map_arguments is None else self.model_copy(update={"arguments": self.map_arguments})
 
     def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
-        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds. The status of
-        the result reports failures on the way; without its package the method raises `MethodUnavailable`."""
+        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds, see `base`."""
         if missing := ", ".join(self.absent()):
             reason = f"{self.name} needs {missing}: install the extra `bench` (pip install disc_model[bench])"
             raise MethodUnavailable(reason)

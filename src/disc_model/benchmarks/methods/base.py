@@ -1,18 +1,14 @@
 """The contract of methods, and those that need no extra: the engine, fixed-step Runge-Kutta and scipy's integrators.
 
 A method is a function ``(problem, value, budget, *arguments)`` that advances a `Problem`, with its one setting equal to
-``value``, for at most about ``budget`` seconds, and returns a `MethodResult`, also if it failed on the way. Only the
-integration is timed, in processor time, which other processes do not distort.
-
-scipy's integrators are restarted at every event, or run once through a regularised model that has no events. It is one
-stiff ODE, with a smooth friction law and a penalty for penetration.
+``value``, for at most about ``budget`` seconds, and returns a `MethodResult`, also if it failed on the way. scipy's
+integrators are restarted at every event, or run once through a regularised model without events, one stiff ODE:
 
     friction  mu(f) = tanh(f/eps) (mu_k + dmu exp(-(f/(30 eps))^2)),  dmu such that the maximum is mu_s
     contact   P = max(0, K (w - u) + C (w' - u')),  with C from the critical damping of slider against disc
 
-``eps`` (rad/s) is the setting, and K is `PENALTY`/eps. Stick is a creep abs(f) < 3 eps. Events are found afterwards at
-the crossings of abs(f) = 3 eps and of P = 0. The model error is about eps^(2/3): stick ends by slow passage through the
-maximum of the law, a fold. It falls slowly, while the stiffness mu P/(m r_0 eps) grows without bound as eps falls.
+``eps`` (rad/s) is the setting, and K is `PENALTY`/eps. Stick is a creep abs(f) < 3 eps. The model error is about
+eps^(2/3), since stick ends by slow passage through the maximum of the law, a fold; the stiffness grows with 1/eps.
 """
 
 from __future__ import annotations
@@ -41,8 +37,6 @@ from disc_model.simulation.states import State
 
 
 class RunStatus(enum.StrEnum):
-    """Final status of a method."""
-
     FINISHED = "finished"  # reached t_end
     NON_FINITE = "non_finite"  # the numbers overflowed
     STALLED = "stalled"  # switches without the clock moving, over and over
@@ -69,8 +63,6 @@ class Problem:
 
 @dataclass(frozen=True, eq=False)
 class MethodResult:
-    """Result of a method."""
-
     times: Array  # of events, s, (n_events,)
     kinds: tuple[str, ...]  # of events, words of `disc_model.data.variables.EVENT_KINDS`
     final: State  # at t_end, or where the method stopped
@@ -112,8 +104,7 @@ class Meter:
         return MethodResult(*motion, seconds, work, self.outcome, self.message, self.longest_step, heights)
 
     def steps(self, times: Array, states: Array) -> None:
-        """Record the steps between successive ``times`` (s, shape (k,)) of one phase and the states there (k, size). If
-        it is requested, they extend the range of w (m): between two it is the cubic with its values and rates there."""
+        """Record steps of one phase by ``times`` (s, shape (k,)) and states (k, size), and the range of w."""
         if len(times) > 1:
             self.longest_step = float(np.fmax(self.longest_step, np.max(np.diff(times))))
         if not self.problem.watched:
@@ -122,13 +113,12 @@ class Meter:
         w = states[:, q.a] @ q.shape
         rate = states[:, q.alpha] @ q.shape + states[:, q.f] * (states[:, q.b] @ q.slope)
         steps = np.flatnonzero((np.diff(times, append=math.inf) > 0.0) & np.isfinite(w + rate))
-        if len(steps) > 1:
+        if len(steps) > 1:  # w between them is a cubic
             cubics = CubicHermiteSpline(times[steps], w[steps], rate[steps])
             w = np.concatenate([w, cubics(cubics.derivative().roots(extrapolate=False))])
         self.low, self.high = float(np.fmin.reduce(w, initial=self.low)), float(np.fmax.reduce(w, initial=self.high))
 
     def check(self) -> None:
-        """Raise `GaveUp` if the time is used up."""
         if clock.thread_time() - self.began > self.budget:
             raise GaveUp(RunStatus.TOO_SLOW, f"not finished after {self.budget:g} s")
 
@@ -158,7 +148,6 @@ except in slip), from local time ``t`` (s, 0 at the start) on; ``y`` is not chan
 
 
 def run_phases(advance: Advance, meter: Meter) -> MethodResult:
-    """Integrate phase by phase to the end of the problem."""
     problem, physics, modes, c = meter.problem, meter.physics, meter.physics.modes, meter.physics.c
     phase, direction = PHASES.index(problem.start.phase), problem.start.direction
     t, y, span = 0.0, physics.pack(problem.start), problem.span
@@ -353,9 +342,8 @@ def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResu
 
 
 def solve_with_fewest(problem: Problem, value: float, budget: float) -> MethodResult:
-    """The same engine without the disc's modes if the disc deflects by less than the tolerance. The modes change the
-    answer by about k sum psi^2/omega^2, the disc's deflection over that of the slider's spring. They are never excited
-    and then follow statically, however fast they are."""
+    """The same engine without the disc's modes, however fast, if they change the answer by less than the tolerance: by
+    about k sum psi^2/omega^2, the disc's deflection over that of the slider's spring."""
     physics = Physics(problem.parameters)
     give = problem.parameters.k * float(np.sum(physics.shape**2 / physics.stiffness))
     start = problem.start

@@ -1,11 +1,8 @@
 """Integrators of the extra `bench`: heyoka's compiled Taylor series, and SUNDIALS CVODE with scikit-sundae.
 
-heyoka's equations are arranged for the least work: one coefficient per state, products of f with modal states that
-equations and contact force share, a force with one division, the direction of slip as a parameter, and no event for
-loss of contact in stick, which ends before. Compact mode takes twice as long, ``slp_vectorize`` a tenth more.
-
-CVODE is restarted at every event. The library is called directly, with compiled callbacks that read and write its own
-memory: scikit-sundae calls Python for every right-hand side, which takes three times as long.
+heyoka's equations are arranged for the least work, with no event for loss of contact in stick, which ends before.
+CVODE's library is called directly, with compiled callbacks that read and write its own memory: scikit-sundae calls
+Python for every right-hand side, which takes three times as long.
 """
 
 # mypy: disable-error-code="no-untyped-def"

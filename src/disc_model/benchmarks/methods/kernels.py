@@ -1,8 +1,7 @@
 """Constants of a case, states as vectors and the compiled equations of motion; no code is shared with the engine.
 
 The state is y = (a, b, alpha, beta, psi, f, u, u'), shape (4 n + 4,), n = number of modes (docs: model, Disc in the
-slider's frame); u and u' are used in separation only. All that is compiled is in one file: numba's cache notices
-changes only in the file of the called function.
+slider's frame); u and u' are used in separation only. All is in one file because of numba's cache, which sees no other.
 """
 
 # mypy: disable-error-code="no-untyped-def"
@@ -23,8 +22,7 @@ OTHER_LAWS = ("contact_compliance", "contact_force", "friction_decay", "friction
 
 
 class Physics:
-    """Constants of a case, in SI units, and as kernels take them: ``c`` (scalars) and ``modes`` (`ROWS`, a column per
-    mode). Raises `ParameterError` for another law of contact than the paper's."""
+    """Constants of a case, in SI units, and as kernels take them: ``c`` and ``modes`` (`ROWS`, a column per mode)."""
 
     def __init__(self, p: Parameters) -> None:
         rule = "must be {}, because only the engine has other laws of contact than the paper's"
@@ -51,7 +49,6 @@ class Physics:
         self.modes = np.array(rows)
 
     def pack(self, state: State) -> Array:
-        """The vector of a `State`."""
         return np.hstack([state.a, state.b, state.alpha, state.beta, state.psi, state.f, state.u, state.u_velocity])
 
     def unpack(self, time: float, phase: str, direction: int, y: Array) -> State:

@@ -1,4 +1,4 @@
-"""Contact and its losses, as in figures 2, 3, 10 and 23 of the paper, the whole disc, and separations by Eq. (17)."""
+"""Contact and its losses, as in figures 2, 3, 10 and 23 of the paper, and the whole disc."""
 
 import json
 from collections.abc import Iterator, Sequence
@@ -37,7 +37,6 @@ def first_complete(window: xr.Dataset) -> tuple[float, float] | None:
 
 
 def shade(ax: Axes, spans: Sequence[tuple[float, float]]) -> None:
-    """Shade separations, with one entry in the legend."""
     for i, span in enumerate(spans):
         ax.axvspan(*span, color=SEPARATED, alpha=0.25, label="_nolegend_" if i else "separation")
 
@@ -158,19 +157,15 @@ class WithAndWithout(CasePlot):
 
 class Histories(CasePlot):
     """Ranges of the contact force and of the disc at r_0 and a fixed angle, a column for each case, on common axes. A
-    range of the force below a twentieth of the axis is drawn once more.
-
-    until : s, end of the part of the runs that is shown
-    printed : s, time of the first separation of the last case that the paper prints
-    """
+    range of the force below a twentieth of the axis is drawn once more."""
 
     shows = (("history", as_ranges),)
     further = ("beside",)
     kind: Literal["paper.histories"] = "paper.histories"
     beside: tuple[str, ...] = ()
     history: str = "history"
-    until: Annotated[Positive, Unit("s")] | None = None
-    printed: Annotated[Positive, Unit("s")] | None = None
+    until: Annotated[Positive, Unit("s")] | None = None  # end of the part of the runs that is shown
+    printed: Annotated[Positive, Unit("s")] | None = None  # first separation of the last case that the paper prints
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         figure, axes = panels(PAGE, 3.2, 2, len(cases), sharex=True, sharey="row")
@@ -198,8 +193,6 @@ class Histories(CasePlot):
 
 
 # ---- The whole disc
-
-
 class Instants(CasePlot):
     """The disc from above, and along its circle of radius r_0, at four instants from the first loss of contact to the
     next, or over the whole stretch without two losses, by nine windows `around0`, ..."""
@@ -238,9 +231,8 @@ class Instants(CasePlot):
 
 
 def motion_of(case: xr.DataTree) -> Motion:
-    """The motion of disc and slider from windows `around0`, ..., which record the disc at r_0 and as many angles.
-    Raises `Missing` if the case does not. Modes without nodal circles are harmonics of the angle. Twice their number
-    and one of angles determine them."""
+    """The motion of disc and slider from windows `around0`, ... of the disc at r_0 and as many angles, which determine
+    the harmonics that modes without nodal circles are; raises `Missing` if they do not."""
     p = Parameters.model_validate_json(case.attrs["parameters"])
     count = sum(str(name).startswith("around") for name in case.children)
     windows = [dataset.samples(case, f"around{j}", at_least=1) for j in range(count or 1)]

@@ -66,10 +66,8 @@ def _regions(ax: Axes, study: xr.Dataset) -> None:
 
     from disc_model.paper.section2 import SEPARATING
 
-    apart = [
-        flag_names(study["outcome"].sel(normalization=scale).transpose("N", "Omega")) == "separation"
-        for scale in SCALES
-    ]
+    outcome = study["outcome"].sel(normalization=[*SCALES]).transpose("normalization", "N", "Omega")
+    apart = flag_names(outcome) == "separation"
     cells = apart[0] + 2 * apart[1].astype(int)
     across, up = (drawing.edges(study[name].values) for name in ("Omega", "N"))
     ax.pcolormesh(across, up, cells, cmap=ListedColormap(CELLS), vmin=-0.5, vmax=3.5, rasterized=True)

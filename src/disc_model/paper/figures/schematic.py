@@ -39,19 +39,15 @@ class Schematic(CasePlot):
 
 
 class Composite(CasePlot):
-    """The model, the disc's vibration with separation and, in the case `ignored`, bilateral, and the contact force.
-
-    force : window of the contact force, and the time in s at which the stretch shown begins
-    until : s, end of the part of the runs that is shown
-    """
+    """The model, the disc's vibration with separation and, in the case `ignored`, bilateral, and the contact force."""
 
     shows = (("history", as_ranges),)
     further = ("ignored",)
     kind: Literal["paper.composite"] = "paper.composite"
     ignored: str
     history: str = "history"
-    force: tuple[str, Finite]
-    until: Annotated[Positive, Unit("s")]
+    force: tuple[str, Finite]  # window of the contact force, and the time at which the stretch shown begins, s
+    until: Annotated[Positive, Unit("s")]  # end of the part of the runs that is shown
 
     def needs(self) -> Iterator[Need]:
         yield from super().needs()
@@ -257,7 +253,6 @@ def _arrow(
 
 
 def _write(ax: Axes, point: Point, text: str, **look: Any) -> None:
-    """Write a text centred at a point."""
     ax.text(float(point[0]), float(point[1]), text, ha="center", va=look.pop("va", "center"), **look)
 
 
@@ -274,7 +269,6 @@ DAMPER: Strokes = [*_CUP, ([0.55, 0.55], [-0.7, 0.7]), ([0.55, 1], [0, 0])]  # a
 
 
 def _join(ax: Axes, strokes: Strokes, start: Point, end: Point, width: float = 0.1) -> None:
-    """Draw a spring or a damper between two points."""
     first, way = np.array(start, float), np.array(end, float) - np.array(start, float)
     normal = np.array([-way[1], way[0]]) / np.hypot(*way)
     for along, side in strokes:

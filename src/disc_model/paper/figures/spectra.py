@@ -34,15 +34,12 @@ TABLE_2 = {  # lines of the paper, Hz, by their components; pairs are too close 
 
 class FourStretches(CasePlot):
     """Range of the disc at r_0 and a fixed angle, and its power over time and frequency in four stretches, with the
-    lines of Table 2. The last row is the bilateral case `ignored`, which has the same windows but the first.
-
-    until : s, end of the part of the run that is shown
-    """
+    lines of Table 2. The last row is the bilateral case `ignored`, which has the same windows but the first."""
 
     further = ("ignored",)
     kind: Literal["paper.four_stretches"] = "paper.four_stretches"
     history: str = "history"
-    until: Annotated[Positive, Unit("s")] | None = None
+    until: Annotated[Positive, Unit("s")] | None = None  # end of the part of the run that is shown
     ignored: str
 
     def needs(self) -> Iterator[Need]:
@@ -109,14 +106,7 @@ ZOOM = 0.2  # length of a closer look, s
 
 
 class Response(CasePlot):
-    """(a) Range over the run, with closer looks below it if there are any, (b) spectrum in time in a window.
-
-    zooms : windows, and times in s at which closer looks begin
-    ignored : the case with bilateral contact, whose spectrum is drawn below
-    printed : s, time of the first separation that the paper prints
-    highest : whether the disc's highest natural frequency is marked
-    until : s, end of the part of the run that (a) shows
-    """
+    """(a) Range over the run, with closer looks below it if there are any, (b) spectrum in time in a window."""
 
     shows = (("history", as_ranges), ("window", as_spectrum))
     further = ("ignored",)
@@ -124,11 +114,11 @@ class Response(CasePlot):
     variable: Sampled
     window: str
     history: str = "history"
-    zooms: Annotated[tuple[tuple[str, Finite], ...], Field(max_length=2)] = ()
-    highest: bool = False
-    until: Annotated[Positive, Unit("s")] | None = None
-    ignored: str = ""
-    printed: Annotated[Positive, Unit("s")] | None = None
+    zooms: Annotated[tuple[tuple[str, Finite], ...], Field(max_length=2)] = ()  # windows, and where looks begin, s
+    highest: bool = False  # whether the disc's highest natural frequency is marked
+    until: Annotated[Positive, Unit("s")] | None = None  # end of the part of the run that (a) shows
+    ignored: str = ""  # the case with bilateral contact, whose spectrum is drawn below
+    printed: Annotated[Positive, Unit("s")] | None = None  # time of the first separation that the paper prints
 
     def needs(self) -> Iterator[Need]:
         yield from (need for need in super().needs() if need.case == self.case or need.key == "window")
