@@ -1,7 +1,5 @@
 """How many modes a case needs: `choose_modes`, and requests for it in study files and on the command line.
-
-The choice by ``frequencies`` needs no simulation. The choice by a quantity of the motion takes the first model with
-which two larger ones agree; for a disc given by a table, the last candidate is the whole table.
+By a quantity of the motion it is the first model with which two larger ones agree; a table is its own last candidate.
 """
 
 from __future__ import annotations
