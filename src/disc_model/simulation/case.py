@@ -237,13 +237,13 @@ def ramp_faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]
 def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
     """The intervals of constant rates, in order, the first before any ramp; ramps to the present value do not count."""
     steady = Piece(-math.inf, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0)
-    if not ramps:
+    if not ramps:  # as in most cases, which are short
         return (steady,)
     lines = {name: _line(p, ramps, name) for name in RAMPED}
-    knots = sorted({time for line in lines.values() for time, _, _ in line[1:]})
-    parts = [steady._replace(end=knots[0] if knots else math.inf)]
-    angle = p.Omega * parts[0].end if knots else 0.0
-    for begin, end in pairwise([*knots, math.inf]):
+    knots = [*sorted({time for line in lines.values() for time, _, _ in line[1:]}), math.inf]
+    parts = [steady._replace(end=knots[0])]
+    angle = p.Omega * knots[0]
+    for begin, end in pairwise(knots):
         (Omega, Omega_rate), (N, N_rate) = (_at(lines[name], begin) for name in RAMPED)
         parts.append(Piece(begin, end, angle, Omega, Omega_rate, N, N_rate))
         angle += (Omega + 0.5 * Omega_rate * (end - begin)) * (end - begin) if end < math.inf else 0.0
