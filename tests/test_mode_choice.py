@@ -118,7 +118,7 @@ def test_a_case_of_the_workflow_keeps_the_record_of_its_choice() -> None:
     record = choose_modes(P).to_json()
     assert automatic.parameters == given.parameters
     assert (automatic.truncation, given.truncation) == (record, "")
-    read = CaseSpec.from_canonical(automatic.canonical)
+    read = CaseSpec.model_validate_json(automatic.canonical)
     assert read == automatic
     assert run_case(read).attrs["truncation"] == record
     assert "truncation" not in run_case(given).attrs

@@ -1,7 +1,5 @@
 """How many modes a case needs: `choose_modes`, and requests for it in study files and on the command line.
-
-The choice by ``frequencies`` needs no simulation. The choice by a quantity of the motion takes the first model with
-which two larger ones agree; for a disc given by a table, the last candidate is the whole table.
+By a quantity of the motion it is the first model with which two larger ones agree; a table is its own last candidate.
 """
 
 from __future__ import annotations
@@ -154,8 +152,7 @@ def count_modes(p: Parameters, size: tuple[int, ...]) -> int:
 
 
 def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | None]:
-    """Parameters from the values of a file or command line, and the request to choose their modes, if there is one; the
-    parameters' own number of modes is then meaningless."""
+    """Parameters of a file or command line, and the request for their modes; their own number is then meaningless."""
     rest, request = asked_modes(values)
     return Parameters.model_validate(rest if request is None else rest | {"n_circles": 0}), request
 
@@ -177,8 +174,7 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], ModeRequest 
 
 
 def frequency_error(p: Parameters, rich: Parameters) -> float:
-    """Largest relative error of the coupled frequencies of ``p`` up to `BAND` times the disc's lowest frequency, with
-    ``rich`` as the reference."""
+    """Largest relative error, against `rich`, of the coupled frequencies up to `BAND` times the disc's lowest one."""
     mine, right = (coupled_frequencies(case, contact_compliance(case)) for case in (p, rich))
     return _worst(mine, right, BAND * float(mode_arrays(rich).omega.min()))
 

@@ -79,7 +79,7 @@ def test_a_text_is_a_case_and_does_not_name_what_is_absent():
     assert set(fields[1]["windows"][0][1]) - set(fields[0]["windows"][0][1]) == {"last"}
     assert [[*case.sections] for case in (brief, full)] == [["w"], ["w", "poincare"]]
     for case, named in zip((brief, full), fields, strict=True):
-        assert CaseSpec.from_canonical(case.canonical) == case
+        assert CaseSpec.model_validate_json(case.canonical) == case
         assert named == {"parameters": case.parameters.canonical, **json.loads(case.beside)}
         assert "parameters" not in json.loads(case.beside)
 

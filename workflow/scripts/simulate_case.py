@@ -13,4 +13,4 @@ from disc_model.simulation.case import CaseSpec
 def main(case: str, output: str) -> None:
     path = Path(output)
     path.parent.mkdir(parents=True, exist_ok=True)
-    save(run_case(CaseSpec.from_canonical(case), choose_when_run), path)
+    save(run_case(CaseSpec.model_validate_json(case), choose_when_run), path)

@@ -1,9 +1,6 @@
-"""Files of results: groups of a case, CF attributes, encoding, and atomic writing.
-
-A case is a tree of groups, and so is its file. The root holds the scalars, and ``events`` has an entry for each event
-along `event`. Every recorded window is a group under its name, along `time`, and so is ``poincare``. No time stamps or
-run times are stored, so that equal runs give equal bytes.
-"""
+"""Files of results. A case is a tree of groups: its root holds the scalars, ``events`` has an entry for each along
+`event`, and each window, ``poincare`` too, is along `time`. No time stamps or run times are stored, so that equal runs
+give equal bytes."""
 
 from __future__ import annotations
 

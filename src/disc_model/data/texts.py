@@ -1,8 +1,4 @@
-"""Sentences and pages: jinja2 templates that are stored as data, and completed with numbers.
-
-In a template ``{{ width|as('.1f mm') }}`` is a number in a format, and in a unit if that names one; of a list it is
-each of the numbers, or "none".
-"""
+"""Sentences and pages: jinja2 templates that are stored as data, and completed with numbers."""
 
 import math
 from functools import cache
@@ -21,7 +17,7 @@ Section = tuple[str, str, pd.DataFrame]  # part of a page: its heading, or "", a
 
 
 def number_text(value: Any, form: str) -> Any:
-    """A number in a format such as ``.1f`` or ``.1f mm``."""
+    """A number, or each of a list, in a format such as ``.1f`` or ``.1f mm``: ``{{ width|as('.1f mm') }}``."""
     if isinstance(value, list | np.ndarray):
         return [number_text(each, form) for each in value]
     digits, _, unit = form.partition(" ")
@@ -60,10 +56,7 @@ def fill(template: str, **values: Any) -> str:
 
 
 def write_page(path: str | Path, title: str, *sections: Section, template: str = "data/texts") -> None:
-    """Write a page as Markdown or as self-contained HTML, by the ending of the file.
-
-    template : of the package, without its ending
-    """
+    """Write a page as Markdown or as self-contained HTML, by the ending of the file; template: without this ending."""
     path = Path(path)
     page = _TEMPLATES.get_template(f"{template}{path.suffix}").render(title=title, sections=sections)
     path.write_text(page.rstrip() + "\n", encoding="utf-8")

@@ -191,8 +191,7 @@ def angles_text(angles: Iterable[float]) -> str:
 
 
 def values_text(values: Mapping[str, Any], units: Mapping[str, tuple[str, float]] = MappingProxyType({})) -> str:
-    """Text with N, Omega and all parameter values that differ from Table 1, in the units of `SHOWN` or in other
-    `units`, given with the factor from SI."""
+    """N, Omega and all values that differ from Table 1, in units of `SHOWN` or in `units`, with factors from SI."""
     texts = []
     for name, field in Parameters.model_fields.items():
         if name in values and name not in ("normalization", "contact"):

@@ -71,6 +71,9 @@ def disc_of_section(
     damping_ratio: float = 0.0,
 ) -> Disc:
     """The modes of a solid of revolution that move under the slider, see `disc_model.Disc.from_section`."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
     skfem = _skfem()
     iron = Parameters(N=0, Omega=0, normalization="orthonormal", E=E, nu=nu, rho=rho, damping_ratio=damping_ratio)
     is_point = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
@@ -88,11 +91,13 @@ def disc_of_section(
     radii, first = np.unique(basis.doflocs[0, vertical[level]], return_index=True)
     nearest = int(np.argmin(np.hypot(*(basis.doflocs[:, circular] - np.array(slider)[:, None]))))
     measured = np.array([vertical[int(np.argmin(apart))], circular[nearest], *vertical[level[first]]])
+    links = coo_matrix((np.ones(mesh.facets.shape[1]), mesh.facets), shape=(mesh.p.shape[1],) * 2)
+    pieces = len(np.unique(connected_components(links, directed=False)[1][mesh.t]))  # that have no node in common
     held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()
     require(
         (apart.min() < SAME_PLACE, "slider", slider, "must be a node of the mesh"),
         (len(held) > 0, "clamped", len(held), "must hold nodes of the section: coordinates are in m"),
-        ((pieces := _pieces(mesh)) == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
+        (pieces == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
     )
     warn_of_doubts(iron, partial(warnings.warn, category=ImplausibleValue, stacklevel=3))
     rows: list[tuple[float, int, int, float, float, list[float]]] = []
@@ -110,16 +115,6 @@ def disc_of_section(
         omega=omegas, diameters=diameters, circles=circles, amplitude=amplitudes, tangential=tangential,
         shapes=shapes, radii=radii.tolist(), damping_ratio=[float(damping_ratio)] * len(transverse),
     )  # fmt: skip
-
-
-def _pieces(mesh: MeshQuad) -> int:
-    """Number of parts of a mesh that have no node in common."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    count = mesh.p.shape[1]
-    links = coo_matrix((np.ones(mesh.facets.shape[1]), mesh.facets), shape=(count, count))
-    return len(np.unique(connected_components(links, directed=False)[1][mesh.t]))
 
 
 def _harmonic(

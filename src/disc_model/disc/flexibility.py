@@ -178,9 +178,8 @@ def _particular(l: int, s: float) -> Array:
     [(r^2 + s^2) ln(r/s) - r^2 + s^2]/4, for l = 1 r^3/(16 s) - s r ln(r/s)/4 - s^3/(16 r)."""
     log = -np.log(s)
     if l == 0:
-        return (
-            np.array([(1 + s**2) * log - 1 + s**2, 2 * log + (1 + s**2) - 2, 2 * log + 3 - s**2 - 2, 2 + 2 * s**2]) / 4
-        )
+        first = [(1 + s**2) * log - 1 + s**2, 2 * log + (1 + s**2) - 2, 2 * log + 3 - s**2 - 2, 2 + 2 * s**2]
+        return np.array(first) / 4
     first = [1 / (16 * s) - s * log / 4 - s**3 / 16, 3 / (16 * s) - s * (log + 1) / 4 + s**3 / 16]
     return np.array([*first, 6 / (16 * s) - s / 4 - 2 * s**3 / 16, 6 / (16 * s) + s / 4 + 6 * s**3 / 16])
 

@@ -399,8 +399,7 @@ def _determinant(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> A
 
 def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple[Array, Array]:
     """Matrix of the edge conditions, (4 conditions, 4 functions, n), and logarithms (4, n) taken out of its columns.
-    The rows are R and R' at the inner edge, radial moment and Kirchhoff shear at the outer one, in the variable lambda
-    x."""
+    Its rows are R and R' at the inner edge, radial moment and Kirchhoff shear at the outer one, over lambda x."""
     value, slope, logs = _with_slope(l, np.stack([lam * inner, lam]))
     # J and I grow outwards, Y and K inwards: scaled by the larger edge, no entry is much above one.
     exponents = np.max(logs, axis=1)

@@ -147,10 +147,9 @@ def _unstated(p: Parameters) -> str:
 _MATERIAL = ("a", "b", "h", "E", "nu", "rho")
 _PLATE = ("a", "b", "r_0", "h", "E", "nu", "n_diameters", "n_circles")
 RULES = {
-    **{
-        name: Rule((name,), partial(_far, name, Parameters.model_fields[name].default))
-        for name in ("D_star", "k", "k_p", "E", "m", "mu_s", "mu_k", "a", "b", "r_0", "h", "nu", "rho")
-    },
+    name: Rule((name,), partial(_far, name, Parameters.model_fields[name].default))
+    for name in ("D_star", "k", "k_p", "E", "m", "mu_s", "mu_k", "a", "b", "r_0", "h", "nu", "rho")
+} | {
     "thickness": Rule(("h", "a", "b"), _thick),
     "modes and damping": Rule((*_MATERIAL, "normalization", "D_star", "damping_ratio"), _unstated),
     "speed of sound": Rule(("E", "rho"), _sound),

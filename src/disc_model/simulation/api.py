@@ -203,7 +203,10 @@ class _Run:
         model, order, state = case.model, states.series_order(self.tol), self.initial_state
         self.state, self.probe, self.series = states.take_workspace(case, order)
         at_switch = state is not None and states.write_state(case, state, self.state, self.key)
-        start, every_step, most = self.time, self.execution.audit_every_step, self.execution.max_steps
+        most: float | None = self.execution.max_steps
+        start, every_step = self.time, self.execution.audit_every_step
+        if most is None:  # twenty for each radian of the highest mode, far more than any of the published cases takes
+            most = 10_000 + 20 * (self.t_end - start) / model.unit
         longest = event_loop.LONGEST_STICK * model.unit
         self.collector = Collector(self.p, self.windows, self.events, start, self.t_end, longest)
         self.wall_time = 0.0
@@ -212,7 +215,7 @@ class _Run:
             states.series_tolerance(self.tol, self.compliant),
             self.t_end,
             self.stop_at is None,
-            min(_step_limit(model, self.t_end - start) if most is None else int(most), MOST_STEPS),
+            int(min(most, MOST_STEPS)),
             # pauses serve progress and Ctrl-C; there are fewer steps between them where a step costs more
             max(1, STEPS_PER_PAUSE // (model.blocks * (6 if every_step else 1))),
             1 if every_step else 256,  # a compliant contact takes about four times as many steps per second
@@ -230,7 +233,7 @@ class _Run:
         self.index, self.model, piece = index, self.case.model, self.pieces[index]
         if self.ramps:
             self.limits = self.limits._replace(t_end=min(self.t_end, piece.end))
-        if not piece.constant:
+        if index > 0:  # the first piece has the Omega and N of the case
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
             self.model = layout.on_ramp(self.model, piece.begin, piece.angle, **rates)
         kind = tuple(flag for flag in self.model if type(flag) is tuple)  # they determine the types of all arguments
@@ -318,11 +321,6 @@ class _Run:
 
 
 _ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}  # compiled, by blocks of lanes, laws of contact and ramp
-
-
-def _step_limit(model: layout.Model, duration: float) -> int:
-    """Twenty steps for each radian of the highest mode, far more than any of the published cases takes."""
-    return int(min(10_000 + 20 * duration / model.unit, MOST_STEPS))
 
 
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:

@@ -59,12 +59,8 @@ class Span(Interval):
 
     def resolved(self, start: float, t_end: float) -> Self:
         """The same span with absolute times, for a run from ``start`` to ``t_end``.
-
-        Raises
-        ------
-        ParameterError
-            If the span has no stop time and begins at the end of the run or later.
-        """
+        Raises `ParameterError` if
+               it has no stop time and begins at the end of the run or later."""
         first, stop = self.ends(start, t_end)
         if (first, stop) == (self.start, self.stop):
             return self
@@ -209,20 +205,15 @@ class Ramp(Interval):
 
 
 class Piece(NamedTuple):
-    """An interval of time (s) over which Omega (rad/s) and N (N) change at constant rates; values are at ``begin``.
-
-    angle : rad, of the drive point
-    constant : whether Omega and N are those of the case, before any ramp
-    """
+    """An interval of time (s) over which Omega (rad/s) and N (N) change at constant rates; values are at ``begin``."""
 
     begin: float
     end: float
-    angle: float
+    angle: float  # rad, of the drive point
     Omega: float
     Omega_rate: float
     N: float
     N_rate: float
-    constant: bool
 
 
 def ramp_faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
@@ -244,17 +235,17 @@ def ramp_faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]
 
 
 def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
-    """The intervals of constant rates, in order, the last one unbounded; ramps to the present value do not count."""
-    steady = Piece(-math.inf, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0, constant=True)
-    if not ramps:
+    """The intervals of constant rates, in order, the first before any ramp; ramps to the present value do not count."""
+    steady = Piece(-math.inf, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0)
+    if not ramps:  # as in most cases, which are short
         return (steady,)
     lines = {name: _line(p, ramps, name) for name in RAMPED}
-    knots = sorted({time for line in lines.values() for time, _, _ in line[1:]})
-    parts = [steady._replace(end=knots[0] if knots else math.inf)]
-    angle = p.Omega * parts[0].end if knots else 0.0
-    for begin, end in pairwise([*knots, math.inf]):
+    knots = [*sorted({time for line in lines.values() for time, _, _ in line[1:]}), math.inf]
+    parts = [steady._replace(end=knots[0])]
+    angle = p.Omega * knots[0]
+    for begin, end in pairwise(knots):
         (Omega, Omega_rate), (N, N_rate) = (_at(lines[name], begin) for name in RAMPED)
-        parts.append(Piece(begin, end, angle, Omega, Omega_rate, N, N_rate, constant=False))
+        parts.append(Piece(begin, end, angle, Omega, Omega_rate, N, N_rate))
         angle += (Omega + 0.5 * Omega_rate * (end - begin)) * (end - begin) if end < math.inf else 0.0
     return tuple(parts)
 
@@ -330,7 +321,7 @@ class Start(Strict):
 _LATER = ("start", "truncation", "modes", "ramps")  # fields whose defaults older content addresses do not have
 
 
-class CaseSpec(Strict):
+class CaseSpec(Checked):
     """A case ready to be run: everything that a simulation depends on, and nothing else."""
 
     parameters: Parameters
@@ -353,7 +344,7 @@ class CaseSpec(Strict):
 
     @property
     def canonical(self) -> str:
-        """JSON text that is equal for equal cases, however they were written; `from_canonical` reads it."""
+        """JSON text that is equal for equal cases, however they were written; `model_validate_json` reads it."""
         fields = type(self).model_fields
         defaults = {name for name in _LATER if getattr(self, name) == fields[name].default}
         return canonical_json(self.model_dump(exclude=defaults) | {"parameters": self.parameters.canonical})
@@ -367,8 +358,3 @@ class CaseSpec(Strict):
     def key(self) -> str:
         """First 12 hexadecimal digits of the sha256 of `canonical`."""
         return content_key(self.canonical)
-
-    @classmethod
-    def from_canonical(cls, text: str) -> CaseSpec:
-        """The case described by a text of `canonical`."""
-        return cls.model_validate(json.loads(text))
