@@ -101,15 +101,22 @@ def inplane_damping(without: CaseView, case: CaseView) -> Answer:
 
 
 def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
-    grid, raised, growing, lowered = _grid(case.parameters), list[str](), list[int](), 0
+    grid, raised, growing, lowered, sliding = _grid(case.parameters), list[str](), list[int](), 0, list[float]()
     values = (0.0, value, 2 * value)
     none, some, twice = (np.array([measures.growth_of(p.replace(**{name: x})) for p in grid]) for x in values)
-    for before, after in ((none, some), (some, twice)):
+    for before, after, damping in ((none, some, value), (some, twice, 2 * value)):
         grows = (before > 0) & np.isfinite(after)
         growing, lowered = [*growing, int(grows.sum())], lowered + int((grows & (after < before)).sum())
         raised += [measures.place(grid[i].N, grid[i].Omega) for i in np.flatnonzero((before < 0) & (after > before))]
-    most = values_text({name: 2 * value})
-    return Answer(sum(growing) == lowered > 0, most=most, lowered=lowered, growing=growing, raised=raised)
+        ended = np.flatnonzero((before > 0) & np.isnan(after))
+        sliding += [measures.sliding_growth(grid[i].replace(**{name: damping})) for i in ended]
+    told = {
+        "lowered": lowered,
+        "growing": growing,
+        "raised": raised,
+        "lost": (len(sliding), sum(x < 0 for x in sliding)),
+    }
+    return Answer(sum(growing) == lowered > 0, most=values_text({name: 2 * value}), **told)
 
 
 def _grid(p: Parameters) -> list[Parameters]:
