@@ -110,13 +110,9 @@ def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
         raised += [measures.place(grid[i].N, grid[i].Omega) for i in np.flatnonzero((before < 0) & (after > before))]
         ended = np.flatnonzero((before > 0) & np.isnan(after))
         sliding += [measures.sliding_growth(grid[i].replace(**{name: damping})) for i in ended]
-    told = {
-        "lowered": lowered,
-        "growing": growing,
-        "raised": raised,
-        "lost": (len(sliding), sum(x < 0 for x in sliding)),
-    }
-    return Answer(sum(growing) == lowered > 0, most=values_text({name: 2 * value}), **told)
+    lost, most = (len(sliding), sum(rate < 0 for rate in sliding)), values_text({name: 2 * value})
+    verdict = sum(growing) == lowered > 0
+    return Answer(verdict, most=most, lowered=lowered, growing=growing, raised=raised, lost=lost)
 
 
 def _grid(p: Parameters) -> list[Parameters]:
