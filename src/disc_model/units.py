@@ -105,10 +105,9 @@ def is_number(value: object) -> bool:
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         return False
     try:
-        float(value)
+        return not math.isinf(float(value)) or value in (math.inf, -math.inf)
     except OverflowError:
         return False
-    return True
 
 
 def is_whole(value: object) -> TypeGuard[int]:

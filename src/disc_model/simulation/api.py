@@ -142,7 +142,7 @@ def simulate(  # noqa: PLR0913
     if isinstance(end, str):
         with suppress(ValueError):
             end = number(in_si(end, "s", [], ()))
-    if duration is not None and is_number(end):
+    if duration is not None and initial_state is not None and is_number(end):
         end = time + end
     begin = time if states.is_finite(time) else 0.0
     later, rule = is_number(end) and begin < end < math.inf, ""

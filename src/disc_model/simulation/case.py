@@ -59,8 +59,12 @@ class Span(Interval):
 
     def resolved(self, start: float, t_end: float) -> Self:
         """The same span with absolute times, for a run from ``start`` to ``t_end``.
-        Raises `ParameterError` if
-               it has no stop time and begins at the end of the run or later."""
+
+        Raises
+        ------
+        ParameterError
+            if it has no stop time and begins at the end of the run or later
+        """
         first, stop = self.ends(start, t_end)
         if (first, stop) == (self.start, self.stop):
             return self
