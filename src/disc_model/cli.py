@@ -31,7 +31,7 @@ from disc_model.disc.flexibility import residual_flexibility
 from disc_model.disc.plate import coupled_natural_frequencies, mode_arrays
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.disc.tables import damping_ratios, disc_table, read_disc
-from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, raise_faults, suggestion
+from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, raise_faults, require, suggestion
 from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, chosen_modes, read_asked
 from disc_model.parameters import AUTO, CHOOSING, Parameters
 from disc_model.simulation.case import Ramp, Window
@@ -388,9 +388,10 @@ def study(
 
 
 def list_(
-    what: Annotated[Literal["studies", "figures", "cases"], typer.Argument(help="what to list")], files: Files
+    what: Annotated[str, typer.Argument(metavar="studies|figures|cases", help="what to list")], files: Files
 ) -> None:
     """List the grid studies, figures or cases of a study."""
+    require((what in ("studies", "figures", "cases"), "what", what, "must be one of studies, figures, cases"))
     from disc_model.data.variables import values_text
 
     chosen, grids, requested = _read(files)

@@ -8,7 +8,7 @@ import json
 import math
 import numbers
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Self, TypeGuard, get_args
 
@@ -166,6 +166,17 @@ def _marks(model: type[BaseModel]) -> dict[str, Unit]:
     return marks
 
 
+def _faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
+    """Faults of names that are not text, at any depth."""
+    items = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list | tuple) else ()
+    for name, value in items:
+        if isinstance(data, dict) and not isinstance(name, str):
+            comma = DECIMAL_COMMA * (value is None and is_number(name))  # {N: 200,5} is read as {N: 200, 5: null}
+            yield Fault.of((*path, repr(name)), value, f"a name must be text{comma}")
+        if isinstance(value, dict | list | tuple):
+            yield from _faults_of_names(value, (*path, str(name)))
+
+
 class Strict(BaseModel):
     """Base of all models of input: immutable, no unknown keys, numbers converted to SI. Its `ParameterError` lists all
     faults, those of parts too; rules between values are checked where each by itself is right."""
@@ -189,11 +200,7 @@ class Strict(BaseModel):
     def _in_si(cls, data: Any, handler: Any) -> Any:
         """Refuse names that are not text, on which pydantic would fail, and convert numbers with units."""
         if isinstance(data, dict):
-            faults = []
-            for name in (name for name in data if not isinstance(name, str)):
-                # {N: 200,5} is read as {N: 200, 5: null}
-                comma = DECIMAL_COMMA * (data[name] is None and is_number(name))
-                faults.append(Fault.of((repr(name),), data[name], f"a name must be text{comma}"))
+            faults = [*_faults_of_names(data)]
             data = in_si(data, cls._units(data), faults, ())
             raise_faults(faults)
         return handler(data)
@@ -208,6 +215,7 @@ class Strict(BaseModel):
     @classmethod
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
         """The model from a mapping."""
+        raise_faults([*_faults_of_names(obj)])
         try:
             return super().model_validate(dict(obj) if isinstance(obj, Mapping) else obj, **kwargs)
         except ValidationError as error:
