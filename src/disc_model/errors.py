@@ -136,7 +136,7 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
             more = suggestion(path[-1], [*model.model_fields], all_of_them=not (word or rule))
             yield Fault(path, "" if rule else as_text(value), (rule or f"unknown {word or 'key'}") + more)
         else:
-            kind = "finite_number" if value != value and kind in _RULES else kind  # nan, before a bound
+            kind = "finite_number" if str(value).lower() == "nan" and kind in _RULES else kind  # before a bound
             rule = _RULES[kind].format(**context) if kind in _RULES else item["msg"].replace("Input should", "must")
             # the path of a mapping says enough, and ends with a name that is at fault
             hidden = item["loc"][-1:] == ("[key]",) or isinstance(value, Mapping | BaseModel)

@@ -342,7 +342,9 @@ def draw_modes(p: Parameters, most: int, slider: bool, ax: Any = None) -> np.nda
     return np.array(axes)
 
 
-def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool = False, ax: Any = None) -> Axes:
+def plot_sweep(
+    study: xr.Dataset | xr.DataTree, variable: str = "", x: str = "", *, log: bool = False, ax: Any = None
+) -> Axes:
     """Draw a variable of a sweep or of a grid study: a line along one dimension, or colours over two.
 
     A second dimension of words, such as the direction of a sweep, gives a line for each. What starts come to is drawn
@@ -374,8 +376,9 @@ def plot_sweep(study: xr.Dataset, variable: str = "", x: str = "", *, log: bool 
     >>> dm.plot_sweep(growth).get_xlabel()
     'Speed Ω (rad/s)'
     """
+    if not isinstance(study, xr.Dataset):
+        raise ParameterError(Fault.of(("study",), study, "must be an xarray.Dataset"))
     require(
-        (isinstance(study, xr.Dataset), "study", study, "must be an xarray.Dataset"),
         (isinstance(variable, str | None), "variable", variable, "must be a name"),
         (isinstance(x, str | None), "x", x, "must be a name"),
         (isinstance(log, bool), "log", log, "must be True or False"),
