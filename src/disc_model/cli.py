@@ -387,11 +387,17 @@ def study(
     raise typer.Exit(_plan(command) if dry_run else _run(command))
 
 
+LISTED = ("studies", "figures", "cases")
+
+
 def list_(
-    what: Annotated[str, typer.Argument(metavar="studies|figures|cases", help="what to list")], files: Files
+    what: Annotated[
+        str, typer.Argument(metavar="|".join(LISTED), help="what to list", autocompletion=lambda: list(LISTED))
+    ],
+    files: Files,
 ) -> None:
     """List the grid studies, figures or cases of a study."""
-    require((what in ("studies", "figures", "cases"), "what", what, "must be one of studies, figures, cases"))
+    require((what in LISTED, "what", what, f"must be one of {', '.join(LISTED)}"))
     from disc_model.data.variables import values_text
 
     chosen, grids, requested = _read(files)
