@@ -220,7 +220,6 @@ class Strict(BaseModel):
     @classmethod
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
         """The model from a mapping."""
-        raise_faults([*_faults_of_names(obj)])
         try:
             return super().model_validate(dict(obj) if isinstance(obj, Mapping) else obj, **kwargs)
         except ValidationError as error:
