@@ -79,8 +79,7 @@ def test_a_failed_case_is_a_status_in_the_table(tree: xr.DataTree, tmp_path: Pat
     disc = Disc(diameters=[0], omega=[9000], amplitude=[2], static_compliance=1e-9)
     failed = run_case(CaseSpec(parameters=P.replace(disc=disc, contact_compliance="residual"), t_end=1.0))
     assert STATUSES[int(failed["status"])] == failed.attrs["status"] == "failed"
-    assert np.isnan(failed["first_separation"])
-    assert np.isnan(failed["contact_compliance"])
+    assert all(np.isnan(failed[name]) for name in ("first_separation", "contact_compliance"))
     save(merge_cases({"A": tree, "B": failed}, {}), tmp_path / "cases.nc")
     table = load(tmp_path / "cases.nc")
     assert list(flag_names(table["status"])) == ["ok", "failed"]
@@ -89,18 +88,20 @@ def test_a_failed_case_is_a_status_in_the_table(tree: xr.DataTree, tmp_path: Pat
     assert [Disc.model_validate_json(text) if text else None for text in table["disc"].values] == [None, disc]
 
 
-TREE = xr.DataTree.from_dict(
-    {
-        "/": xr.Dataset({"first_separation": ((), 54.4), "n_events": ((), 12)}, attrs={"status": "ok"}),
-        "/history": xr.Dataset({"P": ("time", np.sin(np.arange(3000.0)))}),
-    }
-)
+HISTORY = np.sin(np.arange(3000.0))
+TREE = xr.DataTree.from_dict({"/history": xr.Dataset(dict.fromkeys(("P", "history"), ("time", HISTORY)))})
 
 
 @pytest.fixture
 def path(tmp_path: Path) -> Path:
     save(TREE, tmp_path / "case.nc")
     return tmp_path / "case.nc"
+
+
+def test_a_variable_with_the_name_of_its_group_is_loaded(path: Path) -> None:
+    loaded = load(path)
+    path.unlink()
+    assert np.array_equal(loaded["history"]["history"], HISTORY)
 
 
 def test_a_file_that_cannot_be_written_stays_as_it_was(path: Path) -> None:
@@ -125,5 +126,4 @@ def test_all_inputs_that_cannot_be_read_are_named_with_a_command(path: Path) -> 
     with pytest.raises(UnreadableFile) as stop:
         load_inputs([path, intact, other])
     lines = str(stop.value).splitlines()
-    assert [line.split(":")[0] for line in lines[:2]] == [str(path), str(other)]
-    assert lines[-1] == f"rm {path} '{other}'"
+    assert [*(line.split(":")[0] for line in lines[:2]), lines[-1]] == [str(path), str(other), f"rm {path} '{other}'"]

@@ -134,7 +134,7 @@ def load(path: str | Path) -> xr.DataTree:
     file = regular_file(path)
     try:
         with xr.open_datatree(file, engine="netcdf4", decode_timedelta=False) as tree:
-            return tree.load()
+            return tree.map_over_datasets(xr.Dataset.load)  # DataTree.load skips a variable with its group's name
     except FileNotFoundError:
         raise MissingFile(f"{path}: there is no such file") from None
     except (OSError, RuntimeError, ValueError) as error:
