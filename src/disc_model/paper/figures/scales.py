@@ -4,20 +4,22 @@ from collections.abc import Mapping
 from typing import Any, ClassVar, Literal
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import plate_modes
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, Axes, Figure, panels
+from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, Axes, Figure, mpl, panels
 from disc_model.figures.kind import Plot, Role, Roles
+from disc_model.parameters import Parameters
 
 SCALES = ("as_published", "orthonormal")
-LABELS = ("as published", "by Eq. (17)")
 LOOKS: tuple[dict[str, Any], ...] = (
-    {"marker": "o", "color": SEPARATED, "linestyle": "none"},
-    {"marker": "o", "markerfacecolor": "white", "color": drawing.BLUE, "linestyle": "none"},
+    {"label": "as published", "marker": "o", "color": SEPARATED, "linestyle": "none"},
+    {"label": "by Eq. (17)", "marker": "o", "markerfacecolor": "white", "color": drawing.BLUE, "linestyle": "none"},
 )
+Points = Mapping[str, tuple[str, Mapping[str, float]]]  # by figure: a map, and values of its axes
 CELLS = ("white", "#f2b69c", "#d5e5f3", "#8a8a8a")
 """Neither separates; only as published; only by Eq. (17), hatched; both. They differ in grey print."""
 
@@ -37,20 +39,21 @@ class Scales(Plot):
     kind: Literal["paper.scales"] = "paper.scales"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+        from disc_model.paper import section2
+
         figure, axes = panels(PAGE, 2.9, 1, 3, width_ratios=(0.8, 1.25, 1.2))
-        _amplitudes(axes[0])
-        _regions(axes[1], study)
-        _times(axes[2], {"map_N": study, **overlays})
+        maps = {"map_N": study, **overlays}
+        _amplitudes(axes[0], section2.BASE)
+        _regions(axes[1], study, section2.SEPARATING)
+        _times(axes[2], maps, section2.SEPARATING, section2.first_separations(maps))
         drawing.letters(axes)
         return figure
 
 
-def _amplitudes(ax: Axes) -> None:
-    from disc_model.paper.section2 import BASE
-
-    squares = [plate_modes(BASE.replace(normalization=scale))["psi"].to_numpy() ** 2 for scale in SCALES]
-    for values, label, look in zip(squares, LABELS, LOOKS, strict=True):
-        ax.plot(range(len(values)), values, label=label, markersize=5, **look)
+def _amplitudes(ax: Axes, p: Parameters) -> None:
+    squares = [plate_modes(p.replace(normalization=scale))["psi"].to_numpy() ** 2 for scale in SCALES]
+    for values, look in zip(squares, LOOKS, strict=True):
+        ax.plot(range(len(values)), values, markersize=5, **look)
     ratio = squares[0][1] / squares[1][1]
     arrow = {"arrowstyle": "-|>", "color": GREY, "linewidth": 1.0, "shrinkA": 4, "shrinkB": 4}
     ax.annotate("", (1, squares[0][1]), (1, squares[1][1]), arrowprops=arrow)
@@ -61,18 +64,14 @@ def _amplitudes(ax: Axes) -> None:
     ax.legend(loc="upper right", bbox_to_anchor=(1.04, 0.88))
 
 
-def _regions(ax: Axes, study: xr.Dataset) -> None:
-    from matplotlib.colors import ListedColormap
-
-    from disc_model.paper.section2 import SEPARATING
-
+def _regions(ax: Axes, study: xr.Dataset, separating: Points) -> None:
     outcome = study["outcome"].sel(normalization=[*SCALES]).transpose("normalization", "N", "Omega")
     apart = flag_names(outcome) == "separation"
     cells = apart[0] + 2 * apart[1].astype(int)
     across, up = (drawing.edges(study[name].values) for name in ("Omega", "N"))
-    ax.pcolormesh(across, up, cells, cmap=ListedColormap(CELLS), vmin=-0.5, vmax=3.5, rasterized=True)
+    ax.pcolormesh(across, up, cells, cmap=mpl.colors.ListedColormap(CELLS), vmin=-0.5, vmax=3.5, rasterized=True)
     ax.pcolor(across, up, np.ma.masked_where(cells != 2, cells), facecolor="none", hatch=8 * "/", linewidth=0)
-    for name, (of, point) in SEPARATING.items():
+    for name, (of, point) in separating.items():
         if of == "map_N":
             cell = tuple(np.searchsorted(study[axis], point[axis] - 1e-6) for axis in ("N", "Omega"))
             fill = SEPARATED if cells[cell] == 3 else "white"
@@ -87,16 +86,14 @@ def _regions(ax: Axes, study: xr.Dataset) -> None:
     ax.set(xlabel=drawing.label_of(study["Omega"])[0], ylabel=drawing.label_of(study["N"])[0])
 
 
-def _times(ax: Axes, maps: Mapping[str, xr.Dataset]) -> None:
-    from disc_model.paper.section2 import SEPARATING, first_separations
-
+def _times(ax: Axes, maps: Mapping[str, xr.Dataset], separating: Points, firsts: pd.DataFrame) -> None:
     horizons = {name: float(stated_in(study, "options")["horizon"]) for name, study in maps.items()}
-    times = first_separations(maps).sort_values("as_published", ascending=False)
+    times = firsts.sort_values("as_published", ascending=False)
     for height, (name, row) in enumerate(times.iterrows()):
         was, now = (float(row[scale]) for scale in SCALES)
         none = np.isnan(now)
         arrow = {"arrowstyle": "-|>" if none else "-", "color": GREY, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
-        end = max(horizons[SEPARATING[str(name)][0]], 1.3 * was) if none else now
+        end = max(horizons[separating[str(name)][0]], 1.3 * was) if none else now
         ax.annotate("", (end, height), (was, height), arrowprops=arrow)
         for time, look in zip((was, now), LOOKS, strict=True):
             ax.plot([time], [height], markersize=5, **look)

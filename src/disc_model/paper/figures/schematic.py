@@ -11,7 +11,7 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, DISC, FORCE, PAGE, SEPARATED, SLIDER, STICK, Axes, Figure, panels
+from disc_model.figures.drawing import BLACK, DISC, FORCE, PAGE, SEPARATED, SLIDER, STICK, Axes, Figure, mpl, panels
 from disc_model.figures.kind import CasePlot, Need, as_ranges, as_samples
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Positive, Unit
@@ -123,9 +123,7 @@ def _small(ax: Axes) -> None:
 
 def sketch(p: Parameters) -> Figure:
     """Draw the model with the radii of a case."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(PAGE, 0.97 * PAGE))
+    figure: Figure = mpl.figure.Figure(figsize=(PAGE, 0.97 * PAGE))
     boxes = ((0.0, 0.5, 1, 0.45), (0.0, 0.0, 0.57, 0.45), (0.57, 0.0, 0.43, 0.45))
     axes = [figure.add_axes(box) for box in boxes]
     _side(axes[0])
@@ -183,24 +181,22 @@ def _side(ax: Axes) -> None:
 
 def _above(ax: Axes, p: Parameters) -> None:
     """Draw the view from above: radii, to scale, and angles."""
-    from matplotlib.patches import Annulus, Arc, Circle
-
     a, b, r_0 = (radius * OUTER / p.b for radius in (p.a, p.b, p.r_0))
-    ax.add_patch(Annulus((0, 0), b, b - a, fc=PLATE, ec=DISC, lw=1.5))
-    ax.add_patch(Circle((0, 0), a, fc=CLAMP, ec=DISC, lw=1.5))
-    ax.add_patch(Circle((0, 0), r_0, fc="none", ec=SOFT, lw=0.8, ls="--"))
+    ax.add_patch(mpl.patches.Annulus((0, 0), b, b - a, fc=PLATE, ec=DISC, lw=1.5))
+    ax.add_patch(mpl.patches.Circle((0, 0), a, fc=CLAMP, ec=DISC, lw=1.5))
+    ax.add_patch(mpl.patches.Circle((0, 0), r_0, fc="none", ec=SOFT, lw=0.8, ls="--"))
     phi, ahead, fixed = np.radians(38), np.radians(92), np.radians(-32)
     ax.plot([0, 1.55], [0, 0], color=BLACK, lw=0.8)
     for angle, colour in ((phi, SLIDER), (ahead, BLACK)):
         ax.plot(*np.transpose([(0, 0), _at(angle, 1.38)]), color=colour, lw=0.9)
-    ax.add_patch(Circle(tuple(_at(phi, r_0)), 0.075, fc=BODY, ec=BLACK, lw=1.3, zorder=5))
+    ax.add_patch(mpl.patches.Circle(tuple(_at(phi, r_0)), 0.075, fc=BODY, ec=BLACK, lw=1.3, zorder=5))
     _write(ax, _at(phi, r_0), "$m$", fontsize=SMALL, zorder=6)
     ax.plot(*_at(ahead, r_0), "o", color=BLACK, ms=5, zorder=5)
     _write(ax, _at(ahead, 1.45, (0.05, 0)), r"drive point, $\Omega t$", va="baseline")
     _write(ax, _at(phi, 1.42, (0.16, 0.02)), "slider", va="baseline", color=SLIDER)
     for low, high, text in ((0.0, phi, r"$\varphi$"), (phi, ahead, r"$\psi$")):
         theta = {"theta1": np.degrees(low), "theta2": np.degrees(high) - 6}
-        ax.add_patch(Arc((0, 0), 1.44, 1.44, **theta, color=SLIDER, lw=1.5))
+        ax.add_patch(mpl.patches.Arc((0, 0), 1.44, 1.44, **theta, color=SLIDER, lw=1.5))
         _arrow(ax, _at(high - 0.11, 0.72), _at(high, 0.72), colour=SLIDER)
         _write(ax, _at((low + high) / 2, 0.85), text, color=SLIDER, fontsize=13)
     ax.plot(*_at(fixed, r_0), "x", color=BLACK, ms=7)
@@ -257,9 +253,7 @@ def _write(ax: Axes, point: Point, text: str, **look: Any) -> None:
 
 
 def _slider(ax: Axes, corner: Point, width: float, height: float, lw: float = 1.3) -> None:
-    from matplotlib.patches import Rectangle
-
-    ax.add_patch(Rectangle(tuple(corner), width, height, fc=BODY, ec=BLACK, lw=lw))
+    ax.add_patch(mpl.patches.Rectangle(tuple(corner), width, height, fc=BODY, ec=BLACK, lw=lw))
 
 
 Strokes = Sequence[tuple[ArrayLike, ArrayLike]]  # lines: fractions of the way, and offsets to its left in widths

@@ -14,7 +14,7 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import plate_modes
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, PAGE, SKY, Figure, new_figure
+from disc_model.figures.drawing import BLACK, PAGE, SKY, Figure, mpl, new_figure
 from disc_model.figures.kind import HIGHEST, CasePlot, Need, Sampled, as_ranges, as_samples, as_spectrum
 from disc_model.figures.motion import draw_power, draw_scale, span_of, spectrum_of
 from disc_model.parameters import Parameters
@@ -48,8 +48,6 @@ class FourStretches(CasePlot):
             yield from (Need(key, case, name, [as_spectrum]) for name in windows)
 
     def draw(self, *cases: xr.DataTree) -> Figure:
-        from matplotlib.ticker import MaxNLocator
-
         figure = new_figure(PAGE, 6.2)
         top, below = np.asarray(figure.subfigures(2, 1, height_ratios=(1.1, 3)))
         whole = top.subplots()
@@ -73,7 +71,7 @@ class FourStretches(CasePlot):
                 drawing.letter(ax, text)
         for ax in axes[-1]:
             ax.set_xlabel("Time (s)")
-            ax.xaxis.set_major_locator(MaxNLocator(3))
+            ax.xaxis.set_major_locator(mpl.ticker.MaxNLocator(3))
         look: dict[str, Any] = {"xycoords": "axes fraction", "ha": "right", "va": "top", "color": "white"}
         for row, text in zip(axes[1:], ("with\nseparation", "separation\nignored"), strict=True):
             row[-1].annotate(text, (0.97, 0.97), fontsize=6, **look)
