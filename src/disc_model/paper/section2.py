@@ -136,10 +136,15 @@ def moving_load_speed(p: Parameters) -> float:
     return float(np.min(modes["omega"] / modes["diameters"]))
 
 
-def often(*cases: CaseView, factor: float, share: float) -> Answer:
-    rows = [(case.place, measures.width_ratio(case, other), case.stick, other.stick) for case, other in pairs(cases)]
-    differ = sum(ratio * factor <= 1 or max(sticks) >= factor * min(sticks) for _, ratio, *sticks in rows)
-    return Answer(differ >= share * len(rows), rows=rows, differ=differ)
+def different(*cases: CaseView, factor: float, share: float = 0.0, both: bool = False) -> Answer:
+    """Whether separation changes range of the disc or share of stick, or both, in a pair or in a share of the pairs."""
+    rows, differ = [], 0
+    for case, other in pairs(cases):
+        ratio, sticks = measures.width_ratio(case, other), (case.stick, other.stick)
+        changes = ratio * factor <= 1, max(sticks) >= factor * min(sticks)
+        differ += all(changes) if both else any(changes)
+        rows.append((case.place, ratio, *sticks, case.disc.width, other.disc.width))
+    return Answer(differ >= max(1, share * len(rows)), rows=rows, differ=differ)
 
 
 # ---- The abstract of the model's precursor, J. Sound Vib. 209 (1998): steady sliding where friction falls

@@ -105,20 +105,9 @@ def quasi_periodic(*cases: CaseView) -> Answer:
 
 def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
     """Decided by the first ``shown`` pairs; the results of the others are told."""
-    parts = [measures.width_ratio(*pair) for pair in pairs(cases)]
-    rows = [
-        f"At {case.place}, the range of the disc is {1e3 * case.disc.width:.1f} mm with separation and "
-        f"{1e3 * bonded.disc.width:.1f} mm without it; the ratio is {part:.2f}."
-        for (case, bonded), part in zip(pairs(cases), parts, strict=True)
-    ]
-    others = [f"{part:.2f} at {case.place}" for (case, _), part in zip(pairs(cases), parts, strict=True)][int(shown) :]
-    over = extent(1 / part for part in parts)
-    return Answer(
-        max(parts[: int(shown)]) < ratio,
-        " ".join(rows[: int(shown)]),
-        f"In the other pairs the ratio is {'; '.join(others)}." * bool(others),
-        f"In all {len(parts)} pairs, the range without separation is {over:.1f} times the range with separation.",
-    )
+    rows = [(case.place, measures.width_ratio(case, other), case.disc, other.disc) for case, other in pairs(cases)]
+    parts = [part for _, part, *_ in rows]
+    return Answer(max(parts[: int(shown)]) < ratio, rows=rows, over=extent(1 / part for part in parts))
 
 
 def excites_less(*cases: CaseView, share: float) -> Answer:
@@ -164,13 +153,9 @@ def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
 def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
     study = sound(published(study))
     verdicts, words = zip(*(lowest_speeds(study.sel(horizon=x), depth) for x in study["horizon"]), strict=True)
-    speeds = study["scan_Omega"].values
-    return Answer(
-        FALSE if FALSE in verdicts else verdicts[-1],
-        f"Runs from rest were tried for up to {float(study['horizon'][-1]):g} s, at speeds up to {speeds[-1]:g} rad/s "
-        f"in steps of {speeds[1] - speeds[0]:g} rad/s, and of {facts(study)['precision']:g} rad/s where the outcome "
-        f"changes. {words[-1]}",
-    )
+    longest, speeds = float(study["horizon"][-1]), study["scan_Omega"].values
+    verdict, step = FALSE if FALSE in verdicts else verdicts[-1], speeds[1] - speeds[0]
+    return Answer(verdict, longest=longest, fastest=speeds[-1], step=step, words=words[-1])
 
 
 def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[str, str]:
@@ -203,9 +188,8 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[str, str]:
     return PART if later else TRUE, f"{begin}, {lowest}."
 
 
-def maintained_below(
-    study: xr.Dataset, sweeps: xr.Dataset | None, basins: xr.Dataset | None, *, within: float
-) -> Answer:
+def maintained_below(study: xr.Dataset, *beside: xr.Dataset | None, within: float) -> Answer:
+    sweeps, basins = beside
     critical = sound(published(study))["critical_speed"].isel(horizon=-1)
     known, loads = np.isfinite(critical.values), critical["N"].values
     if not known.any():

@@ -50,10 +50,8 @@ def only_between(*cases: CaseView, largest: float) -> Answer:
     shown = sum(case["N"] <= largest for case in cases)
     stable = [stays_calm(x) if x["N"] <= largest or "history" in x.node else not x.separates for x in cases]
     holds, here = stable[:shown] == [True, False, True], " ".join(calm_text(case) for case in cases)
-    if holds and not all(stable[shown:]):
-        note = f"The statement holds up to {largest:g} N. No case in the paper's text has a larger preload."
-        return Answer(PART, here, note)
-    return Answer(holds, here)
+    part = holds and not all(stable[shown:])
+    return Answer(PART if part else holds, here, part=part)
 
 
 def hardly_moves(large: CaseView, huge: CaseView, *, held: float) -> Answer:
@@ -66,20 +64,13 @@ def hardly_moves(large: CaseView, huge: CaseView, *, held: float) -> Answer:
 
 
 def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: float) -> Answer:
-    times = {case["Omega"]: case["first_separation"] for case in cases}
-    horizon = known["first_separation"]
+    times = {case["Omega"]: case["first_separation"] for case in sorted(cases, key=lambda case: case["Omega"])}
+    horizon, end = known["first_separation"], cases[0]["time_reached"]
+    never = [speed for speed, time in times.items() if math.isnan(time)]
     lower = [speed for speed, time in times.items() if speed < printed - within and time <= horizon]
-    apart = times[printed] <= horizon
-    known_times = {speed: times[speed] for speed in sorted(times) if not math.isnan(times[speed])}
-    return Answer(
-        PART if apart and lower else apart,
-        N=known["N"],
-        rows=[f"{time:.0f} s at {speed:g} rad/s" for speed, time in known_times.items()],
-        never=sorted(times.keys() - known_times),
-        end=cases[0]["time_reached"],
-        horizon=horizon,
-        lower=[(speed, 1 - speed / printed) for speed in (min(lower), min(known_times))] if lower else [],
-    )
+    apart, rows = times[printed] <= horizon, [row for row in times.items() if row[0] not in never]
+    verdict, lowest = PART if apart and lower else apart, (lower[0], 1 - lower[0] / printed) if lower else ()
+    return Answer(verdict, N=known["N"], rows=rows, never=never, end=end, horizon=horizon, lower=lowest)
 
 
 def undamped_separates_lower(*cases: CaseView) -> Answer:
@@ -142,12 +133,8 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
     widths = case.last_widths("P", STRETCH, 2 * count)
     last, before = float(np.median(widths[:count])), float(np.median(widths[count:]))
     holds = not case.separates and last > factor * case.early.width and last < bounded * before
-    return Answer(
-        PART if holds and cause else holds,
-        f"{calm_text(case)} The second half of the run is cut into stretches of 20 s. The median of their ranges is "
-        f"{before:.1f} N in the third quarter of the run and {last:.1f} N in the last quarter; the largest range of "
-        f"all is {max(widths):.0f} N.",
-    )
+    verdict = PART if holds and cause else holds
+    return Answer(verdict, fate=calm_text(case), before=before, last=last, most=max(widths))
 
 
 def quasi_periodic_and_irregular(case: CaseView) -> Answer:

@@ -11,7 +11,7 @@ from disc_model.analysis import spectra
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
 from disc_model.paper import measures
-from disc_model.paper.measures import HIGH, LOW, Array, CaseView, pairs, rate_text, sliding_growth
+from disc_model.paper.measures import HIGH, LOW, Array, CaseView, rate_text, sliding_growth
 from disc_model.paper.model import AMBIGUOUS, FALSE, PART, TRUE, Answer, graded
 from disc_model.paper.paper_tables import COMBINED, SEARCHED, UNNAMED, stick_slip_rate, table_2, table_2_lines
 from disc_model.paper.section2 import BASE
@@ -24,9 +24,7 @@ EARLY, LATER, LATE = ("spectrum_a", 0.0, 10.0), ("spectrum_b", 38.0, 48.0), ("sp
 
 def when_it_separates(case: CaseView, *, printed: float, within: float) -> Answer:
     off = abs(case["first_separation"] - printed)
-    difference = f"The difference is {off:.2f} s or {100 * off / printed:.2f} %. " * case.separates
-    said = f"{case.contact.capitalize()}, where the paper has {printed:g} s. {difference}"
-    return Answer(off <= within, f"{said}The time is that of the run at {case.place}.")
+    return Answer(off <= within, contact=case.contact.capitalize(), off=off if case.separates else "")
 
 
 def rest_late(case: CaseView, *, within: float) -> Answer:
@@ -128,9 +126,8 @@ def explained_by_slider(*pair: CaseView, share: float) -> Answer:
 
 
 def later_periodic(case: CaseView, bonded: CaseView) -> Answer:
-    here = f"At {case.place}, from {case.kept_span:g} s, the slider's motion is {case.motion}."
-    note = f"In the run without separation the slider's motion is {bonded.motion}." * (bonded.late_motion.period > 0)
-    return Answer(case.late_motion.period > 0, here, note)
+    periodic, other = (each.late_motion.period > 0 for each in (case, bonded))
+    return Answer(periodic, motion=case.motion, span=case.kept_span, other=bonded.motion * other)
 
 
 def growth_stages(case: CaseView, *, factor: float, least: float) -> Answer:
@@ -183,15 +180,6 @@ def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
     smooth = [sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0)) for case in cases]
     apart = any(case.separates and rate < growth for case, rate in zip(cases, smooth, strict=True))
     return Answer(apart, rows=[case.fate for case in cases], most=max(smooth))
-
-
-def very_different(*cases: CaseView, factor: float) -> Answer:
-    rows, differ = [], []
-    for case, bonded in pairs(cases):
-        sticks = case.stick, bonded.stick
-        differ.append(measures.width_ratio(case, bonded) * factor <= 1 and max(sticks) >= factor * min(sticks))
-        rows.append((case.place, *sticks, case.disc.width, bonded.disc.width))
-    return Answer(any(differ), rows=rows)
 
 
 def not_monotonous(*evidence: Any) -> Answer:

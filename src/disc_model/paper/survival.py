@@ -13,7 +13,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.texts import Section
 from disc_model.data.variables import Outcome, flag_names, stated_in
 from disc_model.paper import measures
-from disc_model.paper.measures import STRETCH, STRETCHES, Array, CaseView, listed, pairs, rate_text, sound
+from disc_model.paper.measures import STRETCH, STRETCHES, Array, CaseView, pairs, rate_text, sound
 from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, Answer, judge, read_texts, rows_of
 from disc_model.paper.section2 import moving_load_speed
 from disc_model.paper.section41 import lowest_speeds
@@ -70,12 +70,9 @@ def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: floa
     one = sound(speed.sel(N=load).isel(horizon=0))
     highs = one["crossing"].values[flag_names(one["crossing_kind"]) == "begins"]
     width = float(stated_in(speed, "options")["precision"])
-    told = f"Folds end stable cycles at {listed(folds, '.3f')} rad/s; separation begins at {listed(highs, '.1f')} rad/s"
-    if not highs.size:
-        return Answer(NOT_COMPUTED, f"{told}.")
     off = [np.min(np.maximum(high - width - folds, folds - high), initial=math.inf) for high in highs]
-    if min(off) <= within:
-        return Answer(TRUE, f"{told}.")
+    if not off or min(off) <= within:
+        return Answer(TRUE if off else NOT_COMPUTED, folds=folds, highs=highs, growth=[], missed=0)
     # at the map's nearest speeds below and above each interval; nan without a cycle
     at_load = rates["growth_rate"].sel(N=load)
     try:
@@ -84,11 +81,9 @@ def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: floa
         raise Missing("study survival_growth does not reach as far as survival_speed") from None
     beside = list(zip(before.values.tolist(), after.values.tolist(), strict=True))
     growth = [f"{rate_text(low, '/s')} to {rate_text(high, '/s')}" for low, high in beside]
-    missed = int(curves["n_continuation_failures"])
-    here = f"{told}. Across this speed growth goes from {listed(growth)}."
-    if missed and not np.all(np.array(beside) > SLOW):  # one of them may be the fold
-        return Answer(NOT_COMPUTED, here, f"{missed} curves could not be followed.")
-    return Answer(FALSE, here)
+    # one of the curves that could not be followed may be the fold
+    missed = 0 if np.all(np.array(beside) > SLOW) else int(curves["n_continuation_failures"])
+    return Answer(NOT_COMPUTED if missed else FALSE, folds=folds, highs=highs, growth=growth, missed=missed)
 
 
 def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
@@ -104,10 +99,8 @@ def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
 
 def below_critical(*cases: CaseView, share: float) -> Answer:
     apart, critical = _separating(cases), moving_load_speed(cases[0].parameters)
-    parts = [(case["Omega"] / critical, case.place) for case in apart]
-    rows = "; ".join(f"{100 * part:.1f} % of it at {place}" for part, place in parts if part < share)
-    told = f"The critical speed of a moving load is {critical:.2f} rad/s. Cases separate at {rows}."
-    return Answer(bool(rows) or NOT_COMPUTED, told if rows else "No case separates.")
+    rows = [(case.place, part) for case in apart if (part := case["Omega"] / critical) < share]
+    return Answer(bool(rows) or NOT_COMPUTED, "" if rows else "No case separates.", rows=rows, critical=critical)
 
 
 def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
@@ -136,19 +129,16 @@ def smaller_vibration(*cases: CaseView, wider: float) -> Answer:
         below = fourth <= (1 + wider) * third and max(third, fourth) < min(other)
         above = min(third, fourth) >= max(other)
         smaller.append(False if above else True if below else None)
-        rows.append(f"{1e3 * max(third, fourth):.1f} against {1e3 * min(other):.1f} mm at {free.place}")
+        rows.append((free.place, max(third, fourth), min(other)))
         steep += [f"{free.place} after {bonded['time_reached']:.0f} s"] * ends
-    note = f"Bilateral contact ends in Painlevé's paradox at {'; '.join(steep)}." if steep else ""
-    told = f"The range of the disc with separation against that without is {'; '.join(rows)}."
-    return Answer(_all_cases(smaller), told, note)
+    return Answer(_all_cases(smaller), rows=rows, steep=steep)
 
 
 def stick_vanishes(*cases: CaseView, share: float) -> Answer:
     apart = _separating(cases)
     stays = [case.place for case in apart if not stick_disappears(case.stick_in_all, case.stick, share)]
-    rows = "; ".join(f"{100 * case.stick:.2g} % of the time at {case.place}" for case in apart)
-    vanishes, here = len(stays) < len(apart), f"After a separation the slider sticks for {rows}."
-    return Answer(vanishes, here, f"Stick does not disappear at {'; '.join(stays)}." if vanishes and stays else "")
+    rows = [(case.place, case.stick) for case in apart]
+    return Answer(len(stays) < len(apart), rows=rows, stays=stays)
 
 
 def normal_damping(study: xr.Dataset) -> Answer:
