@@ -11,7 +11,7 @@ import xarray as xr
 
 from disc_model import Parameters
 from disc_model.disc.plate import plate_modes
-from disc_model.paper import measures, normalisation, section2, section41, section44
+from disc_model.paper import ledger, measures, section2, section41, section44
 from disc_model.paper.ledger import ROWS
 from disc_model.paper.measures import CaseView, views
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, VERDICTS
@@ -151,7 +151,7 @@ def test_the_two_normalisations_side_by_side() -> None:
     there = dict(evidence.simulated(*names, normalization="orthonormal"))
     there |= {"F20": damaged(there["F20"], DAMAGES["failed"]), "X30": there["F02"]}  # and a case that the paper has not
     both = [xr.DataTree.from_dict({f"/{name}": node for name, node in nodes.items()}) for nodes in (here, there)]
-    parts = normalisation.compare(*(views({"cases": cases}) for cases in both))
+    parts = ledger.compare(*(views({"cases": cases}) for cases in both))
     brief, modes, table, instead, changed = (part for _, _, part in parts.values())
     assert [*parts] == ["brief", "modes", "cases", "instead", "verdicts"]
     ratios = modes["ratio"].astype(float)

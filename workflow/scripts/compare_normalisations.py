@@ -5,8 +5,8 @@ from pathlib import Path
 from disc_model.data.dataset import load_inputs
 from disc_model.data.texts import write_page
 from disc_model.errors import script
+from disc_model.paper.ledger import TEXTS, compare
 from disc_model.paper.measures import views
-from disc_model.paper.normalisation import TEXTS, compare
 
 
 @script

@@ -1,15 +1,21 @@
-"""The ledger: every statement of the paper with a verdict, as a table and as a page with a summary on top."""
+"""The ledger: every statement of the paper with a verdict, as a table and as a page with a summary on top; and the
+paper's cases and statements under the two normalisations of the modes: as published, and by Eq. (17)."""
 
+import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas as pd
 
-from disc_model.data.texts import fill
+from disc_model.data.dataset import Missing
+from disc_model.data.texts import Section, fill
+from disc_model.data.variables import values_text
+from disc_model.disc.plate import plate_modes
 from disc_model.paper import section2, section41, section43, section44
-from disc_model.paper.measures import CaseView
-from disc_model.paper.model import FALSE, TRUE, VERDICTS, Row, judge, read_texts, rows_of
+from disc_model.paper.measures import CaseView, or_none, rate_text
+from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, VERDICTS, Row, judge, read_texts, rows_of
+from disc_model.parameters import Parameters
 
 MODULES = (section2, section41, section43, section44)
 CHECKS = {name: check for module in MODULES for name, check in vars(module).items()}
@@ -56,3 +62,103 @@ def summary(table: pd.DataFrame) -> dict[str, Any]:
     links = {name: _link(name) for name in texts["pictures"]}
     counts = {"counts": parts.sum().to_dict(), "parts": parts, "errors": len(table) - len(counted)}
     return {**texts, **counts, "links": links}
+
+
+# ---- The two normalisations
+TEXTS: dict[str, str] = read_texts("paper/pages.yaml")["normalisation"]
+OLD, NEW = "As published", "With Eq. (17)"
+SHOWN = ("F02", "F07", "F09", "F13", "F17", "F18", "F22", "F23")  # cases of the paper's figures with a separation
+
+
+def compare(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]) -> dict[str, Section]:
+    """What changes with orthonormal modes; cases of the second set alone are "instead", if there are any."""
+    shared: dict[Parameters, str] = {}  # without repetitions at another tolerance
+    for name, case in published.items():
+        if name in orthonormal and case.from_rest:
+            shared.setdefault(case.parameters, name)
+    pairs = [(published[name], orthonormal[name]) for name in shared.values()]
+    whole = [(case, other) for case, other in pairs if "failed" not in (case.status, other.status)]
+    failed = [case.name for case, other in pairs if "failed" in (case.status, other.status)]
+    verdicts = _verdicts(published, orthonormal)
+    before, after = (sum(case.separates for case in column) for column in zip(*whole, strict=True))
+    text = fill(TEXTS["brief"], cases=len(whole), before=before, after=after, failed=failed)
+    parts = {
+        "brief": ("", text, _brief(whole, verdicts)),
+        "modes": ("The modes", TEXTS["modes"], _modes()),
+        "cases": ("The cases of the paper", TEXTS["cases"], _cases(*zip(*pairs, strict=True))),
+    }
+    if new := [case for name, case in orthonormal.items() if name not in published]:
+        parts["instead"] = ("Where instability goes instead", TEXTS["instead"], _cases(new))
+    changed = verdicts[(verdicts[OLD] != verdicts[NEW]) & (verdicts[OLD] != NOT_COMPUTED)]
+    return parts | {"verdicts": ("Statements of the paper whose verdict changes", TEXTS["verdicts"], changed)}
+
+
+def _brief(pairs: Sequence[tuple[CaseView, CaseView]], verdicts: pd.DataFrame) -> pd.DataFrame:
+    """How many cases separate, grow and agree with the paper under both; first separations of the paper's figures."""
+    known = [pair for pair in pairs if not any(math.isnan(case.growth_rate) for case in pair)]
+    judged = [verdicts[name] for name in (OLD, NEW)]
+    grow = f"cases whose stick-slip cycle grows, of {len(known)} that have one under both"
+    rows: dict[str, list[Any]] = {
+        f"cases that separate, of {len(pairs)}": [sum(pair[i].separates for pair in pairs) for i in (0, 1)],
+        grow: [sum(pair[i].growth_rate > 0 for pair in known) for i in (0, 1)],
+        f"statements that are true, of {len(verdicts)} that are judged by cases": [sum(of == TRUE) for of in judged],
+        "statements that are false": [sum(of == FALSE) for of in judged],
+        "statements that no motion decides": [sum(of == NOT_COMPUTED) for of in judged],
+    }
+    rows |= {f"first separation, {pair[0].place}": [*map(_first, pair)] for pair in pairs if pair[0].name in SHOWN}
+    return pd.DataFrame([(name, *map(str, values)) for name, values in rows.items()], columns=["", OLD, NEW])
+
+
+def _modes() -> pd.DataFrame:
+    models = {", as published": section2.BASE, ", Eq. (17)": section2.NORMALISED}
+    modes = plate_modes(section2.BASE)
+    table = pd.DataFrame({"Nodal diameters": modes["diameters"].astype(str)})
+    table["Disc alone (rad/s)"] = modes["omega"].map("{:.2f}".format)
+    squares = [plate_modes(p)["psi"] ** 2 for p in models.values()]
+    for which, square in zip(models, squares, strict=True):
+        table[f"psi²{which} (1/kg)"] = square.map("{:.4f}".format)
+    table["ratio"] = (squares[0] / squares[1]).map("{:.2f}".format)
+    for which, p in models.items():
+        table[f"With slider{which} (rad/s)"] = [f"{f:.2f}" for f in section2.shifted_frequencies(p)]
+    return table
+
+
+def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFrame:
+    """Results of the cases, beside those of the same cases with orthonormal modes if these are given."""
+    models = {", as published": cases, ", Eq. (17)": new} if new else {"": cases}
+    values = [values_text(dict(case.parameters)) + (", separation ignored" if case.bonded else "") for case in cases]
+    table = pd.DataFrame({"Case": [case.name for case in cases], "Parameters": values})
+    for which, those in models.items():
+        table[f"First separation{which}"] = [*map(_first, those)]
+    for which, those in models.items():
+        table[f"Growth{which} (1/s)"] = [rate_text(case.growth_rate, without="–") for case in those]
+    table[f"P in the end{[*models][-1]} (N)"] = [*map(_late, new or cases)]
+    return table
+
+
+def _verdicts(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]) -> pd.DataFrame:
+    """The rows of the ledger that are judged by cases, as they come out for both."""
+    table = judge([row for row in ROWS if row.cases], {"published": published, "orthonormal": orthonormal})
+    old, new = (part.set_index("id") for _, part in table.groupby("model", sort=False))
+    by_model = new.index.isin([row.get("also") for row in read_texts("paper/survival.yaml").values()])
+    columns = {
+        "Place": pd.Series({row.id: row.place for row in ROWS}),
+        "Statement": pd.Series({row.id: f"“{row.quote}”" for row in ROWS}),
+        OLD: old["verdict"],
+        NEW: new["verdict"].mask(by_model, "see model sensitivity"),
+        f"Found {NEW[0].lower()}{NEW[1:]}": new["here"],
+    }
+    return pd.DataFrame(columns).loc[old.index]
+
+
+def _first(case: CaseView) -> str:
+    if case.status == "failed" or case.bonded:
+        return "failed" if case.status == "failed" else "ignored"
+    return or_none(case["first_separation"], ".2f", " s", f"none in {case['time_reached']:g} s")
+
+
+def _late(case: CaseView) -> str:
+    try:
+        return f"{case.late:.1f}"
+    except Missing:
+        return "–"

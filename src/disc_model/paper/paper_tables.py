@@ -23,10 +23,7 @@ if TYPE_CHECKING:
 
 TEXTS: dict[str, Any] = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
 TABLE_1: dict[str, float] = TEXTS["table_1"]  # base values of the paper, SI units
-TABLE_2 = pd.DataFrame(
-    [(symbol, value, TEXTS[kind]) for symbol, (value, kind) in TEXTS["table_2"].items()],
-    columns=["symbol", "paper_Hz", "paper_says"],
-)
+TABLE_2 = pd.DataFrame(TEXTS["table_2"])
 COLUMNS = ["symbol", "paper_Hz", "ours_Hz", "level_dB", "ours_is", "predicted_Hz", "paper_says"]
 LISTED = tuple(TABLE_2["paper_Hz"])
 SEARCHED = 2.0  # search width about a frequency of Table 2, Hz; a quarter of it about the drive's
