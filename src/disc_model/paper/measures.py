@@ -182,8 +182,7 @@ class CaseView:
 
     def late_range(self, name: str) -> Range:
         """Range over the last 20 s of the run."""
-        end = self["time_reached"]
-        return self.range_of(name, end - STRETCH, end)
+        return self.range_of(name, self["time_reached"] - STRETCH, self["time_reached"])
 
     def last_widths(self, name: str, length: float, count: int) -> list[float]:
         """Widths of a variable's ranges over stretches of a length, s, up to the end, the last one first."""

@@ -12,11 +12,12 @@ from scipy.signal import find_peaks
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import irregularity
 from disc_model.data.dataset import Missing
+from disc_model.data.texts import fill
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.paper import measures
 from disc_model.paper.measures import Absent, Array, CaseView, extent, facts, listed, or_none, pairs, published, sound
-from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
+from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded, read_texts
 from disc_model.paper.section2 import BASE, moving_load_speed
 from disc_model.parameters import Parameters
 
@@ -38,8 +39,7 @@ def upward(*cases: CaseView, share: float) -> Answer:
         if not velocity.size:
             raise Missing(f"case {case.name} keeps no separation")
         parts.append(float(np.mean(velocity > 0)))
-        heights = f"{1e3 * height.mean():.1f} mm ({1e3 * (case.late_range('u').high - case['u_0']):.1f} mm)"
-        rows.append(f"{velocity.mean():+.2f} m/s and {heights} at {case.place}")
+        rows.append((case.place, velocity.mean(), height.mean(), case.late_range("u").high - case["u_0"]))
     return Answer(min(parts) >= share, up=extent(100 * part for part in parts), rows=rows)
 
 
@@ -170,22 +170,11 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[str, str]:
     first, start = min(dips), int(np.isfinite(speeds).argmax())
     later = [i for i in also_last if i > first]
     top = first + np.nanargmax(speeds[first : later[0] if later else None])
-    never, rest = loads[:first][np.isnan(speeds[:first])], speeds[top + 1 :]
-    absent = f"At {listed(never, 'g')} N none of the speeds tried brings separation. "
-    begin = f"{absent}As the preload rises further" if never.size else "As the preload rises"
-    parts = [
-        f"falls from {speeds[start]:.1f} (at {loads[start]:g} N) to {speeds[first]:.1f} rad/s at {loads[first]:g} N",
-        f"rises to {speeds[top]:.1f} rad/s at {loads[top]:g} N",
-    ]
-    if later:
-        below = np.flatnonzero(np.isfinite(rest))
-        parts += [f"falls again, to {rest[below[0]]:.1f} rad/s at {loads[top + 1 + below[0]]:g} N"]
-    lowest = f"the lowest speed with separation {', '.join(parts[:-1])}, and {parts[-1]}"
-    if later and len(below) > 1:
-        lowest += (
-            f". At larger preloads up to {loads[-1]:g} N it rises and falls within {extent(rest[below[1:]]):.1f} rad/s"
-        )
-    return PART if later else TRUE, f"{begin}, {lowest}."
+    again, *larger = top + 1 + np.flatnonzero(np.isfinite(speeds[top + 1 :])) if later else [top]
+    turns = {"start": start, "lowest": first, "top": top, "again": again}
+    told = {"never": loads[:first][np.isnan(speeds[:first])], "later": later, "last": loads[-1]}
+    told |= {name: (speeds[i], loads[i]) for name, i in turns.items()} | {"beyond": larger and extent(speeds[larger])}
+    return PART if later else TRUE, fill(read_texts("paper/pages.yaml")["lowest_speeds"], **told)
 
 
 def maintained_below(study: xr.Dataset, *beside: xr.Dataset | None, within: float) -> Answer:

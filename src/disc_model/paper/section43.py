@@ -231,8 +231,7 @@ def bounded(*cases: CaseView, factor: float) -> Answer:
 
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     vanishes = any(stick_disappears(case.stick_in_all, case.stick, share) for case in cases if case.from_rest)
-    shares = [(x.from_rest, f"{100 * x.stick:.1f} % ({100 * x.stick_in_all:.1f} %) at {x.place}") for x in cases]
-    begun = [[text for from_rest, text in shares if from_rest == rest] for rest in (True, False)]
+    begun = [[(x.place, x.stick, x.stick_in_all) for x in cases if x.from_rest == rest] for rest in (True, False)]
     spans = sorted({f"{case['time_reached'] - case.kept_span.low:g}" for case in cases}, key=float)
     return Answer(vanishes, begun=begun, spans=" to ".join([spans[0], *spans[1:][-1:]]))
 

@@ -238,7 +238,8 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
 
 
 def vertical_branch(*cases: CaseView, within: float) -> Answer:
-    rows, follows, alone = [], [], []
+    rows, follows, alone, levels = [], [], [], []
+    free = float(np.sqrt(cases[0]["k"] / cases[0]["m"])) / (2 * np.pi)
     for pair in zip(cases[::2], cases[1::2], strict=True):
         rates = [1 / float(case.intervals("separation").mean()) for case in pair]
         modes = [natural_frequencies(case)[0] for case in pair]
@@ -246,13 +247,10 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
         follows.append(rise / of_mode)
         alone.append(rise / (math.sqrt(pair[1]["k"] / pair[0]["k"]) - 1))
         rows.append((pair[0].place, rates[0]))
-    free = float(np.sqrt(cases[0]["k"] / cases[0]["m"])) / (2 * np.pi)
-    levels = []
-    for case in cases[::2]:
-        signal = case.signal("late", 0.0, np.inf)
+        signal = pair[0].signal("late", 0.0, np.inf)
         frequencies, amplitude = spectra.amplitude_spectrum(signal.time, signal.values)
         near, every = (float(amplitude[band].max()) for band in (np.abs(frequencies - free) < 1, frequencies > 1))
-        levels.append(measures.ratio(near, every, f"the spectrum of case {case.name}"))
+        levels.append(measures.ratio(near, every, f"the spectrum of case {pair[0].name}"))
     by_mode, by_spring = (all(abs(each - 1) <= within for each in rises) for rises in (follows, alone))
     told = {"coupled": modes[0], "free": free, "follows": follows, "level": max(levels)}
     return Answer(AMBIGUOUS if by_mode else by_spring, rows=rows, by_mode=by_mode, **told)
