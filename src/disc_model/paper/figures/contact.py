@@ -56,8 +56,7 @@ class ContactForce(CasePlot):
     history: str = "history"
     zoom: str = "zoom"
 
-    def draw(self, *cases: xr.DataTree) -> Figure:
-        [case] = cases
+    def draw(self, case: xr.DataTree) -> Figure:
         figure, [whole, zoom] = panels(PAGE, 2.3, 1, 2)
         with drawing.blank_if_missing(whole):
             drawing.show(whole, case, drawing.history(case, self.history), "P")
@@ -85,8 +84,7 @@ class OneSeparation(CasePlot):
     kind: Literal["paper.one_separation"] = "paper.one_separation"
     zoom: str = "zoom"
 
-    def draw(self, *cases: xr.DataTree) -> Figure:
-        [case] = cases
+    def draw(self, case: xr.DataTree) -> Figure:
         figure, axes = panels(COLUMN, 3.2, 2, sharex=True, height_ratios=(2, 1))
         both, gap = axes
         window = dataset.samples(case, self.zoom)
@@ -114,8 +112,7 @@ class LightSlider(CasePlot):
     kind: Literal["paper.light_slider"] = "paper.light_slider"
     zoom: str = "zoom"
 
-    def draw(self, *cases: xr.DataTree) -> Figure:
-        [case] = cases
+    def draw(self, case: xr.DataTree) -> Figure:
         figure, [ax] = panels(COLUMN, 2.5)
         window, rest = dataset.samples(case, self.zoom), float(case["u_0"])
         complete, length = first_complete(window), 0.025  # of the stretch shown, s
@@ -203,12 +200,12 @@ class Instants(CasePlot):
         for i in range(9):
             yield Need("case", self.case, f"around{i}", [as_samples])
 
-    def draw(self, *cases: xr.DataTree) -> Figure:
+    def draw(self, case: xr.DataTree) -> Figure:
         figure = drawing.new_figure(PAGE, 4.2)
         above, around = np.asarray(figure.subfigures(2, 1, height_ratios=(1.15, 1)))
         discs = above.subplots(1, 4)
         circle = around.subplots()
-        motion = motion_of(cases[0])
+        motion = motion_of(case)
         losses = [first for first, _ in drawing.stretches(motion.phase == "separation") if first > 0]
         first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
         scale = scale_of(motion)
@@ -224,7 +221,7 @@ class Instants(CasePlot):
         circle.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
         circle.plot([], [], "s", ms=5, mfc=SEPARATED, mec=BLACK, mew=0.6, label="slider, separated")
         circle.margins(y=0.08)
-        drawing.show_thickness(circle, cases[0], "y")
+        drawing.show_thickness(circle, case, "y")
         circle.legend(loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.2, ncols=6)
         circle.set_title("(e)", loc="left", x=-0.06)
         return figure

@@ -34,8 +34,8 @@ class Schematic(CasePlot):
 
     kind: Literal["paper.schematic"] = "paper.schematic"
 
-    def draw(self, *cases: xr.DataTree) -> Figure:
-        return sketch(Parameters.model_validate_json(cases[0].attrs["parameters"]))
+    def draw(self, case: xr.DataTree) -> Figure:
+        return sketch(Parameters.model_validate_json(case.attrs["parameters"]))
 
 
 class Composite(CasePlot):
@@ -53,14 +53,14 @@ class Composite(CasePlot):
         yield from super().needs()
         yield Need("force", self.case, self.force[0], [as_samples])
 
-    def draw(self, *cases: xr.DataTree) -> Figure:
+    def draw(self, case: xr.DataTree, ignored: xr.DataTree) -> Figure:
         figure, axes = panels(PAGE, 2.35, 1, 3, width_ratios=(1, 1.15, 1.3))
         model, growth, force = axes
         _small(model)
         with drawing.blank_if_missing(growth):
-            self._growth(growth, *cases)
+            self._growth(growth, case, ignored)
         with drawing.blank_if_missing(force):
-            self._force(force, cases[0])
+            self._force(force, case)
         drawing.letters(axes)
         return figure
 

@@ -128,13 +128,12 @@ class Response(CasePlot):
 
             yield Need("zooms", self.case, name, [as_samples, contains])
 
-    def draw(self, *cases: xr.DataTree) -> Figure:
-        case, *ignored = cases
+    def draw(self, case: xr.DataTree, *ignored: xr.DataTree) -> Figure:
         figure = new_figure(PAGE, 2.7 + 1.3 * len(ignored))
         left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1, 1.08)))
         letters = "cd"[: len(self.zooms)]
         axes = left.subplot_mosaic(";".join(filter(None, ["a" * max(len(self.zooms), 1), letters])))
-        shown, *beneath = np.atleast_1d(right.subplots(len(cases), 1, sharex=True))
+        shown, *beneath = np.atleast_1d(right.subplots(1 + len(ignored), 1, sharex=True))
         marked = None
         with drawing.blank_if_missing(shown):
             spectrum = spectrum_of(case, self.window, self.variable)
