@@ -11,7 +11,7 @@ import pandas as pd
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Section, fill
 from disc_model.data.variables import values_text
-from disc_model.disc.plate import plate_modes
+from disc_model.disc.plate import coupled_frequencies, plate_modes
 from disc_model.paper import section2, section41, section43, section44
 from disc_model.paper.measures import CaseView, or_none, rate_text
 from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, VERDICTS, Row, judge, read_texts, rows_of
@@ -59,9 +59,8 @@ def summary(table: pd.DataFrame) -> dict[str, Any]:
     for name, verdict in (("headline", TRUE), ("stands", TRUE), ("falls", FALSE)):
         items = [(row, text) for row, text in texts[name].items() if verdicts[row] == verdict]
         texts[name] = [{"id": row, "text": fill(text, n=numbers[row])} for row, text in items]
-    links = {name: _link(name) for name in texts["pictures"]}
-    counts = {"counts": parts.sum().to_dict(), "parts": parts, "errors": len(table) - len(counted)}
-    return {**texts, **counts, "links": links}
+    texts["links"] = {name: _link(name) for name in texts["pictures"]}
+    return {**texts, "counts": parts.sum().to_dict(), "parts": parts, "errors": len(table) - len(counted)}
 
 
 # ---- The two normalisations
@@ -119,7 +118,7 @@ def _modes() -> pd.DataFrame:
         table[f"psi²{which} (1/kg)"] = square.map("{:.4f}".format)
     table["ratio"] = (squares[0] / squares[1]).map("{:.2f}".format)
     for which, p in models.items():
-        table[f"With slider{which} (rad/s)"] = [f"{f:.2f}" for f in section2.shifted_frequencies(p)]
+        table[f"With slider{which} (rad/s)"] = [f"{f:.2f}" for f in coupled_frequencies(p)]
     return table
 
 
@@ -127,13 +126,11 @@ def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFr
     """Results of the cases, beside those of the same cases with orthonormal modes if these are given."""
     models = {", as published": cases, ", Eq. (17)": new} if new else {"": cases}
     values = [values_text(dict(case.parameters)) + (", separation ignored" if case.bonded else "") for case in cases]
-    table = pd.DataFrame({"Case": [case.name for case in cases], "Parameters": values})
+    columns = {"Case": [case.name for case in cases], "Parameters": values}
+    columns |= {f"First separation{which}": [*map(_first, those)] for which, those in models.items()}
     for which, those in models.items():
-        table[f"First separation{which}"] = [*map(_first, those)]
-    for which, those in models.items():
-        table[f"Growth{which} (1/s)"] = [rate_text(case.growth_rate, without="–") for case in those]
-    table[f"P in the end{[*models][-1]} (N)"] = [*map(_late, new or cases)]
-    return table
+        columns[f"Growth{which} (1/s)"] = [rate_text(case.growth_rate, without="–") for case in those]
+    return pd.DataFrame(columns | {f"P in the end{[*models][-1]} (N)": [*map(_late, new or cases)]})
 
 
 def _verdicts(published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]) -> pd.DataFrame:

@@ -16,6 +16,7 @@ from disc_model.analysis.spectra import Line
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import EVENT_KINDS, PHASES, STATUSES, flag_names, stated_in, values_text
+from disc_model.display import counted
 from disc_model.parameters import Parameters
 
 Array = NDArray[np.float64]
@@ -266,8 +267,7 @@ class CaseView:
         return float(np.polyfit(part["time"].values, np.log(width), 1)[0])
 
 
-@dataclass(frozen=True)
-class Signal:
+class Signal(NamedTuple):
     """Samples of a case between two times, s; fractions are comparable for stretches of equal length only."""
 
     case: str
@@ -275,7 +275,7 @@ class Signal:
     time: Array
     values: Array
 
-    @cached_property
+    @property
     def filled(self) -> float:
         """Fraction of 20..300 Hz where the amplitude exceeds 1e-4 of the strongest: fuzz fills it, lines do not."""
         return spectra.coverage(self.time, self.values, LOW, 300.0, floor=1e-4)
@@ -351,15 +351,6 @@ def facts(study: xr.Dataset) -> dict[str, Any]:
 def extent(values: Iterable[float]) -> Range:
     numbers = np.asarray([*values])
     return Range(float(numbers.min()), float(numbers.max()))
-
-
-def listed(values: Iterable[Any], spec: str = "", without: str = "none") -> str:
-    """Values in a format, with commas."""
-    return ", ".join(format(value, spec) for value in values) or without
-
-
-def counted(count: int, name: str) -> str:
-    return f"{count} {name}{'s' if count != 1 else ''}"
 
 
 def repeats(motion: Motion, name: str) -> str:

@@ -16,7 +16,7 @@ from disc_model.data.texts import fill
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.paper import measures
-from disc_model.paper.measures import Absent, Array, CaseView, extent, facts, listed, or_none, pairs, published, sound
+from disc_model.paper.measures import Absent, Array, CaseView, extent, facts, or_none, pairs, published, sound
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded, read_texts
 from disc_model.paper.section2 import BASE, moving_load_speed
 from disc_model.parameters import Parameters
@@ -166,7 +166,7 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[str, str]:
     known = np.where(np.isnan(speeds), infinite, speeds)
     dips, also_last = (find_peaks(-each, prominence=depth)[0] for each in (known, np.append(known, infinite)))
     if not dips.size:
-        return FALSE, f"The lowest speeds in turn are {listed(or_none(x, '.1f') for x in speeds)} rad/s."
+        return FALSE, f"The lowest speeds in turn are {', '.join(or_none(x, '.1f') for x in speeds)} rad/s."
     first, start = min(dips), int(np.isfinite(speeds).argmax())
     later = [i for i in also_last if i > first]
     top = first + np.nanargmax(speeds[first : later[0] if later else None])
@@ -183,7 +183,7 @@ def maintained_below(study: xr.Dataset, *beside: xr.Dataset | None, within: floa
     known, loads = np.isfinite(critical.values), critical["N"].values
     if not known.any():
         return Answer(FALSE, "No separation at any preload and speed.")
-    begins, never = extent(critical.values[known]), (listed(loads[~known], "g", ""), study["scan_Omega"][-1])
+    begins, never = extent(critical.values[known]), ([*loads[~known]], study["scan_Omega"][-1])
     below: list[tuple[float, ...]] = []
     kicks: tuple[Any, ...] = (0,)
     if sweeps is not None:

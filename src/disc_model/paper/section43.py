@@ -140,9 +140,8 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
 def quasi_periodic_and_irregular(case: CaseView) -> Answer:
     if case.late_motion.kind is Outcome.UNDECIDED:
         return Answer(NOT_COMPUTED, "The 0-1 test for chaos lies between regular and chaotic motion.")
-    words = f"From {case.kept_span:g} s, the motion at {case.place} is {case.motion}."
-    kinds = (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
-    return Answer(graded(case.late_motion.kind is kind for kind in kinds), words)
+    verdict = graded(case.late_motion.kind is kind for kind in (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR))
+    return Answer(verdict, span=case.kept_span, motion=case.motion)
 
 
 def softer_separates_sooner(*evidence: Any) -> Answer:

@@ -12,6 +12,7 @@ from disc_model.analysis.classify import FEWEST, motion_of, stick_disappears
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Section
 from disc_model.data.variables import Outcome, flag_names, stated_in
+from disc_model.display import counted
 from disc_model.paper import measures
 from disc_model.paper.measures import STRETCH, STRETCHES, Array, CaseView, pairs, rate_text, sound
 from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, Answer, judge, read_texts, rows_of
@@ -156,7 +157,7 @@ def inplane_damping(study: xr.Dataset, *, large: float, fewest: float) -> Answer
     ended = int(((without < -SLOW) & np.isin(status, ("no_cycle", "separates")) & heavy).sum())
     (above, of), (below, of_below) = ((int((higher & at).sum()), int((both & at).sum())) for at in (heavy, ~heavy))
     verdict = NOT_COMPUTED if not above + ended and of < fewest else above + ended > 0
-    told, few = measures.counted(ended, "stable cycle"), 0 < 10 * (above + ended) <= of
+    told, few = counted(ended, "stable cycle"), 0 < 10 * (above + ended) <= of
     return Answer(verdict, ended=told, higher=(above, of, below, of_below), few=few)
 
 
@@ -174,9 +175,8 @@ def _damped(study: xr.Dataset, name: str) -> tuple[Array, Array, NDArray[np.str_
 def not_periodic(*cases: CaseView) -> Answer:
     repeats = {case.place: _repeats(case) for case in _separating(cases)}
     known = {Outcome.QUASI_PERIODIC: True, Outcome.IRREGULAR: True, Outcome.UNDECIDED: None}
-    rows = [f"At {place} the motion {words}." for place, (_, words) in repeats.items()]
-    verdict = _all_cases([known.get(kind, False) for kind, _ in repeats.values()])
-    return Answer(verdict, " ".join(rows))
+    here = " ".join(f"At {place} the motion {words}." for place, (_, words) in repeats.items())
+    return Answer(_all_cases([known.get(kind, False) for kind, _ in repeats.values()]), here)
 
 
 def _repeats(case: CaseView) -> tuple[Outcome, str]:
