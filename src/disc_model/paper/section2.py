@@ -19,24 +19,18 @@ from disc_model.parameters import Parameters
 
 BASE = Parameters(N=200, Omega=20)
 NORMALISED = BASE.replace(normalization="orthonormal")
-SEPARATING = {
-    "Fig. 2": ("map_N", {"N": 200.0, "Omega": 20.0}),
-    "Fig. 7": ("map_N", {"N": 300.0, "Omega": 20.0}),
-    "Fig. 9": ("map_N", {"N": 200.0, "Omega": 50.0}),
-    "Fig. 13": ("map_N", {"N": 385.0, "Omega": 15.1}),
-    "Fig. 17": ("map_N", {"N": 200.0, "Omega": 15.0}),
-    "Fig. 18": ("map_D_star", {"D_star": 0.0, "Omega": 10.0}),
-    "Fig. 19": ("map_c_p", {"N": 385.0, "c_p": 0.5}),
-    "Fig. 22": ("map_k_p", {"k_p": 2e3, "Omega": 50.0}),
-    "Fig. 23": ("map_m", {"m": 0.01, "Omega": 20.0}),
-}
-"""The figures of the paper that show separation, each with a map and its point."""
+SEPARATING = {f"Fig. {figure}": ("map_N", f"F{figure:02}") for figure in (2, 7, 9, 13, 17)}
+SEPARATING |= {"Fig. 18": ("map_D_star", "F18"), "Fig. 19": ("map_c_p", "F19")}
+SEPARATING |= {"Fig. 22": ("map_k_p", "F22"), "Fig. 23": ("map_m", "F23")}
+"""The figures of the paper that show separation, each with a map that has its case, and this case."""
 
 
-def _points(maps: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
+def separating_points(maps: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
     """The points of `SEPARATING`; raises `Missing` if one is not computed."""
     points = {}
-    for figure, (name, values) in SEPARATING.items():
+    for figure, (name, case) in SEPARATING.items():
+        axes = {*maps[name]["outcome"].dims} - {"normalization"}
+        values = {axis: getattr(parameters_of(case, "as_published"), str(axis)) for axis in axes}
         point = points[figure] = maps[name].sel(values, method="nearest")
         if not all(np.isclose(point[axis], value) for axis, value in values.items()):
             raise Missing(f"study {name} has no point of {figure}")
@@ -45,20 +39,19 @@ def _points(maps: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
     return points
 
 
-def first_separations(maps: Mapping[str, xr.Dataset]) -> pd.DataFrame:
+def first_separations(points: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     """Times of the first separation at the points of `SEPARATING`, s, nan for none: a column for each normalization."""
-    return pd.DataFrame({figure: point["first_separation"].to_series() for figure, point in _points(maps).items()}).T
+    return pd.DataFrame({figure: point["first_separation"].to_series() for figure, point in points.items()}).T
 
 
 def survive(*maps: xr.Dataset, share: float) -> Answer:
     critical, plane = moving_load_speed(BASE), maps[0].transpose("normalization", "Omega", ...)
     apart = flag_names(plane["outcome"]) == "separation"
     lowest = [np.min(plane["Omega"].values[each.any(axis=1)], initial=np.inf) for each in apart]
-    by_name = {study.attrs["study"]: study for study in maps}
-    times, points = first_separations(by_name), _points(by_name)
-    horizons = {figure: stated_in(by_name[SEPARATING[figure][0]], "options")["horizon"] for figure in points}
+    points = separating_points({study.attrs["study"]: study for study in maps})
+    times, horizons = first_separations(points), {x: stated_in(points[x], "options")["horizon"] for x in points}
     kinds = {x: str(flag_names(point.sel(normalization="orthonormal")["outcome"])) for x, point in points.items()}
-    quiet = {x: parameters_of(f"F{x[5:]:0>2}", "orthonormal") for x in points if kinds[x] != "separation"}
+    quiet = {x: parameters_of(SEPARATING[x][1], "orthonormal") for x in points if kinds[x] != "separation"}
     kept = [x for x, p in quiet.items() if not measures.separates_within(p, horizons[x])]
     grow = [horizons[figure] for figure in kept if kinds[figure] == "growing"]
     unless = {x: f"none within {horizons[x]:g} s ({kinds[x]})" for x in points}

@@ -19,7 +19,6 @@ LOOKS: tuple[dict[str, Any], ...] = (
     {"label": "as published", "marker": "o", "color": SEPARATED, "linestyle": "none"},
     {"label": "by Eq. (17)", "marker": "o", "markerfacecolor": "white", "color": drawing.BLUE, "linestyle": "none"},
 )
-Points = Mapping[str, tuple[str, Mapping[str, float]]]  # by figure: a map, and values of its axes
 CELLS = ("white", "#f2b69c", "#d5e5f3", "#8a8a8a")
 """Neither separates; only as published; only by Eq. (17), hatched; both. They differ in grey print."""
 
@@ -42,10 +41,10 @@ class Scales(Plot):
         from disc_model.paper import section2
 
         figure, axes = panels(PAGE, 2.9, 1, 3, width_ratios=(0.8, 1.25, 1.2))
-        maps = {"map_N": study, **overlays}
+        points = section2.separating_points({"map_N": study, **overlays})
         _amplitudes(axes[0], section2.BASE)
-        _regions(axes[1], study, section2.SEPARATING)
-        _times(axes[2], maps, section2.SEPARATING, section2.first_separations(maps))
+        _regions(axes[1], study, {x: point for x, point in points.items() if section2.SEPARATING[x][0] == "map_N"})
+        _times(axes[2], points, section2.first_separations(points))
         drawing.letters(axes)
         return figure
 
@@ -64,20 +63,19 @@ def _amplitudes(ax: Axes, p: Parameters) -> None:
     ax.legend(loc="upper right", bbox_to_anchor=(1.04, 0.88))
 
 
-def _regions(ax: Axes, study: xr.Dataset, separating: Points) -> None:
+def _regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset]) -> None:
     outcome = study["outcome"].sel(normalization=[*SCALES]).transpose("normalization", "N", "Omega")
     apart = flag_names(outcome) == "separation"
     cells = apart[0] + 2 * apart[1].astype(int)
     across, up = (drawing.edges(study[name].values) for name in ("Omega", "N"))
     ax.pcolormesh(across, up, cells, cmap=mpl.colors.ListedColormap(CELLS), vmin=-0.5, vmax=3.5, rasterized=True)
     ax.pcolor(across, up, np.ma.masked_where(cells != 2, cells), facecolor="none", hatch=8 * "/", linewidth=0)
-    for name, (of, point) in separating.items():
-        if of == "map_N":
-            cell = tuple(np.searchsorted(study[axis], point[axis] - 1e-6) for axis in ("N", "Omega"))
-            fill = SEPARATED if cells[cell] == 3 else "white"
-            ax.plot(point["Omega"], point["N"], "o", color=BLACK, markerfacecolor=fill, markersize=5, clip_on=False)
-            side = {"Fig. 9": (-5, 0), "Fig. 17": (0, -5)}.get(name, (5, 0))
-            drawing.say(ax, name, (point["Omega"], point["N"]), side, fontsize=7, path_effects=drawing.halo())
+    for name, point in points.items():
+        x, y = float(point["Omega"]), float(point["N"])
+        fill = SEPARATED if np.all(flag_names(point["outcome"]) == "separation") else "white"
+        ax.plot(x, y, "o", color=BLACK, markerfacecolor=fill, markersize=5, clip_on=False)
+        side = {"Fig. 9": (-5, 0), "Fig. 17": (0, -5)}.get(name, (5, 0))
+        drawing.say(ax, name, (x, y), side, fontsize=7, path_effects=drawing.halo())
     for words, corner in {"only as\npublished": (0.53, 0.19), "both": (0.68, 0.62)}.items():
         ax.text(*corner, words, transform=ax.transAxes, ha="center", va="center", fontsize=7)
     line: dict[str, Any] = {"arrowstyle": "-", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
@@ -86,14 +84,14 @@ def _regions(ax: Axes, study: xr.Dataset, separating: Points) -> None:
     ax.set(xlabel=drawing.label_of(study["Omega"])[0], ylabel=drawing.label_of(study["N"])[0])
 
 
-def _times(ax: Axes, maps: Mapping[str, xr.Dataset], separating: Points, firsts: pd.DataFrame) -> None:
-    horizons = {name: float(stated_in(study, "options")["horizon"]) for name, study in maps.items()}
+def _times(ax: Axes, points: Mapping[str, xr.Dataset], firsts: pd.DataFrame) -> None:
+    horizons = {name: float(stated_in(point, "options")["horizon"]) for name, point in points.items()}
     times = firsts.sort_values("as_published", ascending=False)
     for height, (name, row) in enumerate(times.iterrows()):
         was, now = (float(row[scale]) for scale in SCALES)
         none = np.isnan(now)
         arrow = {"arrowstyle": "-|>" if none else "-", "color": GREY, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
-        end = max(horizons[separating[str(name)][0]], 1.3 * was) if none else now
+        end = max(horizons[str(name)], 1.3 * was) if none else now
         ax.annotate("", (end, height), (was, height), arrowprops=arrow)
         for time, look in zip((was, now), LOOKS, strict=True):
             ax.plot([time], [height], markersize=5, **look)
