@@ -301,7 +301,7 @@ class Sources:
 
     def thirds(self, study: str, N: float, parameter: str) -> np.ndarray:
         """Probability of instability in thirds of a parameter's range."""
-        from disc_model.figures.uncertain import probabilities
+        from disc_model.figures.bifurcation import probabilities
 
         return probabilities(self.uncertain(study, N), parameter)[:, 0]
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from disc_model.figures.bifurcation import probabilities
 from disc_model.figures.modes import gaps
-from disc_model.figures.uncertain import probabilities
 from tests.figures.reading import draw
 from tests.studies.conftest import SMALL, computed
 from tests.studies.quantities import test_sensitivity as uncertain

@@ -14,11 +14,10 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
-from disc_model.figures import disc, drawing, general, motion
-from disc_model.figures.bifurcation import draw_branch
+from disc_model.figures import drawing, general, motion
+from disc_model.figures.bifurcation import LOOKS, draw_branch, draw_shares, outcomes_in
 from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes, mpl
 from disc_model.figures.maps import patches
-from disc_model.figures.uncertain import LOOKS, draw_shares, outcomes_in
 from disc_model.parameters import RATIOS, Parameters, foreign_case
 from disc_model.units import is_number, is_whole
 
@@ -152,7 +151,7 @@ def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str 
     )
     with drawing.styled():
         figure = mpl.figure.Figure(figsize=(6.4, 2.7), layout="constrained")
-        film = disc.film(figure, disc.Motion.of(p, states), window["time"].values, window["P"].values)
+        film = motion.film(figure, motion.Motion.of(p, states), window["time"].values, window["P"].values)
         if path is not None:
             film.save(path, writer=writer, fps=fps, dpi=100)
         return film
@@ -328,14 +327,14 @@ def draw_modes(p: Parameters, most: int, slider: bool, ax: Any = None) -> np.nda
     raise_faults(foreign_case(p) + violations(counts))
     drawable = p.n_diameters >= 0 or p.disc is not None
     require((drawable, "n_diameters", p.n_diameters, "must be >= 0: a rigid disc has no modes"))
-    disc.radial_range(p)
-    count = min(most, len(disc.mode_arrays(p).omega))
+    motion.radial_range(p)
+    count = min(most, len(motion.mode_arrays(p).omega))
     columns = min(count, 5)
     rows = -(-count // columns)
     with canvas(ax, 1.45 * columns + 0.1, 1.65 * rows + 0.3, rows, columns) as axes:
         for spare in axes[count:]:
             spare.set_axis_off()
-        disc.draw_modes(axes[:count], p, slider)
+        motion.draw_modes(axes[:count], p, slider)
         if ax is None:
             what = "slider and nodal lines" if slider else "nodal lines"
             axes[0].figure.suptitle(f"Modes (nodal diameters, nodal circles), {what}", fontsize=8)

@@ -12,9 +12,9 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
 from disc_model.disc.plate import mode_arrays
 from disc_model.figures import drawing
-from disc_model.figures.disc import Motion, draw_circle, draw_disc, scale_of
 from disc_model.figures.drawing import BLACK, COLUMN, DISC, FORCE, GREY, PAGE, SEPARATED, SLIDER, Axes, Figure, panels
 from disc_model.figures.kind import CasePlot, Need, as_ranges, as_samples
+from disc_model.figures.motion import Motion, draw_circle, draw_disc, scale_of
 from disc_model.parameters import Parameters
 from disc_model.units import Positive, Unit
 
