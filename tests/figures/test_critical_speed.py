@@ -9,9 +9,8 @@ from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
-from disc_model.figures import critical_speed
-from disc_model.figures.critical_speed import branches
-from disc_model.figures.maps import Curve
+from disc_model.figures import maps
+from disc_model.figures.maps import Curve, branches
 from tests.figures.reading import draw, labels
 from tests.studies.conftest import SCAN, computed, growth_over
 
@@ -26,7 +25,7 @@ def chart(fake_motions: None, monkeypatch: pytest.MonkeyPatch) -> Callable[..., 
     """Of known curves, where separation never comes at 100 N, from 14 rad/s on at 200 N, and ends again at 400 N."""
     options = {"horizons": [900], "scan": SCAN | {"step": 0.1}, "precision": 0.1}
     scanned = computed(quantity="critical_speed", options=options, axes={"N": LOADS, "normalization": ["as_published"]})
-    monkeypatch.setattr(critical_speed, "curves_of", lambda _: [NEUTRAL, FOLD, FOLD])
+    monkeypatch.setattr(maps, "curves_of", lambda _: [NEUTRAL, FOLD, FOLD])
     curves = xr.Dataset()
     return lambda **others: draw("critical_speed", scanned, {"curves": curves, **others}, paper_points=PAPER_POINTS)
 

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 from matplotlib.text import Annotation
 
-from disc_model.figures import critical_speed as drawn
+from disc_model.figures import maps as drawn
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
 from disc_model.figures.maps import Curve
 from disc_model.studies.quantities.branches import Branches
