@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from disc_model.figures.bifurcation import probabilities
-from disc_model.figures.modes import gaps
+from disc_model.figures.drawing import spans
 from tests.figures.reading import draw
 from tests.studies.conftest import SMALL, computed
 from tests.studies.quantities import test_sensitivity as uncertain
@@ -33,7 +33,7 @@ def test_a_campbell_diagram_cuts_nothing_off_and_names_what_matters() -> None:
     gone = study["Omega"].isin([10, 12, 12.25])
     lost = ("stick_slip_frequency", "growth_rate", "cycle_frequency", "cycle_growth_rate")
     study = study.assign({name: study[name].where(~gone) for name in lost})
-    assert [*gaps(study)] == [(9.875, 10.125), (11.875, 12.375)]
+    assert spans(study["Omega"].values, study["growth_rate"].isnull().values) == [(9.875, 10.125), (11.875, 12.375)]
     study["growth_rate"].loc[{"Omega": [11, 12.5]}] = [20, 30]
     beside = {"crossing_Omega": 11.01, "crossing_frequency": study["sliding_frequency"].sel(Omega=11).max()}
     study = study.isel(crossing=[0]).assign({name: ("crossing", [value]) for name, value in beside.items()})

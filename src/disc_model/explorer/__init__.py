@@ -54,7 +54,7 @@ def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:
     """Histories along `point` and `sample` with 16 bits per sample, phases as runs; failed ones are left out."""
     good = motions.isel(point=np.flatnonzero(motions["status"].values == 0))
     names = [str(name) for name in good.coords if good[name].dims == ("point",)]
-    points = zip(*(_plain(good[name].values) for name in names), strict=True)
+    points = zip(*(good[name].values.tolist() for name in names), strict=True)
     lengths, phases = good["length"].values.tolist(), good["phase"].values
     return {
         "text": text,
@@ -106,9 +106,9 @@ def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:
 def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
     """Values along a dimension; for a zip, which has no coordinate of its own, its parameters as text."""
     if dim in study.coords:
-        values = _plain(study[dim].values)
+        values = study[dim].values.tolist()
         return _named(dim, study[dim].attrs) | {"values": values, "parts": {dim: values}}
-    along = {str(name): _plain(x.values) for name, x in study.coords.items() if x.dims == (dim,)}
+    along = {str(name): x.values.tolist() for name, x in study.coords.items() if x.dims == (dim,)}
     columns = along or {dim: list(range(study.sizes[dim]))}
     texts = [[f"{name} = {x if isinstance(x, str) else f'{x:g}'}" for x in column] for name, column in columns.items()]
     words = [", ".join(row) for row in zip(*texts, strict=True)]
@@ -126,10 +126,6 @@ def _variable(variable: xr.DataArray) -> dict[str, Any]:
     if np.abs(values[np.isfinite(values)]).max(initial=0.0) > MOST_SINGLE:
         return described | {"wide": True, "data": packed(values, "<f8")}
     return described | {"data": packed(shortened(values), "<f4")}
-
-
-def _plain(values: NDArray[Any]) -> list[Any]:
-    return values.astype(str).tolist() if values.dtype.kind in "OUS" else values.tolist()
 
 
 # ---- The page

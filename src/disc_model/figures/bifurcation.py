@@ -3,7 +3,6 @@ motion; basins of attraction, and probabilities of instability where parameters 
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import product
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -30,7 +29,6 @@ ERRORS = 4  # half-width of the band about an exponent, in standard errors
 class Bifurcation(Plot):
     """Samples once a turn against a parameter, and after how many switches the motion repeats."""
 
-    quantities = ("bifurcation",)
     roles: ClassVar[Roles] = {"lyapunov": Role("lyapunov")}
     kind: Literal["bifurcation"] = "bifurcation"
     x: str
@@ -124,7 +122,6 @@ UNSETTLED = "#aaaaaa"  # a sweep's marks where it is not shown that the motion h
 class Branches(Plot):
     """Range of motion of all cycles found against one parameter, stable and unstable, and where a sweep jumps."""
 
-    quantities = ("branches",)
     kind: Literal["branches"] = "branches"
     paper_cases: dict[str, Finite] = Field({})  # values of the parameter by the paper's name of the case
 
@@ -282,7 +279,6 @@ LARGEST = 36.0  # area of the mark of an attractor that all starts reach, square
 class BasinShares(Plot):
     """Outcomes of many starts, the attractors, and the critical energy of separation, against a parameter."""
 
-    quantities = ("basins",)
     kind: Literal["basins"] = "basins"
     x: str
 
@@ -322,8 +318,8 @@ def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: n
     shares = shares.sel(attractor_class=[*classes]).transpose("attractor_class", ...)
     below = shares.cumsum("attractor_class") - shares.fillna(0)
     for class_, heights, bottoms in zip(classes, shares, below, strict=True):
-        look: dict[str, Any] = {"facecolor": LOOKS[class_].face, "hatch": LOOKS[class_].hatch, "edgecolor": BLACK}
-        ax.bar(along, heights, width, bottoms, linewidth=0.4, **look)
+        look = LOOKS[class_]
+        ax.bar(along, heights, width, bottoms, fc=look.face, hatch=look.hatch, ec=BLACK, lw=0.4)
     ax.set(ylim=(0, 1))
 
 
@@ -370,7 +366,6 @@ BINS = 3  # number of parts, with equal numbers of draws, of a parameter's distr
 class Sensitivity(Plot):
     """Probability of instability in the lowest and in the highest third of each parameter; for up to four points."""
 
-    quantities = ("sensitivity",)
     several = True
     kind: Literal["sensitivity"] = "sensitivity"
 
@@ -419,7 +414,7 @@ def cells_of(study: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
     """Name and values of each point of the grid that has samples left, without the dimension of samples."""
     dims = [str(dim) for dim in study["status"].dims if dim != SAMPLE]
     names = [str(name) for name, values in study.coords.items() if values.dims and {*values.dims} <= {*dims}]
-    for index in product(*(range(study.sizes[dim]) for dim in dims)):
+    for index in np.ndindex(*(study.sizes[dim] for dim in dims)):
         cell = study.isel(dict(zip(dims, index, strict=True)))
         cell = cell.isel({SAMPLE: flag_names(cell["status"]) != EXCLUDED})
         if cell.sizes[SAMPLE]:

@@ -285,6 +285,12 @@ def stretches(mask: np.ndarray) -> list[tuple[int, int]]:
     return [(first, after) for first, after in edges.reshape(-1, 2).tolist()]
 
 
+def spans(along: np.ndarray, mask: np.ndarray) -> list[tuple[float, float]]:
+    """Ranges of ascending values in which a mask holds, up to halfway to their neighbours."""
+    borders = edges(along).tolist()
+    return [(borders[first], borders[after]) for first, after in stretches(mask)]
+
+
 def mark_cases(axes: Sequence[Axes], places: Mapping[str, float], height: float = 0.0) -> None:
     """Mark the paper's cases by lines, named in the first panel: left of the first line, right of the next."""
     for i, (case, x) in enumerate(places.items()):

@@ -195,14 +195,10 @@ class HeatMap(General):
 
 def _cells(ax: Axes, plane: xr.DataArray, **colours: Any) -> Any:
     """Draw the values of a panel in colour, where there are any."""
-    values = np.ma.masked_invalid(plane.values.astype(float))
-    if isinstance(colours.get("norm"), mpl.colors.LogNorm):
-        values = np.ma.masked_where(values <= 0, values)
-    return ax.pcolormesh(*edges_of(plane, scale), values, rasterized=True, **colours)
+    return ax.pcolormesh(*edges_of(plane, scale), plane.values.astype(float), rasterized=True, **colours)
 
 
 def _colours(array: xr.DataArray, words: Sequence[str], log: bool) -> dict[str, Any]:
-    """Colour map and scale for matplotlib."""
     if words:
         return in_steps([COLOURS[i % len(COLOURS)] for i in range(len(words))])
     values = array.values[np.isfinite(array.values)]

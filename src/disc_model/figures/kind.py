@@ -131,7 +131,7 @@ CURVES = Role("stability_curves", (), {"x": "Omega", "y": "N"})
 class Plot(Kind):
     """A figure of a grid study."""
 
-    quantities: ClassVar[tuple[str, ...]] = ()  # those that it can show, the default first
+    quantities: ClassVar[tuple[str, ...]] = ()  # those that it can show, the default first; if none, that of its name
     needs: ClassVar[tuple[str, ...]] = ()  # dimensions, beside those that the file chooses as x and y
     several: ClassVar[bool] = False  # whether it shows several normalizations, or is drawn from the values for one
     named_above: ClassVar[bool] = False  # whether its panels name their normalizations

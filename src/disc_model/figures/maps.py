@@ -413,8 +413,7 @@ def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
         ax.scatter(*point, 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
         across, up = (ax.transData + ax.transAxes.inverted()).transform(point)
         drawing.say(ax, name, point, (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5), **look)
-    ring: dict[str, Any] = {"linestyle": "", "markerfacecolor": "none", "markersize": 6, "markeredgewidth": 1.4}
-    ring |= {"markeredgecolor": PAPER, "path_effects": edge["path_effects"]}
+    ring = {"ls": "", "mfc": "none", "ms": 6, "mew": 1.4, "mec": PAPER, "path_effects": edge["path_effects"]}
     said = [(f"paper: {OUTCOME_LOOKS[name].label}", shape) for name, shape in PAPER_MARKERS.items() if name in outcomes]
     return [drawing.sample(marker=shape, label=label, **ring) for label, shape in said]
 
@@ -447,14 +446,13 @@ def _set_scales(axes: Sequence[Axes], study: xr.Dataset, names: Mapping[str, str
 ONSET, END = SEPARATED, drawing.BLUE  # speeds at which separation begins, and at which it ends
 STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle\n(white: none)")
 CONTACT = OUTCOME_LOOKS["growing"]._replace(label="oscillations grow, or another\ncycle is reached, in contact")
-EDGE: dict[str, Any] = {"markersize": 2.4, "markeredgecolor": BLACK, "markeredgewidth": 0.5, "zorder": 1.9}
-ONSETS = EDGE | {"color": "white", "marker": "o"}  # seen on any area by their black edges, below the curves
+ONSETS: dict[str, Any] = {"c": "white", "marker": "o", "ms": 2.4, "mec": BLACK, "mew": 0.5, "zorder": 1.9}
+"""Look of onsets, seen on any area by their black edges, below the curves."""
 
 
 class CriticalSpeed(Plot):
     """Speeds at which separation begins or ends against the preload, for several horizons."""
 
-    quantities = ("critical_speed",)
     needs = ("N",)
     roles: ClassVar[Roles] = {
         "hysteresis": Role("hysteresis", ("N",)),
@@ -589,7 +587,6 @@ def _beside(ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset | None, basins: xr.Da
 class RampedSpeeds(Plot):
     """Where separation begins on the way up and ends on the way down, against the rate of the speed's ramps."""
 
-    quantities = ("ramps",)
     roles: ClassVar[Roles] = {"curves": CURVES}
     kind: Literal["ramps"] = "ramps"
 

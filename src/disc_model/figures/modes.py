@@ -24,7 +24,6 @@ HOLLOW: dict[str, Any] = {"markersize": 3.5, "markerfacecolor": "white", "marker
 class Campbell(Plot):
     """Frequencies and growth rates against the speed, and where modes meet multiples of the stick-slip frequency."""
 
-    quantities = ("campbell",)
     needs = ("Omega",)
     kind: Literal["campbell"] = "campbell"
     normalization: Literal["as_published", "orthonormal"] | None = None  # the one shown, where the study has several
@@ -67,7 +66,7 @@ class Campbell(Plot):
             drawing.say(top, f"{multiple:g} ${symbol}$", meeting, (4, -3), **beside)
             drawing.say(bottom, f"{multiple:g} ${symbol}$", (speeds[i], rate[i]), (2, 3), **beside)
         for ax in (top, bottom):
-            for low, high in gaps(study):
+            for low, high in drawing.spans(speeds, ~np.isfinite(rate)):  # without a cycle
                 ax.axvspan(low, high, color=GREY, alpha=0.25, linewidth=0)
         low, high = (float(end.reduce(rate, initial=0.0)) for end in (np.fmin, np.fmax))
         bottom.set(ylim=(min(1.3 * low, -LINEAR), max(3 * high, LINEAR)), xlabel=drawing.axis_of("Omega")[0])
@@ -115,13 +114,6 @@ def named_modes(diameters: np.ndarray, heights: np.ndarray, apart: float) -> Ite
     known = np.argsort(heights)[: int(np.isfinite(heights).sum())]
     for part in np.split(known, np.flatnonzero(np.diff(heights[known]) > apart) + 1):
         yield part, name_of(*diameters[part].tolist())
-
-
-def gaps(study: xr.Dataset) -> Iterator[tuple[float, float]]:
-    """Ranges of speeds without a cycle, extended by half a step."""
-    edges = drawing.edges(study["Omega"].values)
-    for first, after in drawing.stretches(~np.isfinite(study["growth_rate"].values)):
-        yield float(edges[first]), float(edges[after])
 
 
 # ---- Modes of steady sliding along a parameter, root loci, and what the motion really does

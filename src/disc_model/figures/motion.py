@@ -46,12 +46,11 @@ def draw_history(axes: Sequence[Axes], case: xr.DataTree, window: xr.Dataset, va
     axes[-1].locator_params(axis="x", nbins=6)
     axes[-1].ticklabel_format(axis="x", useOffset=False)
     phase = window["phase"].values if "phase" in window else np.array([])
-    spans = {name: drawing.stretches(phase == PHASES.index(name)) for name in SHADES}
+    spans = {name: drawing.spans(window["time"].values, phase == PHASES.index(name)) for name in SHADES}
     if not 0 < max(map(len, spans.values())) <= MOST_SHADED:
         return []
-    borders = drawing.edges(window["time"].values)
     for name, of_phase in spans.items():
-        bars = [(borders[first], borders[after] - borders[first]) for first, after in of_phase]
+        bars = [(start, stop - start) for start, stop in of_phase]
         for ax in axes:
             ax.broken_barh(bars, (0, 1), transform=ax.get_xaxis_transform(), linewidth=0, zorder=0, **SHADES[name])
     looks = SHADES | {"slip": {"facecolor": "white", "edgecolor": GREY, "linewidth": 0.5}}
@@ -102,8 +101,8 @@ def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
         if inside.any():
             # broken where the phase changes, so that no chord is drawn across others
             height = np.where(inside, samples[y].values * in_y, np.nan)
-            look: dict[str, Any] = {"color": drawing.PHASE_COLOURS[name], "linewidth": width, "label": name}
-            ax.plot(samples[x].values * in_x, height, rasterized=True, **look)
+            colour = drawing.PHASE_COLOURS[name]
+            ax.plot(samples[x].values * in_x, height, color=colour, linewidth=width, label=name, rasterized=True)
     ax.margins(0.04)
     for line in drawing.legend_above(ax).get_lines():
         line.set_linewidth(line.get_linewidth() + 0.5)
@@ -204,12 +203,10 @@ class PoincareSections(CasePlot):
         figure = drawing.new_figure(PAGE, 2.75 * len(cases))
         rows = np.atleast_1d(np.asarray(figure.subfigures(len(cases), 1)))
         sections = [dataset.samples(case, "poincare", at_least=1) for case in cases]
-        for i, (row, case, samples) in enumerate(zip(rows, cases, sections, strict=True)):
-            axes = row.subplots(1, 2)
-            handles = draw_sections(axes, case, samples, sections)
+        for row, case, samples in zip(rows, cases, sections, strict=True):
+            handles = draw_sections(row.subplots(1, 2), case, samples, sections)
             row.legend(handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2)
-            for ax, text in zip(axes, "abcdefgh"[2 * i :], strict=False):
-                drawing.letter(ax, text)
+        drawing.letters(figure.axes)
         return figure
 
 
@@ -427,7 +424,6 @@ def draw_modes(axes: Sequence[Axes], p: Parameters, slider: bool = True) -> None
 
 def film(figure: Figure, motion: Motion, time: Array, force: Array) -> Any:
     """Make the film of disc, circle under the slider, and contact force (N) over the time (s) of the whole stretch."""
-    figure.set_layout_engine("none")  # panels keep their places in all frames
     boxes = ((0.01, 0.05, 0.38, 0.9), (0.48, 0.62, 0.5, 0.29), (0.48, 0.13, 0.5, 0.29))
     disc, circle, trace = (figure.add_axes(box) for box in boxes)
     scale, begin = scale_of(motion), motion.time[0]

@@ -29,14 +29,11 @@ if TYPE_CHECKING:
     from disc_model.stability.sliding import SteadySliding
 
 
-def _stated(p: Parameters, *varied: str) -> str:
-    """The values of a case but those of what varies."""
+def _stated(case: Parameters | xr.DataTree, *varied: str) -> str:
+    """The values of a case, such as that of a run, but those of what varies."""
+    p = case if isinstance(case, Parameters) else Parameters.model_validate_json(case.attrs["parameters"])
     values = p.replace(**{name: p.numbers[name] for name in varied}).stated
     return drawing.what_case({name: value for name, value in values.items() if name not in varied})
-
-
-def _parameters(case: xr.DataTree) -> Parameters:
-    return Parameters.model_validate_json(case.attrs["parameters"])
 
 
 @contextmanager
@@ -60,32 +57,31 @@ def canvas(
 
 
 def window_of(
-    case: xr.DataTree, name: object, which: str = "window", *, samples: bool = False, **variables: object
+    case: xr.DataTree, name: object, *variables: tuple[str, object], which: str = "window", samples: bool = False
 ) -> xr.Dataset:
-    """A window of a run, if it holds what is needed: samples, and variables by the arguments that name them."""
+    """A window of a run, if it holds what is needed: samples, and variables, each after the argument that names it."""
     known = [str(child) for child in case.children if child not in ("events", "poincare")]
     if not (isinstance(name, str) and name in case.children):
         raise ParameterError(Fault.of((which,), name, f"was not recorded{suggestion(name, known)}"))
     window = dataset.group(case, name)
     columns = dict.fromkeys(str(x).removesuffix("_min").removesuffix("_max") for x in window if x != "phase")
-    for argument, names in variables.items():
-        for x in names if argument == "variables" else [names]:  # type: ignore[attr-defined]
-            if not (isinstance(x, str) and x in columns):
-                raise ParameterError(Fault.of((argument,), x, f"is not in the window {name}{suggestion(x, columns)}"))
+    for argument, x in variables:
+        if not (isinstance(x, str) and x in columns):
+            raise ParameterError(Fault.of((argument,), x, f"is not in the window {name}{suggestion(x, columns)}"))
     require(("phase" in window or not samples, which, name, "must hold samples, not their ranges"))
     return window
 
 
 def plot_run(case: xr.DataTree, windows: Sequence[str], variables: Sequence[str], ax: Any = None) -> np.ndarray:
     """Draw variables of a run, a row each, in windows, a column each."""
-    several = isinstance(variables, list | tuple) and len(variables) > 0
-    rules = (several, "variables", variables), (len(windows) > 0, "windows", windows)
-    require(*((*rule, "must be a list of one or more") for rule in rules))
-    shown = [window_of(case, name, "windows", variables=variables) for name in windows]
+    several, rule = isinstance(variables, list | tuple) and len(variables) > 0, "must be a list of one or more"
+    require((several, "variables", variables, rule), (len(windows) > 0, "windows", windows, rule))
+    named = [("variables", variable) for variable in variables]
+    shown = [window_of(case, name, *named, which="windows") for name in windows]
     rows, columns = len(variables), len(windows)
     width = PAGE if columns > 1 else 1.3 * COLUMN
     shared: dict[str, Any] = {"sharex": "col", "sharey": "row" if columns > 1 else False}
-    with canvas(ax, width, 0.7 + 1.25 * rows, rows, columns, _stated(_parameters(case)), **shared) as axes:
+    with canvas(ax, width, 0.7 + 1.25 * rows, rows, columns, _stated(case), **shared) as axes:
         grid: Any = np.array(axes, dtype=object).reshape(rows, columns)
         handles: list[Any] = []
         for column, window in zip(grid.T, shown, strict=True):
@@ -101,8 +97,8 @@ def plot_run(case: xr.DataTree, windows: Sequence[str], variables: Sequence[str]
 
 def plot_phase_portrait(case: xr.DataTree, window: str, x: str, y: str, ax: Any = None) -> Axes:
     """Draw one variable over another, coloured by phase."""
-    samples = window_of(case, window, samples=True, x=x, y=y)
-    with canvas(ax, COLUMN, 2.9, title=_stated(_parameters(case))) as [axes]:
+    samples = window_of(case, window, ("x", x), ("y", y), samples=True)
+    with canvas(ax, COLUMN, 2.9, title=_stated(case)) as [axes]:
         motion.draw_portrait(axes, samples, x, y)
     return axes
 
@@ -111,7 +107,7 @@ def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float 
     """Draw the amplitude of a variable over the frequency."""
     known = highest is None or (is_number(highest) and highest > 0)
     require((known, "highest", highest, "must be a number > 0, in Hz"))
-    samples = window_of(case, window, samples=True, variable=variable)
+    samples = window_of(case, window, ("variable", variable), samples=True)
     span = float(np.ptp(samples["time"].values)) if samples["time"].size else 0.0
     half = (samples["time"].size - 1) / (2 * span) if span else 0.0  # of the rate
     highest = min(1000.0, half) if highest is None else highest
@@ -120,7 +116,7 @@ def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float 
     most = f"must be at most half the rate of the window, {half:.6g} Hz"
     require((resolved, "highest", highest, rule), (below, "highest", highest, most))
     try:
-        with canvas(ax, 1.3 * COLUMN, 2.6, title=_stated(_parameters(case))) as [axes]:
+        with canvas(ax, 1.3 * COLUMN, 2.6, title=_stated(case)) as [axes]:
             motion.draw_spectrum(axes, samples, variable, highest)
     except Missing as reason:
         raise ParameterError(Fault.of(("window",), window, str(reason))) from None
@@ -129,7 +125,7 @@ def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float 
 
 def plot_poincare(case: xr.DataTree, ax: Any = None) -> np.ndarray:
     """Draw the sections of slider and disc, once a turn of the drive."""
-    with canvas(ax, PAGE, 2.9, 1, 2, _stated(_parameters(case))) as axes:
+    with canvas(ax, PAGE, 2.9, 1, 2, _stated(case)) as axes:
         handles = motion.draw_sections(axes, case, dataset.group(case, "poincare"))
         if ax is None:
             axes[0].figure.legend(handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2)
@@ -150,7 +146,7 @@ def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str 
         (not writer or available, "path", str(path), f"needs the program {writer}"),
     )
     with drawing.styled():
-        figure = mpl.figure.Figure(figsize=(6.4, 2.7), layout="constrained")
+        figure = mpl.figure.Figure(figsize=(6.4, 2.7))
         film = motion.film(figure, motion.Motion.of(p, states), window["time"].values, window["P"].values)
         if path is not None:
             film.save(path, writer=writer, fps=fps, dpi=100)
@@ -262,9 +258,9 @@ def plot_critical(critical: Critical, ax: Any = None) -> Axes:
     label, factor = drawing.axis_of(critical.name)
     x = critical.values * factor
     with canvas(ax, 1.3 * COLUMN, 2.8, title=_stated(critical.parameters, critical.name)) as [axes]:
-        look: dict[str, Any] = {"facecolor": SEPARATED, "alpha": 0.3, "linewidth": 0.8, "edgecolor": SEPARATED}
         for i, ends in enumerate(critical.unstable * factor):
-            axes.axvspan(*ends, zorder=0, label="_nolegend_" if i else "unstable near the static start", **look)
+            entry = "_nolegend_" if i else "unstable near the static start"
+            axes.axvspan(*ends, color=SEPARATED, alpha=0.3, linewidth=0.8, zorder=0, label=entry)
         axes.plot(x, critical.growth_rate, ".-", color=BLACK, markersize=3, linewidth=0.7, label="cycles computed")
         general.scale_rates(axes)
         axes.set(xlabel=label, ylabel="Growth rate of the cycle (1/s)", xlim=(x[0], x[-1]))
@@ -276,12 +272,11 @@ def plot_exponents(lyapunov: Lyapunov, ax: Any = None) -> Axes:
     """Draw the exponents with their errors, those that have converged filled; what has vanished is left out."""
     number = np.arange(1, len(lyapunov.exponents) + 1)
     finite, done = np.isfinite(lyapunov.exponents), lyapunov.converged
-    look: dict[str, Any] = {"fmt": "o", "color": BLUE, "markersize": 4, "capsize": 3, "linewidth": 0.8}
     with canvas(ax, COLUMN, 2.6) as [axes]:
         for mask, face, text in ((done & finite, BLUE, "converged"), (~done & finite, "white", "not converged")):
             if mask.any():
                 points = number[mask], lyapunov.exponents[mask], lyapunov.errors[mask]
-                axes.errorbar(*points, markerfacecolor=face, label=text, **look)
+                axes.errorbar(*points, fmt="o", color=BLUE, ms=4, mfc=face, capsize=3, linewidth=0.8, label=text)
         axes.axhline(0, color=GREY, linewidth=0.6, zorder=0)
         axes.set(xlabel="Number", ylabel="Lyapunov exponent (1/s)", xticks=number, xlim=(0.5, number[-1] + 0.5))
         axes.set_title(f"over {lyapunov.duration:g} s, {lyapunov.separations} separations", loc="left")

@@ -318,9 +318,10 @@ class GridStudy:
     def faults_of(self, plot: Plot) -> Iterable[Fault]:
         """What keeps a figure from showing this study; general ones look at the quantity's variables and dimensions."""
         if not isinstance(plot, General):
-            if self.quantity in plot.quantities:
+            quantities = plot.quantities or (plot.kind,)
+            if self.quantity in quantities:
                 return plot.faults(self.values)
-            return [Fault.of(("kind",), plot.kind, f"needs the quantity {plot.quantities[0]}")]
+            return [Fault.of(("kind",), plot.kind, f"needs the quantity {quantities[0]}")]
         from disc_model.studies.run import coordinates_of  # reads xarray, which other figures do not need
 
         quantity, variables = self.options, dict[str, Any]()
