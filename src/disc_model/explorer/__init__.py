@@ -157,10 +157,10 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         "parameters": [*Parameters.model_fields, *RATIOS],
     }
     texts = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
-    environment.filters["embedded"] = embedded
-    return environment.from_string(_part("page.html")).render(
+    template = jinja2.Template(_part("page.html"), autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
+    return template.render(
         title=title,
+        embedded=embedded,
         style=_part("page.css"),
         figures=[(heading, [*group]) for heading, group in groupby(pictures, key=attrgetter("heading"))],
         contents=texts.replace("<", "\\u003c"),  # so that none of them ends the enclosing HTML element

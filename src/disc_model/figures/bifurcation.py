@@ -18,10 +18,9 @@ from disc_model.figures.kind import Plot, Role, Roles, Values
 from disc_model.figures.maps import OUTCOME_LOOKS, Look, patches
 from disc_model.units import Finite, Positive, Unit
 
-DOT: dict[str, Any] = {"marker": ".", "markersize": 1.5}
 UNDECIDED: dict[str, Any] = {"color": GREY, "marker": "o", "markersize": 3.0, "mfc": "none", "mew": 0.5}
-MARKS: dict[str, dict[str, Any]] = {"stick": {"marker": "x", "markersize": 2.0, "markeredgewidth": 0.4}}
-"""Looks of samples, and those other than dots by phase: in grey print, green and vermilion are alike."""
+MARKS: dict[str, dict[str, Any]] = {name: {"marker": ".", "markersize": 1.5} for name in PHASE_COLOURS}
+MARKS |= {"stick": {"marker": "x", "markersize": 2.0, "mew": 0.4}}  # in grey print, green and vermilion are alike
 EXPONENTS = (BLACK, BLUE, drawing.BROWN, GREY)  # the largest exponent first; none is the colour of a phase
 ERRORS = 4  # half-width of the band about an exponent, in standard errors
 
@@ -55,8 +54,7 @@ class Bifurcation(Plot):
         settled = (flag_names(study["settled"]) == "settled")[:, None]
         dots = [("not settled, or undecided", ~settled & (phase >= 0), UNDECIDED)]
         for code, (name, color) in enumerate(PHASE_COLOURS.items()):
-            look = {**DOT, "color": color, **MARKS.get(name, {})}
-            dots.append((names.get(name, name), settled & (phase == code), look))
+            dots.append((names.get(name, name), settled & (phase == code), MARKS[name] | {"color": color}))
         for label, mask, look in dots:
             if mask.any():
                 ax.plot(position[mask], values[mask], linestyle="", label=label, **look)
@@ -171,11 +169,8 @@ def draw_branch(ax: Axes, x: np.ndarray, y: np.ndarray, stable: np.ndarray, colo
     """Draw a line along a branch, thick where it is stable, with gaps where its height jumps by more than a factor."""
     known = np.isfinite(x)
     x, y, stable = x[known], y[known], stable[known]
-    if factor == np.inf:
-        ax.plot(x, y, color=color, linewidth=THIN)
-    else:
-        along, height = drawing.broken(x, np.log(y), np.log(factor))
-        ax.plot(along, np.exp(height), color=color, linewidth=THIN)
+    height = np.log(y) if factor < np.inf else None
+    ax.plot(*drawing.broken(x, y, np.log(factor), height), color=color, linewidth=THIN)
     # a segment is stable where both its ends are
     for first, last in drawing.stretches(stable[:-1] & stable[1:]):
         ax.plot(x[first : last + 1], y[first : last + 1], color=color, linewidth=2.0, solid_capstyle="butt")
@@ -300,8 +295,7 @@ class BasinShares(Plot):
             ax.margins(x=0.04)
             ax.set_xlabel(label)
             drawing.mark_failed(ax, along[drawing.failed(study).values])
-        options = stated_in(study, "options")
-        undecided = LOOKS["undecided"]._replace(label=f"undecided after {options['horizon']:g} s")
+        undecided = LOOKS["undecided"]._replace(label=f"undecided after {stated_in(study, 'options')['horizon']:g} s")
         handles = patches(LOOKS | {"undecided": undecided}, classes)
         figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
         return figure

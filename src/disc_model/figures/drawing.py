@@ -18,7 +18,6 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data import dataset, variables
-from disc_model.data.dataset import Missing
 from disc_model.data.variables import EXCLUDED, SHOWN, WITHOUT_CYCLE, axis_of, flag_names, stated_in, typeset
 
 if TYPE_CHECKING:
@@ -73,7 +72,7 @@ def blank_if_missing(*axes: Axes) -> Iterator[None]:
     """Show the reason in these panels alone if a case does not hold their data."""
     try:
         yield
-    except Missing as reason:
+    except dataset.Missing as reason:
         text = fill(f"not shown: the case {reason}", 24)
         for ax in axes:
             ax.cla()
@@ -224,15 +223,13 @@ def coordinate_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
     if isinstance(value, str):
         return WORDS.get(value, value)
     label, factor = label_of(data[by])
-    if by in UNITS.get():
-        unit, factor = UNITS.get()[by]
-        label = f"{label.rpartition(' (')[0]} ({unit})"
+    name, _, unit = label.rpartition(" (")
+    unit, factor = UNITS.get().get(by, (unit.rstrip(")"), factor))
     if by == "contact_compliance":
         return f"compliance {value * factor:.3g} µm/N" if value else "rigid contact"
     if by == "friction_offset":
         return f"friction {value * factor:g} mm above the middle plane" if value else "friction in the middle plane"
-    name, _, unit = label.rpartition(" (")
-    return f"{name} = {value * factor:g} {unit.rstrip(')')}" if name else f"{label} = {value * factor:g}"
+    return f"{name} = {value * factor:g} {unit}" if name else f"{label} = {value * factor:g}"
 
 
 def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
@@ -268,9 +265,9 @@ def headroom(ax: Axes, share: float) -> None:
     ax.set_ylim(top=high + share * (high - low))
 
 
-def broken(x: np.ndarray, y: np.ndarray, jump: float) -> list[np.ndarray]:
-    """A line with gaps where its height changes by more than `jump`."""
-    gaps = np.flatnonzero(np.abs(np.diff(y)) > jump) + 1
+def broken(x: np.ndarray, y: np.ndarray, jump: float, height: np.ndarray | None = None) -> list[np.ndarray]:
+    """A line with gaps where its height, y unless given, changes by more than `jump`."""
+    gaps = np.flatnonzero(np.abs(np.diff(y if height is None else height)) > jump) + 1
     return [np.insert(along.astype(float), gaps, np.nan) for along in (x, y)]
 
 

@@ -128,8 +128,7 @@ def draw_maps(
     by = remaining(array, (x, y))
     handles: list[Artist] = []
     if variable == "growth_rate" and not log:
-        names = [name for name in ("growth_rate", "cycle", "status", "sliding_growth_rate") if name in study]
-        grids = [plane.transpose(y, x, ...) for _, plane in drawing.slices(study[names], by)]
+        grids = [plane.transpose(y, x, ...) for _, plane in drawing.slices(study, by)]
         handles = patches(CYCLE_LOOKS, growth_panels(figure, axes, grids))
     elif variable == "outcome":
         shown = [panel.transpose(y, x) for _, panel in drawing.slices(array, by)]

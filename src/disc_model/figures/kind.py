@@ -16,11 +16,9 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 import xarray as xr
 from pydantic import AfterValidator, BeforeValidator, Field
 
-from disc_model.data.dataset import Missing
 from disc_model.data.variables import PERTURBATIONS, SERIES, SHOWN
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures import drawing
-from disc_model.figures.drawing import Figure
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.case import Poincare, Window
 from disc_model.units import Strict, in_si
@@ -94,18 +92,18 @@ class Kind(Strict):
         finally:
             drawing.UNITS.reset(token)
 
-    def draw(self, *inputs: Any, **options: Any) -> Figure:
+    def draw(self, *inputs: Any, **options: Any) -> drawing.Figure:
         """Draw the cases, or the study and further ones by their roles; raises `Missing` where a case lacks data."""
         raise NotImplementedError
 
-    def write_head(self, figure: Figure, title: str, values: str) -> None:
+    def write_head(self, figure: drawing.Figure, title: str, values: str) -> None:
         """Write title and values above the figure, unless a caption says both; give axes the units of the reader."""
         drawing.restate_axes(figure)
         text = drawing.head_text(figure.get_figwidth(), self.title or title, values)
         if text and not self.caption:
             self.place_title(figure, text)
 
-    def place_title(self, figure: Figure, text: str) -> None:
+    def place_title(self, figure: drawing.Figure, text: str) -> None:
         """Write a title where it covers nothing."""
         figure.suptitle(text, fontsize=8)
 
@@ -140,7 +138,7 @@ class Plot(Kind):
     study: str = ""  # the grid study that it shows, if not the file's own
     overlays: dict[str, str] = Field({})  # further studies by the roles they play
 
-    def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
+    def render(self, inputs: Mapping[str, xr.DataTree]) -> drawing.Figure:
         """Draw it in the common style from its study, the first input, and further ones by their roles."""
         study, *others = (tree.to_dataset() for tree in inputs.values())
         if not self.several:
@@ -270,16 +268,13 @@ class CasePlot(Kind):
         further = chain.from_iterable([names] if isinstance(names, str) else names for names in named)
         return (self.case, *filter(None, further))
 
-    def render(self, inputs: Mapping[str, xr.DataTree]) -> Figure:
+    def render(self, inputs: Mapping[str, xr.DataTree]) -> drawing.Figure:
         """Draw it in the common style from cases by their names; the reason instead, if one lacks what it needs."""
         first = next(iter(inputs.values()))
         with self.in_its_style():
-            try:
+            figure, [ax] = drawing.panels(drawing.COLUMN, 2)
+            with drawing.blank_if_missing(ax):
                 figure = self.draw(*inputs.values())
-            except Missing:
-                figure, [ax] = drawing.panels(drawing.COLUMN, 2)
-                with drawing.blank_if_missing(ax):
-                    raise
             self.write_head(figure, "", drawing.what_case(json.loads(first.attrs.get("parameters", "{}"))))
         return figure
 

@@ -228,25 +228,21 @@ def passes(curve: Curve, cells: xr.DataArray) -> NDArray[np.bool_]:
     return np.asarray(np.isfinite(curve.Omega) & binary_dilation(cells, np.ones((3, 3)))[i, j])
 
 
-def parted(curves: Sequence[Curve], cycle: xr.Dataset) -> tuple[list[Curve], list[Curve]]:
-    """Split curves into the parts that bound the cycle of a map over N and Omega, and those of another cycle."""
+def parts_of(curves: Sequence[Curve], cycle: xr.Dataset) -> list[Curve]:
+    """The parts of curves that bound the cycle of a map over N and Omega, without those of another cycle."""
     rate = cycle["growth_rate"]
     beyond = {"neutral": rate > 0, "fold": ~(rate < 0)}
-    shown: list[Curve] = []
-    other: list[Curve] = []
+    parts = []
     for curve in curves:
-        side = np.isfinite(curve.Omega)
         bounding = passes(curve, rate < 0) & passes(curve, beyond[curve.kind])
         within = slice(bounding.argmax(), bounding.size - bounding[::-1].argmax())
         if bounding[within].mean() >= 0.5:  # cells are coarser than the curve
-            bounding[within] = side[within]
-        for lines, stretch in ((shown, bounding), (other, side & ~bounding)):
-            if stretch.any():
-                # one point more at each end, so that the parts of a curve meet
-                joined = stretch | np.roll(stretch, 1) & (np.arange(stretch.size) > 0)
-                Omega, N = (np.where(joined, along, np.nan) for along in (curve.Omega, curve.N))
-                lines.append(Curve(Omega, N, curve.kind, curve.label if lines is shown else ""))
-    return shown, other
+            bounding[within] = np.isfinite(curve.Omega)[within]
+        if bounding.any():
+            bounding[1:] |= bounding[:-1].copy()  # up to the point beyond
+            Omega, N = (np.where(bounding, along, np.nan) for along in (curve.Omega, curve.N))
+            parts.append(curve._replace(Omega=Omega, N=N))
+    return parts
 
 
 def crossings(curve: Curve, load: float) -> Array:
@@ -348,7 +344,7 @@ class RegionMap(Plot):
 def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Artist]:
     """Draw continued curves of the map's cycle, within its points."""
     paths = []
-    for curve in parted(curves_of(drawing.of(curves, drawing.normalizations(data)[0])), data)[0]:
+    for curve in parts_of(curves_of(drawing.of(curves, drawing.normalizations(data)[0])), data):
         along = ((curve.Omega, data["Omega"].values), (curve.N, data["N"].values))
         inside = [values == np.clip(values, points.min(), points.max()) for values, points in along]
         paths.append(curve._replace(N=np.where(np.all(inside, axis=0), curve.N, np.nan), label=""))
@@ -484,7 +480,7 @@ class CriticalSpeed(Plot):
         if "curves" in overlays:
             curves = curves_of(overlays["curves"])
             if cycle is not None:
-                curves = parted(curves, cycle)[0]
+                curves = parts_of(curves, cycle)
             if cycle is not None and "outcome" in cycle:  # what passes no cell with separation has no name
                 apart = cycle["outcome"].copy(data=flag_names(cycle["outcome"]) == "separation")
                 curves = [x if passes(x, apart).any() else x._replace(label="") for x in curves]
@@ -564,12 +560,11 @@ def _beside(ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset | None, basins: xr.Da
         # by the starts: both fractions exceed zero with their intervals; a single speed is a line
         load, speeds = stated_in(basins, "base")["N"], basins["Omega"].values
         quiet, apart = basins["basin_fraction_low"].sel(attractor_class="quiet"), basins["separating_fraction_low"]
-        # its height is well within a step of the sweeps, N
-        bar: dict[str, Any] = {"height": 20.0, "color": ORANGE, "alpha": 0.6, "linewidth": 0.8, "edgecolor": ORANGE}
+        height = 20.0  # N, well within a step of the sweeps
         for i, (first, after) in enumerate(drawing.stretches(((quiet > 0) & (apart > 0)).values)):
             label = "_nolegend_" if i else f"quiet or separating,\ncomputed at {load:g} N"
             width = speeds[after - 1] - speeds[first]
-            ax.barh(load, width, left=speeds[first], label=label, **bar)
+            ax.barh(load, width, height, speeds[first], label=label, color=ORANGE, ec=ORANGE, alpha=0.6, lw=0.8)
     elif cycle is not None:
         # by the multipliers, as short dwells only delay a sweep up; without loads between whose neighbours of the sweep
         # one never separates

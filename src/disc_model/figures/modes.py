@@ -76,7 +76,7 @@ class Campbell(Plot):
         return figure
 
 
-def peaks(study: xr.Dataset) -> list[tuple[int, xr.Dataset | None]]:
+def peaks(study: xr.Dataset) -> Iterator[tuple[int, xr.Dataset | None]]:
     """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on: index of the speed, and the nearest
     crossing, of the leading mode if possible; without points by themselves beside gaps, which are of another cycle."""
     speeds, rate = study["Omega"].values, study["growth_rate"].values.copy()
@@ -86,15 +86,12 @@ def peaks(study: xr.Dataset) -> list[tuple[int, xr.Dataset | None]]:
     rate = np.nan_to_num(rate, nan=-np.inf)
     beside = np.abs(speeds - speeds[:, None]) <= NEAR * np.ptp(speeds)
     tops = np.flatnonzero((rate >= LINEAR) & (rate == np.where(beside, rate, -np.inf).max(axis=1)))
-    highest: list[tuple[int, xr.Dataset | None]] = []
     for i in sorted(tops, key=lambda i: -rate[i])[:MOST]:
         leads = study["mode"][int(np.nanargmax(study["cycle_growth_rate"].values[i]))]
         apart = np.abs(study["crossing_Omega"].values - speeds[i])
         other = np.where(study["crossing_mode"] == leads, 0.0, np.ptp(speeds))
         distance = np.where(apart <= NEAR * np.ptp(speeds), apart + other, np.inf)
-        crossing = study.isel(crossing=int(distance.argmin())) if np.isfinite(distance).any() else None
-        highest.append((int(i), crossing))
-    return highest
+        yield int(i), study.isel(crossing=int(distance.argmin())) if np.isfinite(distance).any() else None
 
 
 def unjoined(rate: np.ndarray) -> np.ndarray:

@@ -276,11 +276,11 @@ class Spectrogram(CasePlot):
         return figure
 
 
-def spectrum_of(case: xr.DataTree, window: str, variable: str, **options: float) -> TimeFrequency:
+def spectrum_of(case: xr.DataTree, window: str, variable: str) -> TimeFrequency:
     """Short-time Fourier transform of a window's variable, see `disc_model.analysis.spectra`; raises `Missing`."""
     samples = dataset.samples(case, window)
     try:
-        spectrum = time_frequency(samples["time"].values, samples[variable].values, **options)
+        spectrum = time_frequency(samples["time"].values, samples[variable].values)
     except ValueError as error:
         raise Missing(f"recorded too little in {window}: {error}") from None
     if not spectrum.power.any():
@@ -405,7 +405,7 @@ def draw_circle(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> N
     ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
 
 
-def draw_modes(axes: Sequence[Axes], p: Parameters, slider: bool = True) -> None:
+def draw_modes(axes: Sequence[Axes], p: Parameters, slider: bool) -> None:
     """Draw the shape of each mode from above, its nodal lines in black, and its frequency, by ascending frequency."""
     modes = mode_arrays(p)
     r, theta, x, y = _plane(p)

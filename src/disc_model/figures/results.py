@@ -12,7 +12,6 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data import dataset
-from disc_model.data.dataset import Missing
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.figures import drawing, general, motion
 from disc_model.figures.bifurcation import LOOKS, draw_branch, draw_shares, outcomes_in
@@ -118,7 +117,7 @@ def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float 
     try:
         with canvas(ax, 1.3 * COLUMN, 2.6, title=_stated(case)) as [axes]:
             motion.draw_spectrum(axes, samples, variable, highest)
-    except Missing as reason:
+    except dataset.Missing as reason:
         raise ParameterError(Fault.of(("window",), window, str(reason))) from None
     return axes
 
@@ -397,7 +396,6 @@ def plot_sweep(
     fixed = {str(name): x.item() for name, x in study.coords.items() if not x.ndim and str(name) in NAMES}
     title = drawing.what_case({name: value for name, value in case.items() if name not in shown} | fixed)
     with canvas(ax, 1.3 * COLUMN, 2.9, title=title) as [axes]:
-        handles: Sequence[Any]
         if named in SHARES and not log:
             handles = _draw_shares(axes, study[named], across)
         elif len(dims) == 1 or len(possible) == 1:
