@@ -148,7 +148,7 @@ def draw_maps(
                 _cells(ax, panel.where(panel).transpose(y, x), cmap=mpl.colors.ListedColormap(["white"]))
             handles += patches(CYCLE_LOOKS, {EXCLUDED})
         bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=drawing.label_of(array)[0])
-        if "norm" in colours and log and colours["norm"].vmax < 10 * colours["norm"].vmin:
+        if log and colours["norm"].vmax < 10 * colours["norm"].vmin:
             bar.ax.yaxis.set_minor_formatter("{x:g}")
         if words:
             bar.set_ticks(range(len(words)), labels=words)

@@ -17,7 +17,7 @@ from disc_model.figures import drawing, general, motion
 from disc_model.figures.bifurcation import LOOKS, draw_branch, draw_shares, outcomes_in
 from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes, mpl
 from disc_model.figures.maps import patches
-from disc_model.parameters import RATIOS, Parameters, foreign_case
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import is_number, is_whole
 
 if TYPE_CHECKING:
@@ -95,7 +95,6 @@ def plot_run(case: xr.DataTree, windows: Sequence[str], variables: Sequence[str]
 
 
 def plot_phase_portrait(case: xr.DataTree, window: str, x: str, y: str, ax: Any = None) -> Axes:
-    """Draw one variable over another, coloured by phase."""
     samples = window_of(case, window, ("x", x), ("y", y), samples=True)
     with canvas(ax, COLUMN, 2.9, title=_stated(case)) as [axes]:
         motion.draw_portrait(axes, samples, x, y)
@@ -103,13 +102,12 @@ def plot_phase_portrait(case: xr.DataTree, window: str, x: str, y: str, ax: Any 
 
 
 def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float | None, ax: Any = None) -> Axes:
-    """Draw the amplitude of a variable over the frequency."""
     known = highest is None or (is_number(highest) and highest > 0)
     require((known, "highest", highest, "must be a number > 0, in Hz"))
     samples = window_of(case, window, ("variable", variable), samples=True)
     span = float(np.ptp(samples["time"].values)) if samples["time"].size else 0.0
     half = (samples["time"].size - 1) / (2 * span) if span else 0.0  # of the rate
-    highest = min(1000.0, half) if highest is None else highest
+    highest = min(motion.HIGHEST, half) if highest is None else highest
     resolved, below = not span or highest * span >= 1, not span or highest <= half * (1 + 1e-9)  # the span is rounded
     rule = f"must be at least the resolution of the window, {1 / span if span else 0:.3g} Hz"
     most = f"must be at most half the rate of the window, {half:.6g} Hz"
@@ -123,7 +121,6 @@ def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float 
 
 
 def plot_poincare(case: xr.DataTree, ax: Any = None) -> np.ndarray:
-    """Draw the sections of slider and disc, once a turn of the drive."""
     with canvas(ax, PAGE, 2.9, 1, 2, _stated(case)) as axes:
         handles = motion.draw_sections(axes, case, dataset.group(case, "poincare"))
         if ax is None:
@@ -153,7 +150,6 @@ def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str 
 
 
 def plot_multipliers(cycle: FloquetResult, ax: Any = None) -> Axes:
-    """Draw the multipliers of a cycle in the complex plane, and the unit circle."""
     values, angle = cycle.multipliers, np.linspace(0, 2 * np.pi, 200)
     outside = np.abs(values) > 1
     with canvas(ax, COLUMN, 3.2, title=_stated(cycle.parameters)) as [axes]:
@@ -226,7 +222,6 @@ def plot_branch(branch: Branch, y: str, ax: Any = None) -> Axes:
 
 
 def plot_neutral_curves(curves: NeutralCurves, ax: Any = None) -> Axes:
-    """Draw neutral curves and folds in the plane of two parameters, thick beside a stable cycle, with their names."""
     labels, factors = zip(*map(drawing.axis_of, curves.bounds), strict=True)
     low, high = np.transpose([*curves.bounds.values()]) * factors
     kinds = {"neutral": (BLACK, "loses stability"), "fold": (SEPARATED, "ends in a fold")}
@@ -283,7 +278,6 @@ def plot_exponents(lyapunov: Lyapunov, ax: Any = None) -> Axes:
     return axes
 
 
-NAMES = {*Parameters.model_fields, *RATIOS}  # coordinates of one value that titles state
 SHARES = ("basin_fraction_by_energy", "basin_fraction")
 PREFERRED = (*SHARES, "growth_rate", "outcome", "critical_speed", "separation_rate", "scan_first_separation", "kind")
 
@@ -393,7 +387,7 @@ def plot_sweep(
     require((across in possible and len(dims) < 3, "x", across, rule))
     case = json.loads(study.attrs.get("base", study.attrs.get("parameters", "{}")))
     shown = {str(name).removeprefix("sweep_").removeprefix("scan_") for name in study.coords}
-    fixed = {str(name): x.item() for name, x in study.coords.items() if not x.ndim and str(name) in NAMES}
+    fixed = {str(name): x.item() for name, x in study.coords.items() if not x.ndim}
     title = drawing.what_case({name: value for name, value in case.items() if name not in shown} | fixed)
     with canvas(ax, 1.3 * COLUMN, 2.9, title=title) as [axes]:
         if named in SHARES and not log:
