@@ -439,6 +439,7 @@ def _set_scales(axes: Sequence[Axes], study: xr.Dataset, names: Mapping[str, str
 
 
 # ---- Onset and end of separation over speed and preload
+BASINS = Role("basins", ("Omega",))
 ONSET, END = SEPARATED, drawing.BLUE  # speeds at which separation begins, and at which it ends
 STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle\n(white: none)")
 CONTACT = OUTCOME_LOOKS["growing"]._replace(label="oscillations grow, or another\ncycle is reached, in contact")
@@ -450,12 +451,7 @@ class CriticalSpeed(Plot):
     """Speeds at which separation begins or ends against the preload, for several horizons."""
 
     needs = ("N",)
-    roles: ClassVar[Roles] = {
-        "hysteresis": Role("hysteresis", ("N",)),
-        "cycle": CYCLE,
-        "curves": CURVES,
-        "basins": Role("basins", ("Omega",)),
-    }
+    roles: ClassVar[Roles] = {"hysteresis": Role("hysteresis"), "cycle": CYCLE, "curves": CURVES, "basins": BASINS}
     kind: Literal["critical_speed"] = "critical_speed"
     paper_points: dict[str, tuple[Finite, Finite]] = Field({})
 
