@@ -3,7 +3,7 @@
 import numpy as np
 
 from disc_model import Parameters
-from disc_model.engine import event_loop, layout, saltation, tangent
+from disc_model.engine import event_loop, layout, tangent
 from disc_model.engine.series import build_series
 from disc_model.simulation.states import State, engine_case, series_order, write_state
 
@@ -45,7 +45,7 @@ class Full:
     @property
     def rates(self):
         out = np.zeros(self.n_rows * 8)
-        saltation.rates(self.model, self.state, out)
+        tangent.rates(self.model, self.state, out)
         return out[::8][self.rows]
 
     def fly(self, duration, tangent=True):

@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters, plate_modes
 from disc_model.data.variables import PHASES
-from disc_model.engine import layout, saltation, tangent, transitions
+from disc_model.engine import layout, tangent, transitions
 from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import PARAMETERS, parameter_change
 from tests.contact_laws import COMPILES, COUPLED, FALLING, LAWS
@@ -207,10 +207,10 @@ def test_when_contact_is_lost(switch: str, pressed: float) -> None:
 
     engine = disturbances.run()
     t = engine.tangent
-    saltation.rates(engine.model, engine.state, t.before)
+    tangent.rates(engine.model, engine.state, t.before)
     expected = disturbances.expected(numerator)
     for at_once in (False, True):
-        rate = saltation.event_times(engine.model, engine.state, t, transitions.CONTACT_LOST, at_once)
+        rate = tangent.event_times(engine.model, engine.state, t, transitions.CONTACT_LOST, at_once)
         wanted = 0 * expected if at_once and pressed else expected
         np.testing.assert_allclose(-rate * t.tau.reshape(2, 8)[:, :2].ravel(), wanted, rtol=1e-8)
 

@@ -8,17 +8,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import layout, transitions
+from . import layout, tangent, transitions
 from .audit import SURFACE, audit_impact, audit_step, surface_velocity, transverse_energy
 from .dense_output import CLOSED_FORM, LONGEST_STICK, closed_form_length, move_to, sample_step
 from .jit import helper, inlined, kernel
 from .jit.packing import packed
 from .jit.simd import WIDTH, mul, splat, store
 from .laws import PSI_ENTRY, TINY, stepped
-from .saltation import count_event, event_gradient, event_times, pass_event, put_changes, rates, slider_rows
 from .series import weakening
 from .stepping import expand, first_event, set_course, step_size
-from .tangent import slider_row, take_step
 
 # Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
 STICK_TO_SLIP, SLIP_TO_STICK, SLIP_REVERSAL, LOSS_OF_CONTACT, REATTACHMENT = range(5)
@@ -196,7 +194,7 @@ def follow(model, s, state, probe, limits, buffers, t):
             buffers.phase_times[int(x[layout.PHASE])] += dt
             _record_step(model, s, state, probe, order, x_end, limits.audit_every, buffers)
         else:
-            take_step(model, s, t[0], order, x_end, dt, state, limits.tangent)
+            tangent.take_step(model, s, t[0], order, x_end, dt, state, limits.tangent)
         _advance_clock(model, state, order, x_end, dt)
         if cause != transitions.NOTHING:
             x[layout.IN_A_ROW] = x[layout.IN_A_ROW] + 1.0 if x[layout.TIME] == before else 0.0
@@ -207,7 +205,7 @@ def follow(model, s, state, probe, limits, buffers, t):
             else:
                 releases += 1 if cause == transitions.RELEASE_FORWARD else 0
                 returns = cause == transitions.RELEASE_FORWARD and releases == limits.releases
-                outcome = pass_event(model, state, t[0], cause, x_end == 0.0, returns, limits.tangent)
+                outcome = tangent.pass_event(model, state, t[0], cause, x_end == 0.0, returns, limits.tangent)
             if outcome != transitions.CONSISTENT:
                 return outcome
             if x[layout.PHASE] == layout.SEPARATION and not limits.may_separate:
@@ -225,7 +223,7 @@ def run(model, s, state, probe, limits, buffers):
 @inlined
 def _entry_at(model, state, row):
     """Array and index of the entry of a state that stands at ``row`` of a column."""
-    slider = row - slider_row(model, layout.PSI)
+    slider = row - tangent.slider_row(model, layout.PSI)
     return (state.disc, row) if slider < 0 else (state.x, layout.PSI + slider)
 
 
@@ -254,24 +252,24 @@ def _leave_section(model, s, state, t, course, section, start):
         t.now[:] = 0.0
         for i in range(len(rows)):
             t.now[((i // WIDTH) * t.rows + rows[i]) * WIDTH + i % WIDTH] = 1.0 / scale[i]
-        event_gradient(model, state, t, transitions.RELEASE_FORWARD)
+        tangent.event_gradient(model, state, t, transitions.RELEASE_FORWARD)
         by_psi = splat(-1.0 / t.gradient[PSI_ENTRY])
         for c in range(0, t.columns, WIDTH):
-            dpsi = mul(by_psi, put_changes(model, state, t, t.now, c, c >= t.plain))
-            store(t.now, c * t.rows + slider_row(model, layout.PSI) * WIDTH, dpsi)
+            dpsi = mul(by_psi, tangent.put_changes(model, state, t, t.now, c, c >= t.plain))
+            store(t.now, c * t.rows + tangent.slider_row(model, layout.PSI) * WIDTH, dpsi)
     if not transitions.friction_drops(model):
         # then slip begins only where the friction limit falls below the pull, and does not just touch it
-        rates(model, state, t.before)
-        if not event_times(model, state, t, transitions.RELEASE_FORWARD, False) < 0.0:
+        tangent.rates(model, state, t.before)
+        if not tangent.event_times(model, state, t, transitions.RELEASE_FORWARD, False) < 0.0:
             return transitions.OFF_SECTION
     if transitions.change_phase(model, state, transitions.RELEASE_FORWARD, False) == transitions.NO_SOLUTION:
         return transitions.NO_SOLUTION
     # the release itself belongs to the integration that ended here
-    count_event(state, transitions.NOTHING, t.log)
+    tangent.count_event(state, transitions.NOTHING, t.log)
     if state.x[layout.PHASE] == layout.SEPARATION and not course.may_separate:
         return transitions.STOPPED
     if course.tangent:
-        slider_rows(model, state, t)
+        tangent.slider_rows(model, state, t)
     return transitions.CONSISTENT
 
 

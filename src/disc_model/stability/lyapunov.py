@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.display import Summarised, draw, number_text
-from disc_model.engine import event_loop, layout, saltation, tangent, transitions
+from disc_model.engine import event_loop, layout, tangent, transitions
 from disc_model.engine.jit.cache import compiling
 from disc_model.engine.series import build_series
 from disc_model.errors import Status, as_text, raise_faults, violations
@@ -160,10 +160,10 @@ def lyapunov_exponents(
     # components of a column below its tolerance, or below rounding, count as zero
     vanished = max(10 * tolerance, 1e-12)
     if state.x[layout.PHASE] != layout.SEPARATION:  # in contact some rows follow from others
-        saltation.slider_rows(model, state, t)
+        tangent.slider_rows(model, state, t)
     _, remaining = _orthonormalise(columns, rows, metric, np.arange(count), vanished)
     if leave_out_trivial:
-        saltation.rates(model, state, t.before)
+        tangent.rates(model, state, t.before)
         along = t.before.reshape(columns.shape)[:, 0]
         if np.any(along):
             columns[:, 0] = along
@@ -179,7 +179,7 @@ def lyapunov_exponents(
             status = Status.NON_FINITE if code == transitions.TIME_OVER else Status(ENDS[code])
             break
         if state.x[layout.PHASE] != layout.SEPARATION:
-            saltation.slider_rows(model, state, t)
+            tangent.slider_rows(model, state, t)
         growth, remaining = _orthonormalise(columns, rows, metric, remaining, vanished)
         if i >= 0:
             logs[i, remaining] = growth
