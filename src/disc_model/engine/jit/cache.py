@@ -20,7 +20,7 @@ from typing import Any
 
 import llvmlite
 import numba
-from numba.core import event
+from numba.core import event, serialize
 
 from disc_model.sources import cache_folder, code_hash
 
@@ -28,23 +28,18 @@ HELPERS = ".helpers"  # suffix of files with the helpers that were first compile
 
 
 @functools.cache
-def source_hash() -> str:
-    """Hash of the engine's code without comments, docstrings and line numbers: 16 hexadecimal digits."""
+def folder() -> Path:
+    """The folder of the kernels of this engine, named by a hash of its code without comments, docstrings and lines."""
     digest, engine = hashlib.sha256(), Path(__file__).parents[1]
     for path in sorted(engine.rglob("*.py")):
         digest.update(f"{path.relative_to(engine)}\0{code_hash(path)}\0".encode())
-    return digest.hexdigest()[:16]
-
-
-@functools.cache
-def folder() -> Path:
-    return cache_folder() / f"engine-{source_hash()}"
+    return cache_folder() / f"engine-{digest.hexdigest()[:16]}"
 
 
 def hash_of(*of: object) -> str:
-    """Hash of what compiled code depends on, with the versions of all that makes it: 16 hexadecimal digits."""
+    """Hash of what compiled code depends on but for the engine, with the versions of all that makes it."""
     python = f"{sys.implementation.name} {sys.version_info[0]}.{sys.version_info[1]} {sys.platform}"
-    versions = f"engine {source_hash()}, numba {numba.__version__}, llvmlite {llvmlite.__version__}, {python}"
+    versions = f"numba {numba.__version__}, llvmlite {llvmlite.__version__}, {python}"
     return hashlib.sha256(repr((*of, versions)).encode()).hexdigest()[:16]
 
 
@@ -119,12 +114,10 @@ def lock(name: str) -> Iterator[None]:
 
 def write(path: Path, contents: object) -> None:
     """Write a file atomically; its compression contains a checksum."""
-    from numba.core.serialize import dumps
-
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f"{uuid.uuid4().hex}.tmp")
     try:
-        temporary.write_bytes(zlib.compress(dumps(contents)))
+        temporary.write_bytes(zlib.compress(serialize.dumps(contents)))
         temporary.replace(path)
     except BaseException:
         temporary.unlink(missing_ok=True)

@@ -9,6 +9,7 @@ The module uses internals of numba that may change: `jit` does without it if one
 
 import gc
 import pickle
+from copy import copy
 from typing import ClassVar
 
 import llvmlite.binding as llvm
@@ -28,25 +29,14 @@ _NEEDED = NullCache().load_overload, NullCache().save_overload, CompileResult._r
 NEEDLESS = {InlineClosureLikes, InlineOverloads, LiteralUnroll, NopythonRewrites, WithLifting}
 
 
-class _Codegen:
-    """Numba's code generator, but without environments of helpers, which never touch Python."""
-
-    def __init__(self, codegen):
-        self._codegen = codegen
-
-    def __getattr__(self, name):
-        return getattr(self._codegen, name)
-
-    def set_env(self, name, environment):
-        pass
-
-
 class HelperLibrary(JITCodeLibrary):
     """A helper that is neither optimised nor turned into machine code."""
 
     @property
     def codegen(self):
-        return _Codegen(self._codegen)
+        codegen = copy(self._codegen)
+        codegen.set_env = lambda name, environment: None  # a helper has no environment, as it never touches Python
+        return codegen
 
     def _optimize_functions(self, ll_module):
         ll_module.data_layout = self._codegen._data_layout

@@ -150,17 +150,12 @@ else:
             return loaded
 
         if isinstance(entry, types.Array):
-            array = context.make_array(entry)(context, builder)
-            shape = [word(1 + i) for i in range(entry.ndim)]
-            size = context.get_constant(types.intp, entry.dtype.bitwidth // 8)
-            strides, items = [], context.get_constant(types.intp, 1)
-            for length in reversed(shape):
-                strides.insert(0, builder.mul(items, size))
-                items = builder.mul(items, length)
-            context.populate_array(
-                array, data=word(0, array.data.type), shape=shape, strides=strides, itemsize=size, meminfo=None
-            )
-            return array._getvalue()
+            from numba.np.arrayobj import np_cfarray  # takes long, and kernels from files do not need it
+
+            lengths = types.UniTuple(types.intp, entry.ndim)
+            shape = context.make_tuple(builder, lengths, [word(1 + i) for i in range(entry.ndim)])
+            address = word(0, context.get_data_type(entry.dtype).as_pointer())
+            return np_cfarray(context, builder, entry(types.CPointer(entry.dtype), lengths), (address, shape))
         if _is_flag(entry):
             return context.make_tuple(builder, entry, [_BIT(1)] * entry.count)
         return builder.trunc(word(0), _BIT) if entry == types.boolean else word(0, context.get_value_type(entry))

@@ -11,27 +11,13 @@ from typing import Any
 import llvmlite.binding as llvm
 import numba
 import numpy as np
+from numba.core.registry import cpu_target
 
 WIDTH = 8
 
-_SETTINGS: Any = numba.config
-
-
-def in_one_register():
-    """Whether eight doubles fit into one register of the target processor, according to LLVM."""
-    add = (
-        "define <8 x double> @f(<8 x double> %a, <8 x double> %b) { %c = fadd <8 x double> %a, %b ret <8 x double> %c }"
-    )
-    cpu, features = _SETTINGS.CPU_NAME or llvm.get_host_cpu_name(), _SETTINGS.CPU_FEATURES
-    if features is None:
-        features = llvm.get_host_cpu_features().flatten()
-    llvm.initialize_native_target()
-    llvm.initialize_native_asmprinter()
-    machine = llvm.Target.from_default_triple().create_target_machine(cpu=cpu, features=features)
-    return "zmm" in machine.emit_assembly(llvm.parse_assembly(add))
-
-
-ONE_REGISTER = in_one_register()
+_SUM = "define <8 x double> @f(<8 x double> %a, <8 x double> %b) { %c = fadd <8 x double> %a, %b ret <8 x double> %c }"
+_MACHINE: Any = cpu_target.target_context.codegen()._tm
+ONE_REGISTER = "zmm" in _MACHINE.emit_assembly(llvm.parse_assembly(_SUM))  # whether eight doubles fit into one
 
 
 def aligned(n):
@@ -201,20 +187,12 @@ else:
     maximum = _of_two(lambda builder, a, b: _call(builder, "llvm.maxnum.v8f64", a, b))
     minimum = _of_two(lambda builder, a, b: _call(builder, "llvm.minnum.v8f64", a, b))
 
-    @_instruction(LANES, LANES)
-    def swap_halves(builder, v):
-        return _shuffle(builder, v, [4, 5, 6, 7, 0, 1, 2, 3])
-
     low_halves = _of_two(lambda builder, a, b: _shuffle(builder, a, [0, 1, 2, 3, 8, 9, 10, 11], b))
     high_halves = _of_two(lambda builder, a, b: _shuffle(builder, a, [4, 5, 6, 7, 12, 13, 14, 15], b))
 
-    @_instruction(types.float64, LANES)
-    def total(builder, v):
-        return _fold(builder, v, ir.IRBuilder.fadd)
-
-    @_instruction(LANES, LANES)
-    def absolute(builder, v):
-        return _call(builder, "llvm.fabs.v8f64", v)
+    swap_halves = _instruction(LANES, LANES)(lambda builder, v: _shuffle(builder, v, [4, 5, 6, 7, 0, 1, 2, 3]))
+    absolute = _instruction(LANES, LANES)(lambda builder, v: _call(builder, "llvm.fabs.v8f64", v))
+    total = _instruction(types.float64, LANES)(lambda builder, v: _fold(builder, v, ir.IRBuilder.fadd))
 
     @_instruction(types.float64, LANES)
     def largest(builder, v):
