@@ -151,44 +151,40 @@ def follow(model, s, state, probe, limits, buffers, t):
     """Advance ``state`` until a reason to return: see the exit codes in ``transitions``. The motion is recorded in
     ``buffers``; or ``t`` is a tuple of one `Tangent`, which takes counts and small changes, and ``limits`` are
     `IntegrationLimits`. The compiler drops the branches of the other use. ``probe`` is a work state."""
-    x, start, releases, pause, order = state.x, state.x[layout.TIME], 0, 0, limits.order
+    x, start, releases, pause = state.x, state.x[layout.TIME], 0, 0
     if len(t) == 0:
         pause = buffers.counters[STEPS] + limits.pause_after
     set_course(model, state)
     while True:
+        order, x_end, cause = limits.order, 0.0, transitions.NOTHING
         if len(t) == 0:
             if buffers.counters[STEPS] >= limits.max_steps:
                 return transitions.STEP_LIMIT
             full = buffers.counters[EVENT_ROWS] > len(buffers.event_rows) - MAX_EVENTS_PER_STEP
             if full or buffers.counters[SAMPLE_ROWS] > buffers.sample_capacity or buffers.counters[STEPS] >= pause:
                 return transitions.PAUSED
-            left = ((limits.t_end - x[layout.TIME]) - x[layout.TIME_LOW]) / model.unit
+            left = longest = ((limits.t_end - x[layout.TIME]) - x[layout.TIME_LOW]) / model.unit
             if x[layout.PHASE] == layout.STICK and x[layout.PROPAGATED] == 0.0:
                 x_end = min(closed_form_length(model, s, state), left)
-                if x_end > 0.0:
-                    dt = x_end * model.unit
-                    buffers.phase_times[layout.STICK] += dt
-                    _record_step(model, s, state, probe, CLOSED_FORM, x_end, limits.audit_every, buffers)
-                    _advance_clock(model, state, CLOSED_FORM, x_end, dt)
-                    if x_end >= left:
-                        return transitions.TIME_OVER
-                    continue
-            longest, order = left, limits.order
-            if x[layout.PROPAGATED] == JUST_PROPAGATED and not model.compliant:
+            elif x[layout.PROPAGATED] == JUST_PROPAGATED and not model.compliant:
                 order = ORDER_BEFORE_RELEASE
         else:
             left = (limits.t_max - (x[layout.TIME] - start)) / model.unit
             longest = min(left, limits.longest)
-        if expand(model.compliant, model.normal, model.decaying, model, s, state, order) <= transitions.PAINLEVE_MARGIN:
-            return transitions.NO_SOLUTION
-        x_end = step_size(model, s, order, limits.tolerance, x[layout.PHASE])
-        if not x_end > 0.0:
-            return transitions.NON_FINITE
-        if len(t) == 1 and model.decaying and x[layout.PHASE] == layout.SLIP:
-            # where friction falls steeply, a change of f grows faster than the fastest motion
-            growth = abs(weakening(model, s, 0, x[layout.DIRECTION])) * model.unit / (model.m * model.r_0)
-            longest = min(longest, limits.longest / max(growth, 1.0))
-        x_end, cause = first_event(model, s, state, order, min(x_end, longest))
+        if x_end > 0.0:
+            order = CLOSED_FORM
+        else:
+            denominator = expand(model.compliant, model.normal, model.decaying, model, s, state, order)
+            if denominator <= transitions.PAINLEVE_MARGIN:
+                return transitions.NO_SOLUTION
+            x_end = step_size(model, s, order, limits.tolerance, x[layout.PHASE])
+            if not x_end > 0.0:
+                return transitions.NON_FINITE
+            if len(t) == 1 and model.decaying and x[layout.PHASE] == layout.SLIP:
+                # where friction falls steeply, a change of f grows faster than the fastest motion
+                growth = abs(weakening(model, s, 0, x[layout.DIRECTION])) * model.unit / (model.m * model.r_0)
+                longest = min(longest, limits.longest / max(growth, 1.0))
+            x_end, cause = first_event(model, s, state, order, min(x_end, longest))
         before, dt = x[layout.TIME], x_end * model.unit
         if len(t) == 0:
             buffers.phase_times[int(x[layout.PHASE])] += dt

@@ -6,6 +6,7 @@ arrays of accumulators stay in memory, which costs a factor of six in the convol
 """
 
 import functools
+import operator
 from typing import Any
 
 import llvmlite.binding as llvm
@@ -31,6 +32,7 @@ def aligned(n):
 if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made at run time
     add, sub, mul = np.add, np.subtract, np.multiply
     maximum, minimum, absolute, largest, total = np.maximum, np.minimum, np.abs, np.max, np.sum
+    item, put = operator.getitem, operator.setitem
 
     def load(array, i):
         return array[i : i + WIDTH].copy()
@@ -43,12 +45,6 @@ if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made a
 
     def spread(array, i):
         return np.full(WIDTH, array[i])
-
-    def item(array, i):
-        return array[i]
-
-    def put(array, i, x):
-        array[i] = x
 
     def fma(a, b, c):
         return a * b + c
