@@ -126,13 +126,13 @@ def point_change(model, x, at, f, B):
 
 
 @inlined
-def _diametral_rates(model, s, t, block, k, phase):
-    """Rates of the diametral modes without the contact force, order k; a and b of order k + 1 are final. Returns their
-    share of d(u'') and dB of order k + 1 (lanes)."""
-    width, origin = len(model.mode_amplitude), block * len(t.base_dw_dtheta) * t.rows * WIDTH
-    f_row, q = slider_row(model, F), block * t.inputs * WIDTH
+def _modal_rates(model, s, t, block, k, phase):
+    """Rates of all modes without the contact force, order k; displacements of order k + 1 are final. Returns the change
+    of u'' and dB of order k + 1 (lanes)."""
+    width, n0, q = len(model.mode_amplitude), len(model.mode_amplitude0), block * t.inputs * WIDTH
+    origin, f_row = block * len(t.base_dw_dtheta) * t.rows * WIDTH, slider_row(model, F)
     here, there = origin + k * t.rows * WIDTH, origin + (k + 1) * t.rows * WIDTH
-    up, free, dB = splat(s.up[k]), splat(0.0), splat(0.0)
+    up, free, single, dB = splat(s.up[k]), splat(0.0), splat(0.0), splat(0.0)
     for j in range(width):
         if model.shift[j] > 0.0:
             i, z = j + HALF, k * width + j
@@ -157,16 +157,6 @@ def _diametral_rates(model, s, t, block, k, phase):
             store(t.series, there + (width + i) * WIDTH, mul(rate_q, up))
             free = fma(splat(model.mode_amplitude[j]), rate_p, free)
             dB = fma(splat(model.dw_dtheta[i]), db_next, dB)
-    return free, dB
-
-
-@inlined
-def _axisymmetric_rates(model, s, t, block, k):
-    """As ``_diametral_rates`` for the modes without nodal diameter.  Returns their share of d(u'')."""
-    width, n0, q = len(model.mode_amplitude), len(model.mode_amplitude0), block * t.inputs * WIDTH
-    here = (block * len(t.base_dw_dtheta) + k) * t.rows * WIDTH
-    there = here + t.rows * WIDTH
-    up, free = splat(s.up[k]), splat(0.0)
     for j in range(n0):
         y, g = 2 * width + j, 2 * width + n0 + j
         dy, dg = load(t.series, here + y * WIDTH), load(t.series, here + g * WIDTH)
@@ -177,8 +167,8 @@ def _axisymmetric_rates(model, s, t, block, k):
             rate = sub(rate, fma(d_stiffness, splat(s.y[j * ROWS + k]), mul(d_damping, splat(s.g[j * ROWS + k]))))
         store(t.series, there + y * WIDTH, mul(dg, up))
         store(t.series, there + g * WIDTH, rate)
-        free = fma(splat(model.mode_amplitude0[j]), rate, free)
-    return free
+        single = fma(splat(model.mode_amplitude0[j]), rate, single)
+    return add(free, single), dB
 
 
 @inlined
@@ -367,8 +357,7 @@ def tangent_series(model, s, t, order, phase, direction):
         for k in range(order):
             up = splat(s.up[k])
             here, there = origin + k * R * WIDTH, origin + (k + 1) * R * WIDTH
-            free, dB = _diametral_rates(model, s, t, block, k, phase)
-            free = add(free, _axisymmetric_rates(model, s, t, block, k))
+            free, dB = _modal_rates(model, s, t, block, k, phase)
             store(t.dw_dtheta, chain + (k + 1) * WIDTH, dB)
             dpsi, df = load(t.series, here + psi_row * WIDTH), load(t.series, here + f_row * WIDTH)
             pull, vertical, turn = _slider_forces(model, s, t, block, k, dpsi, df, du, dv)
