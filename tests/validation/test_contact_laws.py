@@ -148,7 +148,7 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
     s, state = build_series(model, order), layout.build_state(model)
     write_state(case, start, state)
     if rates:
-        event_loop.set_course(model, state)
+        layout.set_course(model, state)
     event_loop.expand(model.compliant, model.normal, model.decaying, model, s, state, order)
     powers = np.array([float(model.unit) ** k for k in range(order + 1)])
 

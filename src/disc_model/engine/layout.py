@@ -36,7 +36,6 @@ class Model(NamedTuple):
 
     lanes: np.ndarray  # all lane arrays and derived ones: hot kernels use one pointer; the others are views of it
     wide: tuple[bool, ...]  # whether there is more than one block of lanes
-    blocks: int  # of lanes
     shift: np.ndarray  # +l in a-lanes, -l in b-lanes
     stiffness: np.ndarray  # omega^2
     damping: np.ndarray  # 2 xi omega
@@ -87,6 +86,16 @@ def drive_now(model, state):
 @inlined
 def load_now(model, state):
     return state.x[LOAD] if model.ramped else model.N
+
+
+@inlined
+def set_course(model, state):
+    """Set Omega and N to those of the state's time, on a ramp."""
+    if model.ramped:
+        x = state.x
+        since = (x[TIME] - model.ramp_begin) + x[TIME_LOW]
+        x[DRIVE] = model.Omega + model.Omega_rate * since
+        x[LOAD] = model.N + model.N_rate * since
 
 
 @inlined
@@ -175,7 +184,6 @@ def build_model(  # noqa: PLR0913
     return Model(
         lanes=lanes,
         wide=_flag(width > WIDTH),
-        blocks=width // WIDTH,
         **dict(zip(("shift", "stiffness", "damping", "mode_amplitude", "dw_dtheta"), rows, strict=False)),
         **slider,
         stiffness0=omega[single] ** 2,

@@ -67,7 +67,7 @@ def build_series(model: Model, order: int) -> Series:
 @inlined
 def lane_count(model):
     """Number of lanes; a constant for the compiler if there is one block."""
-    return WIDTH * model.blocks if model.wide else WIDTH
+    return len(model.shift) if model.wide else WIDTH
 
 
 @inlined

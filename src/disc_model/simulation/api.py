@@ -217,7 +217,7 @@ class _Run:
             self.stop_at is None,
             int(min(most, MOST_STEPS)),
             # pauses serve progress and Ctrl-C; there are fewer steps between them where a step costs more
-            max(1, STEPS_PER_PAUSE // (model.blocks * (6 if every_step else 1))),
+            max(1, STEPS_PER_PAUSE // (len(model.shift) // layout.WIDTH * (6 if every_step else 1))),
             1 if every_step else 256,  # a compliant contact takes about four times as many steps per second
         )
         self.pieces = pieces(self.p, self.ramps)

@@ -15,9 +15,7 @@ from typing import Any
 import numba
 import numpy as np
 
-_SETTINGS: Any = numba.config
-
-if _SETTINGS.DISABLE_JIT:
+if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made at run time
 
     def packed(cls):
         return cls

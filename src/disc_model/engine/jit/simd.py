@@ -108,8 +108,13 @@ else:
         return builder.bitcast(builder.gep(array, [i]), _VECTOR.as_pointer())
 
     def _call(builder, name, *args):
+        """Call one of LLVM's functions on vectors of equal length."""
         signature = ir.FunctionType(args[0].type, [a.type for a in args])
+        name = f"llvm.{name}.v{args[0].type.count}f64"
         return builder.call(cgutils.get_or_insert_function(builder.module, signature, name), args)
+
+    def _larger(builder, a, b):
+        return _call(builder, "maxnum", a, b)
 
     def _shuffle(builder, v, indices, second=None):
         """Entries of a vector, or of two: those of the second follow those of the first."""
@@ -161,7 +166,7 @@ else:
     @_instruction(LANES, LANES, LANES, LANES)
     def fma(builder, a, b, c):
         """a * b + c, lane by lane; rounded once where the processor can, since software takes 500 times as long."""
-        return _call(builder, "llvm.fmuladd.v8f64", a, b, c)
+        return _call(builder, "fmuladd", a, b, c)
 
     @_instruction(LANES, types.float64)
     def powers_of(builder, x):
@@ -180,19 +185,12 @@ else:
     mul = _of_two(ir.IRBuilder.fmul)
     add = _of_two(ir.IRBuilder.fadd)
     sub = _of_two(ir.IRBuilder.fsub)
-    maximum = _of_two(lambda builder, a, b: _call(builder, "llvm.maxnum.v8f64", a, b))
-    minimum = _of_two(lambda builder, a, b: _call(builder, "llvm.minnum.v8f64", a, b))
-
+    maximum = _of_two(_larger)
+    minimum = _of_two(lambda builder, a, b: _call(builder, "minnum", a, b))
     low_halves = _of_two(lambda builder, a, b: _shuffle(builder, a, [0, 1, 2, 3, 8, 9, 10, 11], b))
     high_halves = _of_two(lambda builder, a, b: _shuffle(builder, a, [4, 5, 6, 7, 12, 13, 14, 15], b))
 
     swap_halves = _instruction(LANES, LANES)(lambda builder, v: _shuffle(builder, v, [4, 5, 6, 7, 0, 1, 2, 3]))
-    absolute = _instruction(LANES, LANES)(lambda builder, v: _call(builder, "llvm.fabs.v8f64", v))
+    absolute = _instruction(LANES, LANES)(lambda builder, v: _call(builder, "fabs", v))
     total = _instruction(types.float64, LANES)(lambda builder, v: _fold(builder, v, ir.IRBuilder.fadd))
-
-    @_instruction(types.float64, LANES)
-    def largest(builder, v):
-        def larger(builder, low, high):
-            return _call(builder, f"llvm.maxnum.v{low.type.count}f64", low, high)
-
-        return _fold(builder, v, larger)
+    largest = _instruction(types.float64, LANES)(lambda builder, v: _fold(builder, v, _larger))
