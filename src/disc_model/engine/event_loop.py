@@ -14,7 +14,7 @@ from .audit import SURFACE, audit_impact, audit_step, surface_velocity, transver
 from .dense_output import CLOSED_FORM, LONGEST_STICK, closed_form_length, load_state, move_to, sample_step
 from .jit import helper, inlined, kernel
 from .jit.packing import packed
-from .jit.simd import WIDTH, absolute, largest, load, maximum, mul, splat, store
+from .jit.simd import WIDTH, mul, splat, store
 from .laws import PSI_ENTRY, TINY, stepped
 from .polynomial import NO_ROOT, first_root, set_powers
 
@@ -75,18 +75,6 @@ class Section(NamedTuple):
 
 
 @inlined
-def _size(model, s, k):
-    """Largest modulus among the modal velocities of order k."""
-    width, n, biggest = series.lane_count(model), len(model.mode_amplitude0), splat(0.0)
-    for j in range(k * width, (k + 1) * width, WIDTH):
-        biggest = maximum(biggest, absolute(load(s.modes, series.E * width + j)))
-    size = largest(biggest)
-    for j in range(n):
-        size = max(size, abs(s.g[j * layout.ROWS + k]))
-    return size
-
-
-@inlined
 def _last_two(c, order, typical):
     """Size of the last two terms, as if the step were ``typical``."""
     return max(abs(c[order]), abs(c[order - 1]) / typical)
@@ -118,11 +106,11 @@ def step_size(model, s, order, tolerance, phase):
     # time is measured by the fastest motion in compliant contact, which does not exist out of contact
     calm = model.free_unit if model.compliant and phase == layout.SEPARATION else 1.0
     typical, longest = TYPICAL_STEP * calm, LONGEST_STEP * calm
-    last = max(_size(model, s, order), _size(model, s, order - 1) / typical)
+    last = max(series.velocity_size(model, s, order), series.velocity_size(model, s, order - 1) / typical)
     usual_speed, share = series.drive(model, s), 1.0
     if model.ramped:
         share = series.load_at(model, s) / model.N
-    scale = _scale(share * model.velocity_scale, _size(model, s, 0), _size(model, s, 1))
+    scale = _scale(share * model.velocity_scale, series.velocity_size(model, s, 0), series.velocity_size(model, s, 1))
     speed = _scale(usual_speed, abs(s.f[0]), abs(s.f[1]))
     weight = 1.0
     if model.decaying and phase == layout.SLIP and model.decay > 0.0:

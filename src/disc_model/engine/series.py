@@ -107,6 +107,18 @@ def _modal_sum(model, s, row, k):
 
 
 @inlined
+def velocity_size(model, s, k):
+    """Largest modulus among the modal velocities of order k."""
+    width, n, biggest = lane_count(model), len(model.mode_amplitude0), splat(0.0)
+    for j in range(k * width, (k + 1) * width, WIDTH):
+        biggest = simd.maximum(biggest, simd.absolute(load(s.modes, E * width + j)))
+    size = simd.largest(biggest)
+    for j in range(n):
+        size = max(size, abs(s.g[j * ROWS + k]))
+    return size
+
+
+@inlined
 def _disc_point(model, s):
     """u, u' and the slope B of the disc under the slider, from the coefficients 0."""
     B, u = _modal_sum(model, s, layout.DW_DTHETA, 0), _modal_sum(model, s, layout.AMPLITUDE_ROW, 0)

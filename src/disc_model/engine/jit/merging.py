@@ -173,8 +173,8 @@ def _visit(library, libraries):
     libraries.append(library)
 
 
-class _Compiler(CompilerBase):
-    library: type
+class HelperCompiler(CompilerBase):
+    library: type = HelperLibrary
 
     def define_pipelines(self):
         state = self.state
@@ -190,11 +190,7 @@ class _Compiler(CompilerBase):
         return [passes]
 
 
-class HelperCompiler(_Compiler):
-    library = HelperLibrary
-
-
-class KernelCompiler(_Compiler):
+class KernelCompiler(HelperCompiler):
     library = KernelLibrary
 
     def compile_extra(self, function):
