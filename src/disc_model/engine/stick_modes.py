@@ -138,18 +138,12 @@ def _under_unit_load(arrays, length, k, c, m, unit, compliance) -> StickModes:
     powers = np.zeros((POWERS, 2, padded(n)))
     tabled = np.exp(np.outer(QUANTUM * 2.0 ** np.arange(POWERS), rates))
     powers[:, 0, :n], powers[:, 1, :n] = tabled.real, tabled.imag
-    return StickModes(
-        decay=_in_lanes(rates.real),
-        turn=_in_lanes(rates.imag),
-        gain=_in_lanes(2.0 * np.abs(force @ vectors)),
-        powers=_in_lanes(powers),
-        enter=_in_lanes(enter),
-        offset=_in_lanes(-np.tensordot(rest, enter, 1)),
-        leave=_in_lanes(leave),
-        rest=rest,
-        friction_offset=_in_lanes(-np.tensordot(friction, enter, 1)),
-        friction_rest=_in_lanes(friction),
-    )
+    unpadded = StickModes(
+        decay=rates.real, turn=rates.imag, gain=2.0 * np.abs(force @ vectors), powers=powers,
+        enter=enter, offset=-np.tensordot(rest, enter, 1), leave=leave, rest=rest,
+        friction_offset=-np.tensordot(friction, enter, 1), friction_rest=friction,
+    )  # fmt: skip
+    return StickModes(*map(_in_lanes, unpadded))
 
 
 def _in_lanes(a: np.ndarray) -> np.ndarray:
