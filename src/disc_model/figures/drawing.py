@@ -311,9 +311,10 @@ def show_thickness(ax: Axes, case: xr.DataTree, along: Literal["x", "y"]) -> Non
 
 
 def mark_printed(ax: Axes, time: float) -> None:
-    """Mark a time that the paper prints, at the lower edge of a panel that shows it."""
-    low, high = ax.get_xlim()
+    """Mark a time that the paper prints, at the lower edge of a panel that shows it, in room made for it."""
+    (low, high), (bottom, top) = ax.get_xlim(), ax.get_ylim()
     if low <= time <= high:
+        ax.set_ylim(bottom - 0.13 * (top - bottom), top)
         across, beside = ax.get_xaxis_transform(), ("data", "axes fraction")
         ax.plot([time], [0], marker="^", c=PAPER, mec=BLACK, ms=6, zorder=6, transform=across, clip_on=False)
         say(ax, f"paper: {time:g} s", (time, 0), (-6, 4), xycoords=beside, fontsize=6, path_effects=halo())

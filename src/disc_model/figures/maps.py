@@ -485,7 +485,9 @@ class CriticalSpeed(Plot):
         _onsets(axes[0], study, horizon, label=f"separation begins, within {horizon:g} s", **ONSETS)
         if self.paper_points:
             load, speed = np.transpose([*self.paper_points.values()])
-            axes[0].plot(speed, load, "*", c=PAPER, ms=9, mec=BLACK, mew=0.6, zorder=5, clip_on=False, label="paper")
+            # hollow, as marks lie below
+            hollow: dict[str, Any] = {"mfc": "none", "mec": PAPER, "path_effects": drawing.halo(2.1, BLACK)}
+            axes[0].plot(speed, load, "*", ms=10, mew=1.1, zorder=5, clip_on=False, label="paper", **hollow)
         titles = ["from the static start"]
         if sweep is not None:
             _onsets(axes[1], study, horizon, label="_nolegend_", **ONSETS)

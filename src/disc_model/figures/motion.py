@@ -1,6 +1,7 @@
 """Histories, phase portraits, Poincaré sections, spectra and spectrograms: of a study's cases, and of a `Result`; and
 pictures of the whole disc."""
 
+import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
@@ -16,7 +17,7 @@ from disc_model.analysis.classify import first_settled, settling, stages
 from disc_model.analysis.spectra import RESOLVED, TimeFrequency, amplitude_spectrum, lines, time_frequency
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import PHASES
+from disc_model.data.variables import PHASES, values_text
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.errors import Fault, ParameterError
 from disc_model.figures import drawing
@@ -133,12 +134,14 @@ MARKS: dict[str, dict[str, Any]] = {  # by stage, told apart by shape as well as
 SMALL = 0.2  # share of both axes below which a section has an inset
 BY_SEPARATION = ("in contact, before", "in contact, after", "separated")
 BY_SETTLING = ("not shown to have settled", "settled", "separated")
+BY_HALVES = ("first half of the run", "second half, not shown to have settled", "separated")
 
 
 def draw_sections(axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, compared: Any = ()) -> list[Artist]:
     """Draw velocity over displacement, what is small in insets too, on axes for all sections; a legend's entries."""
-    first = float(case["first_separation"])
-    masks = stages(samples["time"].values, samples["phase"].values, first, _settled_since(case, samples))
+    first, time, since = float(case["first_separation"]), samples["time"].values, _settled_since(case, samples)
+    settled = math.isfinite(since)
+    masks = stages(time, samples["phase"].values, first, since if settled else time.mean())
     for ax, name in zip(axes, ("psi", "w_point"), strict=True):
         coordinates, shares, units = [], [], []
         for axis, variable in (("x", name), ("y", f"{name}_velocity")):
@@ -160,14 +163,17 @@ def draw_sections(axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, 
             look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(mask.sum() > 2000)}
             for panel in (ax, *closer):
                 panel.scatter(*(values[mask] for values in coordinates), **look)
+        for panel in closer:
+            panel.margins(0.08)
+            ax.indicate_inset(panel.viewLim.bounds, edgecolor=drawing.GREY, linewidth=0.6)
     drawing.show_thickness(ax, case, "x")
     bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bilateral"
-    title, names = "Separation ignored:" if bonded else "No separation:", BY_SETTLING
+    title, names = "separation ignored" if bonded else "no separation", BY_SETTLING if settled else BY_HALVES
     if masks.divided_by_separation:
-        title, names = f"First separation at {first:.2f} s:", BY_SEPARATION
+        title, names = f"first separation at {first:.2f} s", BY_SEPARATION
+    axes[0].set_title(title, loc="right")
     present = [(MARKS[stage], name) for stage, name in zip(MARKS, names, strict=True) if getattr(masks, stage).any()]
-    marks = [ax.scatter([], [], label=name, **(look | {"s": 14})) for look, name in present]
-    return [ax.scatter([], [], s=0, label=title), *marks]
+    return [ax.scatter([], [], label=name, **(look | {"s": 14})) for look, name in present]
 
 
 def _settled_since(case: xr.DataTree, samples: xr.Dataset) -> float:
@@ -203,8 +209,12 @@ class PoincareSections(CasePlot):
         figure = drawing.new_figure(PAGE, 2.75 * len(cases))
         rows = np.atleast_1d(np.asarray(figure.subfigures(len(cases), 1)))
         sections = [dataset.samples(case, "poincare", at_least=1) for case in cases]
-        for row, case, samples in zip(rows, cases, sections, strict=True):
-            handles = draw_sections(row.subplots(1, 2), case, samples, sections)
+        parameters = [json.loads(case.attrs["parameters"]) for case in cases]
+        for row, case, samples, p in zip(rows, cases, sections, parameters, strict=True):
+            axes = row.subplots(1, 2)
+            handles = draw_sections(axes, case, samples, sections)
+            own = {name: value for name, value in p.items() if any(other[name] != value for other in parameters)}
+            axes[0].set_title(", ".join(filter(None, [values_text(own), axes[0].get_title("right")])), loc="right")
             row.legend(handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2)
         drawing.letters(figure.axes)
         return figure

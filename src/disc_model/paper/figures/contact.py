@@ -177,10 +177,12 @@ class Histories(CasePlot):
         for force, disc, case, window in zip(forces, discs, cases, windows, strict=True):  # now axes are known
             low, high = float(window["P_min"].min()), float(window["P_max"].max())
             if high - low < 0.05 * np.ptp(force.get_ylim()):
-                inset = force.inset_axes((0.3, 0.62, 0.66, 0.3))
+                inset = force.inset_axes((0.3, 0.74, 0.66, 0.26))
                 drawing.envelope(inset, window, "P")
                 inset.set_ylim(low - 1, high + 1)
-                inset.tick_params(labelsize=6, labelbottom=False)
+                inset.tick_params(labelsize=6)
+                inset.xaxis.set_major_formatter("{x:g} s")
+                inset.yaxis.set_major_formatter("{x:g} N")
             drawing.show_thickness(disc, case, "y")
         if self.printed is not None:
             drawing.mark_printed(forces[-1], self.printed)

@@ -74,13 +74,16 @@ def _regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset]) -> N
         x, y = float(point["Omega"]), float(point["N"])
         fill = SEPARATED if np.all(flag_names(point["outcome"]) == "separation") else "white"
         ax.plot(x, y, "o", color=BLACK, markerfacecolor=fill, markersize=5, clip_on=False)
-        side = {"Fig. 9": (-5, 0), "Fig. 17": (0, -5)}.get(name, (5, 0))
+        side = (5 if name in ("Fig. 2", "Fig. 7") else -5, 0)
         drawing.say(ax, name, (x, y), side, fontsize=7, path_effects=drawing.halo())
-    for words, corner in {"only as\npublished": (0.53, 0.19), "both": (0.68, 0.62)}.items():
-        ax.text(*corner, words, transform=ax.transAxes, ha="center", va="center", fontsize=7)
-    line: dict[str, Any] = {"arrowstyle": "-", "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
+    ax.text(0.68, 0.62, "both", transform=ax.transAxes, ha="center", va="center", fontsize=7)
+    line: dict[str, Any] = {"arrowstyle": "-", "shrinkA": 0, "shrinkB": 0, "path_effects": drawing.halo(3)}
     look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 7, "arrowprops": line}
-    ax.annotate("only by\nEq. (17)", (0.27, 0.75), (0.12, 0.68), "axes fraction", "axes fraction", **look)
+    for words, area, place in (
+        ("only by\nEq. (17)", (0.26, 0.76), (0.12, 0.71)),
+        ("only as published", (0.37, 0.18), (0.27, 0.06)),
+    ):
+        ax.annotate(words, area, place, "axes fraction", "axes fraction", **look)
     ax.set(xlabel=drawing.label_of(study["Omega"])[0], ylabel=drawing.label_of(study["N"])[0])
 
 

@@ -22,7 +22,7 @@ SOFT, BODY, PLATE, CLAMP = "0.45", "0.88", "#dbe9f4", "0.93"
 SMALL = 8.0  # size of the text that is no symbol, in points
 OUTER = 1.2  # radius of the disc as drawn
 STRETCH = 0.04  # of contact force in the composite, s
-PALE, DARK = "0.72", "#8a5a00"  # of ignored separation; of words on the slider
+PALE, DARK = "0.72", "#8a5a00"  # of ignored separation; of words on the slider, legible in grey print
 PHASES: dict[str, dict[str, Any]] = {  # looks that differ in grey print as well; slip is white
     "stick": {"facecolor": "none", "edgecolor": STICK, "hatch": "//////"},
     "separation": {"facecolor": SEPARATED, "alpha": 0.35},
@@ -84,13 +84,14 @@ class Composite(CasePlot):
         if part.sizes["time"] < 2:
             raise Missing(f"has no samples from {start:g} s on")
         time, words = 1e3 * (part["time"].values - start), flag_names(part["phase"])
-        half = (time[1] - time[0]) / 2
         for word, look in PHASES.items():
             for i, (a, b) in enumerate(drawing.stretches(words == word)):
                 label = "_nolegend_" if i else word
-                ax.axvspan(max(time[a] - half, 0), time[b - 1] + half, label=label, linewidth=0, **look)
-        ax.plot(time, part["P"], color=BLACK, linewidth=1.1)
-        ax.set(xlabel="Time (ms)", ylabel="Contact force (N)", xlim=(0, 1e3 * STRETCH), ylim=(0, None))
+                ax.axvspan(time[a], time[min(b, time.size - 1)], label=label, linewidth=0, **look)
+        # zero, and not drawn, in separation, since no line leads to the force after an impact
+        ax.plot(time, part["P"].where(words != "separation"), color=BLACK, linewidth=1.1)
+        ax.set(xlabel=f"Time after {start:g} s (ms)", ylabel="Contact force (N)")
+        ax.set(xlim=(0, 1e3 * STRETCH), ylim=(0, None))
         if ax.patches:
             drawing.legend_above(ax)
 
@@ -100,14 +101,14 @@ def _small(ax: Axes) -> None:
     x = np.linspace(-2.0, 2.6, 200)
     ax.plot(x, 0.2 * np.sin(1.6 * x + 0.5) - 0.1, color=DISC, lw=3)
     ax.text(-2.0, -0.75, "elastic disc", color=DISC, fontsize=7)
-    _slider(ax, (-0.55, 0.05), 1.1, 0.55, lw=1.2)
-    ax.text(0, 0.31, "slider", ha="center", va="center", fontsize=7)
+    _slider(ax, (-0.55, 0.15), 1.1, 0.45, lw=1.2)
+    ax.text(0, 0.375, "slider", ha="center", va="center", fontsize=7)
     _wall(ax, (-0.6, 1.6), (0.6, 1.6), (0.12, 0.14))
     _join(ax, SPRING, (0, 0.6), (0, 1.6))
     _arrow(ax, (0, 2.35), (0, 1.8))
     ax.text(0.15, 2.1, "preload", fontsize=7)
     _wall(ax, (1.8, 0.05), (1.8, 0.65), (0.13, 0.12))
-    _join(ax, SPRING, (0.55, 0.32), (1.8, 0.32))
+    _join(ax, SPRING, (0.55, 0.375), (1.8, 0.375))
     _arrow(ax, (1.85, 0.95), (2.6, 0.95))
     ax.text(2.6, 1.08, "drive", ha="right", fontsize=7)
     _arrow(ax, (-0.65, 0.22), (-1.45, 0.22), colour=FORCE)
@@ -151,7 +152,7 @@ def _side(ax: Axes) -> None:
     ax.plot([-0.85, -0.4], [bottom, bottom], color=SLIDER, lw=0.7)
     _arrow(ax, (-1.2, 0), (-1.2, -0.38), colour=SLIDER)
     ax.plot([-1.35, -1.05], [-0.38, -0.38], color=SLIDER, lw=0.7)
-    _write(ax, (-1.2, -0.52), "$u_0$ at the static start", color=SLIDER, fontsize=SMALL)
+    _write(ax, (-1.2, -0.52), "$u_0$ at the static start", color=DARK, fontsize=SMALL)
     _arrow(ax, (0.18, 0), (0.18, beside), "$w$", (0.2, -0.01), DISC, "->")
     # vertical branch
     _wall(ax, (-0.6, top), (0.6, top), (0.12, 0.15))
@@ -170,7 +171,7 @@ def _side(ax: Axes) -> None:
     ax.text(1.85, 0.44, "$c_p$", ha="center", va="center")
     _arrow(ax, (drive + 0.2, 1.3), (drive + 0.95, 1.3), r"drive point, $r_0\,\Omega$", (0.15, 0.2))
     _arrow(ax, (-0.4, 1.3), (-1.15, 1.3), style="<|-", colour=SLIDER)
-    ax.text(-1.25, 1.3, r"$r_0\,\dot\varphi = r_0\,f$", ha="right", va="center", color=SLIDER)
+    ax.text(-1.25, 1.3, r"$r_0\,\dot\varphi = r_0\,f$", ha="right", va="center", color=DARK)
     _arrow(ax, (0, -0.55), (drive, -0.55), r"$r_0\,\psi$", (-0.4, -0.17), SLIDER, "<|-|>")
     for angle in (0.0, drive):
         ax.plot([angle, angle], [-0.65, -0.1], color=SLIDER, lw=0.7)
@@ -193,14 +194,14 @@ def _above(ax: Axes, p: Parameters) -> None:
     _write(ax, _at(phi, r_0), "$m$", fontsize=SMALL, zorder=6)
     ax.plot(*_at(ahead, r_0), "o", color=BLACK, ms=5, zorder=5)
     _write(ax, _at(ahead, 1.45, (0.05, 0)), r"drive point, $\Omega t$", va="baseline")
-    _write(ax, _at(phi, 1.42, (0.16, 0.02)), "slider", va="baseline", color=SLIDER)
+    _write(ax, _at(phi, 1.42, (0.16, 0.02)), "slider", va="baseline", color=DARK)
     for low, high, text in ((0.0, phi, r"$\varphi$"), (phi, ahead, r"$\psi$")):
         theta = {"theta1": np.degrees(low), "theta2": np.degrees(high) - 6}
         ax.add_patch(mpl.patches.Arc((0, 0), 1.44, 1.44, **theta, color=SLIDER, lw=1.5))
         _arrow(ax, _at(high - 0.11, 0.72), _at(high, 0.72), colour=SLIDER)
-        _write(ax, _at((low + high) / 2, 0.85), text, color=SLIDER, fontsize=13)
+        _write(ax, _at((low + high) / 2, 0.85), text, color=DARK, fontsize=13)
     ax.plot(*_at(fixed, r_0), "x", color=BLACK, ms=7)
-    _write(ax, _at(fixed, 1.3, (0.38, -0.06)), "point of the disc\nat $r_0$, $\\theta$", fontsize=SMALL)
+    _write(ax, _at(fixed, 1.3, (0.43, -0.06)), "point of the disc\nat $r_0$, $\\theta$", fontsize=SMALL)
     ax.text(1.62, 0, r"$\theta = 0$", va="center", fontsize=SMALL)
     for degrees, radius, text in ((170, a, "$a$"), (212, r_0, "$r_0$"), (250, b, "$b$")):
         angle = np.radians(degrees)
@@ -245,7 +246,7 @@ def _arrow(
     look = {"arrowstyle": style, "color": colour, "lw": 1.5, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", tuple(end), tuple(start), arrowprops=look)
     if text:
-        _write(ax, 0.5 * (np.array(start) + np.array(end)) + offset, text, color=colour)
+        _write(ax, 0.5 * (np.array(start) + np.array(end)) + offset, text, color=DARK if colour == SLIDER else colour)
 
 
 def _write(ax: Axes, point: Point, text: str, **look: Any) -> None:

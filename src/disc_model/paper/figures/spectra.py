@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from itertools import product
-from textwrap import fill
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -72,9 +71,9 @@ class FourStretches(CasePlot):
         for ax in axes[-1]:
             ax.set_xlabel("Time (s)")
             ax.xaxis.set_major_locator(mpl.ticker.MaxNLocator(3))
-        look: dict[str, Any] = {"xycoords": "axes fraction", "ha": "right", "va": "top", "color": "white"}
-        for row, text in zip(axes[1:], ("with\nseparation", "separation\nignored"), strict=True):
-            row[-1].annotate(text, (0.97, 0.97), fontsize=6, **look)
+        look: dict[str, Any] = {"xycoords": "axes fraction", "ha": "right", "va": "center", "color": "white"}
+        for row, text in zip(axes[1:], ("with separation", "separation ignored"), strict=True):
+            row[-1].annotate(text, (0.97, 0.58), fontsize=6, **look)
         axes[2, 0].set_facecolor("white")
         axes[2, 0].annotate("as above:\nno separation yet", (0.9, 0.55), fontsize=7, **look | {"color": BLACK})
         if spectra:
@@ -94,7 +93,7 @@ class FourStretches(CasePlot):
                     whole.text(start + 0.4, 0.97, f"({text})", ha="left", **at_top)
             drawing.show(whole, cases[0], drawing.history(cases[0], self.history, self.until), "w_point")
             drawing.headroom(whole, 0.15)
-            whole.set_ylabel(fill(whole.get_ylabel(), 40))
+            whole.set_ylabel(whole.get_ylabel().replace(", ", ",\n", 1))
             drawing.show_thickness(whole, cases[0], "y")
             drawing.letter(whole, "a")
         return figure
@@ -154,10 +153,10 @@ class Response(CasePlot):
                 shown.axhline(natural, color="white", linewidth=0.9, linestyle=(0, (1, 2)))
         with drawing.blank_if_missing(axes["a"]):
             drawing.show(axes["a"], case, drawing.history(case, self.history, self.until), self.variable)
-            if self.variable == "w_point":
-                drawing.show_thickness(axes["a"], case, "y")
             if self.printed is not None:
                 drawing.mark_printed(axes["a"], self.printed)
+            if self.variable == "w_point":
+                drawing.show_thickness(axes["a"], case, "y")
             if marked is not None:  # a line where it is too narrow to be seen
                 middle = (marked[0] + marked[1]) / 2
                 axes["a"].axvspan(*marked, color=SKY, alpha=0.3, linewidth=0, zorder=0)
