@@ -189,8 +189,8 @@ def _swept(ax: Axes, x: np.ndarray, y: np.ndarray, separates: np.ndarray, settle
 
 
 # ---- Late in the motion
-LOAD_COLOURS = (BLACK, drawing.VERMILION, BLUE, drawing.PURPLE)
-SMALLEST = 1e-5  # thicknesses, least range drawn: a quiet cycle moves the slider by less than a millionth of a metre
+LOAD_COLOURS = (BLACK, BLUE, drawing.GREEN, drawing.PURPLE)
+SMALLEST = 1e-6  # thicknesses, least range drawn: a quiet cycle moves the slider by less than a millionth of a metre
 
 
 class LateRange(Plot):
@@ -218,7 +218,7 @@ class LateRange(Plot):
                     yield Fault.of((key,), word, f"is no value of {dim}{suggestion(str(word), [*map(str, known)])}")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        ranges = ((study["u_max"] - study["u_min"]) / self.thickness).clip(SMALLEST)
+        ranges = (study["u_max"] - study["u_min"]) / self.thickness
         outcomes = study["outcome"].copy(data=flag_names(study["outcome"]))
         valid = xr.ones_like(ranges, dtype=bool)
         for part in self.not_valid:
@@ -226,7 +226,7 @@ class LateRange(Plot):
         names, loads, speeds = (study[dim].values for dim in (self.by, "N", "Omega"))
         apart: dict[str, Any] = {"linestyle": "", "marker": "o", "markersize": 3}
         open_end = apart | {"marker": "^", "markersize": 5, "markerfacecolor": "white"}
-        no_law = apart | {"marker": "s", "color": GREY, "markerfacecolor": "white", "label": "law not valid"}
+        settled = apart | {"markerfacecolor": "white"}
         figure, axes = panels(PAGE, 3.0, 1, len(names), sharex=True, sharey=True)
         for ax, name in zip(axes, names, strict=True):
             ax.axhspan(1, 1e3, color="0.93", zorder=0)
@@ -234,14 +234,13 @@ class LateRange(Plot):
                 for contact, look in (("unilateral", "-"), ("bilateral", "--")):
                     line = {self.by: name, "N": load, "contact": contact}
                     heights, words, holds = (values.sel(line).values for values in (ranges, outcomes, valid))
-                    ax.plot(speeds[~holds], heights[~holds], **no_law)
                     heights = np.where(holds, heights, np.nan)
                     ax.plot(speeds, heights, look, color=colour, linewidth=1.0)
-                    ax.plot(speeds, heights, "o", color=colour, markersize=3, markerfacecolor="white")
-                    for mark, shown in ((apart, ["separation"]), (open_end, ["growing", "undecided"])):
-                        ax.plot(speeds, np.where(np.isin(words, shown), heights, np.nan), color=colour, **mark)
+                    ends, open_ends = words == "separation", np.isin(words, ["growing", "undecided"])
+                    for mark, shown in ((apart, ends), (open_end, open_ends), (settled, ~(ends | open_ends))):
+                        ax.plot(speeds, np.where(shown, heights, np.nan), color=colour, **mark)
             ax.margins(x=0.05)
-            ax.set(yscale="log", ylim=(SMALLEST / 2, 10), xlabel=drawing.label_of(study["Omega"])[0])
+            ax.set(yscale="log", ylim=(SMALLEST, 10), xlabel=drawing.label_of(study["Omega"])[0])
         axes[0].set_ylabel("Slider, peak to peak (thicknesses)")
         axes[0].text(0.03, 0.99, "beyond linear plate theory", transform=axes[0].transAxes, va="top", c=GREY, size=6)
         drawing.letters(axes, [self.names.get(str(name), str(name)) for name in names])
@@ -251,8 +250,7 @@ class LateRange(Plot):
             {"linestyle": "--", "label": "separation ignored"},
             apart | {"label": "separates"},
             open_end | {"label": "growing or undecided"},
-            apart | {"label": "settled in contact", "markerfacecolor": "white"},
-            *[no_law] * bool(self.not_valid),
+            settled | {"label": "settled in contact"},
         ]
         handles = [drawing.sample(**{"color": GREY} | look) for look in looks]
         figure.legend(handles=handles, loc="outside lower center", ncols=4, columnspacing=1.0)

@@ -156,6 +156,7 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
     for name in (str(variable.name), words):  # a scanned parameter is the long name of its dimension
         if name in SHOWN:
             return axis_of(name)
+    words = words.replace("disturbances of ", "")  # of growth rates, which have one name in all figures
     unit = str(variable.attrs.get("units", "1")).replace("s-1", "/s").replace(" /", "/")
     phrase = fill(words[0].upper() + words[1:], 48)
     return (f"{phrase} ({'1' + unit if unit.startswith('/') else unit})" if unit not in ("", "1") else phrase), 1.0

@@ -137,6 +137,8 @@ def draw_maps(
     else:
         words, array = drawing.as_numbers(array)
         colours = _colours(array, words, log)
+        if variable == "growth_rate":  # growth has the red half of the scale of maps
+            colours["cmap"] = mpl.colors.ListedColormap(cm.vik(np.linspace(0.55, 1, 256)))
         if array.dtype.kind == "i" and not words and array.max() < FEW:  # a count
             words = [str(count) for count in range(int(array.max()) + 1)]
             colours = in_steps([cm.batlow(i / len(words)) for i in range(len(words))])
@@ -226,8 +228,11 @@ def scale_rates(ax: Axes) -> None:
     ax.axhline(0, color=GREY, linewidth=0.6, zorder=0)
 
 
-def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = False) -> None:
-    """Draw a line, or one for each value of a second dimension; its marks above the panel stand for missing values."""
+def draw_lines(
+    ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = False, names: Sequence[str] = ()
+) -> None:
+    """Draw a line, or one for each value of a second dimension; its marks above the panel stand for missing values.
+    Names are those of all lines of a figure, of which each has the same mark in all panels."""
     words, array = drawing.as_numbers(study[variable])
     by, (label, along) = remaining(array, [x]), drawing.along(array[x])
     lines = drawing.slices(array, by)
@@ -236,7 +241,9 @@ def draw_lines(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = F
     look: dict[str, Any] = {"markersize": 3, "markerfacecolor": "none", "markeredgewidth": 0.6, "linewidth": 0.7}
     # of lines without gaps some points are marked
     every = 1 if words or rates or array.isnull().any() else max(1, along.size // 12)
-    for colour, (name, line), mark in zip(colours, lines, cycle(MARKS), strict=False):
+    order = dict(zip(dict.fromkeys(names or [name for name, _ in lines]), cycle(MARKS)))
+    for colour, (name, line) in zip(colours, lines, strict=True):
+        mark = order[name]
         shown = drawing.broken(along, line.values, LINEAR if rates else np.inf)
         style = mark + "-" * (not words)
         ax.plot(*shown, style, color=colour, label=name or None, markevery=every, **look)
@@ -298,9 +305,14 @@ class CurvePlot(General):
         else:
             chosen = [study.sel({self.by: [*values]}) for values in self.panels] or [study]
             parts = [("", self.named(part)) for part in chosen]
+        names = [
+            name
+            for _, part in parts
+            for name, _ in drawing.slices(part[self.variable], remaining(part[self.variable], [self.x]))
+        ]
         figure, axes = panels(PAGE if self.panels else drawing.COLUMN, 2.9, 1, len(parts), sharey=True)
         for ax, (_, part) in zip(axes, parts, strict=True):
-            draw_lines(ax, part, self.variable, self.x, self.log)
+            draw_lines(ax, part, self.variable, self.x, self.log, names)
             ax.label_outer()
         if self.limits is not None:
             axes[0].set_ylim(self.limits)

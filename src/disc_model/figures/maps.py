@@ -408,7 +408,7 @@ def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
         shape = PAPER_MARKERS[mark.paper_outcome]
         ax.scatter(*point, 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
         across, up = (ax.transData + ax.transAxes.inverted()).transform(point)
-        drawing.say(ax, name, point, (-6 if across > 0.85 else 6, -5 if up > 0.85 else 5), **look)
+        drawing.say(ax, name, point, (-6 if across > 0.85 else 6, -5 if up > 0.15 else 5), **look)
     ring = {"ls": "", "mfc": "none", "ms": 6, "mew": 1.4, "mec": PAPER, "path_effects": edge["path_effects"]}
     said = [(f"paper: {OUTCOME_LOOKS[name].label}", shape) for name, shape in PAPER_MARKERS.items() if name in outcomes]
     return [drawing.sample(marker=shape, label=label, **ring) for label, shape in said]

@@ -12,7 +12,7 @@ from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, GREY, PAGE, Figure, cm, panels
 from disc_model.figures.general import LINEAR, scale_rates
 from disc_model.figures.kind import NORM, Plot, Role, Roles, Values
-from disc_model.figures.maps import Look, edges_of, fill, patches
+from disc_model.figures.maps import OUTCOME_LOOKS, Look, edges_of, fill, patches
 from disc_model.units import Positive, Unit
 
 MOST = 5  # number of peaks that are named at most
@@ -63,7 +63,7 @@ class Campbell(Plot):
             top.plot(speeds, multiple * line, color=GREY, linewidth=0.8, linestyle=(0, (4, 2)), zorder=0)
             meeting = float(crossing["crossing_Omega"]), float(crossing["crossing_frequency"])
             top.plot(*meeting, **DOT)
-            drawing.say(top, f"{multiple:g} ${symbol}$", meeting, (4, -3), **beside)
+            drawing.say(top, f"{multiple:g} ${symbol}$", meeting, (4, -1), **beside | {"fontsize": 6})
             drawing.say(bottom, f"{multiple:g} ${symbol}$", (speeds[i], rate[i]), (2, 3), **beside)
         for ax in (top, bottom):
             for low, high in drawing.spans(speeds, ~np.isfinite(rate)):  # without a cycle
@@ -110,7 +110,8 @@ def named_modes(diameters: np.ndarray, heights: np.ndarray, apart: float) -> Ite
     """Indices of modes, ascending by height, and their names; those nearer than `apart` to the one below share one."""
     known = np.argsort(heights)[: int(np.isfinite(heights).sum())]
     for part in np.split(known, np.flatnonzero(np.diff(heights[known]) > apart) + 1):
-        yield part, name_of(*diameters[part].tolist())
+        if part.size:
+            yield part, name_of(*diameters[part].tolist())
 
 
 # ---- Modes of steady sliding along a parameter, root loci, and what the motion really does
@@ -146,19 +147,26 @@ class SlidingModes(Plot):
                 ax.plot(along, values, ".-", color=GREY, linewidth=THIN, markersize=1.2)
                 ax.plot(along, np.where(grows, values, np.nan), ".-", color=BLACK, linewidth=THICK, markersize=3)
             for start, after in drawing.stretches(grows[:-1] & grows[1:]):
-                i = start + int(np.argmax(rate[start : after + 1]))
+                shown = slice(start, after + 1)  # the name is where there is room above, and else at the largest rate
+                above = np.array([other[shown] - rate[shown] for *_, other in lines])
+                room = np.where(above > 0, above, np.inf).min(axis=0, initial=0.25 * float(largest.max()))
+                i = start + int(np.lexsort((rate[shown], room))[-1])
                 offset = (3, 0) if i == along.size - 1 else (0, 3)
                 drawing.say(bottom, name, (along[i], rate[i]), offset, fontsize=7, path_effects=drawing.halo())
         bottom.axhline(0, color=BLACK, linewidth=0.5)
         highest = self.highest or top.get_ylim()[1]
         top.set(ylabel="Frequency in the slider's frame (Hz)", xlim=along[[0, -1]], ylim=(0, highest))
         first = study.isel(value=0)
-        for part, name in named_modes(first["diameters"].values, first["frequency"].values, 0.03 * highest):
+        for part, name in named_modes(first["diameters"].values, first["frequency"].values, 0.04 * highest):
             left_end = along[0], float(first["frequency"][part].mean())
             drawing.say(top, name, left_end, (3, 0), fontsize=7, bbox={"fc": "white", "lw": 0, "pad": 1})
         # the sign matters: decay of high modes may be much faster
         low, top_rate = float(study["mode_growth_rate"].min()), max(float(largest.max()), 0.1)
         bottom.set(xlabel=label, ylabel="Growth rate (1/s)", ylim=(max(1.1 * low, -top_rate), 1.1 * top_rate))
+        last = study.isel(value=-1)
+        decay = last["mode_growth_rate"].where(lambda rates: (rates < -ROUNDING) & (rates > -top_rate)).values
+        for part, name in named_modes(last["diameters"].values, decay, 0.1 * top_rate):
+            drawing.say_beside(bottom, float(decay[part].mean()), name, 3, fontsize=7, color=GREY)
         drawing.letters([top, bottom])
         return figure
 
@@ -183,6 +191,8 @@ class RootLocus(Plot):
         ahead = study["mode_growth_rate"].isel(value=1).values - rates
         for part, name in named_modes(first["diameters"].values, heights, 0.01 * float(study["frequency"].max())):
             side, ring = (-1, rates[part].min()) if ahead[part].mean() > 0 else (1, rates[part].max())
+            if side > 0 and -0.02 * len(name) < ring < 0:  # the name would cross the line of zero growth
+                side, ring = -1, float(study["mode_growth_rate"].isel(mode=part).min())
             drawing.say(ax, name, (ring, heights[part].mean()), (4 * side, 0), fontsize=7, path_effects=drawing.halo())
         ax.axvline(0, color=BLACK, linewidth=0.6)
         ax.margins(x=0.02)
@@ -191,14 +201,18 @@ class RootLocus(Plot):
         return figure
 
 
-AGREEMENTS = {  # what linear analysis of steady sliding says, and what the motion from the static start does
-    "stable_quiet": Look("stable, and the motion quiet", "#f3f6f8"),
-    "stable_grows": Look("stable, but the motion leaves the quiet cycle in contact", "#86a0b8", 3 * "|"),
-    "stable_separates": Look("stable, but the motion separates", "#2b4f74", 3 * "x"),
-    "unstable_quiet": Look("unstable, but the motion stays quiet", "#f2c14e", 3 * "."),
-    "unstable_grows": Look("unstable, and the motion grows, or reaches another cycle, in contact", "#e3906a"),
-    "unstable_separates": Look("unstable, and the motion separates", "#bb5200"),
-    "unknown": Look("undecided, or no steady sliding", "#43372a"),
+AGREEMENTS = {  # what linear analysis of steady sliding says (dots: stable), and what the motion from the start does
+    "stable_quiet": Look("stable, and the motion quiet", OUTCOME_LOOKS["quiet"].face, 3 * "."),
+    "stable_grows": Look(
+        "stable, but the motion leaves the quiet cycle in contact", OUTCOME_LOOKS["growing"].face, 3 * "."
+    ),
+    "stable_separates": Look("stable, but the motion separates", OUTCOME_LOOKS["separation"].face, 3 * "."),
+    "unstable_quiet": Look("unstable, but the motion stays quiet", OUTCOME_LOOKS["quiet"].face),
+    "unstable_grows": Look(
+        "unstable, and the motion grows, or reaches another cycle, in contact", OUTCOME_LOOKS["growing"].face
+    ),
+    "unstable_separates": Look("unstable, and the motion separates", OUTCOME_LOOKS["separation"].face),
+    "unknown": Look("undecided, or no steady sliding", OUTCOME_LOOKS["undecided"].face),
 }
 
 
@@ -232,7 +246,9 @@ class SlidingOutcome(Plot):
         drawing.letters(axes, [drawing.MODES[norm] for norm in norms])
         names, looks = ("(a) ", "(b) ") if len(each) > 1 else ("",), {}
         for word, look in AGREEMENTS.items():
-            shares = [f"{letter}{np.mean(words == word):.0%}" for letter, words in zip(names, each, strict=False)]
+            shares = [
+                f"{letter}{100 * np.mean(words == word):.0f} %" for letter, words in zip(names, each, strict=False)
+            ]
             looks[word] = look._replace(label=f"{look.label}: {', '.join(shares)}")
         handles = patches(looks, {*np.concatenate(each, axis=None)})
         figure.legend(handles=handles, loc="outside lower center", ncols=1, title="Steady sliding is")
