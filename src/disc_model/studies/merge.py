@@ -6,11 +6,10 @@ A zip is one dimension without a coordinate of its own. It is named after its pa
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import chain, product
+from itertools import chain, compress, product
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import xarray as xr
 
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
@@ -36,38 +35,34 @@ def merge_batches(
     except ValueError as error:
         raise MergeError(f"the batches do not fit together: {error}") from None
     base = _common(batches)
-    points = _indices(flat, grid)
-    expected = whole = pd.MultiIndex.from_product([range(len(dim["values"])) for dim in grid], names=points.names)
-    names = [name for dim in grid for name in dim["names"]]
+    places = [_places(flat, dim) for dim in grid]
+    dims, shape = ["_".join(dim["names"]) for dim in grid], [len(dim["values"]) for dim in grid]
+    points, expected = [*zip(*places, strict=True)], [*product(*map(range, shape))]
     if where := attrs.get("where"):
-        fixed, every = json.loads(base["base"]), product(*(dim["values"] for dim in grid))
-        expected = whole[[holds([where], fixed | dict(zip(names, chain(*point), strict=True))) for point in every]]
-    if not points.sort_values().equals(expected):
-        different = f"{len(points)} points, {points.nunique()} of them different"
+        fixed, names = json.loads(base["base"]), [name for dim in grid for name in dim["names"]]
+        every = (fixed | dict(zip(names, chain(*x), strict=True)) for x in product(*(dim["values"] for dim in grid)))
+        expected = [*compress(expected, (holds([where], point) for point in every))]
+    if sorted(points) != expected:
+        different = f"{len(points)} points, {len({*points})} of them different"
         raise MergeError(f"the batches have {different}, which are not the {len(expected)} points of the grid")
-    if len(expected) < len(whole):
-        flat = flat.assign({name: _with_excluded(variable) for name, variable in flat.data_vars.items()})
-    fill = {name: _nothing(variable) for name, variable in flat.data_vars.items()}
-    indexed = flat.drop_vars(names).assign_coords(xr.Coordinates.from_pandas_multiindex(points, POINT))
-    sizes = {name: range(size) for name, size in zip(whole.names, whole.levshape, strict=True)}
-    merged = indexed.unstack(POINT, fill_value=fill).reindex(sizes, fill_value=fill).drop_vars(whole.names)
-    coords = {}
-    for dim, along in zip(grid, whole.names, strict=True):
+    variables, coords = {}, dict[Any, Any](flat.drop_dims(POINT).coords)
+    for name, variable in flat.data_vars.items():
+        if len(points) < math.prod(shape):
+            variable = _with_excluded(variable)
+        array = np.full((*shape, *variable.shape[1:]), _nothing(variable), variable.dtype)
+        array[tuple(places)] = variable.values
+        variables[name] = xr.Variable((*dims, *variable.dims[1:]), array, variable.attrs, variable.encoding)
+    for dim, along in zip(grid, dims, strict=True):
         for name, values in zip(dim["names"], zip(*dim["values"], strict=True), strict=True):
             coords[name] = (along, np.array(values), describe(name))
-    merged = merged.transpose(*whole.names, ...).assign_coords(coords)
-    merged.attrs = {"Conventions": CONVENTIONS, **attrs, **base}
+    merged = xr.Dataset(variables, coords, {"Conventions": CONVENTIONS, **attrs, **base})
     return summarised(merged, quantity_of(merged.attrs["quantity"]).model_validate(stated_in(merged, "options")))
 
 
-def _indices(flat: xr.Dataset, grid: Sequence[Mapping[str, Any]]) -> pd.MultiIndex:
-    """Index of each point along each dimension; -1 for a value that the grid does not have."""
-    columns = {}
-    for dim in grid:
-        known = {tuple(value): i for i, value in enumerate(dim["values"])}
-        values = zip(*(flat[name].values.tolist() for name in dim["names"]), strict=True)
-        columns["_".join(dim["names"])] = [known.get(value, -1) for value in values]
-    return pd.MultiIndex.from_frame(pd.DataFrame(columns))
+def _places(flat: xr.Dataset, dim: Mapping[str, Any]) -> list[int]:
+    """Index of each point along a dimension; -1 for a value that the grid does not have."""
+    known = {tuple(value): i for i, value in enumerate(dim["values"])}
+    return [known.get(value, -1) for value in zip(*(flat[name].values.tolist() for name in dim["names"]), strict=True)]
 
 
 def failures(study: xr.Dataset) -> Iterator[str]:
