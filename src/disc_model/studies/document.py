@@ -81,8 +81,6 @@ VARIED = (*Parameters.model_fields, *RATIOS, START, *PERTURBATIONS)  # what a gr
 
 
 class _Columns(Strict):
-    """Values by what varies."""
-
     _unknown: ClassVar[str] = "cannot be an axis"
 
 

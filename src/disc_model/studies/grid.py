@@ -322,8 +322,6 @@ class GridStudy:
             if self.quantity in quantities:
                 return plot.faults(self.values)
             return [Fault.of(("kind",), plot.kind, f"needs the quantity {quantities[0]}")]
-        from disc_model.studies.run import coordinates_of  # reads xarray, which other figures do not need
-
         quantity, variables = self.options, dict[str, Any]()
         values: dict[str, list[Any]] = {
             name: [value[0] if len(value) == 1 else value for value in along] for name, along in self.values.items()
@@ -332,7 +330,7 @@ class GridStudy:
         others = [name for name in values if name != quantity.over]
         for columns, coordinates, dims in (of_points, (quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others)):
             variables |= {name: (*dims, *column.dims) for name, column in columns.items()}
-            values |= {name: along.values.tolist() for name, along in coordinates_of(coordinates, quantity).items()}
+            values |= {name: [*coordinate.values(quantity)] for name, coordinate in coordinates.items()}
         return plot.faults_among(values, variables)
 
     def entry_of(self, name: str, plot: Plot) -> FigureEntry:

@@ -79,7 +79,6 @@ class Range(Ruled):
 
     @property
     def intervals(self) -> int:
-        """Number of intervals: one less than the number of values."""
         return round(self._steps)
 
     @property
@@ -232,7 +231,6 @@ class Quantity(Ruled):
 
     @property
     def scanned(self) -> tuple[str, ...]:
-        """Parameters that it varies by itself."""
         return tuple(getattr(self, name, name) for name in self.scans)
 
     @property

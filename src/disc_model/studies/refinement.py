@@ -98,11 +98,8 @@ class Tile:
         return result.word if isinstance(result, OutcomeResult) else "failed"
 
     def _result(self, index: Index, furthest: float = AMPLITUDES[0]) -> OutcomeResult | Exception:
-        def outcome(start: NearCycle | FloquetResult) -> OutcomeResult:
-            p, horizon, tol = self.points[index], self.options.horizon, self.options.tol
-            return find_outcome(p, horizon, tol=tol, near=start, furthest=furthest)
-
-        return _result_or_error(outcome, self.starts[index])
+        p, horizon, how = self.points[index], self.options.horizon, {"tol": self.options.tol, "furthest": furthest}
+        return _result_or_error(lambda start: find_outcome(p, horizon, near=start, **how), self.starts[index])
 
     def _trend(self, index: Index) -> str:
         """The outcome at a point from the multipliers, or "" if they leave it open."""

@@ -3,6 +3,7 @@
 import json
 import logging
 import time
+from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
@@ -82,11 +83,10 @@ def _point(p: Made, varied: Mapping[str, Any], starts: Mapping[str | None, Start
     if isinstance(p, DiscModelError):
         return p
     start = starts[varied.get(START)]
-    whole: dict[str, float] = {str(name): value for name, value in start.perturbation.items()}
+    whole = defaultdict[Any, float](float, start.perturbation)
     for name in varied.keys() & PERTURBATIONS.keys():
-        coordinate = name.removeprefix("perturbation_")
-        whole[coordinate] = whole.get(coordinate, 0.0) + varied[name]
-    return Point(p, start.model_copy(update={"perturbation": whole}), varied.get(SAMPLE, 0))
+        whole[name.removeprefix("perturbation_")] += varied[name]
+    return Point(p, start.model_copy(update={"perturbation": dict(whole)}), varied.get(SAMPLE, 0))
 
 
 def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:

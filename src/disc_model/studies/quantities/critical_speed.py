@@ -113,7 +113,6 @@ def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
 
 
 def _crossings(known: dict[int, float], horizon: float, speed: Callable[[int], float]) -> dict[str, Any]:
-    """Crossings of one horizon among the known speeds."""
     changes = [b for _, b in _changes(known, horizon)]
     # the lowest speed that separates; an unknown speed hides those above it
     first = next((i for i in sorted(known) if not known[i] > horizon), None)

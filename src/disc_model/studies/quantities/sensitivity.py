@@ -137,9 +137,9 @@ class Sensitivity(Quantity):
         """Distributions must be of numbers, of no parameter that varies otherwise, and within valid values."""
         path, numbers = ("options", "distributions"), _numbers(grid)
         varied = {*grid.varied, *({*numbers}.difference(NUMBERS) if "disc" in grid.varied else ())}
-        faults = []
+        faults, own = [], _own_values(grid.base)
         for name, distribution in self.distributions.items():
-            nominal, relative = _nominal(name, grid.base), distribution.relative
+            nominal, relative = own.get(name), distribution.relative
             scales = is_number(nominal) and nominal != 0
             rules = {
                 f"must be of a parameter that is a number (known: {', '.join(numbers)})": name not in numbers,
@@ -161,9 +161,9 @@ class Sensitivity(Quantity):
         every = (point.items() for point in grid.points_of([*self.distributions, *RELATED]))
         for point in dict.fromkeys(tuple((name, value) for name, value in items if name != SAMPLE) for items in every):
             case = case_of({**grid.base, **dict(point)}, grid.discs)
-            ends: dict[str, list[float]] = {}
+            ends, own = dict[str, list[float]](), _own_values(case)
             for name, distribution in self.distributions.items():
-                scale = _nominal(name, case) if distribution.relative else 1.0
+                scale = own[name] if distribution.relative else 1.0
                 ends[name] = [scale * end for end in distribution.ends]
                 for end in ends[name]:
                     try:
@@ -178,10 +178,10 @@ class Sensitivity(Quantity):
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         p, names = point.parameters, sorted(self.distributions)
-        numbers = dict(p) | ({} if p.disc is None else p.disc.numbers)
+        own = _own_values(dict(p))
         block, row = divmod(point.sample, BLOCK)
         draws = zip(names, unit_draws(self.seed, len(names), block)[row], strict=True)
-        drawn = [quantile(self.distributions[name], float(numbers[name]), float(draw)) for name, draw in draws]
+        drawn = [quantile(self.distributions[name], float(own[name]), float(draw)) for name, draw in draws]
         p = p.replace(**dict(zip(names, drawn, strict=True)))
         cycle, message = tried("cycle", evaluate, p, self.tol)
         outcome: tuple[Row, str] = {"outcome": "not_simulated"}, ""
@@ -215,10 +215,10 @@ def _numbers(grid: Any) -> list[str]:
     return [*(name for name in NUMBERS if name not in (*PLATE, "damping_ratio")), *common]
 
 
-def _nominal(name: str, values: Mapping[str, Any]) -> Any:
-    """A point's own value of a parameter, if it has one."""
+def _own_values(values: Mapping[str, Any]) -> dict[str, Any]:
+    """A point's own values of all numbers that can be distributed."""
     numbers = disc.numbers if isinstance(disc := values.get("disc"), Disc) else {}
-    return (DEFAULTS | {**values} | numbers).get(name)
+    return DEFAULTS | {**values} | numbers
 
 
 # ---- Samples
