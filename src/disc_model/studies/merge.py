@@ -47,11 +47,10 @@ def merge_batches(
         raise MergeError(f"the batches have {different}, which are not the {len(expected)} points of the grid")
     variables, coords = {}, dict[Any, Any](flat.drop_dims(POINT).coords)
     for name, variable in flat.data_vars.items():
-        if len(points) < math.prod(shape):
-            variable = _with_excluded(variable)
-        array = np.full((*shape, *variable.shape[1:]), _nothing(variable), variable.dtype)
+        nothing, more = _excluded(variable) if len(points) < math.prod(shape) else (0, {})
+        array = np.full((*shape, *variable.shape[1:]), nothing, variable.dtype)
         array[tuple(places)] = variable.values
-        variables[name] = xr.Variable((*dims, *variable.dims[1:]), array, variable.attrs, variable.encoding)
+        variables[name] = xr.Variable((*dims, *variable.dims[1:]), array, variable.attrs | more, variable.encoding)
     for dim, along in zip(grid, dims, strict=True):
         for name, values in zip(dim["names"], zip(*dim["values"], strict=True), strict=True):
             coords[name] = (along, np.array(values), describe(name))
@@ -80,19 +79,13 @@ def failures(study: xr.Dataset) -> Iterator[str]:
         yield f"{where}: {message if message.startswith(what) else f'{what}: {message}'}"
 
 
-def _with_excluded(variable: xr.DataArray) -> xr.DataArray:
-    """A variable that has a word for excluded points besides, if it is a flag."""
-    if "flag_meanings" not in variable.attrs:
-        return variable
-    words = [*variable.attrs["flag_meanings"].split(), EXCLUDED]
-    return variable.assign_attrs(flag_meanings=" ".join(words), flag_values=np.arange(len(words), dtype=np.int8))
-
-
-def _nothing(variable: xr.DataArray) -> Any:
-    """The value of an excluded point: its word, the last one, or none."""
-    if "flag_values" in variable.attrs:
-        return variable.dtype.type(variable.attrs["flag_values"][-1])
-    return math.nan if variable.dtype.kind == "f" else "" if variable.dtype.kind in "OUT" else 0
+def _excluded(variable: xr.DataArray) -> tuple[Any, dict[str, Any]]:
+    """The value of a variable at an excluded point; for a flag its last one, and attributes with a word for it."""
+    if "flag_meanings" in variable.attrs:
+        words = [*variable.attrs["flag_meanings"].split(), EXCLUDED]
+        numbers = np.arange(len(words), dtype=np.int8)
+        return numbers[-1], {"flag_meanings": " ".join(words), "flag_values": numbers}
+    return math.nan if variable.dtype.kind == "f" else "" if variable.dtype.kind in "OUT" else 0, {}
 
 
 def _common(batches: Sequence[xr.Dataset]) -> dict[str, str]:
