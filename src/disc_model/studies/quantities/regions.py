@@ -1,12 +1,12 @@
 """Outcome of the static start over two parameters, refined at borders, and the cycle at every point."""
 
-from collections.abc import Collection, Sequence
-from typing import Annotated, ClassVar
+from collections.abc import Sequence
+from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Variable
-from disc_model.studies.quantity import COME_TO, STATUS, WORK, Made, Point, Quantity, Row, State
+from disc_model.studies.quantity import COME_TO, STATUS, WORK, Made, Point, Quantity, State
 from disc_model.units import Count, Seconds, Tolerance
 
 METHODS = ("none", "multipliers", "simulation", "inferred", "settled")
@@ -57,9 +57,7 @@ class Regions(Quantity):
         end = self.horizon if result.state is None else result.state.time + 5.0
         return simulate(p, end, tol=self.tol, initial_state=result.state).raise_for_status().final_state
 
-    def compute_tile(
-        self, points: Sequence[Sequence[Made]], sampled: Collection[tuple[int, int]]
-    ) -> list[list[tuple[Row, str]]]:
+    def compute_tile(self, points: Sequence[Sequence[Made]], sampled: Sequence[tuple[int, int]]) -> list[list[Any]]:
         from disc_model.studies.refinement import Tile
 
         return Tile(points, sampled, self).rows()
