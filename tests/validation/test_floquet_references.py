@@ -9,9 +9,9 @@ import pytest
 import yaml
 
 from disc_model import Parameters, floquet
+from disc_model.analysis.spectra import nearest_resonance
 from disc_model.data.variables import CycleStatus
 from disc_model.stability.continuation import BORDER, continue_border, continue_cycle
-from disc_model.stability.resonances import nearest_resonance
 
 pytestmark = pytest.mark.compiled
 CASES = yaml.safe_load(Path(__file__).with_name("growth.yaml").read_text(encoding="utf-8"))

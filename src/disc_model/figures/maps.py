@@ -12,13 +12,13 @@ import xarray as xr
 from numpy.typing import NDArray
 from pydantic import Field
 
+from disc_model.analysis.spectra import Resonance
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, axis_of, flag_names, stated_in, typeset
 from disc_model.errors import Fault
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, GREY, ORANGE, PAGE, PAPER, SEPARATED, Artist, Axes, Figure, mpl, panels
 from disc_model.figures.kind import CURVES, CYCLE, Plot, Role, Roles, Values
 from disc_model.parameters import Parameters
-from disc_model.stability.resonances import Resonance
 from disc_model.units import Finite, Strict, Units
 
 Array = NDArray[np.float64]

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.analysis.spectra import Resonance, nearest_resonance
 from disc_model.data.variables import CycleStatus, values_text
 from disc_model.display import Summarised, computed, counted, draw
 from disc_model.engine.jit.cache import compiling
@@ -30,7 +31,6 @@ from disc_model.stability.continuation import (
     interval_in_si,
 )
 from disc_model.stability.cycle import FloquetResult, find_cycle
-from disc_model.stability.resonances import Resonance, nearest_resonance
 from disc_model.stability.return_map import Array, ReturnMap, case_faults
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
