@@ -7,16 +7,8 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, simulate
-from disc_model.stability.return_map import (
-    PARAMETERS,
-    RETURNED,
-    Counts,
-    Flight,
-    ReturnMap,
-    bifurcation_type,
-    growth_rate,
-    newton,
-)
+from disc_model.stability.cycle import bifurcation_type, growth_rate
+from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Flight, ReturnMap, newton
 from tests.contact_laws import COMPILES, LAWS
 from tests.engine.test_variational import differences
 from tests.references.printed import Printed

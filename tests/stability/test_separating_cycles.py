@@ -9,8 +9,8 @@ from disc_model import Parameters, floquet, simulate
 from disc_model.data.variables import CycleStatus
 from disc_model.simulation.states import State
 from disc_model.stability.continuation import StepControl, continue_cycle
-from disc_model.stability.cycle import FloquetResult
-from disc_model.stability.return_map import ReturnMap, multipliers
+from disc_model.stability.cycle import FloquetResult, multipliers
+from disc_model.stability.return_map import ReturnMap
 from tests.stability.test_return_map import central_differences
 
 pytestmark = pytest.mark.compiled

@@ -170,14 +170,9 @@ def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
     Of combinations that are equally near, to a thousandth of a Hz, the one with the smallest orders is taken.
     """
     orders = [(n, m) for n in range(13) for m in range(-3, 4) if n > 0 or m > 0]
-
-    def cost(order: tuple[int, int]) -> tuple[float, int]:
-        n, m = order
-        return round(abs(n * f_s + m * f_drive - frequency), 3), n + abs(m)
-
-    n, m = min(orders, key=cost)
-    value = n * f_s + m * f_drive
-    return Combination(n, m, value, frequency - value)
+    values = ((n, m, n * f_s + m * f_drive) for n, m in orders)
+    combinations = [Combination(n, m, value, frequency - value) for n, m, value in values]
+    return min(combinations, key=lambda near: (round(abs(near.deviation), 3), near.n + abs(near.m)))
 
 
 def time_frequency(time: Array, values: Array, *, window: float = 1.0, hop: float = 0.05) -> TimeFrequency:

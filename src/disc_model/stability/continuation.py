@@ -24,19 +24,8 @@ from disc_model.parameters import DEFAULTS, Parameters, Quantity, foreign_case
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State, is_finite_array
-from disc_model.stability.cycle import FloquetResult, find_cycle, guess_faults
-from disc_model.stability.return_map import (
-    ENDS,
-    PARAMETERS,
-    Array,
-    ComplexArray,
-    Counts,
-    Flight,
-    ReturnMap,
-    bifurcation_type,
-    multipliers,
-    rounding,
-)
+from disc_model.stability.cycle import FloquetResult, bifurcation_type, find_cycle, guess_faults, multipliers
+from disc_model.stability.return_map import ENDS, PARAMETERS, Array, ComplexArray, Counts, Flight, ReturnMap, rounding
 from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, is_whole, limits_faults
 
 if TYPE_CHECKING:

@@ -20,19 +20,7 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, raise_faults, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.return_map import (
-    ENDS,
-    RETURNED,
-    Array,
-    ComplexArray,
-    Flight,
-    ReturnMap,
-    bifurcation_type,
-    case_faults,
-    growth_rate,
-    multipliers,
-    newton,
-)
+from disc_model.stability.return_map import ENDS, RETURNED, Array, ComplexArray, Flight, ReturnMap, case_faults, newton
 from disc_model.stability.sliding import SlidingModes, SteadySliding, sliding_modes, split_rows, steady_sliding
 from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
 
@@ -295,6 +283,24 @@ def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
         **flight.counts._asdict(),
         residual=flight.residual / map_.deflection,
     )
+
+
+def multipliers(jacobian: Array) -> ComplexArray:
+    """Eigenvalues of the return map's Jacobian, largest modulus first; positive imaginary parts first in each pair."""
+    values = np.linalg.eigvals(jacobian).astype(complex)
+    return values[np.lexsort((-values.imag, -values.real, -np.round(np.abs(values), 14)))]
+
+
+def growth_rate(multiplier: complex, period: float) -> float:
+    """Logarithm of the modulus over the period, 1/s; -inf for a multiplier of zero."""
+    return math.log(abs(multiplier)) / period if multiplier else -math.inf
+
+
+def bifurcation_type(multiplier: complex) -> str:
+    """Kind of bifurcation when a multiplier crosses the unit circle."""
+    if multiplier.imag != 0:
+        return "neimark_sacker"
+    return "fold" if multiplier.real > 0 else "period_doubling"
 
 
 # ---- Frequencies of the cycle's multipliers, beside those of steady sliding

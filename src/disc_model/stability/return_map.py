@@ -1,4 +1,4 @@
-"""The return map of the stick-slip cycle, its fixed points and their multipliers.
+"""The return map of the stick-slip cycle, and its fixed points.
 
 The section is the instant before a forward release: f = 0 and r_0 F = mu_s P.  A point of it consists of the modal
 coordinates alone, because psi follows from the release condition, scaled to the norm of the disc's energy: omega a,
@@ -293,21 +293,3 @@ def _solve(matrix: Array, right: Array) -> Array:
         return np.asarray(np.linalg.solve(matrix, right), dtype=float)
     except np.linalg.LinAlgError:
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0], dtype=float)
-
-
-def multipliers(jacobian: Array) -> ComplexArray:
-    """Eigenvalues of the return map's Jacobian, largest modulus first; positive imaginary parts first in each pair."""
-    values = np.linalg.eigvals(jacobian).astype(complex)
-    return values[np.lexsort((-values.imag, -values.real, -np.round(np.abs(values), 14)))]
-
-
-def growth_rate(multiplier: complex, period: float) -> float:
-    """Logarithm of the modulus over the period, 1/s; -inf for a multiplier of zero."""
-    return math.log(abs(multiplier)) / period if multiplier else -math.inf
-
-
-def bifurcation_type(multiplier: complex) -> str:
-    """Kind of bifurcation when a multiplier crosses the unit circle."""
-    if multiplier.imag != 0:
-        return "neimark_sacker"
-    return "fold" if multiplier.real > 0 else "period_doubling"
