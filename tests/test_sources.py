@@ -125,7 +125,7 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
     assert {"benchmarks/methods/base.py", "benchmarks/methods/rivals.toml", "benchmarks/data/answers.json"} <= of(
         SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.answers"
     )
-    assert "benchmarks/answers.py" not in of(SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.truncation")
+    assert "benchmarks/answers.py" not in of(SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.scaling")
 
 
 def test_what_is_left_aside_is_there_and_scripts_import_from_modules() -> None:

@@ -10,13 +10,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import answers, figures, maps, study
+from disc_model.benchmarks import answers, figures, study, work_precision
 from disc_model.benchmarks.answers import AnswerStatus, AnswerVerdict, Reply, verdict
 from disc_model.benchmarks.methods import METHODS, Method
 from disc_model.benchmarks.methods.base import MethodResult, RunStatus
-from disc_model.benchmarks.scaling import scaling
+from disc_model.benchmarks.scaling import contact_study, scaling
 from disc_model.benchmarks.scenes import Verdict
-from disc_model.benchmarks.truncation import contact_study
 from disc_model.benchmarks.work_precision import headline, measured_points, table
 from disc_model.data.variables import flag_names
 from disc_model.figures.drawing import save
@@ -207,17 +206,17 @@ def test_errors_of_models_are_against_the_richest_and_those_of_methods_against_t
 
 def test_maps_of_steps_and_of_tolerances(monkeypatch: pytest.MonkeyPatch, tmp_path) -> None:
     """Of 20 ms of stick-slip and 10 ms of separations."""
-    monkeypatch.setattr(maps, "SPANS", {"stick_slip": 0.02, "separating": 1e-2})
+    monkeypatch.setattr(work_precision, "SPANS", {"stick_slip": 0.02, "separating": 1e-2})
     for name in ("short_problem", "engine_answer"):
-        monkeypatch.setattr(maps, name, lru_cache(getattr(maps, name).__wrapped__))
-    steps = maps.failure_map("RK4", "separating", (1, 2), (1e-3, 2e-5))
+        monkeypatch.setattr(work_precision, name, lru_cache(getattr(work_precision, name).__wrapped__))
+    steps = work_precision.failure_map("RK4", "separating", (1, 2), (1e-3, 2e-5))
     assert steps["modes"].values.tolist() == [3, 5]
     assert steps["step_limit"].values == pytest.approx(2 * math.sqrt(2) / steps["omega_max"].values)
     assert steps["shortest_phase"].values.min() > 0
-    engine = maps.failure_map("series", "separating", (1, 2), (1e-7, 1e-10))
+    engine = work_precision.failure_map("series", "separating", (1, 2), (1e-7, 1e-10))
     assert (engine["verdict"].values == Verdict.CONVERGED).all()
-    adaptive = maps.failure_map("RK45", "separating", (1,), (1e-2, 1e-5))
-    smooth = maps.failure_map("regularised", "separating", (1,), (10.0, 1.0))
+    adaptive = work_precision.failure_map("RK45", "separating", (1,), (1e-2, 1e-5))
+    smooth = work_precision.failure_map("regularised", "separating", (1,), (10.0, 1.0))
     assert np.isfinite(adaptive["longest_step"]).all()
     figure = figures.failure_maps(steps, engine, adaptive, smooth, adaptive)
     titles = [ax.get_title(loc="left") for ax in figure.axes if ax.get_title(loc="left")]
@@ -227,15 +226,15 @@ def test_maps_of_steps_and_of_tolerances(monkeypatch: pytest.MonkeyPatch, tmp_pa
 
 
 def test_a_map_of_answers_tries_no_finer_setting_after_one_that_is_too_slow(late: Method) -> None:
-    answered = maps.answer_map(late.name, (1, 4), (1.0, 1e-2, 1e-6, 1e-7))
-    cases = [maps.CASE.replace(n_diameters=count) for count in (1, 4)]
-    right = [simulate(p, maps.HORIZON, stop_at="first_separation").first_separation for p in cases]
+    answered = answers.answer_map(late.name, (1, 4), (1.0, 1e-2, 1e-6, 1e-7))
+    cases = [answers.MAP_CASE.replace(n_diameters=count) for count in (1, 4)]
+    right = [simulate(p, answers.MAP_HORIZON, stop_at="first_separation").first_separation for p in cases]
     np.testing.assert_allclose(answered["right"], right, atol=1e-7)
     assert answered["status"].values.tolist() == [[1, 0, 2, 2]] * 2
     assert answered["verdict"].values.tolist() == [[WRONG, WRONG, SILENT, SILENT]] * 2
     settings = [1e-2, 1e-4, 1e-6, 1e-7, 1e-9, 1e-11]
-    assert maps.answer_map(late.name, (0,))["value"].values == pytest.approx(settings)
-    assert maps.answer_map("series", (1,), (1e-6,))["verdict"] == RIGHT
+    assert answers.answer_map(late.name, (0,))["value"].values == pytest.approx(settings)
+    assert answers.answer_map("series", (1,), (1e-6,))["verdict"] == RIGHT
     assert figures.answer_maps(answered).axes[0].get_title(loc="left") == "(a) late"
 
 

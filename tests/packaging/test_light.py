@@ -45,7 +45,7 @@ except ImportError as error:
     assert str(error) == "pictures need matplotlib: pip install 'disc_model[plot]' brings it"
 else:
     raise AssertionError("it was drawn")
-import disc_model.benchmarks.answers, disc_model.benchmarks.maps
+import disc_model.benchmarks.answers, disc_model.benchmarks.work_precision
 from disc_model.cli import main
 
 def code(*command):

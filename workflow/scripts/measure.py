@@ -1,4 +1,4 @@
-"""Measure a part of the benchmark: module and function of its study, such as maps.failure_map, and their arguments."""
+"""Measure a part of the benchmark: module and function of its study, such as scaling.scaling, and their arguments."""
 
 from importlib import import_module
 

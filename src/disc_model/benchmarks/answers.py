@@ -22,12 +22,12 @@ from disc_model.analysis.classify import share, shortest_period
 from disc_model.benchmarks.methods import METHODS, Method
 from disc_model.benchmarks.methods.base import Array, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.scenes import read_state, stored
-from disc_model.benchmarks.study import TABLES, Row, run
-from disc_model.benchmarks.truncation import CONTACTS
-from disc_model.benchmarks.work_precision import DEFAULT
+from disc_model.benchmarks.study import TABLES, Flags, Row, run
+from disc_model.benchmarks.work_precision import DEFAULT, REFERENCE_TOL, map_settings, with_facts
 from disc_model.data.dataset import json_attribute
 from disc_model.data.variables import CycleStatus, flag_names
 from disc_model.errors import ParameterError
+from disc_model.mode_choice import real_modes
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State, static_start
@@ -54,6 +54,7 @@ QUESTIONS: dict[str, dict[str, Any]] = {
 AnswerStatus = enum.IntEnum("AnswerStatus", "FOUND NONE TOO_SLOW UNSTABLE STALLED FAILED", start=0)
 """NONE: the method ended well and says that there is no such thing."""
 AnswerVerdict = enum.IntEnum("AnswerVerdict", "RIGHT WRONG NO_ANSWER", start=0)
+FLAGS: Flags = {"status": AnswerStatus, "verdict": AnswerVerdict}
 
 
 class Reply(NamedTuple):
@@ -287,6 +288,7 @@ LINES: Mapping[str, tuple[str, str]] = {
     "residual": ("series, modes, residual flexibility", "diameters"),
 }
 """Lines that belong to no method: name in words, and meaning of the setting."""
+CONTACTS: dict[str, dict[str, Any]] = TABLES["contacts"]
 RICHEST: dict[str, Any] = {"n_diameters": 12, "contact_compliance": "residual"}
 CELLS = 64  # number of cells of the region on which models are compared
 SETTLES_WITHIN, SETTLES_FOR = 400.0, 100.0  # s: contact is lost within it, and time from then until the examined motion
@@ -334,9 +336,8 @@ def answers(
         points = [{"line": part, "setting": value, "question": name} for value in values for name in asked]
     known = {name: reference(name) for name in QUESTIONS}
     about = {name: QUESTIONS[name] | {"error": f"{right.error:.2g}, {right.by}"} for name, right in known.items()}
-    flags = {"status": AnswerStatus, "verdict": AnswerVerdict}
     title = "What each answer costs"
-    return run("answers", points, measure, flags=flags, title=title, questions=json_attribute(about))
+    return run("answers", points, measure, flags=FLAGS, title=title, questions=json_attribute(about))
 
 
 def in_words(dataset: xr.Dataset) -> pd.DataFrame:
@@ -413,3 +414,42 @@ def cycle_growth_rate(p: Parameters, tol: float) -> Reply:
 @lru_cache(maxsize=CELLS)
 def _right_cell(index: int) -> bool:
     return cell(SERIES, NEVER, index, **RICHEST)[0]
+
+
+# ---- Where methods find the first separation
+MAP_CASE, MAP_HORIZON = Parameters(N=600.0, Omega=27.0), 25.0  # a case that loses contact within the horizon (s)
+MAP_BUDGET = 3.0  # s for a point; beyond it, finer settings with the same modes are skipped
+
+
+def answer_map(
+    method: str, diameters: Sequence[int] = (1, 2, 4, 8), values: Sequence[float] | None = None
+) -> xr.Dataset:
+    """Verdicts on a method's first separation along (diameters, value), from coarse to fine."""
+    judged = METHODS[method].economical()
+
+    def ask(asked: Method, value: float, budget: float, count: int) -> Reply:
+        p = MAP_CASE.replace(n_diameters=count)
+        return first_separation(setting_of(asked, value), budget, p, MAP_HORIZON)["first_separation"]
+
+    right = {count: ask(METHODS["series"], REFERENCE_TOL, math.inf, count).value for count in diameters}
+    late: set[int] = set()
+
+    def measure(diameters: int, value: float) -> Iterator[Row]:
+        reply = Reply(math.nan, math.nan, AnswerStatus.TOO_SLOW)
+        if diameters not in late:
+            reply = ask(judged, value, MAP_BUDGET, diameters)
+        if reply.status is AnswerStatus.TOO_SLOW:
+            late.add(diameters)
+        judgement = verdict("first_separation", reply, right[diameters])
+        errors = {"verdict": judgement, "error": abs(reply.value - right[diameters])}
+        yield errors | {"status": reply.status, "found": reply.value, "seconds": reply.seconds}
+
+    def facts(diameters: int) -> Iterator[Row]:
+        yield {"modes": real_modes(diameters, 0), "right": right[diameters]}
+
+    if values is None:  # six at most: the first, the last, and some between
+        every = map_settings(judged)
+        values = [every[i] for i in np.linspace(0, len(every) - 1, min(6, len(every))).round().astype(int)]
+    about: dict[str, Any] = {"budget": MAP_BUDGET, "horizon": MAP_HORIZON, "parameters": MAP_CASE.canonical_json}
+    study = run("answer_map", {"diameters": diameters, "value": values}, measure, flags=FLAGS, **about)
+    return with_facts(judged, study, facts, "answer_map_facts")

@@ -1,11 +1,11 @@
-"""Speed against accuracy: every method on every scene, at settings from coarse to fine."""
+"""Speed against accuracy, every method on every scene at settings from coarse to fine, and maps of failures."""
 
 import math
 import time as clock
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -13,12 +13,15 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import METHODS, SCENES
-from disc_model.benchmarks.methods.base import RunStatus
-from disc_model.benchmarks.scenes import JUDGED, Verdict
+from disc_model.benchmarks.methods import METHODS, SCENES, Method
+from disc_model.benchmarks.methods.base import STABILITY_LIMIT, Problem, RunStatus
+from disc_model.benchmarks.scenes import JUDGED, Answer, Verdict
 from disc_model.benchmarks.study import TABLES, Row, run
 from disc_model.data.dataset import json_attribute
 from disc_model.data.variables import Variable
+from disc_model.disc.plate import mode_arrays
+from disc_model.mode_choice import real_modes
+from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 
 DEFAULT = 1e-10  # the series engine's default tolerance, and the event-time error (s) required of the other methods
@@ -187,3 +190,65 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
     )
     counts = dict.fromkeys(("events", "separations", "repeats"), int)
     return derived.astype(counts)[[*COLUMNS.values()]].set_axis([*COLUMNS], axis=1)
+
+
+# ---- Where methods fail: maps over step or tolerance and number of modes, against the engine at `REFERENCE_TOL`
+SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}  # s
+STEPS = tuple(np.geomspace(2e-5, 2e-3, 61)[::-1].tolist())  # fixed steps of a map, s
+REFERENCE_TOL = 1e-14
+
+
+def failure_map(
+    method: str,
+    scene: str = "separating",
+    diameters: Sequence[int] = (1, 2, 4, 6, 8),
+    values: Sequence[float] | None = None,  # those of `map_settings` if not given
+) -> xr.Dataset:
+    """Verdicts on a method on a short span of a scene along (diameters, value), and facts that explain them."""
+    judged = METHODS[method].economical()
+
+    def measure(diameters: int, value: float) -> Iterator[Row]:
+        problem = short_problem(scene, diameters)
+        result = judged.solve(problem, value, judged.map_budget)
+        errors = scenes.errors(problem, engine_answer(scene, diameters), result)
+        yield {"verdict": errors.verdict, "event_error": errors.event_time, "longest_step": result.longest_step}
+
+    def facts(diameters: int) -> Iterator[Row]:
+        p = short_problem(scene, diameters).parameters
+        top = float(mode_arrays(p).omega.max())
+        gaps = np.diff(engine_answer(scene, diameters).times.astype(float))  # which a step must not exceed
+        shortest, stiff = float(gaps[gaps > 0].min()), p.mu_s * p.N / (p.m * p.r_0 * top)
+        limits = {"step_limit": STABILITY_LIMIT / top, "shortest_phase": shortest, "stiff_epsilon": stiff}
+        yield {"modes": real_modes(diameters, 0), "omega_max": top} | limits
+
+    axes = {"diameters": diameters, "value": map_settings(judged) if values is None else values}
+    about: dict[str, Any] = {"scene": scene, "budget": judged.map_budget, "span": SPANS[scene]}
+    study = run("failure_map", axes, measure, flags={"verdict": Verdict}, **about)
+    return with_facts(judged, study, facts, "failure_map_facts")
+
+
+def map_settings(method: Method) -> Sequence[float]:
+    return STEPS if method.setting == "step" else method.map_values
+
+
+def with_facts(method: Method, study: xr.Dataset, facts: Callable[..., Iterator[Row]], table: str) -> xr.Dataset:
+    """The map of a method with the facts of each row, and what its axes are."""
+    study = study.assign(run(table, {"diameters": study["diameters"].values.tolist()}, facts).data_vars)
+    study["diameters"].attrs = {"units": "1", "long_name": "highest nodal diameter"}
+    study["value"].attrs = {"long_name": f"setting: {method.setting}"}
+    return study.assign_attrs(method=method.name, label=method.label, setting=method.setting)
+
+
+@lru_cache(maxsize=64)
+def short_problem(scene: str, diameters: int) -> Problem:
+    """The scene's motion with modes up to ``diameters`` for the span of the maps."""
+    p = Parameters(N=385.0, Omega=15.1, n_diameters=diameters)
+    start = scenes.MOTIONS[scene][1](p)
+    return Problem(p, start, start.time + SPANS[scene])
+
+
+@lru_cache(maxsize=64)
+def engine_answer(scene: str, diameters: int) -> Answer:
+    """The series engine's answer to `short_problem`, at the tightest tolerance."""
+    result = METHODS["series"].solve(short_problem(scene, diameters), REFERENCE_TOL)
+    return Answer(result.times.astype(np.longdouble), result.kinds, result.final, error=REFERENCE_TOL)
