@@ -23,7 +23,7 @@ from disc_model.benchmarks.methods import METHODS, Method
 from disc_model.benchmarks.methods.base import Array, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.scenes import read_state, stored
 from disc_model.benchmarks.study import TABLES, Flags, Row, run
-from disc_model.benchmarks.work_precision import DEFAULT, REFERENCE_TOL, map_settings, with_facts
+from disc_model.benchmarks.work_precision import DEFAULT, REFERENCE_TOL, MapSettings, map_settings, with_facts
 from disc_model.data.dataset import json_attribute
 from disc_model.data.variables import CycleStatus, flag_names
 from disc_model.errors import ParameterError
@@ -282,12 +282,7 @@ def _separation(result: MethodResult) -> float:
 
 # ---- Costs
 CYCLE_SETTINGS = (1e-6, 1e-8, 1e-10, 1e-12)  # tolerances of the search for a cycle
-LINES: Mapping[str, tuple[str, str]] = {
-    "cycle": ("series, from the cycle itself", "tol"),
-    "rigid": ("series, modes, rigid contact", "diameters"),
-    "residual": ("series, modes, residual flexibility", "diameters"),
-}
-"""Lines that belong to no method: name in words, and meaning of the setting."""
+LINES: Mapping[str, tuple[str, str]] = TABLES["lines"]
 CONTACTS: dict[str, dict[str, Any]] = TABLES["contacts"]
 RICHEST: dict[str, Any] = {"n_diameters": 12, "contact_compliance": "residual"}
 CELLS = 64  # number of cells of the region on which models are compared
@@ -421,9 +416,7 @@ MAP_CASE, MAP_HORIZON = Parameters(N=600.0, Omega=27.0), 25.0  # a case that los
 MAP_BUDGET = 3.0  # s for a point; beyond it, finer settings with the same modes are skipped
 
 
-def answer_map(
-    method: str, diameters: Sequence[int] = (1, 2, 4, 8), values: Sequence[float] | None = None
-) -> xr.Dataset:
+def answer_map(method: str, diameters: Sequence[int] = (1, 2, 4, 8), values: MapSettings = None) -> xr.Dataset:
     """Verdicts on a method's first separation along (diameters, value), from coarse to fine."""
     judged = METHODS[method].economical()
 

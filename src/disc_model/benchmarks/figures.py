@@ -30,7 +30,7 @@ WORDS: dict[str, tuple[str, str]] = _TEXTS["verdicts"]  # names of the verdicts,
 ANSWERED: dict[str, tuple[str, str]] = _TEXTS["answered"]
 SETTINGS: dict[str, tuple[str, str]] = _TEXTS["settings"]
 LINES = {name: look | {"color": getattr(drawing, look["color"])} for name, look in _TEXTS["lines"].items()}
-"""Colour, marker and line style of each method, and of lines that belong to no method."""
+"""Colour, marker and line style of each method and map, and of lines that belong to no method."""
 _HALO = halo()
 Look = dict[str, Any]
 
@@ -183,26 +183,14 @@ def _price(ax: Axes, part: pd.DataFrame, column: int, row: int, colors: ScalarMa
 
 
 # ---- How cost grows
-MAPS: dict[str, tuple[str, dict[str, Any], tuple[float, float]]] = {
-    "floquet": ("growth rate", {"color": BLUE, "marker": "o"}, (5, -4)),
-    "outcome": ("outcome", {"color": ORANGE, "marker": "s", "linestyle": "--"}, (-5, 4)),
-}
-"""Name of each map, look of its line, and offset of the name from it, in points."""
-
-
 def scaling(dataset: xr.Dataset) -> Figure:
     """Processor time of maps over their number of points, and of a point over the number of modes and the horizon."""
     rows = dataset.to_dataframe()
     rows["each"] = 1e3 * rows["seconds"] / rows["points"]
     figure, axes = panels(PAGE, 2.4, 1, 3)
-    heads = {
-        "points": ("Points", "seconds", "Processor time of a map (s)"),
-        "modes": ("Real modes", "each", "Processor time of a point (ms)"),
-        "horizon": ("Horizon (s)", "each", "Processor time of a point (ms)"),
-    }
-    for ax, (varies, (xlabel, shown, ylabel)), letter in zip(axes, heads.items(), "abc", strict=True):
+    for ax, (varies, xlabel, shown, ylabel), letter in zip(axes, _TEXTS["scaling"], "abc", strict=True):
         for quantity, part in rows[rows["varies"] == varies].groupby("quantity"):
-            name, look, offset = MAPS[str(quantity)]
+            (name, offset), look = _TEXTS["maps"][quantity], LINES[str(quantity)]
             ax.plot(part[varies], part[shown], markersize=3.5, **look)
             x, y = (part[column].iloc[2 * len(part) // 3] for column in (varies, shown))
             drawing.say(ax, name, (x, y), offset, color=look["color"])
@@ -217,12 +205,7 @@ def scaling(dataset: xr.Dataset) -> Figure:
 # ---- Where methods fail
 def failure_maps(*maps: xr.Dataset) -> Figure:
     """One panel per method: verdict over setting and number of modes, with lines that explain the borders."""
-    borders = {
-        "-": r"RK4: $h\,\omega_{max} = 2\sqrt{2}$",
-        ":": "longest step = shortest phase",
-        "--": "friction law stiffer than the disc",
-    }
-    return _map_panels(maps, WORDS, borders, row=1.45, more=0.75)
+    return _map_panels(maps, WORDS, _TEXTS["borders"], row=1.45, more=0.75)
 
 
 def answer_maps(*maps: xr.Dataset) -> Figure:

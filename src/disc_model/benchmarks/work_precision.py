@@ -196,13 +196,11 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
 SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}  # s
 STEPS = tuple(np.geomspace(2e-5, 2e-3, 61)[::-1].tolist())  # fixed steps of a map, s
 REFERENCE_TOL = 1e-14
+MapSettings = Sequence[float] | None  # those of `map_settings` if not given
 
 
 def failure_map(
-    method: str,
-    scene: str = "separating",
-    diameters: Sequence[int] = (1, 2, 4, 6, 8),
-    values: Sequence[float] | None = None,  # those of `map_settings` if not given
+    method: str, scene: str = "separating", diameters: Sequence[int] = (1, 2, 4, 6, 8), values: MapSettings = None
 ) -> xr.Dataset:
     """Verdicts on a method on a short span of a scene along (diameters, value), and facts that explain them."""
     judged = METHODS[method].economical()
