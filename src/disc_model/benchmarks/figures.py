@@ -25,9 +25,6 @@ from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PURPLE, halo, panels
 
 _TEXTS = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
-TITLES: dict[str, str] = _TEXTS["titles"]
-WORDS: dict[str, tuple[str, str]] = _TEXTS["verdicts"]  # names of the verdicts, by number, and their shades
-ANSWERED: dict[str, tuple[str, str]] = _TEXTS["answered"]
 SETTINGS: dict[str, tuple[str, str]] = _TEXTS["settings"]
 LINES = {name: look | {"color": getattr(drawing, look["color"])} for name, look in _TEXTS["lines"].items()}
 """Colour, marker and line style of each method and map, and of lines that belong to no method."""
@@ -66,7 +63,7 @@ def overview(dataset: xr.Dataset) -> Figure:
         if (dataset["verdict"].sel(scene=scene) == 2).any():
             text: Look = {"ha": "center", "va": "bottom", "fontsize": 6, "color": GREY, "linespacing": 0.9}
             ax.text(wrong_at, 1.01, "wrong\nevents", transform=ax.get_xaxis_transform(), **text)
-        drawing.letter(ax, letter, TITLES[scene])
+        drawing.letter(ax, letter, _TEXTS["titles"][scene])
     for ax in figure.axes[-2:]:  # the lower row
         ax.set_xlabel("Event-time error (s)")
     shown = [handle for method in LINES for handle in handles.get(method, ())]
@@ -205,12 +202,12 @@ def scaling(dataset: xr.Dataset) -> Figure:
 # ---- Where methods fail
 def failure_maps(*maps: xr.Dataset) -> Figure:
     """One panel per method: verdict over setting and number of modes, with lines that explain the borders."""
-    return _map_panels(maps, WORDS, _TEXTS["borders"], row=1.45, more=0.75)
+    return _map_panels(maps, _TEXTS["verdicts"], _TEXTS["borders"], row=1.45, more=0.75)
 
 
 def answer_maps(*maps: xr.Dataset) -> Figure:
     """One panel per method: whether it finds the first separation, over setting and number of modes."""
-    return _map_panels(maps, ANSWERED, {}, row=1.35, more=0.4)
+    return _map_panels(maps, _TEXTS["answered"], {}, row=1.35, more=0.4)
 
 
 def _map_panels(
