@@ -402,13 +402,16 @@ def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
     """Mark cases by the shape of the paper's outcome, with names towards the middle; returns entries of a legend."""
     edge: dict[str, Any] = {"edgecolor": PAPER, "linewidth": 1.4, "path_effects": drawing.halo(2.4, BLACK)}
     look: dict[str, Any] = {"fontsize": 7, "zorder": 5, "annotation_clip": False, "path_effects": drawing.halo(2.0)}
-    outcomes = {mark.paper_outcome for mark in plot.marks.values()}
+    outcomes, places = {mark.paper_outcome for mark in plot.marks.values()}, list[Any]()
     for name, mark in plot.marks.items():
         point = (mark.x * drawing.axis_of(plot.x)[1], mark.y * drawing.axis_of(plot.y)[1])
         shape = PAPER_MARKERS[mark.paper_outcome]
-        ax.scatter(*point, 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
-        across, up = (ax.transData + ax.transAxes.inverted()).transform(point)
-        drawing.say(ax, name, point, (-6 if across > 0.85 else 6, -5 if up > 0.15 else 5), **look)
+        across, up = place = (ax.transData + ax.transAxes.inverted()).transform(point)
+        around = any(math.dist(place, other) < 0.02 for other in places)  # another mark, which stays visible
+        places.append(place)
+        ax.scatter(*point, 140.0 if around else 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
+        aside = (-8, 6) if around else (-6 if across > 0.85 else 6, -5 if up > 0.15 else 5)
+        drawing.say(ax, name, point, aside, **look)
     ring = {"ls": "", "mfc": "none", "ms": 6, "mew": 1.4, "mec": PAPER, "path_effects": edge["path_effects"]}
     said = [(f"paper: {OUTCOME_LOOKS[name].label}", shape) for name, shape in PAPER_MARKERS.items() if name in outcomes]
     return [drawing.sample(marker=shape, label=label, **ring) for label, shape in said]
