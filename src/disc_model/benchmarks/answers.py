@@ -22,7 +22,7 @@ from disc_model.analysis.classify import share, shortest_period
 from disc_model.benchmarks.methods import METHODS, Method
 from disc_model.benchmarks.methods.base import Array, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.scenes import read_state, stored
-from disc_model.benchmarks.study import TABLES, Flags, Row, run
+from disc_model.benchmarks.study import CONTACTS, TABLES, Flags, Row, run
 from disc_model.benchmarks.work_precision import DEFAULT, REFERENCE_TOL, MapSettings, map_settings, with_facts
 from disc_model.data.dataset import json_attribute
 from disc_model.data.variables import CycleStatus, flag_names
@@ -283,7 +283,6 @@ def _separation(result: MethodResult) -> float:
 # ---- Costs
 CYCLE_SETTINGS = (1e-6, 1e-8, 1e-10, 1e-12)  # tolerances of the search for a cycle
 LINES: Mapping[str, tuple[str, str]] = TABLES["lines"]
-CONTACTS: dict[str, dict[str, Any]] = TABLES["contacts"]
 RICHEST: dict[str, Any] = {"n_diameters": 12, "contact_compliance": "residual"}
 CELLS = 64  # number of cells of the region on which models are compared
 SETTLES_WITHIN, SETTLES_FOR = 400.0, 100.0  # s: contact is lost within it, and time from then until the examined motion

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.benchmarks.study import TABLES, Row, run
+from disc_model.benchmarks.study import CONTACTS, TABLES, Row, run
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies
 from disc_model.mode_choice import BAND, RICH, frequency_error, real_modes
@@ -77,7 +77,6 @@ def _processor_time() -> float:
 # ---- Effect of truncation, with rigid contact and residual flexibility: docs/options.md
 TRUNCATED = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2))  # diameters, circles
 CASES: dict[str, dict[str, Any]] = TABLES["contact_truncation_cases"]
-CONTACTS: dict[str, dict[str, Any]] = TABLES["contacts"]
 LATE = (20.0, 10.0)  # time from the first separation to the late stretch, and its length, s
 TOLERANCES = (1e-10, 1e-12, 1e-13)  # of the motion after the first separation, until one reaches the end
 MOST_GROWTH = 80  # greatest number of real modes for growth rates, which need four columns for every pair

@@ -22,6 +22,7 @@ from disc_model.sources import versions
 log = logging.getLogger(__name__)
 
 TABLES = tomllib.loads(Path(__file__).with_name("variables.toml").read_text(encoding="utf-8"))
+CONTACTS: dict[str, dict[str, Any]] = TABLES["contacts"]  # by name, what each adds to the parameters of a case
 Row = Mapping[str, Any]
 Flags = Mapping[str, type[enum.IntEnum]]
 

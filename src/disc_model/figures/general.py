@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import chain, cycle
+from itertools import chain
 from textwrap import fill
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -137,8 +137,6 @@ def draw_maps(
     else:
         words, array = drawing.as_numbers(array)
         colours = _colours(array, words, log)
-        if variable == "growth_rate":  # growth has the red half of the scale of maps
-            colours["cmap"] = mpl.colors.ListedColormap(cm.vik(np.linspace(0.55, 1, 256)))
         if array.dtype.kind == "i" and not words and array.max() < FEW:  # a count
             words = [str(count) for count in range(int(array.max()) + 1)]
             colours = in_steps([cm.batlow(i / len(words)) for i in range(len(words))])
@@ -206,7 +204,9 @@ def _colours(array: xr.DataArray, words: Sequence[str], log: bool) -> dict[str, 
     if log:
         above = values[values > 0]
         low, high = (above.min(), above.max()) if above.size else (1.0, 10.0)
-        return {"cmap": cm.batlow, "norm": mpl.colors.LogNorm(low, high if high > low else 10 * low)}
+        growth = array.name == "growth_rate"  # which has the red half of the scale of maps
+        cmap = mpl.colors.ListedColormap(cm.vik(np.linspace(0.55, 1, 256))) if growth else cm.batlow
+        return {"cmap": cmap, "norm": mpl.colors.LogNorm(low, high if high > low else 10 * low)}
     low, high = (float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
     if low < 0 < high:
         most = max(-low, high)
@@ -229,10 +229,10 @@ def scale_rates(ax: Axes) -> None:
 
 
 def draw_lines(
-    ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = False, names: Sequence[str] = ()
+    ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = False, marks: dict[str, str] | None = None
 ) -> None:
     """Draw a line, or one for each value of a second dimension; its marks above the panel stand for missing values.
-    Names are those of all lines of a figure, of which each has the same mark in all panels."""
+    Panels of a figure share `marks`, by the names of lines, so that a line has the same mark in all of them."""
     words, array = drawing.as_numbers(study[variable])
     by, (label, along) = remaining(array, [x]), drawing.along(array[x])
     lines = drawing.slices(array, by)
@@ -241,9 +241,9 @@ def draw_lines(
     look: dict[str, Any] = {"markersize": 3, "markerfacecolor": "none", "markeredgewidth": 0.6, "linewidth": 0.7}
     # of lines without gaps some points are marked
     every = 1 if words or rates or array.isnull().any() else max(1, along.size // 12)
-    order = dict(zip(dict.fromkeys(names or [name for name, _ in lines]), cycle(MARKS)))
+    marks = {} if marks is None else marks
     for colour, (name, line) in zip(colours, lines, strict=True):
-        mark = order[name]
+        mark = marks.setdefault(name, MARKS[len(marks) % len(MARKS)])
         shown = drawing.broken(along, line.values, LINEAR if rates else np.inf)
         style = mark + "-" * (not words)
         ax.plot(*shown, style, color=colour, label=name or None, markevery=every, **look)
@@ -256,11 +256,12 @@ def draw_lines(
     if words:
         ax.set_yticks(range(len(words)), labels=words)
     ax.margins(0.03)
-    top, marks = 1.03, MARKS if by else "x"  # top of the next row, as a share of the panel
+    top = 1.03  # of the next row, as a share of the panel
     look |= {"transform": ax.get_xaxis_transform(), "clip_on": False}
     for name, gone in drawing.gaps(study, array).items():
-        for colour, (_, mask), mark in zip(colours, drawing.slices(gone, by), cycle(marks), strict=False):
+        for colour, (line_name, mask) in zip(colours, drawing.slices(gone, by), strict=True):
             if mask.any():
+                mark = marks[line_name] if by else "x"
                 ax.plot(along[mask.values], np.full(int(mask.sum()), top), mark, color=colour, **look)
                 top += 0.05
         if variable == "first_separation" and name == "no value":
@@ -305,14 +306,10 @@ class CurvePlot(General):
         else:
             chosen = [study.sel({self.by: [*values]}) for values in self.panels] or [study]
             parts = [("", self.named(part)) for part in chosen]
-        names = [
-            name
-            for _, part in parts
-            for name, _ in drawing.slices(part[self.variable], remaining(part[self.variable], [self.x]))
-        ]
         figure, axes = panels(PAGE if self.panels else drawing.COLUMN, 2.9, 1, len(parts), sharey=True)
+        marks: dict[str, str] = {}
         for ax, (_, part) in zip(axes, parts, strict=True):
-            draw_lines(ax, part, self.variable, self.x, self.log, names)
+            draw_lines(ax, part, self.variable, self.x, self.log, marks)
             ax.label_outer()
         if self.limits is not None:
             axes[0].set_ylim(self.limits)

@@ -402,13 +402,13 @@ def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
     """Mark cases by the shape of the paper's outcome, with names towards the middle; returns entries of a legend."""
     edge: dict[str, Any] = {"edgecolor": PAPER, "linewidth": 1.4, "path_effects": drawing.halo(2.4, BLACK)}
     look: dict[str, Any] = {"fontsize": 7, "zorder": 5, "annotation_clip": False, "path_effects": drawing.halo(2.0)}
-    outcomes, places = {mark.paper_outcome for mark in plot.marks.values()}, list[Any]()
+    outcomes, marked = {mark.paper_outcome for mark in plot.marks.values()}, list[Any]()
     for name, mark in plot.marks.items():
         point = (mark.x * drawing.axis_of(plot.x)[1], mark.y * drawing.axis_of(plot.y)[1])
         shape = PAPER_MARKERS[mark.paper_outcome]
-        across, up = place = (ax.transData + ax.transAxes.inverted()).transform(point)
-        around = any(math.dist(place, other) < 0.02 for other in places)  # another mark, which stays visible
-        places.append(place)
+        across, up = position = (ax.transData + ax.transAxes.inverted()).transform(point)
+        around = any(math.dist(position, other) < 0.02 for other in marked)  # another mark, which stays visible
+        marked.append(position)
         ax.scatter(*point, 140.0 if around else 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
         aside = (-8, 6) if around else (-6 if across > 0.85 else 6, -5 if up > 0.15 else 5)
         drawing.say(ax, name, point, aside, **look)

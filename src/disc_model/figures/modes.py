@@ -140,6 +140,7 @@ class SlidingModes(Plot):
             diameters = np.where(np.isfinite(frequency), mode["diameters"], np.nan)
             for l in np.unique(diameters[np.isfinite(diameters)]):  # the mode is cut where its nodal diameters change
                 lines.append((name_of(int(l)), *(np.where(diameters == l, x, np.nan) for x in (frequency, rate))))
+        all_rates = np.array([rate for *_, rate in lines])
         at_zero = [np.where(diverging, values, np.nan) for values in (0 * largest, largest)]
         for name, frequency, rate in (*lines, ("0 Hz", *at_zero)):
             grows = np.nan_to_num(rate) > ROUNDING
@@ -148,7 +149,7 @@ class SlidingModes(Plot):
                 ax.plot(along, np.where(grows, values, np.nan), ".-", color=BLACK, linewidth=THICK, markersize=3)
             for start, after in drawing.stretches(grows[:-1] & grows[1:]):
                 shown = slice(start, after + 1)  # the name is where there is room above, and else at the largest rate
-                above = np.array([other[shown] - rate[shown] for *_, other in lines])
+                above = all_rates[:, shown] - rate[shown]
                 room = np.where(above > 0, above, np.inf).min(axis=0, initial=0.25 * float(largest.max()))
                 i = start + int(np.lexsort((rate[shown], room))[-1])
                 offset = (3, 0) if i == along.size - 1 else (0, 3)
@@ -189,9 +190,10 @@ class RootLocus(Plot):
         rates, heights = first["mode_growth_rate"].values, first["frequency"].values
         ax.plot(rates, heights, "o", color=BLACK, markersize=4, markerfacecolor="white")
         ahead = study["mode_growth_rate"].isel(value=1).values - rates
+        letter_width = 0.0136 * float(study["mode_growth_rate"].max() - study["mode_growth_rate"].min())
         for part, name in named_modes(first["diameters"].values, heights, 0.01 * float(study["frequency"].max())):
             side, ring = (-1, rates[part].min()) if ahead[part].mean() > 0 else (1, rates[part].max())
-            if side > 0 and -0.02 * len(name) < ring < 0:  # the name would cross the line of zero growth
+            if side > 0 and -letter_width * len(name) < ring < 0:  # the name would cross the line of zero growth
                 side, ring = -1, float(study["mode_growth_rate"].isel(mode=part).min())
             drawing.say(ax, name, (ring, heights[part].mean()), (4 * side, 0), fontsize=7, path_effects=drawing.halo())
         ax.axvline(0, color=BLACK, linewidth=0.6)

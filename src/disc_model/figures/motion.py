@@ -137,8 +137,11 @@ BY_SETTLING = ("not shown to have settled", "settled", "separated")
 BY_HALVES = ("first half of the run", "second half, not shown to have settled", "separated")
 
 
-def draw_sections(axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, compared: Any = ()) -> list[Artist]:
-    """Draw velocity over displacement, what is small in insets too, on axes for all sections; a legend's entries."""
+def draw_sections(
+    axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, compared: Any = (), heading: str = ""
+) -> list[Artist]:
+    """Draw velocity over displacement, what is small in insets too, on axes for all sections, and what the motion does
+    after a heading; returns entries of a legend."""
     first, time, since = float(case["first_separation"]), samples["time"].values, _settled_since(case, samples)
     settled = math.isfinite(since)
     masks = stages(time, samples["phase"].values, first, since if settled else time.mean())
@@ -155,15 +158,14 @@ def draw_sections(axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, 
             shares.append(np.ptp(coordinates[-1]) / (high - low + 2 * margin))
         # away from the bar of the thickness, which has the scale of the panel
         closer = [ax.inset_axes((0.66, 0.2, 0.34, 0.32))] if max(shares) < SMALL else []
-        for panel in closer:
-            panel.set_xlabel(units[0], fontsize=7, labelpad=1)
-            panel.set_ylabel(units[1], fontsize=7, labelpad=1)
         for order, stage in enumerate(MARKS):  # later stages are drawn over earlier ones
             mask = getattr(masks, stage)
             look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(mask.sum() > 2000)}
             for panel in (ax, *closer):
                 panel.scatter(*(values[mask] for values in coordinates), **look)
         for panel in closer:
+            panel.set_xlabel(units[0], fontsize=7, labelpad=1)
+            panel.set_ylabel(units[1], fontsize=7, labelpad=1)
             panel.margins(0.08)
             ax.indicate_inset(panel.viewLim.bounds, edgecolor=drawing.GREY, linewidth=0.6)
     drawing.show_thickness(ax, case, "x")
@@ -171,7 +173,7 @@ def draw_sections(axes: Sequence[Axes], case: xr.DataTree, samples: xr.Dataset, 
     title, names = "separation ignored" if bonded else "no separation", BY_SETTLING if settled else BY_HALVES
     if masks.divided_by_separation:
         title, names = f"first separation at {first:.2f} s", BY_SEPARATION
-    axes[0].set_title(title, loc="right")
+    axes[0].set_title(", ".join(filter(None, [heading, title])), loc="right")
     present = [(MARKS[stage], name) for stage, name in zip(MARKS, names, strict=True) if getattr(masks, stage).any()]
     return [ax.scatter([], [], label=name, **(look | {"s": 14})) for look, name in present]
 
@@ -211,10 +213,8 @@ class PoincareSections(CasePlot):
         sections = [dataset.samples(case, "poincare", at_least=1) for case in cases]
         parameters = [json.loads(case.attrs["parameters"]) for case in cases]
         for row, case, samples, p in zip(rows, cases, sections, parameters, strict=True):
-            axes = row.subplots(1, 2)
-            handles = draw_sections(axes, case, samples, sections)
-            own = {name: value for name, value in p.items() if any(other[name] != value for other in parameters)}
-            axes[0].set_title(", ".join(filter(None, [values_text(own), axes[0].get_title("right")])), loc="right")
+            differing = {name: value for name, value in p.items() if any(other[name] != value for other in parameters)}
+            handles = draw_sections(row.subplots(1, 2), case, samples, sections, values_text(differing))
             row.legend(handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2)
         drawing.letters(figure.axes)
         return figure

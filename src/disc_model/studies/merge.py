@@ -35,9 +35,9 @@ def merge_batches(
     except ValueError as error:
         raise MergeError(f"the batches do not fit together: {error}") from None
     base = _common(batches)
-    places = [_places(flat, dim) for dim in grid]
+    indices = [_indices(flat, dim) for dim in grid]
     dims, shape = ["_".join(dim["names"]) for dim in grid], [len(dim["values"]) for dim in grid]
-    points, expected = [*zip(*places, strict=True)], [*product(*map(range, shape))]
+    points, expected = [*zip(*indices, strict=True)], [*product(*map(range, shape))]
     if where := attrs.get("where"):
         fixed, names = json.loads(base["base"]), [name for dim in grid for name in dim["names"]]
         every = (fixed | dict(zip(names, chain(*x), strict=True)) for x in product(*(dim["values"] for dim in grid)))
@@ -49,7 +49,7 @@ def merge_batches(
     for name, variable in flat.data_vars.items():
         nothing, more = _excluded(variable) if len(points) < math.prod(shape) else (0, {})
         array = np.full((*shape, *variable.shape[1:]), nothing, variable.dtype)
-        array[tuple(places)] = variable.values
+        array[tuple(indices)] = variable.values
         variables[name] = xr.Variable((*dims, *variable.dims[1:]), array, variable.attrs | more, variable.encoding)
     for dim, along in zip(grid, dims, strict=True):
         for name, values in zip(dim["names"], zip(*dim["values"], strict=True), strict=True):
@@ -58,7 +58,7 @@ def merge_batches(
     return summarised(merged, quantity_of(merged.attrs["quantity"]).model_validate(stated_in(merged, "options")))
 
 
-def _places(flat: xr.Dataset, dim: Mapping[str, Any]) -> list[int]:
+def _indices(flat: xr.Dataset, dim: Mapping[str, Any]) -> list[int]:
     """Index of each point along a dimension; -1 for a value that the grid does not have."""
     known = {tuple(value): i for i, value in enumerate(dim["values"])}
     return [known.get(value, -1) for value in zip(*(flat[name].values.tolist() for name in dim["names"]), strict=True)]

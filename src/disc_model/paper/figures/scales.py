@@ -79,11 +79,11 @@ def _regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset]) -> N
     ax.text(0.68, 0.62, "both", transform=ax.transAxes, ha="center", va="center", fontsize=7)
     line: dict[str, Any] = {"arrowstyle": "-", "shrinkA": 0, "shrinkB": 0, "path_effects": drawing.halo(3)}
     look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 7, "arrowprops": line}
-    for words, area, place in (
+    for words, area, corner in (
         ("only by\nEq. (17)", (0.26, 0.76), (0.12, 0.71)),
         ("only as published", (0.37, 0.18), (0.27, 0.06)),
     ):
-        ax.annotate(words, area, place, "axes fraction", "axes fraction", **look)
+        ax.annotate(words, area, corner, "axes fraction", "axes fraction", **look)
     ax.set(xlabel=drawing.label_of(study["Omega"])[0], ylabel=drawing.label_of(study["N"])[0])
 
 

@@ -90,8 +90,8 @@ class Composite(CasePlot):
                 ax.axvspan(time[a], time[min(b, time.size - 1)], label=label, linewidth=0, **look)
         # zero, and not drawn, in separation, since no line leads to the force after an impact
         ax.plot(time, part["P"].where(words != "separation"), color=BLACK, linewidth=1.1)
-        ax.set(xlabel=f"Time after {start:g} s (ms)", ylabel="Contact force (N)")
-        ax.set(xlim=(0, 1e3 * STRETCH), ylim=(0, None))
+        ax.set(xlabel=f"Time after {start:g} s (ms)", ylabel="Contact force (N)", xlim=(0, 1e3 * STRETCH))
+        ax.set_ylim(bottom=0)
         if ax.patches:
             drawing.legend_above(ax)
 
