@@ -114,16 +114,11 @@ class Row(BaseModel):
         studies = [cases[name].node.to_dataset() for name in self.scans]
         beside = [cases[name].node.to_dataset() if name in cases else None for name in self.beside]
         answer = check(*needed.values(), *studies, *beside, **self.given)
-        all_of = f"The motions of all {len(steady)} cases have"
-        which = {1: "The motion has", 2: "Both motions have"}.get(len(steady), all_of)
-        if len(steady) < len(needed):
-            noun, verb = ("motion", "has") if len(steady) == 1 else ("motions", "have")
-            places = "; at ".join(case.place for case in steady)
-            which = f"The {noun} from rest at {' and at '.join(places.rsplit('; at ', 1))} {verb}"
+        settled = "Every motion that the rule judges has settled." * bool(steady)
         place, stated = next((case.place for case in needed.values()), ""), facts(studies[0]) if studies else {}
         texts = (self.here, self.note) if not answer.here or not self.here else ("", "")  # nothing fills them
         here, note = (fill(text, **{"place": place, "stated": stated} | self.given | answer.values) for text in texts)
-        return Answer(answer.verdict, answer.here or here, answer.notes, note, f"{which} settled." * bool(steady))
+        return Answer(answer.verdict, answer.here or here, answer.notes, note, settled)
 
 
 def rows_of(file: str, checks: Mapping[str, Any]) -> tuple[Row, ...]:

@@ -146,8 +146,8 @@ def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
     for case in (below, above):
         larger = {name: case.parameters.replace(**{name: 1.001 * getattr(case.parameters, name)}) for name in PHYSICAL}
         lost.append([x for x, p in larger.items() if measures.separates_within(p, until) != case.separates])
-    fates, speeds, rate = (below.fate, above.fate), (below["Omega"], above["Omega"]), below.rate_of("stick_to_slip")
-    return Answer(not below.separates and above.separates, fates=fates, lost=lost, speeds=speeds, rate=rate)
+    fates, speeds = (below.fate, above.fate), (below["Omega"], above["Omega"])
+    return Answer(not below.separates and above.separates, fates=fates, lost=lost, speeds=speeds)
 
 
 def falls_then_rises(study: xr.Dataset, *, depth: float) -> Answer:
@@ -180,10 +180,8 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[str, str]:
 def maintained_below(study: xr.Dataset, *beside: xr.Dataset | None, within: float) -> Answer:
     sweeps, basins = beside
     critical = sound(published(study))["critical_speed"].isel(horizon=-1)
-    known, loads = np.isfinite(critical.values), critical["N"].values
-    if not known.any():
+    if critical.isnull().all():
         return Answer(FALSE, "No separation at any preload and speed.")
-    begins, never = extent(critical.values[known]), ([*loads[~known]], study["scan_Omega"][-1])
     below: list[tuple[float, ...]] = []
     kicks: tuple[Any, ...] = (0,)
     if sweeps is not None:
@@ -195,8 +193,8 @@ def maintained_below(study: xr.Dataset, *beside: xr.Dataset | None, within: floa
         total = basins.sizes["energy"] * basins.sizes["start"]
         apart = round(total * float(published(basins)["separating_fraction"].sel(Omega=15.0)))
         kicks = apart, total, extent(basins["energy"].values)
-    wait = float(study["horizon"][-1]), sweeps is not None and facts(sweeps)["dwell"]
-    return Answer(PART if below or kicks[0] else TRUE, begins=begins, never=never, below=below, kicks=kicks, wait=wait)
+    swept = facts(sweeps) if sweeps is not None else {}
+    return Answer(PART if below or kicks[0] else TRUE, below=below, kicks=kicks, swept=swept)
 
 
 def far_below(*cases: CaseView, share: float) -> Answer:

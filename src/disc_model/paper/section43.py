@@ -37,7 +37,7 @@ def stays_small(case: CaseView, *_: CaseView, share: float, within: float, last:
     holds = stays_calm(case) and case.late.width < share * case["N"] and spread <= within
     small = not last or (case.disc.width / 2 < case["h"] and points[0] <= last / 2)
     widths = (1e3 * case.disc.width, 1e6 * case.late_range("u").width) if last else ()
-    told = {"fate": calm_text(case), "late": case.late, "rate": 1 / intervals.mean(), "spread": spread}
+    told = {"fate": calm_text(case), "rate": 1 / intervals.mean(), "spread": spread}
     return Answer(holds if small or not holds else PART, points=points, widths=widths, **told)
 
 
@@ -82,8 +82,7 @@ def undamped_separates_lower(*cases: CaseView) -> Answer:
 
 def twice_the_damping(*cases: CaseView) -> Answer:
     stable = [stays_calm(case) for case in cases]
-    simple = [measures.growth_of(case.parameters.replace(D_star=case["D_star"] / 2)) for case in cases]
-    return Answer(stable[0] if len({*stable}) == 1 else AMBIGUOUS, fates=[calm_text(x) for x in cases], simple=simple)
+    return Answer(stable[0] if len({*stable}) == 1 else AMBIGUOUS, fates=[calm_text(case) for case in cases])
 
 
 def inplane_damping(without: CaseView, case: CaseView) -> Answer:
@@ -92,17 +91,15 @@ def inplane_damping(without: CaseView, case: CaseView) -> Answer:
 
 
 def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
-    grid, raised, growing, lowered, sliding = _grid(case.parameters), list[str](), list[int](), 0, list[float]()
+    grid, raised, growing, lowered, lost = _grid(case.parameters), list[str](), list[int](), 0, 0
     values = (0.0, value, 2 * value)
     none, some, twice = (np.array([measures.growth_of(p.replace(**{name: x})) for p in grid]) for x in values)
-    for before, after, damping in ((none, some, value), (some, twice, 2 * value)):
+    for before, after in ((none, some), (some, twice)):
         grows = (before > 0) & np.isfinite(after)
         growing, lowered = [*growing, int(grows.sum())], lowered + int((grows & (after < before)).sum())
         raised += [measures.place(grid[i].N, grid[i].Omega) for i in np.flatnonzero((before < 0) & (after > before))]
-        ended = np.flatnonzero((before > 0) & np.isnan(after))
-        sliding += [measures.sliding_growth(grid[i].replace(**{name: damping})) for i in ended]
-    lost, most = (len(sliding), sum(rate < 0 for rate in sliding)), values_text({name: 2 * value})
-    verdict = sum(growing) == lowered > 0
+        lost += int(((before > 0) & np.isnan(after)).sum())
+    verdict, most = sum(growing) == lowered > 0, values_text({name: 2 * value})
     return Answer(verdict, most=most, lowered=lowered, growing=growing, raised=raised, lost=lost)
 
 
