@@ -343,9 +343,10 @@ class Sources:
         return np.array([row[:2] for row in rows if paradox or f"{row[2]} after" not in notes], dtype=float)
 
     def energy(self) -> np.ndarray:
-        """Evidence on energy by case, mJ per cycle in columns 2 to 6: supplied with separation, without it, taken by
-        damping, by impacts, gained without it."""
-        return np.reshape(self.evidence("F10e")[:21], (3, 7))
+        """Evidence on energy, mJ per period, shape (cases, 4): supplied with separation and without it, taken by damping
+        and by impacts."""
+        supplied, taken = (np.reshape(numbers, (3, 2)) for numbers in np.split(self.evidence("F10e", "mJ"), [6, 9])[::2])
+        return np.hstack([supplied, taken])
 
     def ratios(self) -> np.ndarray:
         """How many times smaller they are with separation, under all models, where bilateral contact goes on."""
