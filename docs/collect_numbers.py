@@ -343,10 +343,10 @@ class Sources:
         return np.array([row[:2] for row in rows if paradox or f"{row[2]} after" not in notes], dtype=float)
 
     def energy(self) -> np.ndarray:
-        """Evidence on energy, mJ per period, shape (cases, 4): supplied with separation and without it, taken by damping
-        and by impacts."""
-        supplied, taken = (np.reshape(numbers, (3, 2)) for numbers in np.split(self.evidence("F10e", "mJ"), [6, 9])[::2])
-        return np.hstack([supplied, taken])
+        """Energies in mJ per period, shape (cases, 4): supplied with separation and without it, taken by damping and by
+        impacts."""
+        numbers = self.evidence("F10e", "mJ")
+        return np.hstack([np.reshape(numbers[:6], (3, 2)), np.reshape(numbers[9:], (3, 2))])
 
     def ratios(self) -> np.ndarray:
         """How many times smaller they are with separation, under all models, where bilateral contact goes on."""
