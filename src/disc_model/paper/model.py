@@ -114,11 +114,11 @@ class Row(BaseModel):
         studies = [cases[name].node.to_dataset() for name in self.scans]
         beside = [cases[name].node.to_dataset() if name in cases else None for name in self.beside]
         answer = check(*needed.values(), *studies, *beside, **self.given)
-        settled = "Every motion that the rule judges has settled." * bool(steady)
+        which = "The motion has" if len(steady) == 1 else "All motions that the rule judges have"
         place, stated = next((case.place for case in needed.values()), ""), facts(studies[0]) if studies else {}
         texts = (self.here, self.note) if not answer.here or not self.here else ("", "")  # nothing fills them
         here, note = (fill(text, **{"place": place, "stated": stated} | self.given | answer.values) for text in texts)
-        return Answer(answer.verdict, answer.here or here, answer.notes, note, settled)
+        return Answer(answer.verdict, answer.here or here, answer.notes, note, f"{which} settled." * bool(steady))
 
 
 def rows_of(file: str, checks: Mapping[str, Any]) -> tuple[Row, ...]:
