@@ -14,7 +14,7 @@ import numpy as np
 
 import disc_model as dm
 from disc_model.disc.plate import modal_damping, mode_arrays, tangential_amplitudes
-from disc_model.simulation.deflection import snapshots
+from disc_model.simulation.api import snapshots
 
 ROOT = Path(__file__).parents[2]
 FONT: Any = {"font.size": 9, "svg.hashsalt": "brake_energy", "font.family": "DejaVu Sans"}

@@ -26,11 +26,10 @@ _NAMES = {
     ),
     "mode_choice": "choose_modes",
     "parameters": "Parameters Disc",
-    "simulation.api": "simulate Execution",
+    "simulation.api": "simulate snapshots Execution",
     "simulation.case": "Window Poincare Ramp",
-    "simulation.deflection": "snapshots deflection",
     "simulation.result": "Result",
-    "simulation.states": "State",
+    "simulation.states": "State deflection",
     "studies.functions": "outcome critical_speed basins hysteresis sweep run_study",
     "stability.continuation": "continue_cycle",
     "stability.curves": "neutral_curves critical",
@@ -61,11 +60,10 @@ if TYPE_CHECKING:
     from disc_model.figures.results import plot_modes, plot_sweep
     from disc_model.mode_choice import choose_modes
     from disc_model.parameters import Disc, Parameters
-    from disc_model.simulation.api import Execution, simulate
+    from disc_model.simulation.api import Execution, simulate, snapshots
     from disc_model.simulation.case import Poincare, Ramp, Window
-    from disc_model.simulation.deflection import deflection, snapshots
     from disc_model.simulation.result import Result
-    from disc_model.simulation.states import State
+    from disc_model.simulation.states import State, deflection
     from disc_model.stability.continuation import continue_cycle
     from disc_model.stability.curves import critical, neutral_curves
     from disc_model.stability.cycle import floquet

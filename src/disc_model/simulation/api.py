@@ -1,4 +1,4 @@
-"""`simulate`, the one function that runs the engine; initial states of motions; a case of a study as a dataset."""
+"""`simulate`, the one function that runs the engine; states at chosen times; a case of a study as a dataset."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from disc_model.data.variables import PHASES
 from disc_model.display import Progress, simulating
@@ -180,6 +181,54 @@ def simulate(  # noqa: PLR0913
                 code = run.advance()
             tell(run.time)
     return run.result(_STATUS[code])
+
+
+def snapshots(
+    p: Parameters, times: ArrayLike, *, tol: float = 1e-10, initial_state: State | None = None
+) -> tuple[State, ...]:
+    """States of the system at given times, with its modal coordinates.
+
+    Parameters
+    ----------
+    p : the case
+    times : s, ascending, shape (n,); none before the initial state's
+    tol, initial_state : as in `disc_model.simulate`
+
+    Returns
+    -------
+    tuple of State
+        One for each time.
+
+    Raises
+    ------
+    ParameterError
+        If times are not ascending finite numbers, or begin too early; and as `disc_model.simulate`.
+    SimulationError
+        If the motion ends before the last time.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> [state.phase for state in dm.snapshots(dm.Parameters(N=385, Omega=15.1), [0.0, 0.006])]
+    ['stick', 'slip']
+    """
+    numbers = states.finite_numbers(times)
+    ascend = numbers is not None and not np.any(np.diff(numbers) < 0)
+    starts = initial_state is None or isinstance(initial_state, State)
+    wrong = violations(
+        (starts, "initial_state", initial_state, "must be a State"),
+        (ascend, "times", times, "must be finite and ascend"),
+    )
+    raise_faults(foreign_case(p) + wrong)
+    wanted: list[float] = [] if numbers is None else numbers.tolist()
+    state, reached = states.static_start(p) if initial_state is None else initial_state, list[State]()
+    rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
+    require(*((time >= state.time, "times", time, rule) for time in wanted[:1]))
+    for time in wanted:
+        if time > state.time:
+            state = simulate(p, time, tol=tol, events=False, initial_state=state).raise_for_status().final_state
+        reached.append(state)
+    return tuple(reached)
 
 
 @dataclass(eq=False)

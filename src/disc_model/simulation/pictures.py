@@ -150,8 +150,8 @@ class Pictures:
         result: Any = self
         samples = draw("window_of", *self._of(window, "end"))
         times = np.linspace(float(samples["time"][0]), float(samples["time"][-1]), frames)
-        snapshots = import_module("disc_model.simulation.deflection").snapshots
-        states = snapshots(result.parameters, times, tol=result.tol, initial_state=result.initial_state)
+        api = import_module("disc_model.simulation.api")
+        states = api.snapshots(result.parameters, times, tol=result.tol, initial_state=result.initial_state)
         return draw("animate", result.parameters, states, samples, path, fps)
 
     def _of(self, window: str | None, otherwise: str) -> tuple[xr.DataTree, str]:

@@ -1,29 +1,33 @@
-"""States of motions and of the engine: a case's constants, states written and read, order and tolerance of series."""
+"""States of motions, the disc's deflection in them, and those of the engine: a case's constants, states written and
+read, order and tolerance of series."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.disc.plate import modal_damping, mode_arrays, tangential_amplitudes
+from disc_model.disc.plate import modal_damping, mode_arrays, mode_shapes, radial_range, tangential_amplitudes
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import Summarised
 from disc_model.engine import layout
 from disc_model.engine.series import Series, build_series
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
-from disc_model.parameters import Parameters
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion, violations
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import is_number
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 MODAL = {"a": "m kg1/2", "b": "m kg1/2", "alpha": "m kg1/2 s-1", "beta": "m kg1/2 s-1"}
@@ -194,6 +198,70 @@ def transfer_state(p: Parameters, state: State) -> State:
         u = float(psi @ state.a)
     velocity = state.u_velocity + float(more @ state.alpha) + state.f * slope
     return state.replace(time=0.0, u=u, u_velocity=velocity, mode_amplitudes=psi)
+
+
+def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, theta: ArrayLike) -> xr.DataArray:
+    """Displacement w(r, theta, t) of the whole disc, upward, Eq. (15).
+
+    Parameters
+    ----------
+    p : the case
+    states : one state, or several, such as `snapshots` returns
+    r : m, radii from a to b, or within those at which a table gives shapes, shape (n_r,)
+    theta : rad, angles fixed to the disc, shape (n_theta,); the slider starts at 0
+
+    Returns
+    -------
+    xarray.DataArray
+        In m, over time, r and theta.
+
+    Raises
+    ------
+    ParameterError
+        If a radius is off the disc, an angle is not finite, a state has other modes, or the disc has no shapes.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> import numpy as np
+    >>> case = dm.Parameters(N=385, Omega=15.1)
+    >>> w = dm.deflection(case, dm.snapshots(case, [0.0, 0.1]), np.linspace(0.044, 0.12, 20), np.linspace(0, 6.28, 73))
+    >>> dict(w.sizes)
+    {'time': 2, 'r': 20, 'theta': 73}
+    """
+    import xarray as xr
+
+    raise_faults(foreign_case(p))
+    modes, (low, high), radii, angles = mode_arrays(p), radial_range(p), finite_numbers(r), finite_numbers(theta)
+    states_in_order: list[Any] = list(states) if np.iterable(states) else [states]
+    within = radii is not None and radii.size and np.all((radii >= low) & (radii <= high))
+    limits = f"a={as_text(low)} and b={as_text(high)}" if p.disc is None else f"{as_text(low)} and {as_text(high)}"
+    faults = violations(
+        (within, "r", r, f"must be within {limits}"), (angles is not None, "theta", theta, "must be finite")
+    )
+    for i, state in enumerate(states_in_order):
+        path, n_modes = ("states", str(i)), len(modes.psi)
+        if not isinstance(state, State):
+            faults.append(Fault.of(path, state, "must be a State"))
+        elif len(state.a) != n_modes:
+            faults.append(Fault(path, "", f"must have {n_modes} modes, as the case, and not {len(state.a)}"))
+        else:
+            faults += amplitude_faults(state, modes.psi, path)
+    if faults or radii is None or angles is None:
+        raise ParameterError(*faults)
+    shapes = mode_shapes(p, radii)
+    w = np.empty((len(states_in_order), len(radii), len(angles)))
+    for i, state in enumerate(states_in_order):
+        # modal coordinates are relative to the slider, whose angle is Omega t - psi
+        turn = np.multiply.outer(modes.diameters, angles - (p.Omega * state.time - state.psi))
+        w[i] = shapes.T @ (state.a[:, None] * np.cos(turn) + state.b[:, None] * np.sin(turn))
+    coords = {
+        "time": ("time", [state.time for state in states_in_order], {"units": "s", "long_name": "time"}),
+        "r": ("r", radii, {"units": "m", "long_name": "radius"}),
+        "theta": ("theta", angles, {"units": "rad", "long_name": "angle fixed to the disc"}),
+    }
+    attrs = {"units": "m", "long_name": "displacement of the disc"}
+    return xr.DataArray(w, coords, ("time", "r", "theta"), name="w", attrs=attrs)
 
 
 # ---- Conversion of `Parameters` and `State` to the engine's lanes and back
@@ -380,6 +448,12 @@ def is_finite_array(values: object, size: int | None = None, *, flat: bool = Tru
         return False
     fits = size in (None, array.size) and (array.ndim == 1 or not flat)
     return fits and array.dtype.kind in "fiu" and all(map(math.isfinite, array.ravel().tolist()))
+
+
+def finite_numbers(values: ArrayLike) -> Array | None:
+    """The values as an array of shape (n,); None if they are not finite numbers."""
+    several = [values] if is_number(values) else values
+    return np.asarray(several, dtype=float) if is_finite_array(several) else None
 
 
 # Local truncation error for a tolerance of 1, on rigid and on compliant contact. With it the errors of event times over
