@@ -116,7 +116,7 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
         others = {f"studies/quantities/{other}.py" for other in quantity_names()} & batch
         assert others == {f"studies/quantities/{one}.py" for one in {name, *(["floquet"] * (name == "campbell"))}}
     case = of(SCRIPTS / "simulate_case.py")
-    assert {"engine/event_loop.py", "simulation/recorder.py"} <= case
+    assert {"engine/event_loop.py", "simulation/states.py"} <= case
     assert not [path for path in case if path.startswith(("stability", "studies"))]
     assert {"stability/cycle.py", "mode_choice.py"} <= of(SCRIPTS / "simulate_case.py", "mode_choice")
     assert {"config/paper.yaml", "paper/section41.yaml"} <= of(SCRIPTS / "check_claims.py")

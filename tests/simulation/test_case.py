@@ -8,7 +8,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from disc_model import ParameterError, Parameters, Poincare, Ramp, Window, simulate
-from disc_model.simulation import recorder
+from disc_model.simulation import api
 from disc_model.simulation.case import CaseSpec, Start, resolved_windows
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -127,7 +127,7 @@ GREEDY = {
 @pytest.mark.parametrize("what", GREEDY)
 def test_what_no_memory_holds_is_refused_before_anything_runs(what, monkeypatch):
     """Bins, samples of a step and sections were not counted: they ended in a MemoryError."""
-    monkeypatch.setattr(recorder, "_memory", lambda: 5e5)
+    monkeypatch.setattr(api, "_memory", lambda: 5e5)
     windows = {f"w{i}": window for i, window in enumerate(GREEDY[what])}
     p = P.replace(Omega=1e300) if what == "sections" else P
     with pytest.raises(ParameterError, match=rf"^windows\.w{len(windows) - 1}: must fit into memory: .* GB of samples"):

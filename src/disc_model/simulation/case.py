@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Annotated, Any, Literal, NamedTuple, Self
@@ -124,6 +125,16 @@ class Window(Span):
         """Index of the last sample, from 0 on, before rounding down; infinite beyond the range of floats."""
         return (self.stop - self.start) * self.rate * (1 + 1e-15) + 1e-9
 
+    def grid(self, p: Parameters, start: float, t_end: float) -> tuple[float, ...]:
+        """Samples in a run: time of the first, interval and number of all, angle, and the run's end."""
+        interval = min(1 / self.rate, sys.float_info.max)
+        skipped = max(0.0, (start - self.start) * self.rate - 1e-9)
+        reached = min(self.last_sample, (t_end - self.start) * self.rate + 1e-9)
+        if not skipped <= reached < math.inf:
+            return start, interval, 0, self.theta, t_end
+        index = math.ceil(skipped)
+        return self.start + index * interval, interval, math.floor(reached) - index + 1, self.theta, t_end
+
 
 class Poincare(Interval):
     """One sample per turn of the drive, at t = i 2 pi/Omega, from `start` to `stop`, of the disc point at `theta`.
@@ -139,6 +150,15 @@ class Poincare(Interval):
     start: Time = 0.0
     stop: Annotated[Real, Field(gt=0), Unit("s")] = math.inf
     theta: Angle = 1.0
+
+    def grid(self, p: Parameters, start: float, t_end: float) -> tuple[float, ...]:
+        """Samples in a run, as of a `Window`; none if the drive rests."""
+        if p.Omega == 0:
+            return 0.0, 1.0, 0, self.theta, t_end
+        interval = min(2 * math.pi / p.Omega, sys.float_info.max)
+        index = math.ceil(max(self.start, start) / interval - 1e-9)
+        last = math.floor(min(self.stop, t_end) / interval + 1e-9)
+        return index * interval, interval, max(0, last - index + 1), self.theta, t_end
 
 
 Windows = Mapping[str, Window | Poincare]  # samples to keep, by their names
