@@ -33,6 +33,10 @@ Array = NDArray[np.float64]
 MODAL = {"a": "m kg1/2", "b": "m kg1/2", "alpha": "m kg1/2 s-1", "beta": "m kg1/2 s-1"}
 PLAIN = {"time": "s", "time_low": "s", "psi": "rad", "f": "rad s-1", "u": "m", "u_velocity": "m s-1"}
 """Units of the variables in a state's file: one value a mode, and scalars."""
+_PLACES = dict(
+    zip(PLAIN, (layout.TIME, layout.TIME_LOW, layout.PSI, layout.F, layout.U, layout.U_VELOCITY), strict=True)
+)
+"""Indices of these scalars in the engine's state."""
 SAME_HEIGHT = 1e-9  # relative to the disc's deflection: far above rounding, far below any intended difference
 
 
@@ -330,24 +334,18 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
     modal[case.present] = state.disc[case.places]
     modal.setflags(write=False)
     x = state.x.tolist()
-    phase, f = int(x[layout.PHASE]), x[layout.F]
-    u, v = x[layout.U], x[layout.U_VELOCITY]
+    phase = int(x[layout.PHASE])
+    values: dict[str, Any] = {name: x[place] for name, place in _PLACES.items()}
     if phase != layout.SEPARATION and not case.model.compliant:
-        u, v, slope = case.point.dot(state.disc).tolist()
-        v += f * slope
+        values["u"], velocity, slope = case.point.dot(state.disc).tolist()
+        values["u_velocity"] = velocity + values["f"] * slope
     return State(
-        time=x[layout.TIME],
-        time_low=x[layout.TIME_LOW],
         phase=PHASES[phase],
         direction=int(x[layout.DIRECTION]),
-        psi=x[layout.PSI],
-        f=f,
-        u=u,
-        u_velocity=v,
         _roots=(int(x[layout.KNOWN]), int(x[layout.KNOWN_FORCE])),
         case_key=key or case.key,
         mode_amplitudes=case.amplitudes,
-        **dict(zip(MODAL, modal.reshape(4, -1), strict=True)),
+        **values | dict(zip(MODAL, modal.reshape(4, -1), strict=True)),
     )
 
 
@@ -368,9 +366,7 @@ def write_state(case: EngineCase, source: State, state: layout.EngineState, key:
                 f"must be the disc's displacement under the slider in contact, {w:.9g}; change a with it, or the phase"
             )
             raise ParameterError(Fault.of(("initial_state", "u"), source.u, rule))
-    x[layout.TIME], x[layout.TIME_LOW] = source.time, source.time_low
-    x[layout.PSI], x[layout.F] = source.psi, source.f
-    x[layout.U], x[layout.U_VELOCITY] = source.u, source.u_velocity
+    x[[*_PLACES.values()]] = [getattr(source, name) for name in _PLACES]
     x[layout.PHASE] = PHASES.index(source.phase)
     x[layout.DIRECTION] = source.direction if source.phase == "slip" else 0.0
     x[layout.KNOWN], x[layout.KNOWN_FORCE] = source._roots
