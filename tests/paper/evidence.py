@@ -12,7 +12,8 @@ import pandas as pd
 import xarray as xr
 import yaml
 
-from disc_model.data.dataset import events_dataset
+from disc_model.data.dataset import series_dataset
+from disc_model.data.variables import EVENT_KINDS, PHASES
 from disc_model.paper.measures import CaseView
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import run_case
@@ -91,8 +92,9 @@ def cases(stories: Mapping[str, Any], scans: Mapping[str, xr.Dataset] | None = N
 
 def kept_events(rows: Iterable[tuple[Any, ...]], start: float, stop: float) -> xr.Dataset:
     """Events as a case keeps them between two times: each a time, a kind and a phase."""
-    frame = pd.DataFrame(rows, columns=["time", "kind", "phase"])
-    return events_dataset(frame).assign_attrs(kept_from=start, kept_until=stop)
+    codes = [(time, EVENT_KINDS.index(kind), PHASES.index(phase)) for time, kind, phase in rows]
+    frame = pd.DataFrame(codes, columns=["time", "kind", "phase"])
+    return series_dataset(frame, "event").assign_attrs(kept_from=start, kept_until=stop)
 
 
 WORDS = ("ok", "failed", "quiet", "growing", "separation", "no_cycle", "no_stick_slip")

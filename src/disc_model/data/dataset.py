@@ -31,21 +31,11 @@ CONVENTIONS = "CF-1.11"
 Tables = dict[str, dict[str, Any]]  # columns of numbers, shape (n,), by the names of tables and their own
 
 
-def events_dataset(events: Any) -> xr.Dataset:
-    """Dataset of events, from a frame like `Result.events`; `time` is a coordinate along `event` (two may coincide)."""
-    data = {}
-    for name, column in events.items():
-        flags = SERIES[name].flags
-        values = pd.Categorical(column, flags).codes if flags else np.asarray(column, dtype=float)
-        data[name] = ("event", values, attributes(name))
+def series_dataset(columns: Mapping[str, Any], along: str) -> xr.Dataset:
+    """Dataset of columns of numbers: samples along `time`, or events along `event`, as two may have the same time."""
+    kinds = dict.fromkeys(_flags(columns), np.int8)
+    data = {name: (along, np.asarray(x, kinds.get(name, float)), attributes(name)) for name, x in columns.items()}
     return xr.Dataset(data).set_coords("time")
-
-
-def samples_dataset(samples: Mapping[str, Any], theta: float) -> xr.Dataset:
-    """Samples of one window along the coordinate `time`; ``w_point`` was taken at the angle `theta` (rad)."""
-    kinds = {"phase": np.int8}
-    data = {name: ("time", np.asarray(x, kinds.get(name, float)), attributes(name)) for name, x in samples.items()}
-    return xr.Dataset(data, attrs={"theta": theta})
 
 
 def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, message: str) -> xr.Dataset:

@@ -82,15 +82,20 @@ class Result(Summarised, Pictures):
     ramps: tuple[Ramp, ...] = ()
     initial_state: State | None = field(default=None, repr=False)
 
+    @property
+    def _event_columns(self) -> dict[str, Array]:
+        """The columns of `events`, with kind and phase as in `event_rows`."""
+        return {name: x for name, x in zip(EVENT_ROW, self.event_rows.T, strict=True) if name != "direction"}
+
     @cached_property
     def events(self) -> pd.DataFrame:
         """The events as a table, made at its first use, because making it takes longer than a short simulation."""
         import pandas as pd
 
-        columns: dict[str, Any] = dict(zip(EVENT_ROW, self.event_rows.T, strict=True))
+        columns: dict[str, Any] = self._event_columns
         for name, words in (("kind", EVENT_KINDS), ("phase", PHASES)):
             columns[name] = pd.Categorical.from_codes(columns[name].astype(np.int64), categories=pd.Index(list(words)))
-        return pd.DataFrame({name: column for name, column in columns.items() if name != "direction"})
+        return pd.DataFrame(columns)
 
     def value_at(self, name: str, times: ArrayLike) -> Array:
         """Values of Omega (rad/s) or N (N) at given times (s), ramps included, in an array of the shape of `times`.
@@ -108,11 +113,11 @@ class Result(Summarised, Pictures):
 
     def __getitem__(self, name: str) -> xr.Dataset:
         """The samples of a window along `time`, with units, by the window's name; raises `ParameterError`."""
-        from disc_model.data.dataset import samples_dataset
+        from disc_model.data.dataset import series_dataset
 
         if not isinstance(name, str) or name not in self.samples:
             raise ParameterError(Fault.of(("name",), name, f"no such window{suggestion(name, self.samples)}"))
-        return samples_dataset(self.samples[name], self.windows[name].theta)
+        return series_dataset(self.samples[name], "time").assign_attrs(theta=self.windows[name].theta)
 
     def to_tree(self) -> xr.DataTree:
         """Return the result in the layout of files, with CF attributes; see `disc_model.data.dataset`.
@@ -121,13 +126,13 @@ class Result(Summarised, Pictures):
         """
         import xarray as xr
 
-        from disc_model.data.dataset import events_dataset, scalars_dataset
+        from disc_model.data.dataset import scalars_dataset, series_dataset
 
         scalars = scalars_dataset(self.parameters, self.scalars(), self.status.value, self.message)
         if self.ramps:
             scalars.attrs["ramps"] = json.dumps([ramp.model_dump() for ramp in self.ramps])
-        windows = {name: self[name] for name in self.samples}
-        return xr.DataTree.from_dict({"/": scalars, "events": events_dataset(self.events), **windows})
+        groups = {"/": scalars, "events": series_dataset(self._event_columns, "event")}
+        return xr.DataTree.from_dict(groups | {name: self[name] for name in self.samples})
 
     def scalars(self) -> dict[str, float]:
         """Values of `disc_model.data.variables.SCALARS`, but for the status."""
