@@ -283,10 +283,8 @@ class Disc(Checked):
         """
         elements = import_module("disc_model.disc.finite_elements")
         mesh = section if size is None else elements.section(section, size)
-        return elements.disc_of_section(
-            mesh, E=E, nu=nu, rho=rho, clamped=clamped, slider=slider, highest_Hz=highest_Hz,
-            damping_ratio=damping_ratio,
-        )  # fmt: skip
+        material = {"E": E, "nu": nu, "rho": rho, "damping_ratio": damping_ratio}
+        return elements.disc_of_section(mesh, material, clamped, slider, highest_Hz)
 
     def plot(self, *, r_0: float | None = None, most: int = 15, ax: Any = None) -> Any:
         """Draw the shapes of the modes with their nodal lines and frequencies; needs shapes at two radii or more.

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import disc_model as dm
-from disc_model.disc.finite_elements import disc_of_section, section
 from disc_model.disc.flexibility import residual_flexibility
 from disc_model.disc.plate import mode_shapes
 from tests import needs
@@ -23,13 +22,12 @@ IRON = {"E": P.E, "nu": P.nu, "rho": P.rho}
 
 def ring_by_elements(size: float = 0.01, rectangles: Any = RING, **changes: Any) -> dm.Disc:
     given: dict[str, Any] = {"clamped": lambda x: x[0] < 0.06 + 1e-9, "slider": (0.1, 0.005), "highest_Hz": 3000.0}
-    return disc_of_section(section(rectangles, size), **IRON | given | changes)
+    return dm.Disc.from_section(rectangles, size=size, **IRON | given | changes)
 
 
 def plate_by_elements(highest_Hz: float) -> dm.Disc:
-    mesh = section([(P.a, P.r_0, -P.h / 2, P.h / 2), (P.r_0, P.b, -P.h / 2, P.h / 2)], P.h)
-    clamped, slider = (lambda x: x[0] < P.a + 1e-9), (P.r_0, P.h / 2)
-    return disc_of_section(mesh, **IRON, clamped=clamped, slider=slider, highest_Hz=highest_Hz)
+    halves, clamped = [(P.a, P.r_0, -P.h / 2, P.h / 2), (P.r_0, P.b, -P.h / 2, P.h / 2)], lambda x: x[0] < P.a + 1e-9
+    return ring_by_elements(P.h, halves, clamped=clamped, slider=(P.r_0, P.h / 2), highest_Hz=highest_Hz)
 
 
 @pytest.mark.slow
@@ -55,7 +53,7 @@ def test_a_slender_ring_bends_and_twists_as_in_the_textbook() -> None:
     R, h = 0.15, 0.01
     web, ring = (0.05, R - h / 2, 0.485 * h, 0.515 * h), [(R - h / 2, R, 0, h), (R, R + h / 2, 0, h)]
     clamped = lambda x: x[0] < 0.05 + 1e-9  # noqa: E731
-    disc = disc_of_section(section([web, *ring], 0.005), **IRON, clamped=clamped, slider=(R, h), highest_Hz=1400)
+    disc = ring_by_elements(0.005, [web, *ring], clamped=clamped, slider=(R, h), highest_Hz=1400)
     for n in (2, 3, 4):
         twist = 2 * (1 + P.nu) / (12 * 0.1406)  # E I / (G J)
         omega = np.sqrt(P.E * h**2 / (12 * P.rho * R**4) * n**2 * (n**2 - 1) ** 2 / (n**2 + twist))

@@ -8,16 +8,14 @@ from __future__ import annotations
 
 import itertools
 import math
-import warnings
-from collections.abc import Callable, Iterable
-from functools import partial
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.disc.plate import Array
-from disc_model.disc.plausibility import ImplausibleValue, warn_of_doubts
+from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.errors import Fault, ParameterError, require
 from disc_model.parameters import Disc, Parameters
 from disc_model.units import is_number
@@ -60,22 +58,14 @@ def _divided(edges: set[float], size: float) -> Array:
 
 
 def disc_of_section(
-    mesh: MeshQuad,
-    *,
-    E: float,
-    nu: float,
-    rho: float,
-    clamped: Callable[[Array], NDArray[np.bool_]],
-    slider: tuple[float, float],
-    highest_Hz: float,
-    damping_ratio: float = 0.0,
+    mesh: MeshQuad, material: Mapping[str, Any], clamped: Callable[[Array], Any], slider: Any, highest_Hz: float
 ) -> Disc:
     """The modes of a solid of revolution that move under the slider, see `disc_model.Disc.from_section`."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
     skfem = _skfem()
-    iron = Parameters(N=0, Omega=0, normalization="orthonormal", E=E, nu=nu, rho=rho, damping_ratio=damping_ratio)
+    iron = Parameters(N=0, Omega=0, normalization="orthonormal", **material)
     is_point = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
     is_mesh = isinstance(mesh, skfem.MeshQuad)
     require(
@@ -99,7 +89,7 @@ def disc_of_section(
         (len(held) > 0, "clamped", len(held), "must hold nodes of the section: coordinates are in m"),
         (pieces == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
     )
-    warn_of_doubts(iron, partial(warnings.warn, category=ImplausibleValue, stacklevel=3))
+    warn_of_doubts(iron)
     rows: list[tuple[float, int, int, float, float, list[float]]] = []
     for l in range(61):
         omega, moves = _harmonic(basis, l, (iron.E, iron.nu, iron.rho), held, measured, math.tau * highest_Hz)
@@ -113,7 +103,7 @@ def disc_of_section(
     omegas, diameters, circles, amplitudes, tangential, shapes = zip(*transverse, strict=True)
     return Disc(
         omega=omegas, diameters=diameters, circles=circles, amplitude=amplitudes, tangential=tangential,
-        shapes=shapes, radii=radii.tolist(), damping_ratio=[float(damping_ratio)] * len(transverse),
+        shapes=shapes, radii=radii.tolist(), damping_ratio=[iron.damping_ratio or 0.0] * len(transverse),
     )  # fmt: skip
 
 
