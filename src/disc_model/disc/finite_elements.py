@@ -103,7 +103,7 @@ def disc_of_section(
     omegas, diameters, circles, amplitudes, tangential, shapes = zip(*transverse, strict=True)
     return Disc(
         omega=omegas, diameters=diameters, circles=circles, amplitude=amplitudes, tangential=tangential,
-        shapes=shapes, radii=radii.tolist(), damping_ratio=[iron.damping_ratio or 0.0] * len(transverse),
+        shapes=shapes, radii=radii.tolist(), damping_ratio=[float(material["damping_ratio"])] * len(transverse),
     )  # fmt: skip
 
 
