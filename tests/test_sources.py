@@ -109,7 +109,7 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
         assert not {path.split("/")[0] for path in batch} & {"figures", "paper", "benchmarks", "cli", "explorer"}
         assert "studies/study.py" not in batch
         short = ("campbell", "floquet", "lyapunov", "ramps", "sliding", "stability_curves")
-        assert ("stability/attractor/outcome.py" in batch) == (name not in short)
+        assert ("stability/outcome.py" in batch) == (name not in short)
         sweeps = ("basins", "bifurcation", "branches", "hysteresis")
         assert ("stability/lyapunov.py" in batch) == (name in ("lyapunov", *sweeps))
         # one quantity's code is not another's

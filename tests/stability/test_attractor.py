@@ -14,8 +14,8 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State, static_start
-from disc_model.stability.attractor.basins import Basins, random_perturbation
-from disc_model.stability.attractor.outcome import OutcomeResult, Segment, Stage, final_segment, find_outcome, growing
+from disc_model.stability.basins import Basins, random_perturbation
+from disc_model.stability.outcome import OutcomeResult, Segment, Stage, final_segment, find_outcome, growing
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)

@@ -8,8 +8,8 @@ import pytest
 from disc_model import Parameters, floquet, simulate
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.errors import DiscModelError
-from disc_model.stability.attractor.linear_motion import NearReturn, find_cycle_near
 from disc_model.stability.cycle import CycleError, find_cycle, run_through_once
+from disc_model.stability.linear_motion import NearReturn, find_cycle_near
 from disc_model.stability.return_map import RETURNED, Counts, Flight, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
 from tests.validation.test_random_cases import drawn_case

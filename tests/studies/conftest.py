@@ -12,8 +12,8 @@ import xarray as xr
 
 from disc_model.analysis.classify import Settled, Settling
 from disc_model.errors import Status
-from disc_model.stability.attractor import arrival as arrivals
-from disc_model.stability.attractor.outcome import OutcomeResult, Segment
+from disc_model.stability import arrival as arrivals
+from disc_model.stability.outcome import OutcomeResult, Segment
 from disc_model.studies import run
 from disc_model.studies.merge import merge_batches
 from disc_model.studies.quantities import critical_speed

@@ -102,7 +102,7 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
         ("src/disc_model/engine/event_loop.py", everything),
         # multipliers need no simulation
         ("src/disc_model/simulation/api.py", lambda project: SIMULATIONS | FIGURES | TABLES | whole_map(project)),
-        ("src/disc_model/stability/attractor/outcome.py", whole_map),
+        ("src/disc_model/stability/outcome.py", whole_map),
         ("src/disc_model/studies/quantities/sliding.py", whole_growth),
         ("src/disc_model/studies/quantities/hysteresis.py", lambda _: set()),
         ("src/disc_model/studies/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL | MERGED),

@@ -23,7 +23,7 @@ STATUSES = (*(status.value for status in Status), "failed")
 
 
 class Outcome(enum.StrEnum):
-    """Outcome of a motion, in the words of all datasets; `disc_model.stability.attractor` gives the criteria."""
+    """Outcome of a motion, in the words of all datasets; `disc_model.stability.outcome` gives the criteria."""
 
     QUIET = "quiet"  # the stable stick-slip cycle of the static start
     OTHER_CYCLE = "other_cycle"  # another stable cycle in contact

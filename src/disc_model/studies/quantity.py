@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
     from disc_model.simulation.result import Result
     from disc_model.simulation.states import State
-    from disc_model.stability.attractor.outcome import Attractor, OutcomeResult, Segment
     from disc_model.stability.cycle import FloquetResult
+    from disc_model.stability.outcome import Attractor, OutcomeResult, Segment
 else:  # names for annotations
     Attractor = Dataset = FloquetResult = OutcomeResult = Result = Segment = State = Any
 

@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.spectra import modes_at_rest
 from disc_model.data.variables import CycleStatus, Outcome
-from disc_model.stability.attractor.linear_motion import NearCycle, cycle_of_static_start
-from disc_model.stability.attractor.outcome import OutcomeResult, Stage, find_outcome
-from disc_model.stability.attractor.thresholds import AMPLITUDES, SAME_POINT
 from disc_model.stability.cycle import FloquetResult
+from disc_model.stability.linear_motion import AMPLITUDES, SAME_POINT, NearCycle, cycle_of_static_start
+from disc_model.stability.outcome import OutcomeResult, Stage, find_outcome
 from disc_model.stability.return_map import newton
 from disc_model.studies.quantity import NUMERICAL, Made, Row, failed
 

@@ -5,7 +5,7 @@ import pytest
 
 from disc_model.analysis.classify import Settled, Settling
 from disc_model.parameters import Parameters
-from disc_model.stability.attractor import arrival
+from disc_model.stability import arrival
 from disc_model.studies.quantities.hysteresis import Hysteresis
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import Point

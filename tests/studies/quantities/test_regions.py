@@ -12,7 +12,7 @@ from disc_model.data.variables import CycleStatus, Outcome, flag_names
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.stability.attractor.outcome import OutcomeResult
+from disc_model.stability.outcome import OutcomeResult
 from disc_model.studies import refinement
 from disc_model.studies.quantities.regions import Regions
 from tests.studies.conftest import computed

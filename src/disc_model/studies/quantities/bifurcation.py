@@ -91,9 +91,8 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
 def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
     from disc_model.analysis.classify import closure
     from disc_model.simulation.api import make_initial_state, simulate
-    from disc_model.stability.attractor.arrival import Regularity, arrival, regularity
-    from disc_model.stability.attractor.outcome import shares
-    from disc_model.stability.attractor.thresholds import FIRST_LEG
+    from disc_model.stability.arrival import Regularity, arrival, regularity
+    from disc_model.stability.outcome import FIRST_LEG, shares
 
     p = point.parameters
     state, transient = make_initial_state(p, point.start, options.tol), options.transient

@@ -63,7 +63,7 @@ class Branches(Quantity):
     cost: ClassVar = lambda o: quantity.WORK
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.attractor.arrival import sweep
+        from disc_model.stability.arrival import sweep
         from disc_model.stability.cycle import find_cycle
         from disc_model.stability.sliding import steady_sliding
 
@@ -127,7 +127,7 @@ def _branch(cycle: quantity.FloquetResult, reached: bool, options: Branches) -> 
 
 def _range(p: Parameters, state: State, period: float) -> float:
     """Range of the slider's height over a period, m; nan if it cannot be simulated."""
-    from disc_model.stability.attractor.outcome import final_segment
+    from disc_model.stability.outcome import final_segment
 
     _, stretch = final_segment(p, state, period, period, 1e-10)
     return math.nan if stretch is None else stretch.range

@@ -101,7 +101,7 @@ class CriticalSpeed(Quantity):
 
 def motion(case: Parameters, options: CriticalSpeed) -> OutcomeResult:
     """The motion from the static start, up to the longest horizon."""
-    from disc_model.stability.attractor.outcome import find_outcome
+    from disc_model.stability.outcome import find_outcome
 
     return find_outcome(case, options.horizons[-1], tol=options.tol, furthest=0.0, early=options.early_end)
 

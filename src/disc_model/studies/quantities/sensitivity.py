@@ -268,7 +268,7 @@ def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
 
 
 def _followed(p: Parameters, options: Sensitivity) -> tuple[Row, str]:
-    from disc_model.stability.attractor.outcome import find_outcome
+    from disc_model.stability.outcome import find_outcome
 
     result = find_outcome(p, options.horizon, tol=options.motion_tol)
     return {"outcome": result.word, "first_separation": result.first_separation}, result.message
