@@ -11,10 +11,11 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
+from pydantic import Field, PlainValidator
 
 from disc_model.data.variables import PHASES
 from disc_model.display import Progress, simulating
@@ -28,7 +29,7 @@ from disc_model.simulation.case import CaseSpec, Ramp, Start, Windows, pieces, r
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import Array, State
 from disc_model.sources import git_commit, source_hash, versions
-from disc_model.units import TOLERANCES, content_key, in_si, is_number, is_whole, limits_faults, number
+from disc_model.units import TOLERANCES, Checked, Count, content_key, in_si, is_number, limits_faults, must, number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -48,8 +49,11 @@ _STATUS = {
 }
 
 
-@dataclass(frozen=True, kw_only=True)
-class Execution:
+def _shows(progress: object) -> bool:
+    return progress is None or isinstance(progress, bool) or callable(progress)
+
+
+class Execution(Checked):
     """How a run is carried out. No setting changes the motion, but a run ends early after `max_steps`.
 
     Attributes
@@ -69,17 +73,8 @@ class Execution:
     """
 
     audit_every_step: bool = False
-    progress: Progress = None
-    max_steps: int | None = None
-
-    def __post_init__(self) -> None:
-        every, progress, most = self.audit_every_step, self.progress, self.max_steps
-        shows = progress is None or isinstance(progress, bool) or callable(progress)
-        require(
-            (isinstance(every, bool), "audit_every_step", every, "must be True or False"),
-            (most is None or (is_whole(most) and most >= 1), "max_steps", most, "must be a whole number >= 1"),
-            (shows, "progress", progress, "must be a function of the time, or False"),
-        )
+    progress: Annotated[Progress, PlainValidator(must(_shows, "must be a function of the time, or False"))] = None
+    max_steps: Annotated[Count, Field(ge=1)] | None = None
 
 
 _PLAIN = Execution()

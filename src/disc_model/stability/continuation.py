@@ -12,10 +12,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import Field
 
 from disc_model.display import Summarised, counted, draw
 from disc_model.engine.jit.cache import compiling
@@ -26,7 +27,7 @@ from disc_model.simulation.result import Result
 from disc_model.simulation.states import State, is_finite_array
 from disc_model.stability.cycle import FloquetResult, bifurcation_type, find_cycle, guess_faults, multipliers
 from disc_model.stability.return_map import ENDS, PARAMETERS, Array, ComplexArray, Counts, Flight, ReturnMap, rounding
-from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, is_whole, limits_faults
+from disc_model.units import CYCLE_TOLERANCES, Checked, Count, Finite, Positive, in_si, is_number, limits_faults
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -336,8 +337,7 @@ def interval_in_si(name: Any, bounds: Any) -> Any:
     return ends if is_finite_array(ends, 2) and ends[0] < ends[1] else None
 
 
-@dataclass(frozen=True)
-class StepControl:
+class StepControl(Checked):
     """Step lengths and limits of a continuation.
 
     Parameters
@@ -350,23 +350,15 @@ class StepControl:
     beyond : whether a branch in one parameter ends at the first point beyond a bound, instead of at the bound
     """
 
-    step: float = 0.02
-    longest: float = 0.1
-    shortest: float = 1e-7
-    max_points: int = 1000
-    scale: float | None = None
-    growth: float = 1.5
-    easy: float = 0.99
-    sharpest: float = 0.9
+    step: Positive = 0.02
+    longest: Positive = 0.1
+    shortest: Positive = 1e-7
+    max_points: Annotated[Count, Field(ge=1)] = 1000
+    scale: Positive | None = None
+    growth: Finite = 1.5
+    easy: Finite = 0.99
+    sharpest: Finite = 0.9
     beyond: bool = False
-
-    def __post_init__(self) -> None:
-        names = ("step", "longest", "shortest", *(["scale"] if self.scale is not None else []))
-        lengths = [(name, getattr(self, name)) for name in names]
-        rules = [(is_number(x) and 0 < x < math.inf, name, x, "must be finite and > 0") for name, x in lengths]
-        counts = is_whole(self.max_points) and self.max_points >= 1
-        rules.append((isinstance(self.beyond, bool), "beyond", self.beyond, "must be True or False"))
-        require(*rules, (counts, "max_points", self.max_points, "must be a whole number >= 1"))
 
 
 def follow_curve(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -161,7 +161,7 @@ def neutral_curves(
     (1, '2 f_s = 135.42 Hz')
     """
     # a curve ends where a shorter step would be needed, as where an event grazes
-    steps = replace(BORDER, longest=longest, shortest=1e-4, max_points=max_points)
+    steps = BORDER.replace(longest=longest, shortest=1e-4, max_points=max_points)
     free = isinstance(bounds, Mapping) and len(bounds) == 2
     plane: Any = {name: interval_in_si(name, ends) for name, ends in bounds.items()} if free else {}
     within = free and all(ends is not None for ends in plane.values())
