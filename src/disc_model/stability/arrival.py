@@ -13,13 +13,12 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State
+from disc_model.stability import thresholds
 from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.linear_motion import NearCycle, find_cycle_near, find_near_return
 from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
-from disc_model.stability.outcome import FIRST_LEG, Segment, final_segment, find_calm, switch_angles
+from disc_model.stability.outcome import Segment, final_segment, find_calm, switch_angles
 from disc_model.stability.return_map import RETURNED, ReturnMap
-
-SETTLING = 8  # legs over which a motion must be steady, and over which its regularity is judged
 
 
 class Arrival(NamedTuple):
@@ -51,7 +50,7 @@ def arrival(p: Parameters, legs: Sequence[Result], tol: float, most: int = sys.m
 def cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
     """The cycle near the end of a simulated motion, recorded with its events; the cycle may lose contact. Periods of up
     to half the releases of the last `FIRST_LEG` are tried, and of up to `most` releases."""
-    last = leg.events[leg.events["time"] > leg.final_state.time - FIRST_LEG]
+    last = leg.events[leg.events["time"] > leg.final_state.time - thresholds.FIRST_LEG]
     releases = int((last["kind"] == "stick_to_slip").sum())
     if not releases or not may_stick_and_slip(p) or p.n_diameters < 0:
         return None
@@ -110,7 +109,7 @@ class Regularity(NamedTuple):
 def regularity(p: Parameters, state: State, tol: float) -> Regularity:
     """Regularity of the motion from a state, by its separations, or else its releases, and by its largest exponent but
     that along the motion: zero on a torus, positive in chaos, negative on a cycle, however long its period."""
-    run = simulate(p, state.time + SETTLING * FIRST_LEG, tol=tol, initial_state=state)
+    run = simulate(p, state.time + thresholds.SETTLING * thresholds.FIRST_LEG, tol=tol, initial_state=state)
     times, kinds = run.events["time"].to_numpy(dtype=float), run.events["kind"].to_numpy()
     separates = bool((kinds == "separation").any())
     intervals = np.diff(times[kinds == ("separation" if separates else "stick_to_slip")])
@@ -121,7 +120,7 @@ def regularity(p: Parameters, state: State, tol: float) -> Regularity:
         return Regularity(periodic, n, closure(intervals, n))
     # exponents below -90/s are not resolved by this interval; such a motion repeats
     how: Any = {"count": 1, "interval": 0.25, "leave_out_trivial": True, "initial_state": state, "tol": tol}
-    largest = lyapunov_exponents(p, SETTLING * FIRST_LEG / 2, **how)
+    largest = lyapunov_exponents(p, thresholds.SETTLING * thresholds.FIRST_LEG / 2, **how)
     rate, error = float(largest.exponents[0]), float(largest.errors[0])
     if not (math.isfinite(rate) and math.isfinite(error)):
         return Regularity(Outcome.UNDECIDED)

@@ -19,18 +19,11 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State, perturb, static_start
-from disc_model.stability.arrival import SETTLING, arrival, regularity
-from disc_model.stability.linear_motion import LARGEST_PERIOD, NEAR, SAME_POINT, NearCycle, cycle_of_static_start
-from disc_model.stability.outcome import FIRST_LEG, SAMPLING_RATE, Attractor, OutcomeResult, Segment, segment_of
+from disc_model.stability import thresholds
+from disc_model.stability.arrival import arrival, regularity
+from disc_model.stability.linear_motion import NearCycle, cycle_of_static_start
+from disc_model.stability.outcome import Attractor, OutcomeResult, Segment, segment_of
 from disc_model.stability.return_map import RETURNED, Array, ReturnMap
-
-NEARING = 4  # legs over which a motion approaches a known attractor
-STEADY = (
-    1e-3  # largest relative change of the range over `SETTLING` legs without a drift: a periodic one's is a tenth of it
-)
-SAME = 0.05  # segments that differ by less are of one attractor; the extrapolated rest of a drift may reach half of it
-SMALLEST = 1e-3  # range, over the static deflection, below which ranges count as equal: the slider's height is constant
-OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)  # downward, over the static deflection, from which attractors are sought
 
 
 class Basins:
@@ -45,16 +38,16 @@ class Basins:
         self.p, self.horizon, self.near, self.tol = p, horizon, near, tol
         modes = mode_arrays(p)
         self.static = p.N * float(np.sum(modes.psi**2 / modes.omega**2))
-        self.smallest = max(SMALLEST * self.static, sys.float_info.min)
+        self.smallest = max(thresholds.SMALLEST * self.static, sys.float_info.min)
         self.map = ReturnMap(p, patient=True)
         cycle = cycle_of_static_start(p)
         self.cycle = cycle if isinstance(cycle, NearCycle) and cycle.cycle.stable else None
         self.known: list[Attractor] = []
         if self.cycle is not None:
             assert self.cycle.cycle.state is not None
-            leg = self._leg(self.cycle.cycle.state, FIRST_LEG)
+            leg = self._leg(self.cycle.cycle.state, thresholds.FIRST_LEG)
             self.known.append(self._periodic(self.cycle, segment_of(leg)))
-        for kick in OWN_STARTS:
+        for kick in thresholds.OWN_STARTS:
             start = static_start(p)
             self.follow(perturb(p, start, u=-kick * self.static) if kick else start)
 
@@ -63,7 +56,7 @@ class Basins:
         legs, segments = list[Result](), list[Segment]()
         first_separation, least_tested, steady = math.nan, math.inf, False
         while True:
-            leg = self._leg(state, min(state.time + FIRST_LEG, self.horizon))
+            leg = self._leg(state, min(state.time + thresholds.FIRST_LEG, self.horizon))
             state = leg.final_state
             first_separation = leg.first_separation if math.isnan(first_separation) else first_separation
             if not leg.status.complete:
@@ -77,7 +70,7 @@ class Basins:
                 if self.cycle is not None and distance < least_tested and self.cycle.follows_multipliers(x):
                     attractor = self.known[0]
                 else:
-                    attractor = self._approached([segment.range for segment in segments[-NEARING:]])
+                    attractor = self._approached([segment.range for segment in segments[-thresholds.NEARING :]])
                 least_tested = min(distance, least_tested)
             was_steady, steady = steady, self._is_steady(segments)
             if attractor is None and (over or (self.near and steady and not was_steady)):
@@ -88,7 +81,7 @@ class Basins:
 
     def _leg(self, state: State, end: float) -> Result:
         # the range is taken over thirty oscillations or more
-        window = Window(start=max(end - 0.5, state.time), stop=end, rate=SAMPLING_RATE)
+        window = Window(start=max(end - 0.5, state.time), stop=end, rate=thresholds.SAMPLING_RATE)
         return simulate(self.p, end, {"late": window}, tol=self.tol, initial_state=state)
 
     def _difference(self, first: Segment, second: Segment) -> float:
@@ -96,9 +89,9 @@ class Basins:
         ranges = [max(segment.range, self.smallest) for segment in (first, second)]
         compared = [
             (*ranges, self.smallest),
-            (first.separation_rate, second.separation_rate, 2 / FIRST_LEG),
-            (first.stick_fraction, second.stick_fraction, SAME),
-            (first.separation_fraction, second.separation_fraction, SAME),
+            (first.separation_rate, second.separation_rate, 2 / thresholds.FIRST_LEG),
+            (first.stick_fraction, second.stick_fraction, thresholds.SAME),
+            (first.separation_fraction, second.separation_fraction, thresholds.SAME),
         ]
         return max(abs(a - b) / max(a, b, floor) for a, b, floor in compared)
 
@@ -110,14 +103,14 @@ class Basins:
             if code == RETURNED:
                 for point in chain([x], self.map.returns(x, near.cycle.releases - 1)):
                     distance = float(np.linalg.norm(point - near.x))
-                    if distance <= NEAR * self.map.deflection:
+                    if distance <= thresholds.NEAR * self.map.deflection:
                         return point, distance
         return self.map.static, math.inf
 
     def _approached(self, ranges: Sequence[float]) -> Attractor | None:
         """The known attractor that the motion approaches before it has settled; None if there is none."""
         others = [attractor for attractor in self.known if attractor.kind is not Outcome.QUIET]
-        if len(ranges) < NEARING or not others:
+        if len(ranges) < thresholds.NEARING or not others:
             return None
         ends = [attractor.segment.range for attractor in others]
         apart = [[abs(value - end) / max(value, end, sys.float_info.min) for value in ranges] for end in ends]
@@ -130,17 +123,17 @@ class Basins:
         return others[nearest] if last <= self.near and nearing and slows else None
 
     def _is_steady(self, segments: Sequence[Segment]) -> bool:
-        last = segments[-SETTLING:]
-        if len(last) < SETTLING or any(self._difference(part, last[-1]) > VARIATION for part in last[:-1]):
+        last = segments[-thresholds.SETTLING :]
+        if len(last) < thresholds.SETTLING or any(self._difference(part, last[-1]) > VARIATION for part in last[:-1]):
             return False
         ranges = [max(segment.range, self.smallest) for segment in last]
-        stays = abs(ranges[-1] - ranges[0]) <= STEADY * ranges[-1]
-        return stays or _rest_of_drift(ranges) <= SAME / 2 * ranges[-1]
+        stays = abs(ranges[-1] - ranges[0]) <= thresholds.STEADY * ranges[-1]
+        return stays or _rest_of_drift(ranges) <= thresholds.SAME / 2 * ranges[-1]
 
     def _settled_on(self, legs: Sequence[Result], segment: Segment, steady: bool, over: bool) -> Attractor | None:
         """The attractor on which a motion is, if that is proven, the whole record has settled, or the last legs are as
         steady as those on a known attractor; None near an unstable cycle."""
-        reached = arrival(self.p, legs, self.tol, LARGEST_PERIOD)
+        reached = arrival(self.p, legs, self.tol, thresholds.LARGEST_PERIOD)
         if not reached.settled and reached.settling.least == 0:  # by multipliers
             return None
         attractor = Attractor(reached.calm or Outcome.UNDECIDED, segment)
@@ -160,8 +153,8 @@ class Basins:
         """Whether two attractors are the same: periodic ones by their fixed points, others by their segments."""
         if first.points is not None and second.points is not None:
             apart = min(float(np.linalg.norm(first.points[0] - point)) for point in second.points)
-            return apart <= SAME_POINT * self.map.deflection
-        return self._difference(first.segment, second.segment) <= SAME
+            return apart <= thresholds.SAME_POINT * self.map.deflection
+        return self._difference(first.segment, second.segment) <= thresholds.SAME
 
     def _periodic(self, near: NearCycle, segment: Segment) -> Attractor:
         cycle = near.cycle

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.analysis.spectra import Resonance, nearest_resonance
-from disc_model.data.variables import CycleStatus, values_text
+from disc_model.data.variables import STABLE_CYCLES, values_text
 from disc_model.display import Summarised, computed, counted, draw
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import Fault, ParameterError, raise_faults, violations
@@ -405,11 +405,7 @@ def critical(
     def stable(x: float) -> bool:
         if x not in cycles:
             cycles[x] = find_cycle(_with(p, **{name: x}), tol)
-        cycle = cycles[x]
-        if cycle.status is CycleStatus.OK:
-            return cycle.stable
-        sliding = cycle.status is CycleStatus.NO_STICK_SLIP and cycle.sliding.stable
-        return sliding or cycle.status is CycleStatus.AT_REST
+        return cycles[x].motion in STABLE_CYCLES
 
     def located(interval: tuple[float, float]) -> float:
         """The upper end of a short interval within which stability changes."""

@@ -118,6 +118,16 @@ class FloquetResult(Summarised):
         return self.growth_rate < 0
 
     @property
+    def motion(self) -> str:
+        """What is near the start of the search: a cycle, "stable" or "unstable", "steady_sliding" or
+        "unstable_sliding", or else the status."""
+        if self.status is CycleStatus.OK:
+            return "stable" if self.stable else "unstable"
+        if self.status is CycleStatus.NO_STICK_SLIP:
+            return "steady_sliding" if self.sliding.stable else "unstable_sliding"
+        return self.status.value
+
+    @property
     def attractors(self) -> tuple[str, ...]:
         """Those of "stick_slip" and "steady_sliding" that exist and are stable."""
         motions = (("stick_slip", self.stable), ("steady_sliding", self.sliding.stable))

@@ -17,6 +17,7 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State, engine_case
+from disc_model.stability import thresholds
 from disc_model.stability.cycle import (
     FloquetResult,
     cycle_from_rest,
@@ -27,24 +28,6 @@ from disc_model.stability.cycle import (
 )
 from disc_model.stability.return_map import Array, ComplexArray, Flight, ReturnMap, newton
 from disc_model.stability.sliding import SteadySliding, energy_weights, join_rows, steady_sliding
-
-# Distances and changes are on the section of the return map, relative to the norm of the static deflection.
-
-# distances from the cycle up to which multipliers may represent a departure
-AMPLITUDES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
-NEAR = AMPLITUDES[0]  # distance from a cycle within which a motion counts as near it: none is linear beyond
-SAME_POINT = 1e-4  # nearer fixed points are the same: known cycles differ by 0.1, and residuals are 1e-10
-ARRIVED = 1e-8  # a motion as near to a stable cycle is on it: the limit is 10,000 times the rounding
-ERROR_OF_TOL = 100  # errors of a long simulation, over its tolerance: 12 were seen on a cycle that attracts at 0.008/s
-# s, at which a motion is compared with the linear one; if the first test fails, the longer one resolves slower rates
-TEST_TIMES = ((0.3, 1.2), (1.5, 6.0))
-WAITS = (0.0, 1.5, 6.0, 15.0)  # s, at which tests begin: near a resonance the strongly damped modes must decay first
-LARGEST_ERROR = 0.1  # of the linear motion, relative to it: second order in the distance, at most a tenth
-LARGEST_RATE_ERROR = 0.5  # of the growth rate, relative to the linear motion's: it decides the sign of the rate
-# largest share of a departure outside the leading eigenspace, and difference of growth rates for which it is corrected
-LARGEST_OUTSIDE = 0.25
-LINGERS = 1e-3  # largest change over a period of a motion that stays near an unstable cycle: on a torus it would move
-LARGEST_PERIOD = 8  # releases in a period of cycles that are sought from the section alone, to limit the time
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,16 +52,16 @@ class NearCycle:
         """Outcome of a motion on the cycle: quiet if the cycle is that of the static start, or near it."""
         if self.cycle.separations:
             return Outcome.SEPARATING
-        if np.linalg.norm(self.x - self.map.static) <= NEAR * self.map.deflection:
+        if np.linalg.norm(self.x - self.map.static) <= thresholds.NEAR * self.map.deflection:
             return Outcome.QUIET
         cycle = find_cycle(self.cycle.parameters)
-        same = math.isclose(cycle.period, self.cycle.period, rel_tol=ARRIVED)
+        same = math.isclose(cycle.period, self.cycle.period, rel_tol=thresholds.ARRIVED)
         return Outcome.QUIET if same and cycle.releases == self.cycle.releases else Outcome.OTHER_CYCLE
 
     @property
     def lingers(self) -> bool:
         """Whether the motion stays near an unstable cycle: over a period it hardly moves."""
-        still = LINGERS * self.map.deflection
+        still = thresholds.LINGERS * self.map.deflection
         return not self.cycle.stable and self.advance(self.x + self.distance, 1).residual <= still
 
     def advance(self, x: Array, periods: int, *, coarse: bool = True) -> Flight:
@@ -97,7 +80,7 @@ class NearCycle:
 
     def follows_multipliers(self, x: Array) -> bool:
         """Whether the motion at a point of the section departs or approaches as the multipliers predict."""
-        return any(self._is_linear(x - self.x, times) for times in TEST_TIMES)
+        return any(self._is_linear(x - self.x, times) for times in thresholds.TEST_TIMES)
 
     def stays_linear_until(self, horizon: float) -> bool:
         """Whether the static start, near an unstable cycle, follows the linear map until the horizon (s)."""
@@ -106,7 +89,7 @@ class NearCycle:
         right = _left_vector(self.jacobian.T)
         part = float(abs(self.leading @ self.distance)) / float(abs(self.leading @ right))
         grown = math.log(max(part / self.map.deflection, 1e-300)) + room * math.log(abs(self.cycle.multipliers[0]))
-        if not grown <= math.log(2 * AMPLITUDES[0]):
+        if not grown <= math.log(2 * thresholds.AMPLITUDES[0]):
             return False
         departure = self.extrapolate_departure(room)
         return room <= 1 or (departure is not None and departure[0] >= (room - 1) * self.cycle.period)
@@ -119,27 +102,27 @@ class NearCycle:
     def _is_linear(self, distance: Array, times: tuple[float, float]) -> bool:
         """Whether the motion at that distance departs from the cycle, or approaches it, as its multipliers predict."""
         cycle, deflection = self.cycle, self.map.deflection
-        least = ARRIVED * deflection if cycle.stable else 0.0
+        least = thresholds.ARRIVED * deflection if cycle.stable else 0.0
         # the errors of coarse flights would matter at a smaller distance
-        coarse = bool(np.linalg.norm(distance) > SAME_POINT * deflection)
+        coarse = bool(np.linalg.norm(distance) > thresholds.SAME_POINT * deflection)
         expected, parts, periods = distance, list[float](), 0
         for periods, flight in self.flights(self.x + distance, times, coarse):
             expected = np.linalg.matrix_power(self.jacobian, periods) @ expected
             error = float(np.linalg.norm(flight.end - self.x - expected))
-            largest = max(LARGEST_ERROR * float(np.linalg.norm(expected)), least)
+            largest = max(thresholds.LARGEST_ERROR * float(np.linalg.norm(expected)), least)
             if not (flight.returned and error <= largest):
                 return False
             parts.append(float(abs(self.leading @ (flight.end - self.x))))
         return _grows_at_rate(parts, periods * cycle.period, cycle.growth_rate, least)
 
-    def extrapolate_departure(self, room: int, furthest: float = NEAR) -> tuple[float, Array] | None:
+    def extrapolate_departure(self, room: int, furthest: float = thresholds.NEAR) -> tuple[float, Array] | None:
         """Time (s) over which multipliers represent the departure, at most `room` periods, and distance at its end."""
         period = self.cycle.period
         powers = [self.jacobian]
         most = math.log(1e100) / max(math.log(abs(self.cycle.multipliers[0])), 1e-300)
         while 2 ** len(powers) <= min(room, most):  # `most` keeps the powers from overflow
             powers.append(powers[-1] @ powers[-1])
-        for amplitude in (a for a in AMPLITUDES if a <= furthest):
+        for amplitude in (a for a in thresholds.AMPLITUDES if a <= furthest):
             n, distance = 0, self.distance
             for i in reversed(range(len(powers))):
                 ahead = powers[i] @ distance
@@ -148,11 +131,11 @@ class NearCycle:
             if n == 0:
                 break
             excess = self._excess_rate(distance)
-            if excess is not None and abs(excess) <= LARGEST_OUTSIDE:
+            if excess is not None and abs(excess) <= thresholds.LARGEST_OUTSIDE:
                 # the rate changes with the square of the amplitude: a' = rate a (1 + excess a^2 / amplitude^2)
                 sooner = math.log1p(excess) / (2 * self.cycle.growth_rate)
                 return max(n * period - sooner, period), distance
-            if self._is_linear(distance, TEST_TIMES[0]):
+            if self._is_linear(distance, thresholds.TEST_TIMES[0]):
                 return n * period, distance
         return None
 
@@ -164,13 +147,13 @@ class NearCycle:
         real = self.cycle.multipliers[0].imag == 0
         part, count = self.leading @ distance, 0
         before = float(abs(part))
-        for periods, flight in self.flights(self.x + distance, TEST_TIMES[-1]):
+        for periods, flight in self.flights(self.x + distance, thresholds.TEST_TIMES[-1]):
             if not flight.returned:
                 return None
             apart, count = flight.end - self.x, count + periods
             part = self.leading @ apart
             plane = np.real(part * right) * (1 if real else 2)
-            if not np.linalg.norm(apart - plane) <= LARGEST_OUTSIDE * np.linalg.norm(apart):
+            if not np.linalg.norm(apart - plane) <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(apart):
                 return None
         return float(math.log(abs(part) / before) / (count * self.cycle.period) / self.cycle.growth_rate - 1)
 
@@ -196,16 +179,16 @@ def find_cycle_near(
 ) -> NearCycle | None:
     """The cycle near a motion at a point of the section, and whether the motion follows it. If the cycle is unstable,
     tests for that begin at the times `unstable`, s."""
-    if near_return is None or not near_return.change <= NEAR / 2:
+    if near_return is None or not near_return.change <= thresholds.NEAR / 2:
         return None
     flight = newton(map_, x, releases=near_return.releases, may_separate=map_.patient)
-    if flight is None or np.linalg.norm(flight.start - x) > NEAR * map_.deflection:
+    if flight is None or np.linalg.norm(flight.start - x) > thresholds.NEAR * map_.deflection:
         return None
     cycle = cycle_of(map_, run_through_once(map_, flight))
-    return _relate(map_, cycle, x, WAITS if cycle.stable else unstable)
+    return _relate(map_, cycle, x, thresholds.WAITS if cycle.stable else unstable)
 
 
-def find_near_return(map_: ReturnMap, x: Array, most: int = LARGEST_PERIOD) -> NearReturn | None:
+def find_near_return(map_: ReturnMap, x: Array, most: int = thresholds.LARGEST_PERIOD) -> NearReturn | None:
     """The nearest return of a motion to its point of the section; None if it does not return at all."""
     later = map_.returns(x, most, may_separate=map_.patient, coarse=True)
     changes = [float(np.linalg.norm(point - x) / map_.deflection) for point in later]
@@ -219,7 +202,7 @@ def first_release(p: Parameters) -> float:
     return max((p.mu_s * p.N / p.r_0 - p.c_p * p.Omega) / (p.k_p * p.Omega), 0.0)
 
 
-def _relate(map_: ReturnMap, cycle: FloquetResult, x: Array, waits: Sequence[float] = WAITS) -> NearCycle:
+def _relate(map_: ReturnMap, cycle: FloquetResult, x: Array, waits: Sequence[float] = thresholds.WAITS) -> NearCycle:
     """The motion at a point of the section in relation to a cycle."""
     assert cycle.state is not None
     fixed_point = map_.point(cycle.state)
@@ -241,7 +224,7 @@ def _grows_at_rate(parts: Sequence[float], time: float, rate: float, least: floa
     """Whether the leading part grows at a rate (1/s) between two times, or has fallen to `least`."""
     if not min(parts) > 0 or parts[1] <= least:
         return parts[1] <= least
-    return abs(math.log(parts[1] / parts[0]) / time - rate) <= LARGEST_RATE_ERROR * abs(rate)
+    return abs(math.log(parts[1] / parts[0]) / time - rate) <= thresholds.LARGEST_RATE_ERROR * abs(rate)
 
 
 def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs) -> ComplexArray:
@@ -261,13 +244,13 @@ def approaches_sliding(p: Parameters, state: State, tol: float) -> bool:
     jacobian = scale[:, None] * sliding.jacobian / scale
     expected = scale * _from_sliding(p, sliding, state)
     static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
-    least = max(ARRIVED, ERROR_OF_TOL * tol) * static
-    if not np.linalg.norm(expected) <= NEAR * static:
+    least = max(thresholds.ARRIVED, thresholds.ERROR_OF_TOL * tol) * static
+    if not np.linalg.norm(expected) <= thresholds.NEAR * static:
         return False
     from scipy.linalg import expm  # as in plate
 
     leading, parts, before = _left_vector(jacobian, np.real), list[float](), 0.0
-    times = TEST_TIMES[-1]
+    times = thresholds.TEST_TIMES[-1]
     for time in times:
         result = simulate(p, state.time + time, tol=tol, initial_state=state, events=False)
         if not result.status.complete or result.final_state.phase != "slip":
@@ -275,7 +258,7 @@ def approaches_sliding(p: Parameters, state: State, tol: float) -> bool:
         apart = scale * _from_sliding(p, sliding, result.final_state)
         expected = expm(jacobian * (time - before)) @ expected
         size = float(np.linalg.norm(expected))
-        if not np.linalg.norm(apart - expected) <= max(LARGEST_ERROR * size, least):
+        if not np.linalg.norm(apart - expected) <= max(thresholds.LARGEST_ERROR * size, least):
             return False
         parts.append(float(abs(leading @ apart)))
         before = time

@@ -19,14 +19,9 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State
+from disc_model.stability import thresholds
 from disc_model.stability.cycle import FloquetResult, may_stick_and_slip, never_pulls
 from disc_model.stability.linear_motion import (
-    AMPLITUDES,
-    ARRIVED,
-    ERROR_OF_TOL,
-    NEAR,
-    SAME_POINT,
-    WAITS,
     NearCycle,
     approaches_sliding,
     cycle_of_static_start,
@@ -35,15 +30,6 @@ from disc_model.stability.linear_motion import (
     first_release,
 )
 from disc_model.stability.return_map import RETURNED, Array, ReturnMap
-
-FIRST_LEG = 5.0  # s, before a motion is examined: dozens of cycles, and some turns of the disc at paper speeds
-LONGEST_LEG = 160.0  # s, of later legs: the tests after each cost little beside so much simulation
-SAMPLING_RATE = 4000.0  # Hz, of described segments: above twice the highest modal frequency
-# distance from which a departure that came to a stable cycle is simulated: beyond, its phase may lead to separation
-CERTAIN = 0.02
-RISE = 1.5  # factor between changes of periods that shows growth: rounding and beats with decaying modes cause less
-# s, settled in contact, until a motion is left: of 190 in `map_N`, 2 separated by 1000 s, and after 200 s 5 would have
-STEADY_FOR = 360.0
 
 
 @dataclass(frozen=True)
@@ -144,7 +130,7 @@ def find_outcome(
     *,
     tol: float = 1e-10,
     near: NearCycle | FloquetResult | None = None,
-    furthest: float = AMPLITUDES[0],
+    furthest: float = thresholds.AMPLITUDES[0],
     start: State | None = None,
     early: bool = True,
     late: float = 0.0,
@@ -200,7 +186,7 @@ class _OutcomeSearch:
 
     def _begin(self) -> Stage:
         self.result = OutcomeResult(state=self.start)
-        self.leg = FIRST_LEG
+        self.leg = thresholds.FIRST_LEG
         self.departed_from: NearCycle | None = None  # the last unstable cycle that it followed
         self.cycle_to_come: NearCycle | None = None  # an unstable one near the start, until the motion follows it
         self.angles: list[Array] = []
@@ -217,8 +203,8 @@ class _OutcomeSearch:
         result.near = result.near or near
         if not near.cycle.stable:
             return Stage.DEPARTING
-        if result.extrapolated is not None and self.furthest > CERTAIN:
-            self.furthest, self.simulated_before = CERTAIN, result.simulated
+        if result.extrapolated is not None and self.furthest > thresholds.CERTAIN:
+            self.furthest, self.simulated_before = thresholds.CERTAIN, result.simulated
             return Stage.START
         result.near, result.outcome = near, near.kind
         result.time += near.waited
@@ -272,10 +258,10 @@ class _OutcomeSearch:
         result = self.result
         marks = (self.horizon - self.late, self.horizon)
         stop = next(min(result.time + self.leg, mark) for mark in marks if result.time < mark)
-        self.leg = min(2 * self.leg, LONGEST_LEG)
+        self.leg = min(2 * self.leg, thresholds.LONGEST_LEG)
         windows = {}
         if self.late and stop == self.horizon:
-            windows = {"late": Window(start=result.time, stop=stop, rate=SAMPLING_RATE)}
+            windows = {"late": Window(start=result.time, stop=stop, rate=thresholds.SAMPLING_RATE)}
         leg = simulate(self.p, stop, windows, tol=self.tol, initial_state=result.state, stop_at="first_separation")
         self.angles.append(switch_angles(leg))
         if windows and leg.status.complete:
@@ -302,17 +288,17 @@ class _OutcomeSearch:
             size = self.map.deflection
             if (
                 near is not None
-                and np.linalg.norm(x - near.x) <= NEAR * size
-                and np.linalg.norm(self.departed_from.x - near.x) > SAME_POINT * size
+                and np.linalg.norm(x - near.x) <= thresholds.NEAR * size
+                and np.linalg.norm(self.departed_from.x - near.x) > thresholds.SAME_POINT * size
                 and near.follows_multipliers(x)
             ):
                 self.cycle_to_come = self.result.near = None
                 return replace(near, follows_cycle=True, distance=x - near.x)
             # a motion that comes near a cycle then changes less and less, down to errors of the simulation
             known = [change for change in self.result.changes if not math.isnan(change)]
-            if known and known[-1] > max(known[-2:][0], ARRIVED, ERROR_OF_TOL * self.tol):
+            if known and known[-1] > max(known[-2:][0], thresholds.ARRIVED, thresholds.ERROR_OF_TOL * self.tol):
                 return None
-        waits = WAITS if self.departed_from is None else WAITS[:1]
+        waits = thresholds.WAITS if self.departed_from is None else thresholds.WAITS[:1]
         near = find_cycle_near(self.map, x, self.near_return, unstable=waits)
         return near if near is not None and near.follows_cycle else None
 
@@ -325,7 +311,7 @@ class _OutcomeSearch:
         if not self.early or not self._grows or self.result.time >= self.horizon:
             return False
         settled = settling(*np.hstack(self.angles))
-        return settled.answer is Settled.SETTLED and self.result.time - settled.since >= STEADY_FOR
+        return settled.answer is Settled.SETTLED and self.result.time - settled.since >= thresholds.STEADY_FOR
 
 
 def find_calm(p: Parameters, leg: Result, tol: float) -> Outcome | None:
@@ -342,7 +328,7 @@ def growing(changes: Sequence[float]) -> bool:
         return False
     least = np.fmin.accumulate(d[:-2])
     later = np.fmin(d[1:-1], d[2:])
-    return bool(np.any((later > ARRIVED) & (later > RISE * least)))
+    return bool(np.any((later > thresholds.ARRIVED) & (later > thresholds.RISE * least)))
 
 
 def final_segment(
@@ -356,7 +342,7 @@ def final_segment(
         if not result.status.complete:
             return result, None
         state = result.final_state
-    window = Window(start=stop - late, stop=stop, rate=SAMPLING_RATE)
+    window = Window(start=stop - late, stop=stop, rate=thresholds.SAMPLING_RATE)
     result = simulate(p, stop, {"late": window}, tol=tol, initial_state=state)
     return result, segment_of(result) if result.status.complete else None
 

@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.analysis.spectra import modes_at_rest
-from disc_model.data.variables import CycleStatus, Outcome
+from disc_model.data.variables import STABLE_CYCLES, Outcome
 from disc_model.stability.cycle import FloquetResult
-from disc_model.stability.linear_motion import AMPLITUDES, SAME_POINT, NearCycle, cycle_of_static_start
+from disc_model.stability.linear_motion import NearCycle, cycle_of_static_start
 from disc_model.stability.outcome import OutcomeResult, Stage, find_outcome
 from disc_model.stability.return_map import newton
+from disc_model.stability.thresholds import AMPLITUDES, SAME_POINT
 from disc_model.studies.quantity import NUMERICAL, Made, Row, failed
 
 Array = NDArray[np.float64]
@@ -239,9 +240,7 @@ def _without(start: NearCycle | FloquetResult, result: OutcomeResult | None) -> 
         return "steady_sliding"
     if isinstance(start, NearCycle):
         return "nearby_only"
-    if start.status is CycleStatus.AT_REST:
-        return "at_rest"
-    return "steady_sliding" if start.status is CycleStatus.NO_STICK_SLIP and start.sliding.stable else "no_cycle"
+    return start.motion if start.motion in STABLE_CYCLES else "no_cycle"
 
 
 def _middle(indices: Sequence[Index]) -> Index:

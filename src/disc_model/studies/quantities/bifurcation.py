@@ -92,7 +92,8 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     from disc_model.analysis.classify import closure
     from disc_model.simulation.api import make_initial_state, simulate
     from disc_model.stability.arrival import Regularity, arrival, regularity
-    from disc_model.stability.outcome import FIRST_LEG, shares
+    from disc_model.stability.outcome import shares
+    from disc_model.stability.thresholds import FIRST_LEG
 
     p = point.parameters
     state, transient = make_initial_state(p, point.start, options.tol), options.transient

@@ -14,7 +14,7 @@ from pydantic import Field
 
 from disc_model.analysis.classify import share
 from disc_model.data import variables
-from disc_model.data.variables import EXCLUDED, SAMPLE, SCALARS, STABLE_CYCLES, CycleStatus, Variable, flag_names
+from disc_model.data.variables import EXCLUDED, SAMPLE, SCALARS, STABLE_CYCLES, Variable, flag_names
 from disc_model.errors import Fault, ParameterError, as_text
 from disc_model.parameters import DEFAULTS, PLATE, RELATED, Disc, Parameters, case_of, cross_faults
 from disc_model.simulation.case import SomeParameters
@@ -259,11 +259,7 @@ def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
     from disc_model.stability.cycle import floquet
 
     cycle = floquet(p, tol=tol)
-    word = cycle.status.value if cycle.status.value in SAMPLE_CYCLES else FAILED
-    if cycle.status is CycleStatus.OK:
-        word = "stable" if cycle.stable else "unstable"
-    elif cycle.status is CycleStatus.NO_STICK_SLIP:
-        word = "steady_sliding" if cycle.sliding.stable else "unstable_sliding"
+    word = cycle.motion if cycle.motion in SAMPLE_CYCLES else FAILED
     return {"cycle": word, "growth_rate": cycle.growth_rate}, cycle.message if word == FAILED else ""
 
 
