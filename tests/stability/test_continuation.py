@@ -1,7 +1,5 @@
 """Continuation on a map that is solved by hand: every point, every fold and every border is known."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -63,7 +61,7 @@ def test_the_neutral_curve_is_the_ellipse():
     span = np.ptp(curve.values, axis=0)
     assert span == pytest.approx([8, 200], rel=0.02)
     # what is not closed is followed in both directions
-    part = continue_border("neutral", P.replace(Omega=13.5), ("Omega", "N"), BOX, steps=replace(BORDER, max_points=4))
+    part = continue_border("neutral", P.replace(Omega=13.5), ("Omega", "N"), BOX, steps=BORDER.replace(max_points=4))
     assert len(part) == 7
     assert part.values[3] == pytest.approx(curve.values[0])
     assert (part.values[2] - part.values[3]) @ (part.values[4] - part.values[3]) < 0

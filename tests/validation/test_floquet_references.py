@@ -1,7 +1,6 @@
 """The cycle's stability against growth in simulations, prototypes' growth rates, and limits with known answers."""
 
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -57,7 +56,7 @@ def test_neutral_curves_in_other_pairs(start, names):
     p = Parameters(**start)
     value = {name: getattr(p, name) for name in names}
     bounds = {name: (0.5 * value[name], 2.5 * value[name]) for name in names}
-    curve = continue_border("neutral", p, names, bounds, steps=replace(BORDER, max_points=12))
+    curve = continue_border("neutral", p, names, bounds, steps=BORDER.replace(max_points=12))
     assert curve.ended.endswith(("points allowed is reached", "has left the bounds"))
     # beyond a fold on the way back another multiplier grows, and the static start leads elsewhere
     rates = np.log(np.abs(curve.multipliers)) / curve.period[:, None]
