@@ -43,7 +43,7 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
         asked.append(p)
         return OutcomeResult(Outcome.SEPARATION if separates(p) else Outcome.QUIET, 1.0, None, first_separation=p.N)
 
-    nothing = SimpleNamespace(status=CycleStatus.NO_CYCLE)
+    nothing = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
     monkeypatch.setattr(refinement, "cycle_of_static_start", lambda p: nothing)
     monkeypatch.setattr(refinement, "find_outcome", find_outcome)
     return asked
