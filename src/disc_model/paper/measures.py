@@ -99,10 +99,15 @@ class CaseView:
         return f"contact is kept for {end:g} s" if math.isnan(time) else f"contact is lost at {time:.2f} s"
 
     @property
-    def fate(self) -> str:
-        """The same, and how disturbances of its cycle grow, as a sentence."""
+    def contact_and_growth(self) -> str:
+        """The same, and how disturbances of its cycle grow."""
         growth = rate_text(self.growth_rate, "/s", "not defined, because no cycle was found near static equilibrium")
-        return f"At {self.place}, {self.contact}, and growth is {growth}."
+        return f"{self.contact}, and growth is {growth}"
+
+    @property
+    def fate(self) -> str:
+        """The same as a sentence, with the place."""
+        return f"At {self.place}, {self.contact_and_growth}."
 
     @cached_property
     def late_motion(self) -> Motion:

@@ -13,7 +13,7 @@ from disc_model.analysis.classify import SAME, distinct_points, irregularity, se
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, values_text
 from disc_model.paper import measures
-from disc_model.paper.measures import STRETCH, Array, CaseView, extent, published, rate_text, sound
+from disc_model.paper.measures import STRETCH, Array, CaseView, extent, published, sound
 from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 from disc_model.parameters import Parameters
 
@@ -188,7 +188,7 @@ def _different(case: CaseView, last: float, same: float) -> int:
 def faster_and_sooner(soft: CaseView, base: CaseView) -> Answer:
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
     verdict = graded([sooner, base.growth_rate > soft.growth_rate])
-    rows = [(1e-3 * case["k_p"], case.contact, rate_text(case.growth_rate)) for case in (soft, base)]
+    rows = [(1e-3 * case["k_p"], case.contact_and_growth) for case in (soft, base)]
     return Answer(verdict, place=measures.place(base["N"], base["Omega"]), rows=rows)
 
 
