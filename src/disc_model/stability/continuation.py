@@ -22,8 +22,6 @@ from disc_model.display import Summarised, counted, draw
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.parameters import DEFAULTS, Parameters, Quantity, foreign_case
-from disc_model.simulation.api import simulate
-from disc_model.simulation.result import Result
 from disc_model.simulation.states import State, is_finite_array
 from disc_model.stability.cycle import FloquetResult, bifurcation_type, find_cycle, guess_faults, multipliers
 from disc_model.stability.return_map import ENDS, PARAMETERS, Array, ComplexArray, Counts, Flight, ReturnMap, rounding
@@ -40,11 +38,7 @@ DIFFERENCE = 1e-5  # over a parameter's scale: flights are accurate to 1e-13, th
 
 
 class CorrectorFailed(Exception):
-    """No next cycle was found; `reordered` are the unknowns z from which events come in another order, or None."""
-
-    def __init__(self, message: str, reordered: Array | None = None) -> None:
-        super().__init__(message)
-        self.reordered = reordered
+    """No next cycle was found; the message says why."""
 
 
 @dataclass(frozen=True)
@@ -90,11 +84,6 @@ class CycleProblem:
         except ParameterError as error:
             raise CorrectorFailed(str(error)) from None
 
-    def state(self, z: Array) -> State:
-        """The state at the end of stick that the unknowns z describe."""
-        map_ = ReturnMap(self.case(z), self.tol)
-        return map_.state(z[: self.n] * self.size / self.scale * map_.scale)
-
     def unknowns(self, state: State) -> Array:
         """Unknowns z of a state on the section in the present case."""
         q = np.array([self.base.numbers[name] for name in self.names]) / self.scales
@@ -108,7 +97,7 @@ class CycleProblem:
         if self.order and flight.counts != self.order:
             counts = zip(Counts._fields, self.order, flight.counts, strict=True)
             changes = (f"{name.replace('_', ' ')} {before} to {now}" for name, before, now in counts if before != now)
-            raise CorrectorFailed(f"the order of events changes: {', '.join(changes)}", z)
+            raise CorrectorFailed(f"the order of events changes: {', '.join(changes)}")
         jacobian = flight.jacobian * turn[:, None] / turn[None, :]
         if not (np.all(np.isfinite(jacobian)) and np.all(np.isfinite(flight.by)) and np.all(np.isfinite(residual))):
             raise CorrectorFailed("the variational equations are singular: a switch is grazed")
@@ -192,28 +181,18 @@ class CycleProblem:
         """The cycles along a tangent until the parameter leaves the span, the folds between them, and why they end."""
         (name,), scale = self.names, self.scales[0]
         low, high = (bound / scale for bound in span)
-        ended = f"{name} has left {span[0]:g} .. {span[1]:g}"
-        points, folds = [replace(point, tangent=tangent)], list[float]()
-        try:
-            for new, _ in follow_curve(points[0], self.next_place, steps):
-                if new.tangent[-1] * points[-1].tangent[-1] < 0:
-                    fold = self._locate_fold(points[-1], new)
-                    if not (steps.beyond or low <= fold <= high):
-                        points.append(new)
-                        break
-                    folds.append(fold * scale)
-                points.append(new)
-                if not low <= new.z[-1] <= high:
-                    break
-        except CorrectorFailed as lost:
-            ended = str(lost)
-            if lost.reordered is not None:
-                duration = 2 * points[-1].flight.period  # an event may be missing at the end of a period
-                ends = ((self.case(z), self.state(z)) for z in (points[-1].z, lost.reordered))
-                motions = (simulate(case, duration, tol=self.tol, initial_state=state) for case, state in ends)
-                ended += f"; {changed_event(*motions)}"
-            return points, folds, ended
-        if not steps.beyond:  # the last cycle is that at the bound, if it is found
+        left, folds = f"{name} has left {span[0]:g} .. {span[1]:g}", list[float]()
+
+        def leave(points: list[Place], new: Place, _: float) -> str:
+            if new.tangent[-1] * points[-1].tangent[-1] < 0:
+                fold = self._locate_fold(points[-1], new)
+                if not (steps.beyond or low <= fold <= high):
+                    return left
+                folds.append(fold * scale)
+            return "" if low <= new.z[-1] <= high else left
+
+        points, ended = follow_curve(replace(point, tangent=tangent), self.next_place, steps, leave)
+        if ended == left and not steps.beyond:  # the last cycle is that at the bound, if it is found
             beyond = points.pop().z
             z, tangent = points[-1].z, points[-1].tangent
             along = tangent if low <= beyond[-1] <= high else beyond - z  # the former after a fold
@@ -362,28 +341,36 @@ class StepControl(Checked):
 
 
 def follow_curve(
-    start: Place, take: Callable[[Place, float], Place], steps: StepControl
-) -> Iterator[tuple[Place, float]]:
-    """Places along a curve, by `take` with either sign of the tangent, and arclengths of the steps to them, until it
-    raises `CorrectorFailed`."""
-    last, ds = start, steps.step
-    for _ in range(steps.max_points - 1):
-        while True:
+    start: Place,
+    take: Callable[[Place, float], Place],
+    steps: StepControl,
+    leave: Callable[[list[Place], Place, float], str],
+) -> tuple[list[Place], str]:
+    """Places along a curve, and why they end. `take` finds the next one at an arclength, with either sign of the
+    tangent; from the places before it and the length of the step to it, `leave` tells why it is the last, or ""."""
+    points, ds = [start], steps.step
+    try:
+        while len(points) < steps.max_points:
             try:
-                new = take(last, ds)
-                cosine = float(new.tangent @ last.tangent)
+                new = take(points[-1], ds)
+                cosine = float(new.tangent @ points[-1].tangent)
                 if abs(cosine) < steps.sharpest:
                     raise CorrectorFailed("the curve bends too sharply")
-                break
             except CorrectorFailed:
                 ds /= 2
                 if ds < steps.shortest:
                     raise
-        last = new if cosine > 0 else replace(new, tangent=-new.tangent)
-        yield last, ds
-        if abs(cosine) > steps.easy:
-            ds = min(steps.longest, steps.growth * ds)
-    raise CorrectorFailed("the number of points allowed is reached")
+                continue
+            new = new if cosine > 0 else replace(new, tangent=-new.tangent)
+            ended = leave(points, new, ds)
+            points.append(new)
+            if ended:
+                return points, ended
+            if abs(cosine) > steps.easy:
+                ds = min(steps.longest, steps.growth * ds)
+    except CorrectorFailed as lost:
+        return points, str(lost)
+    return points, "the number of points allowed is reached"
 
 
 # ---- One parameter
@@ -410,7 +397,7 @@ def continue_cycle(
 
     The branch goes both ways from the case. From a state `guess` the cycle may lose contact; with its impacts it is
     followed as long as its events keep their order. Where an event would appear or vanish, the return map has a corner:
-    the branch ends and names that event.
+    the branch ends and says how the numbers of events change.
 
     Parameters
     ----------
@@ -463,18 +450,6 @@ def continue_cycle(
         (down, below, first), (up, above, last) = follow(-tangent), follow(tangent)
         points, folds, ended = down[::-1] + up[1:], below[::-1] + above, first if first == last else f"{first}; {last}"
     return problem.branch(points, np.array(folds).reshape(-1, 1), ended)
-
-
-def changed_event(cycle: Result, other: Result) -> str:
-    """The first event by which a cycle and a motion just beyond the end of its branch differ: it grazes between."""
-    names = {"stick_to_slip": "release", "slip_to_stick": "stop", "slip_reversal": "slip reversal"}
-    same = 0.01 * cycle.t_end / len(cycle.events)  # far more than the small difference of parameters changes times by
-    events = (zip(run.events["kind"].to_list(), run.events["time"].to_list(), strict=True) for run in (cycle, other))
-    for (kind, time), (other_kind, other_time) in zip(*events, strict=False):
-        if kind != other_kind or abs(time - other_time) > same:
-            changed, how = (other_kind, "appears") if other_time < time else (kind, "disappears")
-            return f"a {names.get(changed, changed)} {how}"
-    return "what grazes was not found"
 
 
 # ---- Two parameters
@@ -592,22 +567,15 @@ def continue_border(
     onward = first.tangent * math.copysign(1.0, lead)
     low, high = np.array([bounds[name] for name in names]).T / problem.scales
 
-    def follow(tangent: Array) -> tuple[list[Place], str]:
-        points = [first]
-        try:
-            for new, ds in follow_curve(replace(first, tangent=tangent), problem.next_place, steps):
-                points.append(new)
-                q = new.z[problem.n :]
-                if np.any(q < low) or np.any(q > high):
-                    return points, f"{' or '.join(names)} has left the bounds"
-                if len(points) > 8 and np.linalg.norm(new.z - first.z) < 0.6 * ds:
-                    break
-        except CorrectorFailed as lost:
-            return points, str(lost)
-        return points, CLOSED
+    def leave(points: list[Place], new: Place, ds: float) -> str:
+        q = new.z[problem.n :]
+        if np.any(q < low) or np.any(q > high):
+            return f"{' or '.join(names)} has left the bounds"
+        return CLOSED if len(points) >= 8 and np.linalg.norm(new.z - first.z) < 0.6 * ds else ""
 
-    points, ended = follow(-onward)
+    ways = (follow_curve(replace(first, tangent=way), problem.next_place, steps, leave) for way in (-onward, onward))
+    points, ended = next(ways)
     if ended != CLOSED:
-        ahead, ended = follow(onward)
+        ahead, ended = next(ways)
         points = [*points[:0:-1], *ahead]
     return problem.branch(points, np.zeros((0, 2)), ended)
