@@ -14,7 +14,7 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State, static_start
-from disc_model.stability.basins import Basins, random_perturbation
+from disc_model.stability.attractors import Basins, random_perturbation
 from disc_model.stability.outcome import OutcomeResult, Segment, Stage, final_segment, find_outcome, growing
 
 P14 = Parameters(N=385, Omega=14)

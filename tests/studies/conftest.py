@@ -12,7 +12,7 @@ import xarray as xr
 
 from disc_model.analysis.classify import Settled, Settling
 from disc_model.errors import Status
-from disc_model.stability import arrival as arrivals
+from disc_model.stability import attractors
 from disc_model.stability.outcome import OutcomeResult, Segment
 from disc_model.studies import run
 from disc_model.studies.merge import merge_batches
@@ -72,7 +72,7 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def arrival(p, legs, tol):
         """All have settled."""
-        return arrivals.Arrival(Settling(Settled.SETTLED))
+        return attractors.Arrival(Settling(Settled.SETTLED))
 
     def carried_on(p, until, *, tol, initial_state):
         """Separation begins at 14 rad/s on the way up, and stays down to 13."""
@@ -92,7 +92,7 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(critical_speed, "motion", motion)
     for name, fake in (("arrival", arrival), ("simulate", carried_on), ("final_segment", final_segment)):
-        monkeypatch.setattr(arrivals, name, fake)
+        monkeypatch.setattr(attractors, name, fake)
 
 
 @pytest.fixture

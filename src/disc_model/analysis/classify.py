@@ -1,7 +1,7 @@
 """Classification of motions by numerical criteria, whether they have settled, and sections at the drive's period.
 
 A motion that does not repeat within half the record is classified by the 0-1 test for chaos (Gottwald and Melbourne,
-SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009). The largest exponent, in `regularity` of `stability/arrival.py`,
+SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009). The largest exponent, in `regularity` of `stability/attractors.py`,
 cannot replace it: it does not see jumps that part neighbouring motions, such as a release that one of them has.
 """
 

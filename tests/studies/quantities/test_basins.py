@@ -7,7 +7,7 @@ import pytest
 
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
-from disc_model.stability import basins as attractors
+from disc_model.stability import attractors
 from disc_model.stability.outcome import Attractor, OutcomeResult
 from disc_model.studies.quantities import basins
 from disc_model.studies.quantities.basins import AttractorBasins

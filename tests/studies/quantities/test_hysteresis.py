@@ -5,7 +5,7 @@ import pytest
 
 from disc_model.analysis.classify import Settled, Settling
 from disc_model.parameters import Parameters
-from disc_model.stability import arrival
+from disc_model.stability import attractors
 from disc_model.studies.quantities.hysteresis import Hysteresis
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import Point
@@ -21,9 +21,9 @@ def test_a_stay_is_doubled_until_its_whole_record_has_settled(monkeypatch: pytes
         if len(legs) == 1:
             stays.append([ends[0] - 60])  # the begin, since a stay begins with `dwell`
         stays[-1] = [stays[-1][0], *ends]
-        return arrival.Arrival(Settling(Settled.SETTLED if p.Omega > 13 else Settled.UNDECIDED))
+        return attractors.Arrival(Settling(Settled.SETTLED if p.Omega > 13 else Settled.UNDECIDED))
 
-    monkeypatch.setattr(arrival, "arrival", settles_above_13)
+    monkeypatch.setattr(attractors, "arrival", settles_above_13)
     options = Hysteresis.model_validate({"scan": SCAN, "dwell": 60, "max_dwell": 250, "evaluation_time": 2})
     found = compute(options, [Point(Parameters(N=200, Omega=0))]).arrays
     assert [np.diff(stay).tolist() for stay in stays] == 3 * [[60, 60, 120]] + 8 * [[60]] + 3 * [[60, 60, 120]]

@@ -86,7 +86,7 @@ class AttractorBasins(Start, Quantity):
         """Failed starts have a fraction of their own, and the point fails if all starts do."""
         from disc_model.simulation.api import make_initial_state
         from disc_model.simulation.states import static_start
-        from disc_model.stability.basins import Basins, random_perturbation
+        from disc_model.stability.attractors import Basins, random_perturbation
 
         p, energies = point.parameters, list(enumerate(self.energies))
         start = make_initial_state(p, point.start, self.tol) or static_start(p)

@@ -91,7 +91,7 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
 def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
     from disc_model.analysis.classify import closure
     from disc_model.simulation.api import make_initial_state, simulate
-    from disc_model.stability.arrival import Regularity, arrival, regularity
+    from disc_model.stability.attractors import Regularity, arrival, regularity
     from disc_model.stability.outcome import shares
     from disc_model.stability.thresholds import FIRST_LEG
 

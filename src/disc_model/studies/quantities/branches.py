@@ -63,7 +63,7 @@ class Branches(Quantity):
     cost: ClassVar = lambda o: quantity.WORK
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.arrival import sweep
+        from disc_model.stability.attractors import sweep
         from disc_model.stability.cycle import find_cycle
         from disc_model.stability.sliding import steady_sliding
 

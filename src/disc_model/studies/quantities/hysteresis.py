@@ -44,7 +44,7 @@ class Hysteresis(Quantity):
     cost: ClassVar = lambda o: SIMULATED * 2 * o.scan.intervals * o.dwell
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.arrival import sweep
+        from disc_model.stability.attractors import sweep
 
         speeds, columns, status, message = self.scan.values, self.COLUMNS.items(), "ok", ""
         values: dict[str, Any] = {name: column.empty((2, len(speeds))) for name, column in columns if column.dims}
