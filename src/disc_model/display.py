@@ -59,6 +59,25 @@ def draw(picture: str, *inputs: Any, **options: Any) -> Any:
         raise
 
 
+class Drawn:
+    """A result with a picture, which a function of `disc_model.figures.results` draws."""
+
+    _picture: str
+
+    def plot(self, *, ax: Any = None) -> Any:
+        """Draw the picture that the class describes, on axes of matplotlib or in a new figure; returns the axes.
+
+        Raises `ParameterError` if `ax` is no axes, or there is nothing to draw, and `CycleError` without a cycle.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> dm.floquet(dm.Parameters(N=385, Omega=15)).plot().get_xlabel()
+        'Re κ'
+        """
+        return draw(self._picture, self, ax=ax)
+
+
 # ---- Progress on stderr: a bar, or a line where there is no terminal
 
 Progress = Callable[[float], object] | bool | None

@@ -150,7 +150,7 @@ def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str 
 
 
 def plot_multipliers(cycle: FloquetResult, ax: Any = None) -> Axes:
-    values, angle = cycle.multipliers, np.linspace(0, 2 * np.pi, 200)
+    values, angle = cycle.raise_for_status().multipliers, np.linspace(0, 2 * np.pi, 200)
     outside = np.abs(values) > 1
     with canvas(ax, COLUMN, 3.2, title=_stated(cycle.parameters)) as [axes]:
         axes.plot(np.cos(angle), np.sin(angle), color=GREY, linewidth=0.8)

@@ -8,7 +8,7 @@ the curve F = 0.  Distances mix x, over the norm of the static deflection, with 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from disc_model.display import Summarised, counted, draw
+from disc_model.display import counted, draw
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.parameters import DEFAULTS, Parameters, Quantity, foreign_case
@@ -246,7 +246,7 @@ def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Branch(Summarised):
+class Branch:
     """Cycles along a curve.
 
     Attributes
@@ -283,13 +283,6 @@ class Branch(Summarised):
         spanned = ", ".join(f"{name} from {low:.6g} to {high:.6g}" for name, low, high in spans)
         folds = counted(len(self.folds), "fold")
         return f"Branch({len(self)} cycles, {spanned}, {folds}; ended: {self.ended})"
-
-    def _summary(self) -> Iterator[tuple[str, object]]:
-        for name, values in zip(self.parameters, self.values.T, strict=True):
-            yield name, f"{values.min():.6g} to {values.max():.6g}"
-        yield "cycles", f"{len(self)}, {int((self.growth_rate < 0).sum())} of them stable"
-        yield "folds", ", ".join(f"{fold:.6g}" for fold in np.ravel(self.folds))
-        yield "ended", self.ended
 
     def plot(self, y: str = "growth_rate", *, ax: Axes | None = None) -> Axes:
         """Draw growth_rate, period or stick_fraction over the parameter, thick where the cycle is stable.

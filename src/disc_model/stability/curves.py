@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.analysis.spectra import Resonance, nearest_resonance
-from disc_model.data.variables import STABLE_CYCLES, values_text
-from disc_model.display import Summarised, computed, counted, draw
+from disc_model.data.variables import STABLE_CYCLES
+from disc_model.display import Drawn, computed, counted
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import Fault, ParameterError, raise_faults, violations
 from disc_model.parameters import RATIOS, Parameters, Quantity, foreign_case
@@ -33,9 +32,6 @@ from disc_model.stability.continuation import (
 from disc_model.stability.cycle import FloquetResult, find_cycle
 from disc_model.stability.return_map import Array, ReturnMap, case_faults
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 MOST_POINTS = 100_000  # largest number of points along a line: an hour of work
 
@@ -63,8 +59,8 @@ class StabilityCurve:
 
 
 @dataclass(frozen=True, repr=False)
-class NeutralCurves(Summarised):
-    """Curves in the plane of two parameters; iterating yields them.
+class NeutralCurves(Drawn):
+    """Curves in the plane of two parameters; iterating yields them, `plot` draws them, thick beside a stable cycle.
 
     Attributes
     ----------
@@ -73,6 +69,7 @@ class NeutralCurves(Summarised):
     failures : descriptions of those that could not
     """
 
+    _picture = "plot_neutral_curves"
     parameters: Parameters
     bounds: Mapping[str, tuple[float, float]]
     curves: tuple[StabilityCurve, ...] = field(repr=False)
@@ -87,28 +84,6 @@ class NeutralCurves(Summarised):
     def __repr__(self) -> str:
         plane = " and ".join(f"{name} from {low:g} to {high:g}" for name, (low, high) in self.bounds.items())
         return f"NeutralCurves({counted(len(self), 'curve')} over {plane}, {len(self.failures)} not followed)"
-
-    def _summary(self) -> Iterator[tuple[str, object]]:
-        for name, (low, high) in self.bounds.items():
-            yield name, f"{low:g} to {high:g}"
-        for (kind, label), count in Counter((curve.kind, curve.resonance.label) for curve in self).items():
-            yield f"{kind} curve", f"{label}, {count} times" if count > 1 else label
-        yield "not followed", "; ".join(self.failures)
-
-    def plot(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the curves in the plane of the two parameters, thick beside a stable cycle; returns the axes.
-
-        Raises `ParameterError` if `ax` is no axes.
-
-        Examples
-        --------
-        >>> import disc_model as dm
-        >>> case = dm.Parameters(N=385, Omega=15, mu_k_over_mu_s=0.6)
-        >>> curves = dm.neutral_curves(case, {"Omega": (14, 15.5), "mu_s": (0.38, 0.42)}, [0.4], points=5)
-        >>> curves.plot().get_xlabel()
-        'Speed Ω (rad/s)'
-        """
-        return draw("plot_neutral_curves", self, ax=ax)
 
 
 class _Seed(NamedTuple):
@@ -285,8 +260,10 @@ STRONGLY_DAMPED = 0.5  # modulus below which a multiplier takes part in no reson
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Critical(Summarised):
+class Critical(Drawn):
     """Values of a parameter at which the motion near the static start gains or loses stability.
+
+    `plot` draws the growth rate of the cycle over the parameter, with the intervals in which that motion is unstable.
 
     Attributes
     ----------
@@ -298,6 +275,7 @@ class Critical(Summarised):
     resolution : a tongue of instability narrower than this may have been stepped over
     """
 
+    _picture = "plot_critical"
     parameters: Parameters
     name: str
     value: float
@@ -319,28 +297,6 @@ class Critical(Summarised):
         edges = np.array([self.values[0], *self.crossings, self.values[-1]])
         grows = [not self.unstable_above[0] if len(self.crossings) else math.isfinite(self.value), *self.unstable_above]
         return np.column_stack([edges[:-1], edges[1:]])[np.array(grows)]
-
-    def _summary(self) -> Iterator[tuple[str, object]]:
-        values = self.parameters.replace(**{self.name: self.value if self.value > 0 else self.values[0]}).stated
-        yield "case", values_text({name: value for name, value in values.items() if name != self.name})
-        yield "parameter", f"{self.name}, {self.values[0]:g} to {self.values[-1]:g}"
-        yield "unstable", ", ".join(f"{low:.6g} to {high:.6g}" for low, high in self.unstable) or "nowhere"
-        yield "tongues seen down to", f"{self.resolution:.2g}"
-        yield "cycles computed", len(self.values)
-
-    def plot(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the growth rate of the cycle (1/s) over the parameter, with the intervals in which it is unstable.
-
-        Returns the axes; raises `ParameterError` if `ax` is no axes.
-
-        Examples
-        --------
-        >>> import disc_model as dm
-        >>> case = dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6)
-        >>> dm.critical(case, "mu_s", (0.3, 0.42), points=7).plot().get_ylabel()
-        'Growth rate of the cycle (1/s)'
-        """
-        return draw("plot_critical", self, ax=ax)
 
 
 @compiling()

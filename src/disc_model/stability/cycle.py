@@ -9,13 +9,13 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from disc_model.data.variables import CycleStatus, values_text
 from disc_model.disc.plate import mode_arrays
-from disc_model.display import Summarised, counted, draw, number_text
+from disc_model.display import Drawn, Summarised, counted, number_text
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, raise_faults, violations
 from disc_model.parameters import Parameters
@@ -23,9 +23,6 @@ from disc_model.simulation.states import State
 from disc_model.stability.return_map import ENDS, RETURNED, Array, ComplexArray, Flight, ReturnMap, case_faults, newton
 from disc_model.stability.sliding import SlidingModes, SteadySliding, sliding_modes, split_rows, steady_sliding
 from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 RETURNS_TRIED = (1, 2, 3)  # numbers of releases in a period of the cycles that are sought
 TRANSIENT = 60  # returns simulated from the static start before Newton's method is tried again
@@ -36,8 +33,8 @@ class CycleError(DiscModelError):
 
 
 @dataclass(frozen=True, eq=False)
-class FloquetResult(Summarised):
-    """The stick-slip cycle of a case.
+class FloquetResult(Summarised, Drawn):
+    """The stick-slip cycle of a case; `plot` draws the multipliers in the complex plane, and the unit circle.
 
     Attributes
     ----------
@@ -57,6 +54,7 @@ class FloquetResult(Summarised):
     sliding : steady sliding of the same case
     """
 
+    _picture = "plot_multipliers"
     parameters: Parameters
     tol: float
     status: CycleStatus
@@ -93,19 +91,6 @@ class FloquetResult(Summarised):
         yield from (("leading multiplier", f"{x:.6g}, modulus {abs(x):.9g}") for x in self.multipliers[:1])
         rate = self.sliding.growth_rate
         yield "steady sliding", self.sliding.message if math.isnan(rate) else f"growth rate {rate:.6g} 1/s"
-
-    def plot(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the multipliers in the complex plane, and the unit circle; returns the axes.
-
-        Raises `CycleError` without a cycle, `ParameterError` if `ax` is no axes.
-
-        Examples
-        --------
-        >>> import disc_model as dm
-        >>> dm.floquet(dm.Parameters(N=385, Omega=15)).plot().get_xlabel()
-        'Re κ'
-        """
-        return draw("plot_multipliers", self.raise_for_status(), ax=ax)
 
     @cached_property
     def sliding(self) -> SteadySliding:

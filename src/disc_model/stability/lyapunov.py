@@ -9,14 +9,12 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.display import Summarised, draw, number_text
+from disc_model.display import Drawn
 from disc_model.engine import event_loop, layout, tangent, transitions
 from disc_model.engine.jit.cache import compiling
 from disc_model.engine.series import build_series
@@ -26,9 +24,6 @@ from disc_model.simulation.states import State, engine_case, read_state, series_
 from disc_model.stability.return_map import ENDS, Array, case_faults, coordinate_rows, energy_scale, longest_step
 from disc_model.units import TOLERANCES, is_number, is_whole, limits_faults
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
 _BLOCKS = 16
 MOST_INTERVALS = 10_000_000  # orthonormalisations in the averaging time: hours of work, and 600 MB of logarithms
 CLEAR = 4.0  # an exponent differs from zero if it exceeds this many of its errors
@@ -36,8 +31,8 @@ CONVERGED = 0.05, 0.002  # share of an exponent, or difference in 1/s, to which 
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Lyapunov(Summarised):
-    """The largest Lyapunov exponents.
+class Lyapunov(Drawn):
+    """The largest Lyapunov exponents; `plot` draws them with their errors.
 
     Attributes
     ----------
@@ -54,6 +49,7 @@ class Lyapunov(Summarised):
     final_state : state at the end of the motion
     """
 
+    _picture = "plot_exponents"
     status: Status
     exponents: Array
     errors: Array
@@ -66,25 +62,6 @@ class Lyapunov(Summarised):
     def __repr__(self) -> str:
         exponents = " and ".join(f"{exponent:.3g}" for exponent in self.exponents)
         return f"Lyapunov({self.status}, over {self.duration:g} s: {exponents} 1/s)"
-
-    def _summary(self) -> Iterator[tuple[str, object]]:
-        yield "status", self.status.advice
-        for i, (rate, error) in enumerate(zip(self.exponents, self.errors, strict=True), 1):
-            converged = "" if self.converged[i - 1] else ", not converged"
-            yield f"exponent {i}", f"{rate:.4g} ± {error:.2g} 1/s{converged}"
-        yield "along the motion", number_text(self.trivial_exponent, "1/s", 3)
-        yield "averaged over", f"{number_text(self.duration, 's')}, {self.separations} separations"
-
-    def plot(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the exponents with their errors (1/s); returns the axes; raises `ParameterError` if `ax` is no axes.
-
-        Examples
-        --------
-        >>> import disc_model as dm
-        >>> dm.lyapunov_exponents(dm.Parameters(N=385, Omega=15), 1).plot().get_ylabel()
-        'Lyapunov exponent (1/s)'
-        """
-        return draw("plot_exponents", self, ax=ax)
 
 
 @compiling()

@@ -16,22 +16,19 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from types import FunctionType, ModuleType, SimpleNamespace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
-from disc_model.display import Summarised, draw, number_text
+from disc_model.display import Drawn, Summarised, number_text
 from disc_model.engine import laws
 from disc_model.errors import StatusBase, raise_faults
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import Array, ComplexArray, case_faults
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 def _in_python(module: ModuleType) -> Any:
@@ -56,8 +53,8 @@ class SlidingStatus(StatusBase):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SteadySliding(Summarised):
-    """The sliding equilibrium.
+class SteadySliding(Summarised, Drawn):
+    """The sliding equilibrium; `plot` draws its eigenvalues, frequency over growth rate.
 
     Attributes
     ----------
@@ -72,6 +69,7 @@ class SteadySliding(Summarised):
         u, u' on a compliant contact
     """
 
+    _picture = "plot_eigenvalues"
     status: SlidingStatus
     message: str
     contact_force: float = math.nan
@@ -95,19 +93,6 @@ class SteadySliding(Summarised):
         yield "growth rate", number_text(self.growth_rate, "1/s")
         yield "unstable modes", self.unstable_modes if self.eigenvalues.size else ""
         yield "growing frequencies", ", ".join(number_text(value.imag / math.tau, "Hz") for value in self.growing)
-
-    def plot(self, *, ax: Axes | None = None) -> Axes:
-        """Draw the eigenvalues, frequency over growth rate; returns the axes.
-
-        Raises `ParameterError` if there are none, or `ax` is no axes.
-
-        Examples
-        --------
-        >>> import disc_model as dm
-        >>> dm.steady_sliding(dm.Parameters(N=385, Omega=15.1)).plot().get_ylabel()
-        'Frequency (Hz)'
-        """
-        return draw("plot_eigenvalues", self, ax=ax)
 
     @property
     def stable(self) -> bool:
