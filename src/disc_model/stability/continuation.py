@@ -37,8 +37,8 @@ USUAL |= {"damping_ratio": 1e-3, "friction_decay": 1.0}
 DIFFERENCE = 1e-5  # over a parameter's scale: flights are accurate to 1e-13, their second derivatives of order one
 
 
-class CorrectorFailed(Exception):
-    """No next cycle was found; the message says why."""
+class CorrectorFailed(ParameterError):
+    """No next cycle was found. Without one as well is a place at which the case breaks a rule of `Parameters`."""
 
 
 @dataclass(frozen=True)
@@ -79,15 +79,7 @@ class CycleProblem:
 
     def case(self, z: Array) -> Parameters:
         values = (z[self.n :] * self.scales).tolist()
-        try:
-            return self.base.replace(**dict(zip(self.names, values, strict=True)))
-        except ParameterError as error:
-            raise CorrectorFailed(str(error)) from None
-
-    def unknowns(self, state: State) -> Array:
-        """Unknowns z of a state on the section in the present case."""
-        q = np.array([self.base.numbers[name] for name in self.names]) / self.scales
-        return np.concatenate([self._reference.point(state) / self.size, q])
+        return self.base.replace(**dict(zip(self.names, values, strict=True)))
 
     def evaluate(self, z: Array) -> Place:
         p = self.case(z)
@@ -147,16 +139,14 @@ class CycleProblem:
 
     def start(self, cycle: FloquetResult) -> Place:
         """A cycle as a point of the curve; raises `ParameterError` if it cannot be followed."""
-        rule = "p: must have a cycle to start from"
-        rule = "guess: must lie near a cycle that can be followed" if self.order else rule
-        if cycle.releases > 1 and not self.order:
-            raise ParameterError("p: must have a cycle with a single release to start from")
-        if cycle.state is None:
-            raise ParameterError(f"{rule}, but {cycle.message.removeprefix(f'{cycle.status}: ')}")
+        start = "guess: must lie near a cycle" if self.order else "p: must have a cycle of one release"
         try:
-            return self.evaluate(self.unknowns(cycle.state))
-        except CorrectorFailed as lost:
-            raise ParameterError(f"{rule}, but {lost}") from None
+            if cycle.state is None or (cycle.releases > 1 and not self.order):
+                raise CorrectorFailed(cycle.message)
+            q = np.array([self.base.numbers[name] for name in self.names]) / self.scales
+            return self.evaluate(np.concatenate([self._reference.point(cycle.state) / self.size, q]))
+        except ParameterError as lost:
+            raise ParameterError(f"{start} that can be followed, but the search ended with {lost}") from None
 
     def branch(self, points: Sequence[Place], folds: Array, ended: str) -> Branch:
         values = [multipliers(point.jacobian) for point in points]
@@ -199,7 +189,7 @@ class CycleProblem:
             bound = high if along[-1] > 0 else low
             if z[-1] != bound:
                 guess = z + (bound - z[-1]) / along[-1] * along
-                with suppress(CorrectorFailed):
+                with suppress(ParameterError):
                     points.append(self.correct(guess, np.eye(len(guess))[-1:], np.array([bound])))
         return points, folds, ended
 
@@ -226,7 +216,7 @@ class CycleProblem:
 
         try:
             return float(point_at(brentq(turned, 0.0, length, xtol=1e-12, rtol=1e-12)).z[-1])
-        except CorrectorFailed as lost:
+        except ParameterError as lost:
             where = f"{self.names[0]}={start[-1] * self.scales[0]:.6g}"
             raise CorrectorFailed(f"{UNLOCATED} near {where}: {lost}") from None
 
@@ -349,7 +339,7 @@ def follow_curve(
                 cosine = float(new.tangent @ points[-1].tangent)
                 if abs(cosine) < steps.sharpest:
                     raise CorrectorFailed("the curve bends too sharply")
-            except CorrectorFailed:
+            except ParameterError:
                 ds /= 2
                 if ds < steps.shortest:
                     raise
@@ -361,7 +351,7 @@ def follow_curve(
                 return points, ended
             if abs(cosine) > steps.easy:
                 ds = min(steps.longest, steps.growth * ds)
-    except CorrectorFailed as lost:
+    except ParameterError as lost:
         return points, str(lost)
     return points, "the number of points allowed is reached"
 
@@ -505,7 +495,7 @@ class BorderProblem(CycleProblem):
                     point = self.correct(guess, rows, rows @ guess)
                     value, mu = self._evaluate_test(point.jacobian, expected)
                     break
-                except CorrectorFailed:
+                except ParameterError:
                     if halvings == 5:
                         raise
         raise CorrectorFailed("no point of the curve was found near the first cycle")
@@ -552,10 +542,7 @@ def continue_border(
     problem = BorderProblem(kind, p, names, tol)
     point = problem.start(find_cycle(p, tol, guess))
     mu = complex(multipliers(point.jacobian)[0]) if kind == "neutral" else 1.0 + 0j
-    try:
-        first = problem.reach(point, mu)
-    except CorrectorFailed as lost:
-        raise ParameterError(f"p: must be near a curve of this kind, but {lost}") from None
+    first = problem.reach(point, mu)
     lead = first.tangent[problem.n] if abs(first.tangent[problem.n]) > 1e-12 else first.tangent[problem.n + 1]
     onward = first.tangent * math.copysign(1.0, lead)
     low, high = np.array([bounds[name] for name in names]).T / problem.scales

@@ -15,8 +15,8 @@ from disc_model.analysis.spectra import Resonance, nearest_resonance
 from disc_model.data.variables import STABLE_CYCLES
 from disc_model.display import Drawn, computed, counted
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import Fault, ParameterError, raise_faults, violations
-from disc_model.parameters import RATIOS, Parameters, Quantity, foreign_case
+from disc_model.errors import ParameterError, raise_faults, violations
+from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.simulation.states import is_finite_array
 from disc_model.stability.continuation import (
     BORDER,
@@ -159,7 +159,7 @@ def neutral_curves(
     span = np.array([high - low for low, high in plane.values()])
     for line in map(float, lines):
         along = np.linspace(plane[x][0], plane[x][1], points).tolist()
-        for seed in _seeds([_with(p, **{y: line, x: value}) for value in along], x, tol, notes):
+        for seed in _seeds([p.replace(**{y: line, x: value}) for value in along], x, tol, notes):
             point = np.array([seed.case.numbers[name] for name in names])
             if _known(curves, seed.kind, point, seed.period, span):
                 continue
@@ -354,13 +354,13 @@ def critical(
     p = p.replace(**others) if others else p
     values = np.linspace(ends[0], ends[1], points).tolist()
     for x in values:
-        _with(p, **{name: x})
+        p.replace(**{name: x})
     shortest = 1e-6 * (ends[1] - ends[0]) if precision is None else float(precision)
     cycles: dict[float, FloquetResult] = {}
 
     def stable(x: float) -> bool:
         if x not in cycles:
-            cycles[x] = find_cycle(_with(p, **{name: x}), tol)
+            cycles[x] = find_cycle(p.replace(**{name: x}), tol)
         return cycles[x].motion in STABLE_CYCLES
 
     def located(interval: tuple[float, float]) -> float:
@@ -396,16 +396,6 @@ def critical(
         growth_rate=np.array([cycles[x].growth_rate for x in values]),
         resolution=resolution,
     )
-
-
-def _with(p: Parameters, **values: float) -> Parameters:
-    """The case with other values. An error names the ratio by which another parameter could follow one of them."""
-    try:
-        return p.replace(**values)
-    except ParameterError as error:
-        ways = {a: f"; give {ratio} instead, and it follows" for ratio, (a, b) in RATIOS.items() if b in values}
-        faults = (Fault(each.path, each.value, each.rule + ways.get("".join(each.path), "")) for each in error.faults)
-        raise ParameterError(*faults) from None
 
 
 NO_CYCLES: tuple[float, ...] = (0.5,)  # of an interval one of whose ends has no cycle the middle is computed
