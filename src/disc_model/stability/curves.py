@@ -1,7 +1,5 @@
 """Curves in the plane of two parameters on which the cycle loses stability or ceases to exist; see docs/method.md."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field

@@ -5,8 +5,6 @@ towards the motion, whose exponent is zero unless it comes to rest.  To leave it
 velocity, which stays so, and the others are kept orthogonal to it.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 from dataclasses import dataclass

@@ -10,8 +10,6 @@ tangential amplitude of a mode where friction acts.  With C for the contact's co
 R = V; under the normal force, with beta = B / r_0, V = R (1 - mu beta) and r_0 F = (mu + beta) R.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
