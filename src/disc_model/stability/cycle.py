@@ -81,13 +81,10 @@ class FloquetResult(Summarised, Drawn):
     def _summary(self) -> Iterator[tuple[str, object]]:
         verdict = f"1/s (small disturbances {'die out' if self.stable else 'grow'})"
         yield "case", values_text(dict(self.parameters))
-        yield "status", self.message or self.status.value
+        yield "status", self.message  # with the period and its events
         yield "advice", "" if self.status is CycleStatus.OK else self.status.advice
         yield "growth rate", number_text(self.growth_rate, verdict)
-        yield "period", number_text(self.period, "s", 9)
         yield "share of stick", number_text(self.stick_fraction, "", 3)
-        counts = ", ".join(counted(getattr(self, f"{name}s"), name) for name in ("release", "separation"))
-        yield "a period has", counts if self.releases else ""
         yield from (("leading multiplier", f"{x:.6g}, modulus {abs(x):.9g}") for x in self.multipliers[:1])
         rate = self.sliding.growth_rate
         yield "steady sliding", self.sliding.message if math.isnan(rate) else f"growth rate {rate:.6g} 1/s"
