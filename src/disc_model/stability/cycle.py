@@ -181,17 +181,14 @@ def find_cycle(
     map_ = ReturnMap(p, tol, patient=near_state)
     if isinstance(guess, State):
         outcome, x = map_.next_release(guess)
-        if ENDS[outcome] == "time_over":
-            waited = f"the slider does not stick within {map_.longest:.3g} s of the given state"
-            return _none(p, tol, CycleStatus.NO_STICK_SLIP, waited)
         if outcome != RETURNED:
-            ended = f"the motion from the given state does not return: {ENDS[outcome]}"
-            return _none(p, tol, CycleStatus.NO_CYCLE, ended)
-        where = f"of {releases} releases near the given state"
+            status = CycleStatus.NO_STICK_SLIP if ENDS[outcome] == "time_over" else CycleStatus.NO_CYCLE
+            return _none(p, tol, status, f"the motion from the given state does not return: {ENDS[outcome]}")
     else:
-        x, where = guess, "near the given point of the section"
+        x = guess
     solution = newton(map_, x, releases=releases, may_separate=near_state)
-    return _none(p, tol, CycleStatus.NO_CYCLE, f"no cycle {where}") if solution is None else cycle_of(map_, solution)
+    without = f"no cycle with {counted(releases, 'release')} near the given state"
+    return _none(p, tol, CycleStatus.NO_CYCLE, without) if solution is None else cycle_of(map_, solution)
 
 
 def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
