@@ -133,26 +133,23 @@ def neutral_curves(
     >>> len(curves), curves.curves[0].resonance.label
     (1, '2 f_s = 135.42 Hz')
     """
+    raise_faults(foreign_case(p))
     # a curve ends where a shorter step would be needed, as where an event grazes
     steps = BORDER.replace(longest=longest, shortest=1e-4, max_points=max_points)
     free = isinstance(bounds, Mapping) and len(bounds) == 2
     plane: Any = {name: interval_in_si(name, ends) for name, ends in bounds.items()} if free else {}
     within = free and all(ends is not None for ends in plane.values())
-    rule = "must be two ascending finite numbers, by the names of two parameters"
-    wrong = violations((within, "bounds", bounds, rule))
-    if free and isinstance(p, Parameters):
-        wrong += free_faults(p, [*bounds])
-    if lines is None and within:
-        low, high = [*plane.values()][1]
-        lines = [low + share * (high - low) for share in (0.25, 0.5, 0.75)]
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
-    wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
-        (is_finite_array(lines), "lines", lines, "must be finite numbers"),
+    wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
+        (within, "bounds", bounds, "must be two ascending finite numbers, by the names of two parameters"),
+        (lines is None or is_finite_array(lines), "lines", lines, "must be finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
-    raise_faults(foreign_case(p) + wrong)
-    assert lines is not None
+    raise_faults(wrong + (free_faults(p, [*bounds]) if free else []))
     names = x, y = tuple(plane)
+    if lines is None:
+        low, high = plane[y]
+        lines = [low + share * (high - low) for share in (0.25, 0.5, 0.75)]
     curves, notes = list[StabilityCurve](), list[str]()
     span = np.array([high - low for low, high in plane.values()])
     for line in map(float, lines):

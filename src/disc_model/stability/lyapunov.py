@@ -105,21 +105,20 @@ def lyapunov_exponents(
     >>> dm.lyapunov_exponents(case, 5, initial_state=dm.floquet(case).state, leave_out_trivial=True)
     Lyapunov(ok, over 5 s: -0.143 and -0.166 1/s)
     """
-    faults = case_faults(p, "lyapunov_exponents")
-    most = layout.WIDTH if faults else min(layout.WIDTH, len(coordinate_rows(engine_case(p).model)))
+    raise_faults(case_faults(p, "lyapunov_exponents"))
     leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
-    most -= leaves_out and bool(leave_out_trivial)
+    most = min(layout.WIDTH, len(coordinate_rows(engine_case(p).model))) - (leaves_out and bool(leave_out_trivial))
     lasts = is_number(duration) and sys.float_info.min <= duration < math.inf
     shortest = max(duration / MOST_INTERVALS if lasts else 0.0, sys.float_info.min)
     fits = is_number(interval) and shortest <= interval < math.inf
-    faults += violations(
+    faults = limits_faults("tol", tol, TOLERANCES) + violations(
         (lasts, "duration", duration, "must be finite and > 0"),
         (is_whole(count) and 1 <= count <= most, "count", count, f"must be a whole number from 1 to {most}"),
         (fits, "interval", interval, f"must be finite and >= {as_text(shortest)}"),
         (isinstance(initial_state, State | None), "initial_state", initial_state, "must be a State"),
         (leaves_out, "leave_out_trivial", leave_out_trivial, "must be True or False"),
     )
-    raise_faults(faults + limits_faults("tol", tol, TOLERANCES))
+    raise_faults(faults)
     duration, interval, tol = float(duration), float(interval), float(tol)
     case, order = engine_case(p), series_order(tol)
     model, tolerance = case.model, series_tolerance(tol, compliant=p.contact_compliance != 0)
