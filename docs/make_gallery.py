@@ -15,7 +15,7 @@ from disc_model.data.dataset import load_cases, samples
 from disc_model.errors import script
 from disc_model.figures.drawing import styled
 from disc_model.figures.motion import film
-from disc_model.paper.figures.contact import motion_of
+from disc_model.paper.figures.runs import motion_of
 from disc_model.studies.study import load_study
 
 SHOWN = (

@@ -120,7 +120,7 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
     assert not [path for path in case if path.startswith(("stability", "studies"))]
     assert {"stability/cycle.py", "mode_choice.py"} <= of(SCRIPTS / "simulate_case.py", "mode_choice")
     assert {"config/paper.yaml", "paper/section41.yaml"} <= of(SCRIPTS / "check_claims.py")
-    assert "config/paper.yaml" not in of(SCRIPTS / "draw_figure.py", "paper.figures.contact")
+    assert "config/paper.yaml" not in of(SCRIPTS / "draw_figure.py", "paper.figures.runs")
     assert "explorer/static/page.css" in of(SCRIPTS / "build_explorer.py")
     assert {"benchmarks/methods/base.py", "benchmarks/methods/rivals.toml", "benchmarks/data/answers.json"} <= of(
         SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.answers"

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from disc_model import Parameters, Window, simulate
 from disc_model.figures.drawing import COLUMN, PAGE
 from disc_model.figures.kind import CasePlot
-from disc_model.paper.figures.contact import motion_of
+from disc_model.paper.figures.runs import motion_of
 from disc_model.studies.study import load_study
 from tests.damages import DAMAGES, damaged
 from tests.figures.reading import assert_fit_for_print

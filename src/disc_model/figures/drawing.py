@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 import logging
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager
 from contextvars import ContextVar
 from itertools import chain, repeat
 from pathlib import Path
@@ -65,19 +65,6 @@ BORDERS: dict[str, dict[str, Any]] = {  # lines of all stability charts; corners
 def styled() -> AbstractContextManager[None]:
     """The common style instead of the user's settings, as a context."""
     return mpl.style.context(Path(__file__).with_name("drawing.mplstyle"), after_reset=True)
-
-
-@contextmanager
-def blank_if_missing(*axes: Axes) -> Iterator[None]:
-    """Show the reason in these panels alone if a case does not hold their data."""
-    try:
-        yield
-    except dataset.Missing as reason:
-        text = fill(f"not shown: the case {reason}", 24)
-        for ax in axes:
-            ax.cla()
-            ax.set_axis_off()
-            ax.text(0.5, 0.5, text, ha="center", va="center", transform=ax.transAxes, in_layout=False)
 
 
 def new_figure(width: float, height: float) -> Figure:

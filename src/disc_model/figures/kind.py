@@ -11,11 +11,13 @@ from functools import cache
 from importlib import import_module
 from itertools import chain
 from pkgutil import iter_modules
+from textwrap import fill
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import xarray as xr
 from pydantic import AfterValidator, BeforeValidator, Field
 
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import PERTURBATIONS, SERIES, SHOWN
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures import drawing
@@ -272,9 +274,12 @@ class CasePlot(Kind):
         """Draw it in the common style from cases by their names; the reason instead, if one lacks what it needs."""
         first = next(iter(inputs.values()))
         with self.in_its_style():
-            figure, [ax] = drawing.panels(drawing.COLUMN, 2)
-            with drawing.blank_if_missing(ax):
+            try:
                 figure = self.draw(*inputs.values())
+            except Missing as reason:
+                figure, [ax] = drawing.panels(drawing.COLUMN, 2)
+                ax.set_axis_off()
+                ax.text(0.5, 0.5, fill(f"not shown: the case {reason}", 24), ha="center", va="center", in_layout=False)
             self.write_head(figure, "", drawing.what_case(json.loads(first.attrs.get("parameters", "{}"))))
         return figure
 

@@ -57,10 +57,8 @@ class Composite(CasePlot):
         figure, axes = panels(PAGE, 2.35, 1, 3, width_ratios=(1, 1.15, 1.3))
         model, growth, force = axes
         _small(model)
-        with drawing.blank_if_missing(growth):
-            self._growth(growth, case, ignored)
-        with drawing.blank_if_missing(force):
-            self._force(force, case)
+        self._growth(growth, case, ignored)
+        self._force(force, case)
         drawing.letters(axes)
         return figure
 

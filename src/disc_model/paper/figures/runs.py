@@ -1,22 +1,27 @@
-"""Contact and its losses, as in figures 2, 3, 10 and 23 of the paper, and the whole disc."""
+"""The paper's figures of single runs: contact and its losses, the whole disc, and spectra in time."""
 
 import json
 from collections.abc import Iterator, Sequence
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 import xarray as xr
+from pydantic import Field
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
-from disc_model.disc.plate import mode_arrays
+from disc_model.disc.plate import mode_arrays, plate_modes
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, COLUMN, DISC, FORCE, GREY, PAGE, SEPARATED, SLIDER, Axes, Figure, panels
-from disc_model.figures.kind import CasePlot, Need, as_ranges, as_samples
-from disc_model.figures.motion import Motion, draw_circle, draw_disc, scale_of
+from disc_model.figures import motion as pictures
+from disc_model.figures.drawing import BLACK, COLUMN, GREY, PAGE, SEPARATED, SKY, SLIDER, Axes, Figure, mpl, panels
+from disc_model.figures.kind import HIGHEST, CasePlot, Need, Sampled, as_ranges, as_samples, as_spectrum
+from disc_model.figures.motion import Motion, draw_power, draw_scale, span_of, spectrum_of
 from disc_model.parameters import Parameters
-from disc_model.units import Positive, Unit
+from disc_model.simulation.case import Window
+from disc_model.units import Finite, Positive, Unit
+
+# ---- Contact and its losses, as in figures 2, 3, 10, 13 and 23
 
 
 def after(window: xr.Dataset, start: float) -> xr.Dataset:
@@ -43,7 +48,7 @@ def shade(ax: Axes, spans: Sequence[tuple[float, float]]) -> None:
 
 def displacements(ax: Axes, part: xr.Dataset, rest: float) -> None:
     """Draw displacements of disc and slider relative to `rest`, m."""
-    ax.plot(part["time"], (part["w"] - rest) * 1e3, color=DISC, label="disc")
+    ax.plot(part["time"], (part["w"] - rest) * 1e3, color=drawing.DISC, label="disc")
     ax.plot(part["time"], (part["u"] - rest) * 1e3, color=SLIDER, linestyle=(0, (4, 1.5)), label="slider")
     ax.set_ylabel("Displacement (mm)")
 
@@ -57,22 +62,19 @@ class ContactForce(CasePlot):
     zoom: str = "zoom"
 
     def draw(self, case: xr.DataTree) -> Figure:
-        figure, [whole, zoom] = panels(PAGE, 2.3, 1, 2)
-        with drawing.blank_if_missing(whole):
-            drawing.show(whole, case, drawing.history(case, self.history), "P")
-            drawing.letter(whole, "a")
-        with drawing.blank_if_missing(zoom):
-            window = dataset.samples(case, self.zoom)
-            start = float(window["time"][0])
-            window = after(window, start)
-            drawing.letter(zoom, "b")
-            shade(zoom, spans := separations(window))
-            zoom.plot(window["time"], window["P"], color=FORCE)
-            zoom.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel=drawing.axis_of("P")[0])
-            if spans:
-                drawing.legend_above(zoom)
-        for ax in (whole, zoom):  # with zero if contact is lost; a force that hardly changes is shown in detail
-            if ax.has_data() and np.isfinite(float(case["first_separation"])):
+        figure, axes = panels(PAGE, 2.3, 1, 2)
+        drawing.show(axes[0], case, drawing.history(case, self.history), "P")
+        window = dataset.samples(case, self.zoom)
+        start = float(window["time"][0])
+        window = after(window, start)
+        shade(axes[1], spans := separations(window))
+        axes[1].plot(window["time"], window["P"], color=drawing.FORCE)
+        axes[1].set(xlabel=f"Time after {start:.5f} s (ms)", ylabel=drawing.axis_of("P")[0])
+        if spans:
+            drawing.legend_above(axes[1])
+        drawing.letters(axes)
+        for ax in axes:  # with zero if contact is lost; a force that hardly changes is shown in detail
+            if np.isfinite(float(case["first_separation"])):
                 ax.set_ylim(bottom=-0.03 * ax.get_ylim()[1])
         return figure
 
@@ -210,14 +212,14 @@ class Instants(CasePlot):
         motion = motion_of(case)
         losses = [first for first, _ in drawing.stretches(motion.phase == "separation") if first > 0]
         first, last = losses[:2] if len(losses) > 1 else (0, motion.time.size - 1)
-        scale = scale_of(motion)
+        scale = pictures.scale_of(motion)
         levels = [share * (scale.vmax or 0.0) for share in (-0.75, -0.5, -0.25, -0.1, 0.0, 0.1, 0.25, 0.5, 0.75)]
         for j, (ax, style) in enumerate(zip(discs, ("-", "--", "-.", ":"), strict=True)):
             i = first + j * (last - first) // len(discs)
-            mesh = draw_disc(ax, motion, i, scale, levels)
+            mesh = pictures.draw_disc(ax, motion, i, scale, levels)
             after = f"{1e3 * (motion.time[i] - motion.time[first]):.1f} ms"
             ax.set_title(f"({'abcd'[j]}) {after}, {motion.phase[i]}")
-            draw_circle(circle, motion, i, 5, linestyle=style, label=f"disc, {after}")
+            pictures.draw_circle(circle, motion, i, 5, linestyle=style, label=f"disc, {after}")
         bar = above.colorbar(mesh, ax=list(discs), pad=0.01, aspect=20, fraction=0.04, label="Deflection (mm)")
         bar.outline.set_visible(False)
         circle.plot([], [], "s", ms=5, mfc=SLIDER, mec=BLACK, mew=0.6, label="slider")
@@ -251,3 +253,150 @@ def motion_of(case: xr.DataTree) -> Motion:
     amplitudes = at_slider / mode_arrays(p).psi[:, None]
     time, psi, u = (windows[0][name].values for name in ("time", "psi", "u"))
     return Motion(p, time, amplitudes, p.Omega * time - psi, u, flag_names(windows[0]["phase"]))
+
+
+# ---- A vibration over a run and its spectra in time, as in figures 24 to 29
+WINDOWS = ("spectrum_a", "spectrum_b", "spectrum_c", "spectrum_d")
+CLOSE = 300.0  # highest frequency of the closer view, Hz
+TABLE_2 = {  # lines of the paper, Hz, by their components; pairs are too close for separate names
+    r"$f_\Omega$": (2.4,),
+    "$f_{h1}$, $f_{h2}$:\n$f_s ∓ f_\\Omega$": (65.5, 70.0),
+    "$f_1$, $f_2$:\n$2f_s ∓ f_\\Omega$": (133.0, 138.0),
+    "$f_3$, $f_4$:\n$3f_s ∓ f_\\Omega$": (200.0, 206.0),
+    "$f_5$, $f_6$:\n$4f_s ∓ f_\\Omega$": (269.0, 273.0),
+}
+
+
+class FourStretches(CasePlot):
+    """Range of the disc at r_0 and a fixed angle, and its power over time and frequency in four stretches, with the
+    lines of Table 2. The last row is the bilateral case `ignored`, which has the same windows but the first."""
+
+    further = ("ignored",)
+    kind: Literal["paper.four_stretches"] = "paper.four_stretches"
+    history: str = "history"
+    until: Annotated[Positive, Unit("s")] | None = None  # end of the part of the run that is shown
+    ignored: str
+
+    def needs(self) -> Iterator[Need]:
+        yield Need("history", self.case, self.history, [as_ranges])
+        for key, case, windows in (("case", self.case, WINDOWS), ("ignored", self.ignored, WINDOWS[1:])):
+            yield from (Need(key, case, name, [as_spectrum]) for name in windows)
+
+    def draw(self, *cases: xr.DataTree) -> Figure:
+        figure = drawing.new_figure(PAGE, 6.2)
+        top, below = np.asarray(figure.subfigures(2, 1, height_ratios=(1.1, 3)))
+        whole = top.subplots()
+        axes = below.subplots(3, len(WINDOWS), sharex="col", sharey="row", squeeze=False, height_ratios=(1, 1.6, 1.6))
+        spectra = {
+            (i, name): spectrum_of(case, name, "w_point")
+            for i, case in enumerate(cases)
+            for name in WINDOWS[i:]  # before any separation both are alike
+        }
+        reference = max(float(spectrum.power.max()) for spectrum in spectra.values())
+        for row, (i, low, high) in zip(axes, [(0, CLOSE, HIGHEST), (0, 0.0, CLOSE), (1, 0.0, CLOSE)], strict=True):
+            for ax, name in zip(row[i:], WINDOWS[i:], strict=True):
+                mesh = draw_power(ax, cases[i], spectra[i, name], reference, high)
+                ax.set_ylim(low, high)
+            row[0].set_ylabel("Frequency (Hz)")
+        for ax in axes[-1]:
+            ax.set_xlabel("Time (s)")
+            ax.xaxis.set_major_locator(mpl.ticker.MaxNLocator(3))
+        look: dict[str, Any] = {"xycoords": "axes fraction", "ha": "right", "va": "center", "color": "white"}
+        for row, text in zip(axes[1:], ("with separation", "separation ignored"), strict=True):
+            row[-1].annotate(text, (0.97, 0.58), fontsize=6, **look)
+        axes[2, 0].set_facecolor("white")
+        axes[2, 0].annotate("as above:\nno separation yet", (0.9, 0.55), fontsize=7, **look | {"color": BLACK})
+        names = axes[1, -1].secondary_yaxis("right")  # of the lines of Table 2
+        names.set_yticks([float(np.mean(pair)) for pair in TABLE_2.values()], labels=list(TABLE_2))
+        names.set_yticks([line for pair in TABLE_2.values() for line in pair], minor=True)
+        names.tick_params(length=0, pad=7)  # names keep clear of the ticks of single lines
+        names.tick_params(which="minor", length=3, width=0.6)
+        names.spines["right"].set_visible(False)
+        draw_scale(below, mesh, list(axes.flat))
+        for name, text in zip(WINDOWS, "bcde", strict=True):
+            start, stop = span_of(spectra[0, name])
+            whole.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
+            whole.text(start + 0.4, 0.97, f"({text})", ha="left", va="top", transform=whole.get_xaxis_transform())
+        drawing.show(whole, cases[0], drawing.history(cases[0], self.history, self.until), "w_point")
+        drawing.headroom(whole, 0.15)
+        whole.set_ylabel(whole.get_ylabel().replace(", ", ",\n", 1))
+        drawing.show_thickness(whole, cases[0], "y")
+        drawing.letters([whole, *axes[0], *axes[2, 1:]])
+        return figure
+
+
+ZOOM = 0.2  # length of a closer look, s
+
+
+class Response(CasePlot):
+    """(a) Range over the run, with closer looks below it if there are any, (b) spectrum in time in a window."""
+
+    shows = (("history", as_ranges), ("window", as_spectrum))
+    further = ("ignored",)
+    kind: Literal["paper.response"] = "paper.response"
+    variable: Sampled
+    window: str
+    history: str = "history"
+    zooms: Annotated[tuple[tuple[str, Finite], ...], Field(max_length=2)] = ()  # windows, and where looks begin, s
+    highest: bool = False  # whether the disc's highest natural frequency is marked
+    until: Annotated[Positive, Unit("s")] | None = None  # end of the part of the run that (a) shows
+    ignored: str = ""  # the case with bilateral contact, whose spectrum is drawn below
+    printed: Annotated[Positive, Unit("s")] | None = None  # time of the first separation that the paper prints
+
+    def needs(self) -> Iterator[Need]:
+        yield from (need for need in super().needs() if need.case == self.case or need.key == "window")
+        for name, start in self.zooms:
+
+            def contains(window: Window, start: float = start) -> Iterator[str]:
+                if not window.start <= start <= start + ZOOM <= window.stop:
+                    yield f"must contain {start:g} to {start + ZOOM:g} s"
+
+            yield Need("zooms", self.case, name, [as_samples, contains])
+
+    def draw(self, *cases: xr.DataTree) -> Figure:
+        case, count = cases[0], len(cases)
+        figure = drawing.new_figure(PAGE, 2.7 + 1.3 * (count - 1))
+        left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1, 1.08)))
+        letters = "cd"[: len(self.zooms)]
+        axes = left.subplot_mosaic(";".join(filter(None, ["a" * max(len(self.zooms), 1), letters])))
+        shown = np.atleast_1d(right.subplots(count, 1, sharex=True))
+        spectra = [spectrum_of(each, self.window, self.variable) for each in cases]
+        titles = [("b", "with separation"), ("e", "separation ignored")] if count > 1 else [("b", "")]
+        for ax, each, spectrum, title in zip(shown, cases, spectra, titles, strict=True):
+            mesh = draw_power(ax, each, spectrum, float(spectra[0].power.max()), HIGHEST)
+            drawing.letter(ax, *title)
+            ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
+            ax.label_outer()
+        draw_scale(right, mesh, list(shown))
+        if self.highest:
+            p = Parameters.model_validate_json(case.attrs["parameters"])
+            natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
+            shown[0].axhline(natural, color="white", linewidth=0.9, linestyle=(0, (1, 2)))
+        whole, (start, stop) = axes["a"], span_of(spectra[0])
+        drawing.show(whole, case, drawing.history(case, self.history, self.until), self.variable)
+        if self.printed is not None:
+            drawing.mark_printed(whole, self.printed)
+        if self.variable == "w_point":
+            drawing.show_thickness(whole, case, "y")
+        whole.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0, zorder=0)
+        if stop - start < 0.02 * whole.get_xlim()[1]:  # a line where it is too narrow to be seen
+            middle = (start + stop) / 2
+            whole.axvline(middle, color=BLACK, linewidth=0.8, zorder=0)
+            drawing.say(whole, "(b)", (middle, 1), (0, 2), xycoords=("data", "axes fraction"))
+        drawing.letter(whole, "a")
+        for letter, (name, start) in zip(letters, self.zooms, strict=True):
+            ax = axes[letter]
+            if letter == "d":
+                ax.sharey(axes["c"])
+                ax.tick_params(labelleft=False)
+            window = dataset.samples(case, name)
+            part = window.sel(time=slice(start, start + ZOOM))
+            if part.sizes["time"] < 2:
+                raise Missing(f"has no samples from {start:g} to {start + ZOOM:g} s")
+            label, scale, colour = drawing.sampled(self.variable, window)
+            milliseconds = (part["time"].values - start) * 1e3
+            ax.plot(milliseconds, part[self.variable].values * scale, color=colour, linewidth=0.6)
+            ax.set(xlabel=f"Time after {start:g} s (ms)", xlim=(0, ZOOM * 1e3))
+            ax.set_ylabel(label if letter == "c" else "")
+            drawing.letter(ax, letter)
+        return figure
