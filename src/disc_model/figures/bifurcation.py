@@ -212,7 +212,7 @@ class LateRange(Plot):
         yield from super().faults(values)
         chosen = [("not_valid", *item) for part in self.not_valid for item in part.items()]
         for key, dim, words in (("names", self.by, self.names), *chosen):
-            known = [value for value, *_ in values.get(dim, ())]
+            known = values.get(dim, ())
             for word in words:
                 if dim not in self.dims or (known and word not in known):
                     yield Fault.of((key,), word, f"is no value of {dim}{suggestion(str(word), [*map(str, known)])}")

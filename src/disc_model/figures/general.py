@@ -1,7 +1,7 @@
 """Heat maps and curves: any variable of a grid study over any of its dimensions."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from textwrap import fill
 from typing import Annotated, Any, ClassVar, Literal
@@ -11,10 +11,10 @@ import xarray as xr
 from pydantic import Field
 
 from disc_model.data.variables import EXCLUDED, stated_in
-from disc_model.errors import Fault, suggestion
+from disc_model.errors import Fault, as_text, suggestion
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, GREY, PAGE, Artist, Axes, Figure, FigureBase, cm, mpl, panels
-from disc_model.figures.kind import NORM, Plot
+from disc_model.figures.kind import NORM, Plot, Values
 from disc_model.figures.maps import CELL_LOOKS, CYCLE_LOOKS, edges_of, growth_panels, outcome_cells, patches
 from disc_model.units import UNITS, Finite, Unit
 
@@ -48,55 +48,47 @@ class General(Plot):
         alone = [str(name) for name, size in study.sizes.items() if size > 1 and name not in shown.dims]
         return [drawing.coordinate_text(shown, name) for name in alone if name in shown.coords]
 
-    def faults_among(self, dims: Mapping[str, Sequence[Any]], variables: Mapping[str, Any]) -> Iterator[Fault]:
+    def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
         """Faults by the values along each dimension (tuples for a zip, none if it has faults), and each variable's."""
         yield from self._wrong_overlays()
         if self.variable not in variables:
             yield Fault.of(("variable",), self.variable, f"unknown variable{suggestion(self.variable, variables)}")
             return
-        dims_of_variable = {name: dims[name] for name in variables[self.variable] if name in dims}
-        places = self.axes | ({"by": self.by} if self.by is not None else {})
-        for role, name in places.items():
-            values = dims_of_variable.get(name, ())
-            if name not in dims_of_variable:
-                yield Fault.of((role,), name, f"is no dimension of {self.variable}{suggestion(name, dims_of_variable)}")
-            elif role == "by" and len(values) > self.room:
-                yield Fault.of((role,), name, f"has {len(values)} values, and there is room for {self.room}")
-            elif role != "by" and any(isinstance(value, str | tuple) for value in values):
-                yield Fault.of((role,), name, "must be one parameter, and a number")
-            elif role != "by" and len(values) == 1:
-                yield Fault.of((role,), name, "must have two values or more")
-        used = [*places.values()]
-        for name in sorted({name for name in used if used.count(name) > 1}):
-            role = "y" if self.axes.get("y") == name else "by"
-            yield Fault.of((role,), name, "must differ from the other dimensions shown")
-        free_dims = {name: values for name, values in dims_of_variable.items() if name not in used}
+        own = {name: dims[name] for name in variables[self.variable] if name in dims}
+        shown = [*self.axes.values(), *([] if self.by is None else [self.by])]
+        yield from self._wrong_axes(own, self.variable)
+        for axis, name in self.axes.items():
+            if len(own.get(name, ())) == 1:
+                yield Fault.of((axis,), name, "must have two values or more")
+        if self.by is not None and (self.by not in own or self.by in self.axes.values()):
+            rule = f"must be another dimension of {self.variable}{suggestion(self.by, own)}"
+            yield Fault.of(("by",), self.by, rule)
+        elif (count := len(own.get(self.by or "", ()))) > self.room:
+            yield Fault.of(("by",), self.by, f"has {count} values, and there is room for {self.room}")
+        free = {name: values for name, values in own.items() if name not in shown}
         for name, value in self.at.items():
-            if name not in free_dims:
-                rule = f"is no dimension that remains (known: {', '.join(free_dims) or 'none'})"
-                yield Fault.of(("at", name), value, rule)
-            elif free_dims[name] and not any(_same(value, known) for known in free_dims[name]):
-                yield Fault.of(("at", name), value, f"must be one of {_listed(free_dims[name])}")
-        for name, values in free_dims.items():
+            if name not in free:
+                yield Fault.of(("at", name), value, f"is no dimension that remains{suggestion(name, free)}")
+            elif free[name] and not any(_same(value, known) for known in free[name]):
+                yield Fault.of(("at", name), value, f"must be one of {as_text([*free[name]])}")
+        for name, values in free.items():
             panels = self.by is None and name == NORM and len(values) <= self.room
             if name not in self.at and len(values) > 1 and not panels:
-                yield Fault(("at", name), "", f"is required, or by: {name}; one of {_listed(values)}")
-        known = [str(value) for value in dims.get(self.by or "", ())]
-        for word in self.names:
-            if word not in known:
-                yield Fault.of(("names",), word, f"is no value of by{suggestion(word, known)}")
+                yield Fault(("at", name), "", f"is required, or by: {name}; one of {as_text([*values])}")
+        yield from unknown("names", self.names, dims.get(self.by or "", ()))
+
+
+def unknown(key: str, words: Iterable[Any], values: Sequence[Any]) -> Iterator[Fault]:
+    """Faults of words of a figure's key that are none of the values of its dimension `by`."""
+    known = [str(value) for value in values]
+    for word in words:
+        if str(word) not in known:
+            yield Fault.of((key,), word, f"is no value of by{suggestion(word, known)}")
 
 
 def _same(value: Any, other: Any) -> bool:
-    if isinstance(value, str) or isinstance(other, str | tuple):
-        return bool(value == other)
-    return math.isclose(value, other, rel_tol=1e-12)
-
-
-def _listed(values: Sequence[Any]) -> str:
-    """A few values as messages show them."""
-    texts = [str(value) if isinstance(value, str | tuple) else f"{value:g}" for value in values]
-    return ", ".join(texts if len(texts) <= 12 else [*texts[:6], "...", texts[-1]])
+    numbers = isinstance(value, float) and isinstance(other, float)
+    return math.isclose(value, other, rel_tol=1e-12) if numbers else bool(value == other)
 
 
 def remaining(array: xr.DataArray, axes: Sequence[str]) -> str | None:
@@ -292,12 +284,10 @@ class CurvePlot(General):
     limits: tuple[Finite, Finite] | None = None  # ends of the variable's axis, so that figures can be compared
     panels: Literal["each"] | tuple[tuple[Finite | str, ...], ...] = ()  # values of `by` in each panel
 
-    def faults_among(self, dims: Mapping[str, Sequence[Any]], variables: Mapping[str, Any]) -> Iterator[Fault]:
+    def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
         yield from super().faults_among(dims, variables)
-        known = dims.get(self.by or "", ())
-        for value in chain(*([] if self.panels == "each" else self.panels)):
-            if not any(_same(value, other) for other in known):
-                yield Fault.of(("panels",), value, f"must be a value of by, one of {_listed(known)}")
+        if self.panels != "each":
+            yield from unknown("panels", chain(*self.panels), dims.get(self.by or "", ()))
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         study = drawing.picked(study, self.at)

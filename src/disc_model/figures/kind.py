@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from functools import cache
 from importlib import import_module
 from itertools import chain
@@ -18,14 +17,14 @@ import xarray as xr
 from pydantic import AfterValidator, BeforeValidator, Field
 
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import PERTURBATIONS, SERIES, SHOWN
+from disc_model.data.variables import SERIES, SHOWN
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures import drawing
-from disc_model.parameters import RATIOS, Parameters
+from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Window
 from disc_model.units import Strict, in_si
 
-Values = Mapping[str, Sequence[tuple[Any, ...]]]  # values of the parameters along each dimension of a grid
+Values = Mapping[str, Sequence[Any]]  # along each dimension of a grid; tuples where it varies several parameters
 NORM = "normalization"  # the dimension that a study may have beside those that a figure requires
 
 
@@ -33,11 +32,9 @@ def kind_of(name: Any) -> type[Kind]:
     """The kind of a name, such as ``heat_map``, or ``paper.light_slider``; raises `ParameterError`."""
     try:
         return kinds_in(str(name).rpartition(".")[0])[name]
-    except (ModuleNotFoundError, KeyError, TypeError) as error:
-        if isinstance(error, ModuleNotFoundError) and not str(error.name).startswith("disc_model"):
-            raise  # a kind's own import, such as that of a library which is not installed
+    except (ModuleNotFoundError, KeyError, TypeError) as error:  # no such part, no such kind, no name
         fault = Fault.of(("kind",), name, f"unknown kind of figure{suggestion(name, kinds_in(''))}")
-        raise ParameterError(fault) from None
+        raise ParameterError(fault) from error
 
 
 @cache
@@ -49,11 +46,6 @@ def kinds_in(part: str) -> dict[str, type[Kind]]:
     return {name: x for x in classes if isinstance(name := x.model_fields["kind"].default, str)}
 
 
-def _joined(caption: Any) -> Any:
-    of_parts = isinstance(caption, list) and all(isinstance(part, str) for part in caption)
-    return " ".join(caption) if of_parts else caption
-
-
 def _si_unit(name: str) -> str:
     return Parameters.unit(name) or (SERIES[name].units.replace(" s-1", "/s") if name in SERIES else "")
 
@@ -63,14 +55,16 @@ def _known_units(units: dict[str, str]) -> dict[str, str]:
     faults: list[Fault] = []
     known = [name for name in SHOWN if _si_unit(name) not in ("", "1")]
     for name, unit in units.items():
-        wrong: list[Fault] = []
         if name in known:
-            in_si(f"1 {unit}", _si_unit(name), wrong, ())
+            in_si(f"1 {unit}", _si_unit(name), faults, (name,))
         else:
-            wrong.append(Fault((), "", f"no parameter or variable with a unit{suggestion(name, known)}"))
-        faults += (Fault.of((name,), unit, fault.rule.replace("a number", "a unit", 1)) for fault in wrong)
+            faults.append(Fault.of((name,), unit, f"no parameter or variable with a unit{suggestion(name, known)}"))
     raise_faults(faults)
     return units
+
+
+def _joined(caption: Any) -> Any:
+    return " ".join(map(str, caption)) if isinstance(caption, list) else caption
 
 
 class Kind(Strict):
@@ -83,27 +77,29 @@ class Kind(Strict):
     section: str = ""  # heading under which report and explorer show it
     units: Annotated[dict[str, str], AfterValidator(_known_units)] = Field({})  # by parameter or sampled variable
 
-    @contextmanager
-    def in_its_style(self) -> Iterator[None]:
-        """The common style, and the units of its readers."""
-        factors = {name: (unit, 1 / in_si(f"1 {unit}", _si_unit(name), [], ())) for name, unit in self.units.items()}
-        token = drawing.UNITS.set(factors)
-        try:
-            with drawing.styled():
-                yield
-        finally:
-            drawing.UNITS.reset(token)
-
     def draw(self, *inputs: Any, **options: Any) -> drawing.Figure:
         """Draw the cases, or the study and further ones by their roles; raises `Missing` where a case lacks data."""
         raise NotImplementedError
 
-    def write_head(self, figure: drawing.Figure, title: str, values: str) -> None:
-        """Write title and values above the figure, unless a caption says both; give axes the units of the reader."""
-        drawing.restate_axes(figure)
-        text = drawing.head_text(figure.get_figwidth(), self.title or title, values)
-        if text and not self.caption:
-            self.place_title(figure, text)
+    def drawn_with_head(self, inputs: Mapping[str, xr.DataTree]) -> tuple[drawing.Figure, str, str]:
+        """The figure, its title unless the file gives one, and values for its head."""
+        raise NotImplementedError
+
+    def render(self, inputs: Mapping[str, xr.DataTree]) -> drawing.Figure:
+        """Draw it from its inputs by name, in the common style and its readers' units, below a title unless a caption
+        says the same."""
+        factors = {name: (unit, 1 / in_si(f"1 {unit}", _si_unit(name), [], ())) for name, unit in self.units.items()}
+        token = drawing.UNITS.set(factors)
+        try:
+            with drawing.styled():
+                figure, title, values = self.drawn_with_head(inputs)
+                drawing.restate_axes(figure)
+                text = drawing.head_text(figure.get_figwidth(), self.title or title, values)
+                if text and not self.caption:
+                    self.place_title(figure, text)
+                return figure
+        finally:
+            drawing.UNITS.reset(token)
 
     def place_title(self, figure: drawing.Figure, text: str) -> None:
         """Write a title where it covers nothing."""
@@ -140,24 +136,22 @@ class Plot(Kind):
     study: str = ""  # the grid study that it shows, if not the file's own
     overlays: dict[str, str] = Field({})  # further studies by the roles they play
 
-    def render(self, inputs: Mapping[str, xr.DataTree]) -> drawing.Figure:
-        """Draw it in the common style from its study, the first input, and further ones by their roles."""
+    def drawn_with_head(self, inputs: Mapping[str, xr.DataTree]) -> tuple[drawing.Figure, str, str]:
+        """Draw its study, the first input, and further ones by their roles."""
         study, *others = (tree.to_dataset() for tree in inputs.values())
         if not self.several:
             norm = getattr(self, NORM, None) or drawing.normalizations(study)[0]
             study, *others = (drawing.of(dataset, norm) for dataset in (study, *others))
-        with self.in_its_style():
-            figure = self.draw(study, dict(zip([*inputs][1:], others, strict=True)))
-            base = json.loads(study.attrs.get("base", "{}"))
-            # 0 stands for N or Omega if the quantity varies it by itself
-            varied = {*study.coords, *(name for name in ("N", "Omega") if not base.get(name))}
-            modes = drawing.normalizations(study) if NORM in study.coords and not self.named_above else []
-            if self.named_above:
-                varied.add(NORM)
-            fixed = drawing.what_case({name: value for name, value in base.items() if name not in varied})
-            texts = [*self.chosen(study), fixed, *(drawing.MODES[mode] for mode in modes if len(modes) == 1)]
-            self.write_head(figure, study.attrs.get("title", ""), ", ".join(filter(None, texts)))
-        return figure
+        figure = self.draw(study, dict(zip([*inputs][1:], others, strict=True)))
+        base = json.loads(study.attrs.get("base", "{}"))
+        # 0 stands for N or Omega if the quantity varies it by itself
+        varied = {*study.coords, *(name for name in ("N", "Omega") if not base.get(name))}
+        modes = drawing.normalizations(study) if NORM in study.coords and not self.named_above else []
+        if self.named_above:
+            varied.add(NORM)
+        fixed = drawing.what_case({name: value for name, value in base.items() if name not in varied})
+        texts = [*self.chosen(study), fixed, *(drawing.MODES[mode] for mode in modes if len(modes) == 1)]
+        return figure, study.attrs.get("title", ""), ", ".join(filter(None, texts))
 
     def chosen(self, study: xr.Dataset) -> list[str]:
         """Values along dimensions of the study that the figure takes at one place."""
@@ -175,23 +169,23 @@ class Plot(Kind):
 
     def faults(self, values: Values) -> Iterator[Fault]:
         """Faults that keep it from showing a study with these dimensions; those without values have faults already."""
-        wrong = []
+        yield from [*self._wrong_axes(values, "this study")] or self._wrong_dims(values)
+        yield from self._wrong_overlays()
+
+    def _wrong_axes(self, values: Values, shown: str) -> Iterator[Fault]:
+        """Axes that are none of the dimensions of what is shown, or cannot be drawn."""
         for axis, name in self.axes.items():
             if name not in values:
-                wrong.append(Fault.of((axis,), name, f"is no dimension of this study{suggestion(name, values)}"))
-            elif name not in (*PERTURBATIONS, *RATIOS) and not Parameters.unit(name):
-                wrong.append(Fault.of((axis,), name, "must be one parameter, and a number"))
-        if len({*self.axes.values()}) < len(self.axes):
-            wrong.append(Fault.of(("y",), self.axes["y"], "must differ from x"))
-        yield from wrong or self._wrong_dims(values)
-        yield from self._wrong_overlays()
+                yield Fault.of((axis,), name, f"is no dimension of {shown}{suggestion(name, values)}")
+            elif any(isinstance(value, str | tuple) for value in values[name]):
+                yield Fault.of((axis,), name, "must be one parameter, and a number")
+            elif axis == "y" and name == self.axes["x"]:
+                yield Fault.of((axis,), name, "must differ from x")
 
     def _wrong_overlays(self) -> Iterator[Fault]:
         """Roles that the figure does not have, and lacks."""
-        for role, name in self.overlays.items():
-            if role not in self.roles:
-                rule = suggestion(role, self.roles) if self.roles else ", this kind has no overlays"
-                yield Fault.of(("overlays", role), name, f"unknown role{rule}")
+        for role in self.overlays.keys() - self.roles.keys():
+            yield Fault.of(("overlays", role), self.overlays[role], f"unknown role{suggestion(role, self.roles)}")
         for role, wanted in self.roles.items():
             if wanted.required and role not in self.overlays:
                 yield Fault(("overlays", role), "", f"is required: a study of the quantity {wanted.quantity}")
@@ -211,41 +205,37 @@ class Plot(Kind):
 # ---- Of named cases
 Sampled = Literal["P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity"]
 Recorded = Mapping[str, Window | Poincare]  # of a case: windows by name, and the section as ``poincare``
-Rule = Callable[[Window], Iterator[str]]  # rules that a window breaks, as ends of sentences
+Rule = Callable[[Window], str]  # the rule that a window breaks, as the end of a sentence, or ""
 SHORTEST_SPECTRUM = 1.1  # least length of a window for a spectrum in time, s: one window of the transform and two steps
 HIGHEST = 1000.0  # highest frequency of a spectrum in time, Hz
 
 
 class Need(NamedTuple):
-    """A record that a figure shows: the figure's key that names it, its case and name, and rules if it is a window."""
+    """A record that a figure shows: the figure's key that names it, its case and name, and its rule if a window."""
 
     key: str
     case: str
     name: str
-    rules: Sequence[Rule] = ()
+    rule: Rule | None = None
 
 
-def as_samples(window: Window) -> Iterator[str]:
-    """Rules for a window that is drawn sample by sample."""
-    if window.envelope is not None:
-        yield "must have no envelope"
+def as_samples(window: Window) -> str:
+    """The rule of a window that is drawn sample by sample."""
+    return "" if window.envelope is None else "must have no envelope"
 
 
-def as_ranges(window: Window) -> Iterator[str]:
-    """Rules for a window that is drawn as ranges."""
+def as_ranges(window: Window) -> str:
+    """The rule of a window that is drawn as ranges."""
     if window.envelope is None:
-        yield "needs an envelope"
-    elif window.count < 2 * window.envelope:
-        yield "must be two envelopes long or more"
+        return "needs an envelope"
+    return "" if window.count >= 2 * window.envelope else "must be two envelopes long or more"
 
 
-def as_spectrum(window: Window, highest: float = HIGHEST) -> Iterator[str]:
-    """Rules for a window whose spectrum in time is drawn up to a frequency in Hz."""
-    yield from as_samples(window)
-    if window.stop - window.start < SHORTEST_SPECTRUM:
-        yield f"must be {SHORTEST_SPECTRUM:g} s long or more"
-    if window.rate < 2 * highest:
-        yield f"needs a rate of {2 * highest:g} Hz or more"
+def as_spectrum(window: Window, highest: float = HIGHEST) -> str:
+    """The rule of a window whose spectrum in time is drawn up to a frequency in Hz."""
+    enough = window.stop - window.start >= SHORTEST_SPECTRUM and window.rate >= 2 * highest
+    rule = f"must be {SHORTEST_SPECTRUM:g} s long or more, at a rate of {2 * highest:g} Hz or more"
+    return as_samples(window) or ("" if enough else rule)
 
 
 class CasePlot(Kind):
@@ -260,8 +250,7 @@ class CasePlot(Kind):
         """The records that the figure shows."""
         for case in self.cases:
             for key, rule in self.shows:
-                named = getattr(self, key)
-                yield from (Need(key, case, name, [rule]) for name in ([named] if isinstance(named, str) else named))
+                yield Need(key, case, getattr(self, key), rule)
 
     @property
     def cases(self) -> tuple[str, ...]:
@@ -270,31 +259,30 @@ class CasePlot(Kind):
         further = chain.from_iterable([names] if isinstance(names, str) else names for names in named)
         return (self.case, *filter(None, further))
 
-    def render(self, inputs: Mapping[str, xr.DataTree]) -> drawing.Figure:
-        """Draw it in the common style from cases by their names; the reason instead, if one lacks what it needs."""
+    def drawn_with_head(self, inputs: Mapping[str, xr.DataTree]) -> tuple[drawing.Figure, str, str]:
+        """Draw cases by their names; the reason instead, if one lacks what is needed."""
         first = next(iter(inputs.values()))
-        with self.in_its_style():
-            try:
-                figure = self.draw(*inputs.values())
-            except Missing as reason:
-                figure, [ax] = drawing.panels(drawing.COLUMN, 2)
-                ax.set_axis_off()
-                ax.text(0.5, 0.5, fill(f"not shown: the case {reason}", 24), ha="center", va="center", in_layout=False)
-            self.write_head(figure, "", drawing.what_case(json.loads(first.attrs.get("parameters", "{}"))))
-        return figure
+        try:
+            figure = self.draw(*inputs.values())
+        except Missing as reason:
+            figure, [ax] = drawing.panels(drawing.COLUMN, 2)
+            ax.set_axis_off()
+            ax.text(0.5, 0.5, fill(f"not shown: the case {reason}", 24), ha="center", va="center", in_layout=False)
+        return figure, "", drawing.what_case(json.loads(first.attrs.get("parameters", "{}")))
 
     def faults(self, cases: Mapping[str, Recorded | None]) -> Iterator[Fault]:
         """Faults that keep it from being drawn; a case that is None has faults of its own."""
         for case in self.cases:
             if case not in cases:
                 yield Fault.of(("case",), case, f"no such case (known: {', '.join(cases) or 'none'})")
-        for key, case, name, rules in self.needs():
+        for key, case, name, rule in self.needs():
             if (recorded := cases.get(case)) is None:
                 continue
-            if name not in recorded:
-                broken = [f"is not recorded by case {case} (known: {', '.join(recorded) or 'none'})"]
-            elif isinstance(window := recorded[name], Window):
-                broken = [text for rule in rules for text in rule(window)]
+            if (window := recorded.get(name)) is None:
+                broken = f"is not recorded by case {case}{suggestion(name, recorded)}"
+            elif rule is not None:
+                broken = rule(window) if isinstance(window, Window) else "must be a window, not the Poincaré section"
             else:
-                broken = ["must be a window, not the Poincaré section"] if rules else []
-            yield from (Fault.of((key,), name, text) for text in broken)
+                continue
+            if broken:
+                yield Fault.of((key,), name, broken)

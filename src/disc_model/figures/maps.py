@@ -309,7 +309,7 @@ class RegionMap(Plot):
         yield from super().faults(values)
         for name, mark in self.marks.items():
             for axis, dim, value in (("x", self.x, mark.x), ("y", self.y, mark.y)):
-                along = [float(x) for x, *more in values.get(dim, ()) if not more and not isinstance(x, str)]
+                along = [x for x in values.get(dim, ()) if isinstance(x, float)]
                 if along and not any(math.isclose(value, x, rel_tol=1e-12) for x in along):
                     yield Fault.of(("marks", name, axis), value, f"must be a value of {dim}, such as an extra one")
         if "curves" in self.overlays and (self.x, self.y) != ("Omega", "N"):

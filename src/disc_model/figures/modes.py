@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.errors import Fault
+from disc_model.errors import Fault, suggestion
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, GREY, PAGE, Figure, cm, panels
 from disc_model.figures.general import LINEAR, scale_rates
@@ -30,9 +30,9 @@ class Campbell(Plot):
 
     def _wrong_dims(self, values: Values) -> Iterator[Fault]:
         yield from super()._wrong_dims(values if self.normalization is None else {**values, NORM: ()})
-        known = [str(word) for (word,) in values.get(NORM, ())]
+        known = values.get(NORM, ())
         if self.normalization is not None and known and self.normalization not in known:
-            yield Fault.of((NORM,), self.normalization, f"is not computed (known: {', '.join(known)})")
+            yield Fault.of((NORM,), self.normalization, f"is not computed{suggestion(self.normalization, known)}")
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         study = study.transpose("Omega", ...)

@@ -58,9 +58,9 @@ def draw_history(axes: Sequence[Axes], case: xr.DataTree, window: xr.Dataset, va
     return [mpl.patches.Patch(label=name, **looks[name]) for i, name in enumerate(PHASES) if i in phase]
 
 
-def _as_either(window: Window) -> Iterator[str]:
-    if window.count < 2 * (window.envelope or 1):
-        yield "must be two samples, or two envelopes, long or more"
+def _as_either(window: Window) -> str:
+    enough = window.count >= 2 * (window.envelope or 1)
+    return "" if enough else "must be two samples, or two envelopes, long or more"
 
 
 class History(CasePlot):
@@ -275,7 +275,7 @@ class Spectrogram(CasePlot):
     highest: Annotated[Positive, Unit("Hz")] = HIGHEST
 
     def needs(self) -> Iterator[Need]:
-        yield Need("window", self.case, self.window, [partial(as_spectrum, highest=self.highest)])
+        yield Need("window", self.case, self.window, partial(as_spectrum, highest=self.highest))
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         figure, [ax] = panels(PAGE / 2, 2.7)

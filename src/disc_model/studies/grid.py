@@ -317,15 +317,15 @@ class GridStudy:
 
     def faults_of(self, plot: Plot) -> Iterable[Fault]:
         """What keeps a figure from showing this study; general ones look at the quantity's variables and dimensions."""
-        if not isinstance(plot, General):
-            quantities = plot.quantities or (plot.kind,)
-            if self.quantity in quantities:
-                return plot.faults(self.values)
-            return [Fault.of(("kind",), plot.kind, f"needs the quantity {quantities[0]}")]
-        quantity, variables = self.options, dict[str, Any]()
         values: dict[str, list[Any]] = {
             name: [value[0] if len(value) == 1 else value for value in along] for name, along in self.values.items()
         }
+        if not isinstance(plot, General):
+            quantities = plot.quantities or (plot.kind,)
+            if self.quantity in quantities:
+                return plot.faults(values)
+            return [Fault.of(("kind",), plot.kind, f"needs the quantity {quantities[0]}")]
+        quantity, variables = self.options, dict[str, Any]()
         of_points = quantity.COLUMNS, quantity.COORDINATES, [*values]
         others = [name for name in values if name != quantity.over]
         for columns, coordinates, dims in (of_points, (quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others)):

@@ -202,7 +202,7 @@ class Instants(CasePlot):
 
     def needs(self) -> Iterator[Need]:
         for i in range(9):
-            yield Need("case", self.case, f"around{i}", [as_samples])
+            yield Need("case", self.case, f"around{i}", as_samples)
 
     def draw(self, case: xr.DataTree) -> Figure:
         figure = drawing.new_figure(PAGE, 4.2)
@@ -278,9 +278,9 @@ class FourStretches(CasePlot):
     ignored: str
 
     def needs(self) -> Iterator[Need]:
-        yield Need("history", self.case, self.history, [as_ranges])
+        yield Need("history", self.case, self.history, as_ranges)
         for key, case, windows in (("case", self.case, WINDOWS), ("ignored", self.ignored, WINDOWS[1:])):
-            yield from (Need(key, case, name, [as_spectrum]) for name in windows)
+            yield from (Need(key, case, name, as_spectrum) for name in windows)
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         figure = drawing.new_figure(PAGE, 6.2)
@@ -347,11 +347,11 @@ class Response(CasePlot):
         yield from (need for need in super().needs() if need.case == self.case or need.key == "window")
         for name, start in self.zooms:
 
-            def contains(window: Window, start: float = start) -> Iterator[str]:
-                if not window.start <= start <= start + ZOOM <= window.stop:
-                    yield f"must contain {start:g} to {start + ZOOM:g} s"
+            def contains(window: Window, start: float = start) -> str:
+                inside = window.start <= start <= start + ZOOM <= window.stop
+                return as_samples(window) if inside else f"must contain {start:g} to {start + ZOOM:g} s"
 
-            yield Need("zooms", self.case, name, [as_samples, contains])
+            yield Need("zooms", self.case, name, contains)
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         case, count = cases[0], len(cases)

@@ -51,7 +51,7 @@ class Composite(CasePlot):
 
     def needs(self) -> Iterator[Need]:
         yield from super().needs()
-        yield Need("force", self.case, self.force[0], [as_samples])
+        yield Need("force", self.case, self.force[0], as_samples)
 
     def draw(self, case: xr.DataTree, ignored: xr.DataTree) -> Figure:
         figure, axes = panels(PAGE, 2.35, 1, 3, width_ratios=(1, 1.15, 1.3))
