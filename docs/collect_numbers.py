@@ -234,7 +234,7 @@ class Sources:
 
     def compared(self, normalization: str, word: str = "") -> int:
         """Number of points where steady sliding and the motion are compared; with a key of `AGREEMENTS`."""
-        from disc_model.figures.modes import agreement, common_points
+        from disc_model.figures.over_parameter import agreement, common_points
 
         studies = (self.grid("map_c_p"), self.grid("sliding").rename(value="c_p"))
         moved, slid = (each.sel(normalization=normalization).transpose("N", "c_p", ...) for each in studies)
@@ -301,7 +301,7 @@ class Sources:
 
     def thirds(self, study: str, N: float, parameter: str) -> np.ndarray:
         """Probability of instability in thirds of a parameter's range."""
-        from disc_model.figures.bifurcation import probabilities
+        from disc_model.figures.over_parameter import probabilities
 
         return probabilities(self.uncertain(study, N), parameter)[:, 0]
 

@@ -57,12 +57,10 @@ def test_pictures_are_drawn_on_the_axes_that_are_given() -> None:
     ranges = dm.simulate(P, 0.1, {"all": dm.Window(rate=1e4, envelope=100), "few": dm.Window(last=0.1, rate=100)})
     with pytest.raises(dm.ParameterError, match="window='few': recorded 11 samples, and a spectrum takes 16"):
         ranges.plot_spectrum("few")
-    with pytest.raises(dm.ParameterError, match="highest=60: must be at most half the rate of the window, 50 Hz"):
-        ranges.plot_spectrum("few", highest=60)
     for draw in (ranges.plot_phase_portrait, ranges.plot_spectrum):
         with pytest.raises(dm.ParameterError, match="window='all': must hold samples, not their ranges"):
             draw("all")
-    with pytest.raises(dm.ParameterError, match=r"ax=2 axes: must be 6, one for each panel"):
+    with pytest.raises(dm.ParameterError, match=r"ax=.*: must be 6 axes of matplotlib, one for each panel"):
         run().plot(ax=axes[0])
 
 

@@ -6,7 +6,7 @@ import xarray as xr
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures.kind import kind_of
-from disc_model.figures.modes import AGREEMENTS, agreement, common_points
+from disc_model.figures.over_parameter import AGREEMENTS, agreement, common_points
 from tests.studies.conftest import SMALL, computed
 
 SCAN = {"start": 0, "stop": 0.4, "count": 5}

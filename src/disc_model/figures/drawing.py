@@ -117,23 +117,16 @@ UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default
 
 def restate_axes(figure: Figure) -> None:
     """Give axes in the units of the reader: their labels and ticks; what is drawn stays."""
-
-    class Ticks(mpl.ticker.AutoLocator):  # type: ignore[name-defined]
-        ratio: float
-
-        def tick_values(self, low: float, high: float) -> Any:
-            return np.asarray(super().tick_values(low * self.ratio, high * self.ratio)) / self.ratio
-
     for axis in [axis for ax in figure.axes for axis in (ax.xaxis, ax.yaxis)]:
         text = axis.get_label_text()
         for name, (unit, factor) in UNITS.get().items():
             shown = SHOWN[name]
             if text.startswith(typeset(f"{shown.name} {shown.symbol}".strip())) and text.endswith(f"({shown.unit})"):
-                ticks, ratio = Ticks(), factor / shown.factor
-                ticks.ratio = ratio
+                ratio, ends = factor / shown.factor, axis.get_view_interval()
+                linear = mpl.ticker.MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(*ratio * ends)
+                ticks = linear if axis.get_scale() == "linear" else DECADES
                 axis.set_label_text(text.removesuffix(f"({shown.unit})") + f"({unit})")
-                linear = axis.get_scale() == "linear"
-                axis.set_major_locator(ticks if linear else mpl.ticker.FixedLocator((DECADES / ratio).tolist()))
+                axis.set_major_locator(mpl.ticker.FixedLocator(np.divide(ticks, ratio)))
                 axis.set_major_formatter(mpl.ticker.FuncFormatter(lambda value, _, ratio=ratio: f"{value * ratio:.6g}"))
 
 

@@ -15,7 +15,7 @@ from disc_model.errors import Fault, as_text, suggestion
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, GREY, PAGE, Artist, Axes, Figure, FigureBase, cm, mpl, panels
 from disc_model.figures.kind import NORM, Plot, Values
-from disc_model.figures.maps import CELL_LOOKS, CYCLE_LOOKS, edges_of, growth_panels, outcome_cells, patches
+from disc_model.figures.maps import CELL_LOOKS, CYCLE_LOOKS, edges_of, growth_panels, outcome_cells, patches, scale_of
 from disc_model.units import UNITS, Finite, Unit
 
 COLOURS = (drawing.BLUE, drawing.ORANGE, drawing.GREEN, drawing.VERMILION, drawing.SKY, drawing.PURPLE, GREY)
@@ -97,11 +97,8 @@ def remaining(array: xr.DataArray, axes: Sequence[str]) -> str | None:
 
 
 def scale(name: str, values: np.ndarray) -> str:
-    """Scale of an axis: that of the range of its values."""
-    if len(values) < 3 or values[0] <= 0:
-        return "linear"
-    steps = np.diff(np.log(values))
-    return "log" if np.allclose(steps, steps[0], rtol=1e-6) else "linear"
+    """Scale of an axis, as in maps of regions, but linear from 0 on."""
+    return scale_of(name, values).replace("symlog", "linear")
 
 
 def in_steps(colours: Sequence[Any]) -> dict[str, Any]:
@@ -186,7 +183,7 @@ class HeatMap(General):
 
 def _cells(ax: Axes, plane: xr.DataArray, **colours: Any) -> Any:
     """Draw the values of a panel in colour, where there are any."""
-    return ax.pcolormesh(*edges_of(plane, scale), plane.values.astype(float), rasterized=True, **colours)
+    return ax.pcolormesh(*edges_of(plane), plane.values.astype(float), rasterized=True, **colours)
 
 
 def _colours(array: xr.DataArray, words: Sequence[str], log: bool) -> dict[str, Any]:

@@ -130,7 +130,6 @@ class Plot(Kind):
     quantities: ClassVar[tuple[str, ...]] = ()  # those that it can show, the default first; if none, that of its name
     needs: ClassVar[tuple[str, ...]] = ()  # dimensions, beside those that the file chooses as x and y
     several: ClassVar[bool] = False  # whether it shows several normalizations, or is drawn from the values for one
-    named_above: ClassVar[bool] = False  # whether its panels name their normalizations
     roles: ClassVar[Roles] = {}
 
     study: str = ""  # the grid study that it shows, if not the file's own
@@ -146,9 +145,7 @@ class Plot(Kind):
         base = json.loads(study.attrs.get("base", "{}"))
         # 0 stands for N or Omega if the quantity varies it by itself
         varied = {*study.coords, *(name for name in ("N", "Omega") if not base.get(name))}
-        modes = drawing.normalizations(study) if NORM in study.coords and not self.named_above else []
-        if self.named_above:
-            varied.add(NORM)
+        modes = drawing.normalizations(study) if NORM in study.coords else []
         fixed = drawing.what_case({name: value for name, value in base.items() if name not in varied})
         texts = [*self.chosen(study), fixed, *(drawing.MODES[mode] for mode in modes if len(modes) == 1)]
         return figure, study.attrs.get("title", ""), ", ".join(filter(None, texts))

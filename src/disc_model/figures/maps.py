@@ -2,7 +2,7 @@
 charts over speed and preload: onset and end of separation, sweeps and ramps."""
 
 import math
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
 from itertools import chain, pairwise
 from typing import Any, ClassVar, Literal, NamedTuple
@@ -78,12 +78,12 @@ def scale_of(name: str, values: Array) -> str:
     return "log" if values[0] > 0 else "symlog"
 
 
-def edges_of(plane: xr.DataArray, scale: Callable[[str, Array], str] = scale_of) -> Edges:
+def edges_of(plane: xr.DataArray) -> Edges:
     """Edges of the cells around the points, halfway between neighbours, in the units of the axes; across, then up."""
     sides = []
     for name in map(str, plane.dims):
         values = plane[name].values * drawing.label_of(plane[name])[1]
-        log = scale(name, values) == "log"
+        log = scale_of(name, values) == "log"
         sides.append(np.exp(drawing.edges(np.log(values))) if log else drawing.edges(values))
     return sides[1], sides[0]
 
@@ -289,7 +289,6 @@ class RegionMap(Plot):
 
     quantities = ("regions",)
     several = True
-    named_above = True
     roles: ClassVar[Roles] = {"curves": CURVES}
     kind: Literal["region_map"] = "region_map"
     x: str
@@ -466,8 +465,6 @@ class CriticalSpeed(Plot):
         if cycle is not None:
             # separation is unknown beyond the scan
             cycle = cycle.sel(Omega=slice(speeds.min(), speeds.max())).transpose("N", "Omega", ...)
-            cycle = cycle if min(cycle["growth_rate"].shape) > 1 else None
-        if cycle is not None:
             speeds = cycle["Omega"].values
         width, columns = (drawing.COLUMN, 1) if sweep is None else (PAGE, 2)
         figure, axes = panels(width, 3.8, 1, columns, sharex=True, sharey=True)

@@ -237,7 +237,7 @@ def draw_spectrum(ax: Axes, samples: xr.Dataset, variable: str, highest: float) 
     shown = (frequency > 0) & (frequency <= highest)
     frequency, amplitude = frequency[shown], factor * amplitude[shown]
     if not amplitude.any():
-        raise Missing("did not vibrate")
+        raise Missing(f"did not vibrate at up to {highest:g} Hz")
     ax.semilogy(frequency, amplitude, color=colour, linewidth=0.7)
     largest, (name, _, unit) = amplitude.max(), label.rpartition(" (")
     ax.set(xlabel="Frequency (Hz)", ylabel=f"Amplitude ({unit}" if name else "Amplitude", xlim=(0, frequency[-1]))

@@ -14,9 +14,9 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.figures import drawing, general, motion
-from disc_model.figures.bifurcation import LOOKS, draw_branch, draw_shares, outcomes_in
 from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes, mpl
 from disc_model.figures.maps import patches
+from disc_model.figures.over_parameter import LOOKS, draw_branch, draw_shares, outcomes_in
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import is_number, is_whole
 
@@ -41,12 +41,10 @@ def canvas(
 ) -> Iterator[list[Axes]]:
     """The axes that a reader gives, one for each panel, or those of a new figure of pyplot in the common style."""
     if ax is not None:
-        known_axes = list(np.ravel(np.asarray(ax, dtype=object)))
-        require((all(isinstance(each, mpl.axes.Axes) for each in known_axes), "ax", ax, "must be axes of matplotlib"))
-        if len(known_axes) != rows * columns:
-            rule = f"must be {rows * columns}, one for each panel"
-            raise ParameterError(Fault(("ax",), f"{len(known_axes)} axes", rule))
-        yield known_axes
+        given, count = list(np.ravel(np.asarray(ax, dtype=object))), rows * columns
+        fit = len(given) == count and all(isinstance(each, mpl.axes.Axes) for each in given)
+        require((fit, "ax", given, f"must be {count} axes of matplotlib, one for each panel"))
+        yield given
         return
     with drawing.styled():
         figure = mpl.pyplot.figure(figsize=(width, height), layout="constrained")
@@ -105,16 +103,9 @@ def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float 
     known = highest is None or (is_number(highest) and highest > 0)
     require((known, "highest", highest, "must be a number > 0, in Hz"))
     samples = window_of(case, window, ("variable", variable), samples=True)
-    span = float(np.ptp(samples["time"].values)) if samples["time"].size else 0.0
-    half = (samples["time"].size - 1) / (2 * span) if span else 0.0  # of the rate
-    highest = min(motion.HIGHEST, half) if highest is None else highest
-    resolved, below = not span or highest * span >= 1, not span or highest <= half * (1 + 1e-9)  # the span is rounded
-    rule = f"must be at least the resolution of the window, {1 / span if span else 0:.3g} Hz"
-    most = f"must be at most half the rate of the window, {half:.6g} Hz"
-    require((resolved, "highest", highest, rule), (below, "highest", highest, most))
     try:
         with canvas(ax, 1.3 * COLUMN, 2.6, title=_stated(case)) as [axes]:
-            motion.draw_spectrum(axes, samples, variable, highest)
+            motion.draw_spectrum(axes, samples, variable, motion.HIGHEST if highest is None else highest)
     except dataset.Missing as reason:
         raise ParameterError(Fault.of(("window",), window, str(reason))) from None
     return axes
@@ -132,14 +123,14 @@ def plot_poincare(case: xr.DataTree, ax: Any = None) -> np.ndarray:
 
 def animate(p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str | Path | None, fps: int) -> Any:
     """Make a film of disc, slider and contact force through states; written to a path if there is one."""
-    file = Path(path) if isinstance(path, str | Path) else None
-    writer = {".gif": "pillow", ".mp4": "ffmpeg"}.get(file.suffix if file else "", "")
-    there, available = file and file.absolute().parent.is_dir(), writer and mpl.animation.writers.is_available(writer)
+    file = Path(path) if isinstance(path, str | Path) else Path()
+    writer = {".gif": "pillow", ".mp4": "ffmpeg"}.get(file.suffix, "")
+    available = not writer or mpl.animation.writers.is_available(writer)
     require(
         (is_number(fps) and fps > 0, "fps", fps, "must be a number > 0"),
-        (path is None or there, "path", str(path), "must be in a folder that exists"),
         (path is None or writer, "path", str(path), "must end in .gif or .mp4; a window is given by window="),
-        (not writer or available, "path", str(path), f"needs the program {writer}"),
+        (file.absolute().parent.is_dir(), "path", str(path), "must be in a folder that exists"),
+        (available, "path", str(path), f"needs the program {writer}"),
     )
     with drawing.styled():
         figure = mpl.figure.Figure(figsize=(6.4, 2.7))
@@ -363,9 +354,8 @@ def plot_sweep(
     >>> dm.plot_sweep(growth).get_xlabel()
     'Speed Ω (rad/s)'
     """
-    if not isinstance(study, xr.Dataset):
-        raise ParameterError(Fault.of(("study",), study, "must be an xarray.Dataset"))
     require(
+        (isinstance(study, xr.Dataset), "study", study, "must be an xarray.Dataset"),
         (isinstance(variable, str | None), "variable", variable, "must be a name"),
         (isinstance(x, str | None), "x", x, "must be a name"),
         (isinstance(log, bool), "log", log, "must be True or False"),
@@ -378,8 +368,7 @@ def plot_sweep(
     flat = [name for name in choices if len(over[name]) < 3]
     first = [name for name in flat if study[name].dtype.kind in "fi"] + choices
     named = variable or next((name for name in PREFERRED if name in flat), (*first, "")[0])
-    if named not in choices:
-        raise ParameterError(Fault.of(("variable",), named, f"must be one over the grid{suggestion(named, choices)}"))
+    require((named in choices, "variable", named, f"must be one over the grid{suggestion(named, choices)}"))
     dims = [str(dim) for dim in study[named].dims]
     possible = [dim for dim in dims if dim in numbers]
     across = x or possible[0]

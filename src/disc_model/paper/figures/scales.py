@@ -30,7 +30,6 @@ class Scales(Plot):
     quantities: ClassVar = ("regions",)
     needs: ClassVar = ("N", "Omega")
     several: ClassVar = True
-    named_above: ClassVar = True
     roles: ClassVar[Roles] = {
         f"map_{name}": Role("regions", (other, name), required=True)
         for name, other in (("D_star", "Omega"), ("c_p", "N"), ("k_p", "Omega"), ("m", "Omega"))
