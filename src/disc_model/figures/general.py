@@ -75,15 +75,15 @@ class General(Plot):
             panels = self.by is None and name == NORM and len(values) <= self.room
             if name not in self.at and len(values) > 1 and not panels:
                 yield Fault(("at", name), "", f"is required, or by: {name}; one of {as_text([*values])}")
-        yield from unknown("names", self.names, dims.get(self.by or "", ()))
+        yield from unknown("names", self.names, "by", dims.get(self.by or "", ()))
 
 
-def unknown(key: str, words: Iterable[Any], values: Sequence[Any]) -> Iterator[Fault]:
-    """Faults of words of a figure's key that are none of the values of its dimension `by`."""
+def unknown(key: str, words: Iterable[Any], of: str, values: Sequence[Any]) -> Iterator[Fault]:
+    """Faults of words of a figure's key that are none of the values along a dimension."""
     known = [str(value) for value in values]
     for word in words:
         if str(word) not in known:
-            yield Fault.of((key,), word, f"is no value of by{suggestion(word, known)}")
+            yield Fault.of((key,), word, f"is no value of {of}{suggestion(word, known)}")
 
 
 def _same(value: Any, other: Any) -> bool:
@@ -284,7 +284,7 @@ class CurvePlot(General):
     def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
         yield from super().faults_among(dims, variables)
         if self.panels != "each":
-            yield from unknown("panels", chain(*self.panels), dims.get(self.by or "", ()))
+            yield from unknown("panels", chain(*self.panels), "by", dims.get(self.by or "", ()))
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         study = drawing.picked(study, self.at)

@@ -8,7 +8,7 @@ import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib import import_module
-from itertools import chain
+from itertools import chain, product
 from pkgutil import iter_modules
 from textwrap import fill
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
@@ -235,19 +235,22 @@ def as_spectrum(window: Window, highest: float = HIGHEST) -> str:
     return as_samples(window) or ("" if enough else rule)
 
 
+Samples = Annotated[str, as_samples]  # names of windows, by the rules for what is shown of them
+Ranges = Annotated[str, as_ranges]
+InTime = Annotated[str, as_spectrum]
+
+
 class CasePlot(Kind):
     """A figure of one or several named cases."""
 
-    shows: ClassVar[tuple[tuple[str, Rule], ...]] = ()  # keys that name the windows shown of each case, and their rules
     further: ClassVar[tuple[str, ...]] = ()  # keys that name further cases
 
     case: str  # the first one if there are several
 
     def needs(self) -> Iterator[Need]:
-        """The records that the figure shows."""
-        for case in self.cases:
-            for key, rule in self.shows:
-                yield Need(key, case, getattr(self, key), rule)
+        """The records that the figure shows: by default, of each case the windows whose names have a rule."""
+        for case, (key, field) in product(self.cases, type(self).model_fields.items()):
+            yield from (Need(key, case, getattr(self, key), rule) for rule in field.metadata if callable(rule))
 
     @property
     def cases(self) -> tuple[str, ...]:

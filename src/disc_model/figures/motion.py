@@ -19,10 +19,10 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES, values_text
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
-from disc_model.errors import Fault, ParameterError
+from disc_model.errors import Fault
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, Artist, Axes, Figure, Normalize, cm, mpl, panels
-from disc_model.figures.kind import HIGHEST, CasePlot, Need, Recorded, Sampled, as_samples, as_spectrum
+from disc_model.figures.kind import HIGHEST, CasePlot, Need, Recorded, Sampled, Samples, as_spectrum
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
 from disc_model.units import Positive, Unit
@@ -66,9 +66,8 @@ def _as_either(window: Window) -> str:
 class History(CasePlot):
     """Variables against time, one above the other; a window with an envelope as ranges."""
 
-    shows = (("window", _as_either),)
     kind: Literal["history"] = "history"
-    window: str
+    window: Annotated[str, _as_either]
     variables: Annotated[tuple[Sampled, ...], Field(min_length=1)] = ("P", "w")
     until: Annotated[Positive, Unit("s")] | None = None  # end of the part of the window that is shown
 
@@ -113,9 +112,8 @@ def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
 class Portrait(CasePlot):
     """One variable over another, coloured by phase."""
 
-    shows = (("window", as_samples),)
     kind: Literal["portrait"] = "portrait"
-    window: str
+    window: Samples
     x: Sampled = "psi"
     y: Sampled = "psi_velocity"
 
@@ -230,10 +228,7 @@ def draw_spectrum(ax: Axes, samples: xr.Dataset, variable: str, highest: float) 
     time, values, least = samples["time"].values, samples[variable].values, 4 * RESOLVED
     if time.size < least:
         raise Missing(f"recorded {time.size} samples, and a spectrum takes {least}: a line is {least // 2} bins wide")
-    try:
-        frequency, amplitude = amplitude_spectrum(time, values)
-    except ParameterError as error:
-        raise Missing(f"recorded too little: {error}") from None
+    frequency, amplitude = amplitude_spectrum(time, values)
     shown = (frequency > 0) & (frequency <= highest)
     frequency, amplitude = frequency[shown], factor * amplitude[shown]
     if not amplitude.any():
@@ -254,9 +249,8 @@ def draw_spectrum(ax: Axes, samples: xr.Dataset, variable: str, highest: float) 
 class Spectrum(CasePlot):
     """Amplitude of a variable over the frequency, in the whole of a window."""
 
-    shows = (("window", as_samples),)
     kind: Literal["spectrum"] = "spectrum"
-    window: str
+    window: Samples
     variable: Sampled = "w_point"
     highest: Annotated[Positive, Unit("Hz")] = HIGHEST  # a window of a lower rate shows half of that
 

@@ -14,7 +14,7 @@ from disc_model.data.variables import EXCLUDED, SAMPLE, STABLE_CYCLES, flag_name
 from disc_model.errors import Fault, suggestion
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, BLUE, GREY, PAGE, PHASE_COLOURS, SEPARATED, Axes, Figure, cm, mpl, panels
-from disc_model.figures.general import LINEAR, scale_rates
+from disc_model.figures.general import LINEAR, scale_rates, unknown
 from disc_model.figures.kind import NORM, Plot, Role, Roles, Values
 from disc_model.figures.maps import OUTCOME_LOOKS, Look, edges_of, fill, patches
 from disc_model.units import Finite, Positive, Unit
@@ -213,10 +213,7 @@ class LateRange(Plot):
         yield from super().faults(values)
         chosen = [("not_valid", *item) for part in self.not_valid for item in part.items()]
         for key, dim, words in (("names", self.by, self.names), *chosen):
-            known = values.get(dim, ())
-            for word in words:
-                if dim not in self.dims or (known and word not in known):
-                    yield Fault.of((key,), word, f"is no value of {dim}{suggestion(str(word), [*map(str, known)])}")
+            yield from unknown(key, words, dim, values.get(dim, ()) if dim in self.dims else ())
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         ranges = (study["u_max"] - study["u_min"]) / self.thickness

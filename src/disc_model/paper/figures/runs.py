@@ -15,7 +15,7 @@ from disc_model.disc.plate import mode_arrays, plate_modes
 from disc_model.figures import drawing
 from disc_model.figures import motion as pictures
 from disc_model.figures.drawing import BLACK, COLUMN, GREY, PAGE, SEPARATED, SKY, SLIDER, Axes, Figure, mpl, panels
-from disc_model.figures.kind import HIGHEST, CasePlot, Need, Sampled, as_ranges, as_samples, as_spectrum
+from disc_model.figures.kind import HIGHEST, CasePlot, InTime, Need, Ranges, Sampled, Samples, as_samples, as_spectrum
 from disc_model.figures.motion import Motion, draw_power, draw_scale, span_of, spectrum_of
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
@@ -56,10 +56,9 @@ def displacements(ax: Axes, part: xr.Dataset, rest: float) -> None:
 class ContactForce(CasePlot):
     """(a) Range of the contact force over the run, (b) the contact force in a window of samples."""
 
-    shows = (("history", as_ranges), ("zoom", as_samples))
     kind: Literal["paper.contact_force"] = "paper.contact_force"
-    history: str = "history"
-    zoom: str = "zoom"
+    history: Ranges = "history"
+    zoom: Samples = "zoom"
 
     def draw(self, case: xr.DataTree) -> Figure:
         figure, axes = panels(PAGE, 2.3, 1, 2)
@@ -82,9 +81,8 @@ class ContactForce(CasePlot):
 class OneSeparation(CasePlot):
     """(a) Displacements from static equilibrium around the first complete separation of a window, (b) the gap."""
 
-    shows = (("zoom", as_samples),)
     kind: Literal["paper.one_separation"] = "paper.one_separation"
-    zoom: str = "zoom"
+    zoom: Samples = "zoom"
 
     def draw(self, case: xr.DataTree) -> Figure:
         figure, axes = panels(COLUMN, 3.2, 2, sharex=True, height_ratios=(2, 1))
@@ -110,9 +108,8 @@ class OneSeparation(CasePlot):
 class LightSlider(CasePlot):
     """Displacements from static equilibrium in a part of a window, with the losses of contact."""
 
-    shows = (("zoom", as_samples),)
     kind: Literal["paper.light_slider"] = "paper.light_slider"
-    zoom: str = "zoom"
+    zoom: Samples = "zoom"
 
     def draw(self, case: xr.DataTree) -> Figure:
         figure, [ax] = panels(COLUMN, 2.5)
@@ -136,11 +133,10 @@ class LightSlider(CasePlot):
 class WithAndWithout(CasePlot):
     """Range of the disc at r_0 and a fixed angle over the run, with separation and, in the case `ignored`, without."""
 
-    shows = (("history", as_ranges),)
     further = ("ignored",)
     kind: Literal["paper.with_and_without"] = "paper.with_and_without"
     ignored: str
-    history: str = "history"
+    history: Ranges = "history"
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         figure, [ax] = panels(COLUMN, 2.4)
@@ -158,11 +154,10 @@ class Histories(CasePlot):
     """Ranges of the contact force and of the disc at r_0 and a fixed angle, a column for each case, on common axes. A
     range of the force below a twentieth of the axis is drawn once more."""
 
-    shows = (("history", as_ranges),)
     further = ("beside",)
     kind: Literal["paper.histories"] = "paper.histories"
     beside: tuple[str, ...] = ()
-    history: str = "history"
+    history: Ranges = "history"
     until: Annotated[Positive, Unit("s")] | None = None  # end of the part of the runs that is shown
     printed: Annotated[Positive, Unit("s")] | None = None  # first separation of the last case that the paper prints
 
@@ -232,16 +227,13 @@ class Instants(CasePlot):
 
 
 def motion_of(case: xr.DataTree) -> Motion:
-    """The motion of disc and slider from windows `around0`, ... of the disc at r_0 and as many angles, which determine
+    """The motion of disc and slider from windows `around0`, ... of the disc at r_0 and as many angles as determine
     the harmonics that modes without nodal circles are; raises `Missing` if they do not."""
     p = Parameters.model_validate_json(case.attrs["parameters"])
-    count = sum(str(name).startswith("around") for name in case.children)
-    windows = [dataset.samples(case, f"around{j}", at_least=1) for j in range(count or 1)]
     harmonics = np.arange(p.n_diameters + 1)
+    windows = [dataset.samples(case, f"around{j}", at_least=1) for j in range(2 * len(harmonics) - 1)]
     if p.n_circles:
         raise Missing("has modes with nodal circles, which a circle of points does not tell apart")
-    if len(windows) < 2 * len(harmonics) - 1:
-        raise Missing(f"recorded the disc at {len(windows)} angles, {2 * len(harmonics) - 1} are needed")
     if any(not np.array_equal(window["time"].values, windows[0]["time"].values) for window in windows):
         raise Missing("recorded the disc at other times at other angles")
     angles = np.array([window.attrs["theta"] for window in windows])
@@ -273,12 +265,12 @@ class FourStretches(CasePlot):
 
     further = ("ignored",)
     kind: Literal["paper.four_stretches"] = "paper.four_stretches"
-    history: str = "history"
+    history: Ranges = "history"
     until: Annotated[Positive, Unit("s")] | None = None  # end of the part of the run that is shown
     ignored: str
 
     def needs(self) -> Iterator[Need]:
-        yield Need("history", self.case, self.history, as_ranges)
+        yield from (need for need in super().needs() if need.case == self.case)
         for key, case, windows in (("case", self.case, WINDOWS), ("ignored", self.ignored, WINDOWS[1:])):
             yield from (Need(key, case, name, as_spectrum) for name in windows)
 
@@ -331,12 +323,11 @@ ZOOM = 0.2  # length of a closer look, s
 class Response(CasePlot):
     """(a) Range over the run, with closer looks below it if there are any, (b) spectrum in time in a window."""
 
-    shows = (("history", as_ranges), ("window", as_spectrum))
     further = ("ignored",)
     kind: Literal["paper.response"] = "paper.response"
     variable: Sampled
-    window: str
-    history: str = "history"
+    window: InTime
+    history: Ranges = "history"
     zooms: Annotated[tuple[tuple[str, Finite], ...], Field(max_length=2)] = ()  # windows, and where looks begin, s
     highest: bool = False  # whether the disc's highest natural frequency is marked
     until: Annotated[Positive, Unit("s")] | None = None  # end of the part of the run that (a) shows

@@ -12,7 +12,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, DISC, FORCE, PAGE, SEPARATED, SLIDER, STICK, Axes, Figure, mpl, panels
-from disc_model.figures.kind import CasePlot, Need, as_ranges, as_samples
+from disc_model.figures.kind import CasePlot, Need, Ranges, as_samples
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Positive, Unit
 
@@ -41,11 +41,10 @@ class Schematic(CasePlot):
 class Composite(CasePlot):
     """The model, the disc's vibration with separation and, in the case `ignored`, bilateral, and the contact force."""
 
-    shows = (("history", as_ranges),)
     further = ("ignored",)
     kind: Literal["paper.composite"] = "paper.composite"
     ignored: str
-    history: str = "history"
+    history: Ranges = "history"
     force: tuple[str, Finite]  # window of the contact force, and the time at which the stretch shown begins, s
     until: Annotated[Positive, Unit("s")]  # end of the part of the runs that is shown
 
