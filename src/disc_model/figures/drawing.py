@@ -123,7 +123,7 @@ def restate_axes(figure: Figure) -> None:
             shown = SHOWN[name]
             if text.startswith(typeset(f"{shown.name} {shown.symbol}".strip())) and text.endswith(f"({shown.unit})"):
                 ratio, ends = factor / shown.factor, axis.get_view_interval()
-                linear = mpl.ticker.MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(*ratio * ends)
+                linear = mpl.ticker.MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(*np.multiply(ratio, ends))
                 ticks = linear if axis.get_scale() == "linear" else DECADES
                 axis.set_label_text(text.removesuffix(f"({shown.unit})") + f"({unit})")
                 axis.set_major_locator(mpl.ticker.FixedLocator(np.divide(ticks, ratio)))

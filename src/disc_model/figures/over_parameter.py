@@ -28,12 +28,11 @@ ERRORS = 4  # half-width of the band about an exponent, in standard errors
 
 
 class Bifurcation(Plot):
-    """Samples once a turn against a parameter, and after how many switches the motion repeats."""
+    """The angle ψ once a turn against a parameter, and after how many switches the motion repeats."""
 
     roles: ClassVar[Roles] = {"lyapunov": Role("lyapunov")}
     kind: Literal["bifurcation"] = "bifurcation"
     x: str
-    variable: Literal["psi", "psi_velocity", "P", "u", "w_point"] = "psi"
     paper_cases: Annotated[dict[str, Finite], Unit(of="x")] = Field({})  # values of x by the paper's name of the case
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -46,10 +45,7 @@ class Bifurcation(Plot):
         figure, axes = panels(PAGE, sum(heights) + 0.7, len(heights), sharex=True, height_ratios=heights)
         ax = axes[0]
         xlabel, factor = drawing.axis_of(self.x)
-        ylabel, scale = drawing.axis_of(self.variable)
-        if self.variable == "psi":  # some hundredths of a radian
-            ylabel, scale = ylabel.replace("rad", "mrad"), 1e3
-        along, values = study[self.x].values * factor, study[self.variable].values * scale
+        along, values = study[self.x].values * factor, 1e3 * study["psi"].values
         position = np.broadcast_to(along[:, None], values.shape)
         lost = drawing.failed(study).values
         phase = np.where(lost[:, None], -1, study["phase"].values.astype(int) - 1)
@@ -68,7 +64,7 @@ class Bifurcation(Plot):
             if (idle := along[mask & ~moving & ~lost]).size:
                 ax.plot(idle, np.full(idle.size, 0.02), marker, color=GREY, markersize=4, label=label, transform=edge)
         axes[-1].set_xlabel(xlabel)
-        ax.set_ylabel(ylabel)
+        ax.set_ylabel(drawing.axis_of("psi")[0].replace("rad", "mrad"))  # some hundredths of a radian
         at, period = along[moving], study["period_events"].values[moving]
         repeats = period > 0
         axes[1].plot(at[repeats], period[repeats], ".", color=BLACK, markersize=3)
