@@ -377,24 +377,18 @@ def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Artist]:
 
 
 def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
-    """The horizon, and disagreements between paper, start and cycle."""
+    """The horizon, and where the static start does otherwise than the paper."""
     horizon = stated_in(study, "options")["horizon"]
     yield f"Within {horizon:g} s of the static start."
-    published = "as_published" in drawing.normalizations(study)
-    for name, mark in plot.marks.items() if published else ():
-        if mark.assumed:
-            continue
-        data = drawing.of(study, "as_published")
-        point = data.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")
-        outcome, rate = str(flag_names(point["outcome"])), float(point["growth_rate"])
+    if "as_published" not in drawing.normalizations(study):
+        return
+    outcomes = drawing.of(study, "as_published")["outcome"]
+    for name, mark in plot.marks.items():
+        outcome = str(flag_names(outcomes.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")))
         label, of_paper = OUTCOME_LOOKS[outcome].label, OUTCOME_LOOKS[mark.paper_outcome].label
-        if label != of_paper:
+        if label != of_paper and not mark.assumed:
             still = f"still growing at {horizon:g} s" if outcome == "growing" else label
             yield f"{name}: paper: “{of_paper}”, static start: {still}."
-        if (outcome == "quiet") != (rate < 0) and np.isfinite(rate):
-            kind = "stable" if rate < 0 else "unstable"
-            why = "another motion is reached" if rate < 0 else "its growth is not seen within the horizon"
-            yield f"{name}: {label}, beside a cycle that is {kind} ({rate:.2g}/s): {why}."
 
 
 def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
