@@ -8,33 +8,28 @@ import functools
 import inspect
 import math
 import os
-import re
 import shlex
-import signal
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NoReturn, get_args, get_origin
 
 import typer
-from pydantic import AfterValidator, BeforeValidator, Field
+from pydantic import AfterValidator, Field
 from rich.console import Console
 from rich.table import Column, Table
 
 from disc_model import __version__
-from disc_model.data.variables import BESIDE_WINDOWS
 from disc_model.disc.flexibility import residual_flexibility
 from disc_model.disc.plate import coupled_natural_frequencies, mode_arrays
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.disc.tables import damping_ratios, disc_table, read_disc
-from disc_model.errors import DiscModelError, Fault, ParameterError, as_text, raise_faults, require, suggestion
+from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
 from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, chosen_modes, read_asked
-from disc_model.parameters import AUTO, CHOOSING, Parameters
-from disc_model.simulation.case import Ramp, Window
+from disc_model.parameters import AUTO, Parameters
 from disc_model.sources import PACKAGE
 from disc_model.units import CYCLE_TOLERANCES, TOLERANCES, Count, CycleTolerance, Seconds, Strict, Tolerance
 
@@ -44,25 +39,22 @@ if TYPE_CHECKING:
 
 # ---- Options, one for each field of a model
 
-PANELS = {  # headings of the help, and the fields below them
-    "Run": ["t_end", "stop_at", "window", "ramp", "plot", "save", "csv"],
-    "Slider": ["N", "Omega", "m", "r_0", "k", "k_p", "c", "c_p"],
-    "Disc": ["D_star", "E", "a", "b", "h", "nu", "rho", "normalization", "damping_ratio", "disc"],
-    "Friction and contact": [
-        "mu_s", "mu_k", "contact", "contact_compliance", "contact_force", "friction_offset", "friction_decay",
-    ],
-    "Numerics": ["n_diameters", "n_circles", *CHOOSING, "tol", "max_steps"],
-}  # fmt: skip
-HELP = {  # of fields of `Parameters` that take more on the command line, and of `CHOOSING`
-    "n_diameters": f"highest number of nodal diameters, -1 for a rigid disc, {AUTO}: as many as a tolerance asks for",
-    CHOOSING[0]: f"quantity by which {AUTO} chooses, {FREQUENCIES} if not given",
-    CHOOSING[1]: f"relative tolerance of this quantity, at least {TRUSTED:g}; if not given, "
-    + ", ".join(f"{default:g} for {name}" for name, default in CHOSEN_BY.items()),
-}
-WORDS = {  # values, in capitals those that stand for others, of options whose types do not name them
-    "disc": ("FILE",), "n_diameters": ("VALUE", AUTO), CHOOSING[0]: tuple(CHOSEN_BY), "t_end": ("SECONDS",),
-    "plot": ("FILE",), "save": ("FILE",), "window": ("NAME:KEY=VALUE,...",), "ramp": ("PARAMETER:KEY=VALUE,...",),
-}  # fmt: skip
+
+class Choice(Strict):
+    """How ``--n-diameters auto`` chooses the modes."""
+
+    truncation_quantity: Literal[*CHOSEN_BY] | None = Field(  # type: ignore[valid-type]
+        None, description=f"quantity by which {AUTO} chooses, {FREQUENCIES} if not given"
+    )
+    truncation_tolerance: str | None = Field(
+        None,
+        description=f"relative tolerance of this quantity, at least {TRUSTED:g}; if not given, "
+        + ", ".join(f"{default:g} for {name}" for name, default in CHOSEN_BY.items()),
+    )
+
+
+CASE = Parameters.model_fields | Choice.model_fields
+MORE = {"n_diameters": f", {AUTO}: as many as a tolerance asks for", "disc": ": a table of modes"}  # for descriptions
 
 
 def option_name(field: str) -> str:
@@ -70,79 +62,56 @@ def option_name(field: str) -> str:
     return "--" + field.replace("_", "-")
 
 
-def _option(name: str, field: Any = None, placeholder: str | None = None) -> inspect.Parameter:
-    """The keyword option of a field of a model, or of `CHOOSING`; a placeholder makes a required field optional."""
-    types = [str] if field is None else [field.annotation, *get_args(field.annotation)]
-    literals = tuple(word for kind in types if get_origin(kind) is Literal for word in get_args(kind))
-    words = WORDS.get(name) or (literals if literals and float not in types else ("VALUE", *literals))
-    told, unit = HELP.get(name) or field.description, Parameters.unit(name).removeprefix("1")
-    told += f" ({unit})" * bool(unit)
-    if field is not None:
-        default = field.default if placeholder is None else placeholder
-        shown = f"{default:g}" if isinstance(default, float) else default
-        required = field.is_required() and placeholder is None
-        told += r" \[required]" if required else rf" \[default: {shown}]" * isinstance(default, str | int | float)
-    flag, several = types[0] is bool, get_origin(types[0]) in (tuple, dict)
+def _option(name: str, field: Any, panel: str, placeholder: str | None = None) -> inspect.Parameter:
+    """The keyword option of a field of a model, as a text; a placeholder makes a required field optional."""
+    types = (field.annotation, *get_args(field.annotation))
+    words = [word for kind in types if get_origin(kind) is Literal for word in get_args(kind)]
+    flag, unit = field.annotation is bool, Parameters.unit(name).removeprefix("1")
+    told = field.description + MORE.get(name, "") + f" ({unit})" * bool(unit)
+    default = field.default if placeholder is None else placeholder
+    if field.is_required() and placeholder is None:
+        told += r" \[required]"
+    elif isinstance(default, str | int | float):
+        told += rf" \[default: {f'{default:g}' if isinstance(default, float) else default}]"
     option = typer.Option(
         option_name(name),
-        metavar=None if flag else "|".join(words),
-        autocompletion=None if flag else lambda: [word for word in words if not word.isupper()],
+        metavar=None if flag else "|".join(words if words and float not in types else ["VALUE", *words]),
         help=told,
         show_default=False,
-        rich_help_panel=next(panel for panel, names in PANELS.items() if name in names),
+        rich_help_panel=panel,
     )
-    kind: Any = bool if flag else list[str] | None if several else str | None
+    annotation = Annotated[bool if flag else str | None, option]  # type: ignore[valid-type]
     default = False if flag else placeholder
-    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, option])
+    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
 
 
-def command(options: type[Any], **placeholders: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Give a command the options of a case and of a model: it receives the case, its choice of modes, and the model."""
-    case_options = [_option(name, field, placeholders.get(name)) for name, field in Parameters.model_fields.items()]
-    case_options += map(_option, CHOOSING)
-    own_options = [_option(name, field) for name, field in options.model_fields.items()]
-    order = [name for names in PANELS.values() for name in names]
+def command(options: type[Strict], **placeholders: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Give a command the options of a model and of a case: it receives the case, its choice of modes, and the model."""
+    own = [_option(name, field, "Options") for name, field in options.model_fields.items()]
+    own += [_option(name, field, "Case", placeholders.get(name)) for name, field in CASE.items()]
 
     def decorate(function: Callable[..., None]) -> Callable[..., None]:
         @functools.wraps(function)
         def wrapped(**values: Any) -> None:
-            texts = {name: value for name, value in values.items() if value not in (None, [])}
-            case = {option.name: texts.pop(option.name) for option in case_options if option.name in texts}
-            faults: list[str] = []
-            p, choice = parameters_of(case, faults)
-            try:
-                model = options(**texts)
-            except ParameterError as error:
-                faults += error.faults
-            raise_faults(faults)
-            function(p, choice, model)
+            texts = {name: value for name, value in values.items() if value is not None}
+            model = options(**{name: texts.pop(name) for name in options.model_fields if name in texts})
+            function(*parameters_of(texts), model)
 
-        shown = sorted(own_options + case_options, key=lambda option: order.index(option.name))
-        wrapped.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
+        wrapped.__signature__ = inspect.Signature(own)  # type: ignore[attr-defined]
         return wrapped
 
     return decorate
 
 
-def parameters_of(values: dict[str, Any], faults: list[str]) -> tuple[Parameters, ModeChoice | None]:
-    """Parameters of the given options, and the choice of modes, if any; faults are appended to `faults`."""
-    if "disc" in values:
-        try:
-            values = values | {"disc": read_disc(values["disc"])}
-        except ParameterError as error:  # whose faults begin with the file's name
-            inner = (Fault(fault.path[1:], fault.value, fault.rule) for fault in error.faults)
-            faults += (Fault.of(("disc",), values["disc"], str(fault)) for fault in inner)
-            values = {name: value for name, value in values.items() if name != "disc"}
-    try:
-        p, request = read_asked(values)
-        if faults:
-            return p, None
-        warn_of_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
-        choice = None if request is None else chosen_modes(p, request)
-    except ParameterError as error:
-        faults += error.faults
-        return Parameters(N=0.0, Omega=0.0), None
-    return (p, None) if choice is None else (choice.parameters, choice)
+def parameters_of(values: dict[str, Any]) -> tuple[Parameters, ModeChoice | None]:
+    """Parameters of the given options, and the choice of modes, if any."""
+    table_of_modes = {"disc": read_disc(values["disc"])} if "disc" in values else {}
+    p, request = read_asked(values | table_of_modes)
+    warn_of_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
+    if request is None:
+        return p, None
+    choice = chosen_modes(p, request)
+    return choice.parameters, choice
 
 
 def table(title: str, columns: Mapping[str, Iterable[str]], **options: Any) -> None:
@@ -257,35 +226,6 @@ def compile_() -> None:
 # ---- A simulation
 
 
-def _part(model: type[Any], text: str, form: str, unnamed: str = "") -> tuple[str, Any]:
-    """Name before the colon, and the model of the values, of a text such as ``late:last=3,rate=4000``."""
-    name, _, rest = text.rpartition(":")
-    pairs = [pair.partition("=") for pair in rest.split(",")]
-    if not all(sign for _, sign, _ in pairs):
-        raise ParameterError(Fault((), as_text(text), f"must be {form}"))
-    values = {key.strip(): value for key, _, value in pairs} | ({"parameter": name} if model is Ramp else {})
-    try:
-        return name or unnamed, model(**values)
-    except ParameterError as error:
-        raise ParameterError(*(fault.inside((name or unnamed,)) for fault in error.faults)) from None
-
-
-def _windows(texts: Sequence[str]) -> dict[str, Window]:
-    """Windows by name; those without one are sample_0 and so on."""
-    windows: dict[str, Window] = {}
-    for i, text in enumerate(texts):
-        name, window = _part(Window, text, "NAME:KEY=VALUE,...", f"sample_{i}")
-        if not name.isidentifier() or name in {*windows, *BESIDE_WINDOWS}:
-            rule = "must have a name of its own, not that of a variable or of events"
-            raise ParameterError(Fault((), as_text(text), rule))
-        windows[name] = window
-    return windows
-
-
-def _ramps(texts: Sequence[str]) -> list[Ramp]:
-    return [_part(Ramp, text, "PARAMETER:KEY=VALUE,...")[1] for text in texts]
-
-
 def _writable(path: Path) -> Path:
     """Refuse a file that cannot be written, before the simulation instead of after it."""
     if path.is_dir() or not path.parent.is_dir():
@@ -316,16 +256,6 @@ class RunOptions(Strict):
     save: Annotated[Path, AfterValidator(_writable)] | None = Field(
         None, description="write the result as netCDF, for disc_model.load"
     )
-    window: Annotated[dict[str, Window], BeforeValidator(_windows)] = Field(
-        {},
-        description="samples to keep, such as late:last=3,rate=4000 or whole:rate=2000,envelope=1000; keys start, "
-        "stop, last (s), rate (Hz), theta (rad), envelope; may be repeated",
-    )
-    ramp: Annotated[tuple[Ramp, ...], BeforeValidator(_ramps)] = Field(
-        (),
-        description="a slow change of Omega or N, such as Omega:to=5,start=100,end=400; keys to (rad/s or N), start, "
-        "end (s); may be repeated",
-    )
     max_steps: Annotated[Count, Field(ge=1)] | None = Field(None, description="give up after so many steps")
 
 
@@ -335,9 +265,7 @@ def run(p: Parameters, choice: ModeChoice | None, options: RunOptions) -> None:
     from disc_model.simulation.api import Execution, simulate
 
     limits = Execution(max_steps=options.max_steps)
-    result = simulate(
-        p, options.t_end, options.window, tol=options.tol, stop_at=options.stop_at, ramps=options.ramp, execution=limits
-    )
+    result = simulate(p, options.t_end, tol=options.tol, stop_at=options.stop_at, execution=limits)
     seconds = result.statistics["wall_time"]
     wall = f"{seconds:.3g} s ({result.final_state.time / max(seconds, 1e-9):.0f} simulated seconds a second)"
     print_rows([*result.summary(), *model_lines(p, choice), ("wall time", wall), ("key", p.key)])
@@ -348,11 +276,8 @@ def run(p: Parameters, choice: ModeChoice | None, options: RunOptions) -> None:
         from matplotlib import pyplot
 
         pyplot.switch_backend("agg")
-        try:
-            result.plot([*options.window] or None)
-            pyplot.savefig(options.plot, dpi=150)
-        except OSError as error:
-            raise ParameterError(f"plot={str(options.plot)!r}: cannot be written ({error.strerror})") from None
+        result.plot()
+        pyplot.savefig(options.plot, dpi=150)
         print_rows([("figure", str(options.plot))])
     if not result.status.complete:
         raise typer.Exit(1)
@@ -360,7 +285,7 @@ def run(p: Parameters, choice: ModeChoice | None, options: RunOptions) -> None:
 
 # ---- Studies
 
-INTERRUPTED = 130  # exit code after Ctrl-C, equal to typer's: 128 plus the number of the signal, as in shells
+DRY = ("--dry-run", "--quiet", "rules", "host", "reason")  # how many jobs of each kind, without their files
 Files = Annotated[list[Path], typer.Argument(help="study files, later ones laid over earlier ones")]
 
 
@@ -376,28 +301,19 @@ def study(
         list[str] | None, typer.Option("--target", help="a file or rule to make instead of all; repeatable")
     ] = None,
     unlock: Annotated[bool, typer.Option("--unlock", help="only remove the lock that a killed run has left")] = False,
-    snakemake: Annotated[str, typer.Option("--snakemake", help="further options of Snakemake, as one text")] = "",
 ) -> None:
     """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
-    with _on_interrupt(signal.SIG_DFL):  # there is nothing to clean up yet, and what is imported swallows exceptions
-        chosen, grids, _ = _read(files)
+    chosen, grids, _ = _read(files)
     targets = [*(target or []), *(_figure_file(name, chosen, grids) for name in figure or [])]
-    options = [*targets, f"-j{cores}", "--directory", str(directory), *(["--unlock"] if unlock else [])]
-    command = _command(files, [*options, *shlex.split(snakemake)])
-    raise typer.Exit(_plan(command) if dry_run else _run(command))
-
-
-LISTED = ("studies", "figures", "cases")
+    options = [*targets, *(DRY if dry_run else ()), f"-j{cores}", "--directory", str(directory)]
+    command = _command(files, [*options, *["--unlock"] * unlock])
+    os.execv(command[0], command)  # Snakemake takes the place of this process: Ctrl-C and exit codes are its own
 
 
 def list_(
-    what: Annotated[
-        str, typer.Argument(metavar="|".join(LISTED), help="what to list", autocompletion=lambda: list(LISTED))
-    ],
-    files: Files,
+    what: Annotated[Literal["studies", "figures", "cases"], typer.Argument(help="what to list")], files: Files
 ) -> None:
     """List the grid studies, figures or cases of a study."""
-    require((what in LISTED, "what", what, f"must be one of {', '.join(LISTED)}"))
     from disc_model.data.variables import values_text
 
     chosen, grids, requested = _read(files)
@@ -476,41 +392,6 @@ def _command(files: Sequence[Path], options: Sequence[str]) -> list[str]:
     return [sys.executable, "-m", "snakemake", "-s", str(snakefile), *options, *named]
 
 
-def _plan(command: list[str]) -> int:
-    """Print how many jobs of each kind Snakemake would run; its exit code."""
-    quiet = [*command, "-n", "--quiet", "rules", "host", "reason"]
-    done = subprocess.run(quiet, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-    jobs = re.search(r"^(?:job +count\n.*?\n\n|Nothing to be done.*?\n)", done.stdout, re.DOTALL | re.MULTILINE)
-    if done.returncode or not jobs:
-        typer.echo(done.stdout.rstrip(), err=True)
-    else:
-        typer.echo(f"{jobs[0].rstrip()}\nnothing was run: --dry-run")
-    return done.returncode
-
-
-@contextmanager
-def _on_interrupt(handler: Any) -> Iterator[None]:
-    """Set the handler of Ctrl-C for the duration of a block."""
-    before = signal.signal(signal.SIGINT, handler)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
-def _run(command: list[str]) -> int:
-    """Snakemake's exit code; after Ctrl-C, which reaches both processes, wait for it to stop its jobs and unlock."""
-    interrupts: list[int] = []
-    with _on_interrupt(lambda number, _: interrupts.append(number)), subprocess.Popen(command) as process:
-        if interrupts:  # Ctrl-C came before the second process
-            process.send_signal(signal.SIGINT)
-        code = process.wait()
-    if not (code and interrupts):
-        return code
-    typer.echo("what is finished stays: the same command continues from there", err=True)
-    return INTERRUPTED
-
-
 def _read(files: Sequence[Path]) -> tuple[Study, dict[str, GridStudy], tuple[str, ...]]:
     """The study of the files, checked with all files that it names, all grids, and the names of those asked for."""
     from disc_model.studies.study import load_study
@@ -531,6 +412,8 @@ def _figure_file(name: str, chosen: Study, grids: dict[str, GridStudy]) -> str:
 
 
 # ---- All commands
+
+INTERRUPTED = 130  # typer's exit code after Ctrl-C
 
 app = typer.Typer(
     pretty_exceptions_enable=False, help="Friction-induced vibration of an elastic disc and a moving slider."
@@ -555,11 +438,7 @@ def _all(
 
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; never shows a traceback for bad input."""
-    # options may be spelt with underscores, as the parameters are
-    texts = sys.argv[1:] if arguments is None else arguments
-    arguments = [re.sub("^--[^=]+", lambda option: option[0].replace("_", "-"), text) for text in texts]
-    if not arguments or arguments[0] == "help":
-        arguments = [*arguments[1:], "--help"]
+    arguments = (sys.argv[1:] if arguments is None else arguments) or ["--help"]
     try:
         code = app(args=arguments, standalone_mode=False, prog_name="disc-model")
         message = "interrupted" if code == INTERRUPTED else ""
