@@ -48,7 +48,7 @@ def test_laws_of_contact_change_the_key_only_where_they_are_not_the_papers() -> 
 
 def test_immutable_hashable_picklable() -> None:
     p = Parameters(N=385, Omega=15.1)
-    with pytest.raises(ParameterError, match=r"N=3: cannot be set in place, replace\(N=3\) returns a changed copy"):
+    with pytest.raises(ValueError, match="frozen"):
         p.N = 3
     assert pickle.loads(pickle.dumps(p)) == p
     assert {p: 1}[Parameters(N=385.0, Omega=15.1)] == 1

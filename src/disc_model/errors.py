@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import enum
 import logging
+import re
 import sys
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any, Self
@@ -119,14 +120,10 @@ class NonFinite(SimulationError):
 
 
 def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Iterator[Fault]:
-    """The faults that pydantic found in an input, in this package's words. Where a name is unknown, the model's
-    ``_word`` is the word for names, and its ``_unknown`` replaces the rule."""
+    """The faults that pydantic found in an input. Where a name is unknown, the model's ``_word`` is the word for names,
+    and its ``_unknown`` replaces the rule."""
     for item in error.errors(include_url=False):
         path, kind, value, context = _path(item, raw), item["type"], item["input"], item.get("ctx", {})
-        if not item["loc"] and kind == "model_type":
-            path = (model.__name__.lower(),)
-        if kind == "too_short" and len(value) >= context["min_length"]:  # it has faults of its own, which are listed
-            continue
         if isinstance(reason := context.get("error"), ParameterError):  # raised by a part that is a model of its own
             yield from (fault.inside(path) for fault in reason.faults)
         elif kind == "missing":
@@ -136,29 +133,16 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
             more = suggestion(path[-1], [*model.model_fields], all_of_them=not (word or rule))
             yield Fault(path, "" if rule else as_text(value), (rule or f"unknown {word or 'key'}") + more)
         else:
-            kind = "finite_number" if str(value).lower() == "nan" and kind in _RULES else kind  # before a bound
-            rule = _RULES[kind].format(**context) if kind in _RULES else item["msg"].replace("Input should", "must")
-            # the path of a mapping says enough, and ends with a name that is at fault
-            hidden = item["loc"][-1:] == ("[key]",) or isinstance(value, Mapping | BaseModel)
-            yield Fault(path, "" if hidden else as_text(value), rule)
+            told = re.sub("^[A-Z][a-z]+ should", "must", item["msg"].removeprefix("Value error, "))
+            yield Fault.of(path, value, _RULES[kind].format(**context) if kind in _RULES else told)
 
 
-_RULES = {  # by pydantic's kind of fault, whose context fills the braces
+_RULES = {  # by pydantic's kind of fault, whose context fills the braces; other kinds have pydantic's words
     "greater_than_equal": "must be >= {ge:g}",
     "greater_than": "must be > {gt:g}",
     "less_than": "must be < {lt:g}",
     "less_than_equal": "must be <= {le:g}",
-    "finite_number": "must be finite",
-    "literal_error": "must be {expected}",
-    "value_error": "{error}",
-    "string_pattern_mismatch": "must be letters, digits and _, starting with a letter",  # only names have a pattern
-    "too_short": "must have {min_length} or more",
-    "string_too_long": "must be at most {max_length} characters",
-    **dict.fromkeys(("bool_type", "bool_parsing"), "must be true or false"),
     **dict.fromkeys(("dict_type", "mapping_type", "model_type", "model_attributes_type"), "must be a mapping"),
-    **dict.fromkeys(("list_type", "tuple_type"), "must be a list"),
-    **dict.fromkeys(("int_type", "int_parsing", "int_from_float"), "must be a whole number"),
-    "string_type": "must be text",
 }
 
 

@@ -19,11 +19,11 @@ from disc_model.display import draw, html_table
 from disc_model.errors import Fault, as_text, raise_faults
 from disc_model.units import (
     UNITS,
-    Checked,
     Count,
     Finite,
     Positive,
     Real,
+    Strict,
     canonical_json,
     content_key,
     in_si,
@@ -88,7 +88,7 @@ Quantity = float | str  # a number, or a text that stands for one, with or witho
 Column = Iterable[float | str]  # numbers of the modes of a table
 
 
-class Disc(Checked):
+class Disc(Strict):
     """An axisymmetric disc given by its modes, from finite elements or a modal test.
 
     Modes with nodal diameters are pairs (cosine and sine), each given once. `from_csv`, `from_uff` and `from_section`
@@ -381,7 +381,7 @@ class Disc(Checked):
         return self.replace(**{name: getattr(self, name)[:count] for name in self._columns})
 
 
-class Parameters(Checked):
+class Parameters(Strict):
     """One case of disc and slider, in SI units. Defaults are the paper's Table 1.
 
     The radii of the plate must ascend, a < r_0 <= b, and mu_k must not be above mu_s. `disc_model.choose_modes` finds

@@ -8,13 +8,13 @@ import json
 import math
 import numbers
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Self, TypeGuard, get_args
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
-from disc_model.errors import Fault, ParameterError, as_text, faults_of, raise_faults
+from disc_model.errors import Fault, ParameterError, faults_of, raise_faults
 
 # Least and greatest tolerance
 TOLERANCES = (1e-15, 1e-2)  # of a simulation: error of event times after a second of motion, s
@@ -39,8 +39,6 @@ class Unit:
 UNITS: dict[str, str] = {}  # units of parameters by their names, filled by `disc_model.parameters`
 
 _WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?+)\s*((?:1/)?[A-Za-zµΩ°%].*)")
-_WITH_COMMA = re.compile(r"\s*[-+]?\d+,\d")
-DECIMAL_COMMA = "; a decimal point is needed, not a comma"
 _POWER = r"[A-Za-zµΩ°%]+(?:(?:\^|\*\*)-?\d)?"
 _UNIT = re.compile(rf"(?:1/)?{_POWER}(?:(?:\s*[*/]\s*|\s+){_POWER}){{0,5}}\s*")
 """A product of units to small powers; longer expressions could take arbitrarily long to evaluate."""
@@ -87,10 +85,9 @@ def number(value: Any) -> Any:
     try:
         return float(value) + 0.0  # adding zero turns -0.0 into 0.0
     except OverflowError:  # a whole number beyond the range of floats
-        return math.inf if str(value)[0] != "-" else -math.inf
+        return math.inf if value > 0 else -math.inf  # type: ignore[operator]
     except ValueError:
-        comma = DECIMAL_COMMA * bool(isinstance(value, str) and _WITH_COMMA.match(value))
-        raise ValueError(f"must be a number{comma}") from None
+        raise ValueError("must be a number") from None
 
 
 def whole(value: Any) -> Any:
@@ -102,14 +99,11 @@ def whole(value: Any) -> Any:
 
 def is_number(value: object) -> bool:
     """Whether a value is a number within the range of floats; a text or a bool is not."""
-    if isinstance(value, float):  # the usual type first: the test for the abstract one takes several times as long
-        return True
-    if isinstance(value, bool) or not isinstance(value, numbers.Real):
-        return False
-    try:
-        return not math.isinf(float(value)) or value in (math.inf, -math.inf)
-    except OverflowError:
-        return False
+    if isinstance(
+        value, bool | float
+    ):  # the usual types first: the test for the abstract one takes several times as long
+        return isinstance(value, float)
+    return isinstance(value, numbers.Real) and -LIMIT < value < LIMIT  # type: ignore[operator]
 
 
 def is_whole(value: object) -> TypeGuard[int]:
@@ -143,6 +137,7 @@ def within(limits: tuple[float, float]) -> AfterValidator:
     return AfterValidator(must(lambda value: limits[0] <= value <= limits[1], _limits_rule(limits)))
 
 
+LIMIT = 2**1024  # above all floats but inf
 Real = Annotated[float, BeforeValidator(number)]
 Finite = Annotated[Real, Field(allow_inf_nan=False)]
 Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False, json_schema_extra={"exclusiveMinimum": 0})]
@@ -171,17 +166,6 @@ def _marks(model: type[BaseModel]) -> dict[str, Unit]:
     return marks
 
 
-def _faults_of_names(data: Any, path: tuple[str, ...] = ()) -> Iterator[Fault]:
-    """Faults of names that are not text, at any depth."""
-    items = data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list | tuple) else ()
-    for name, value in items:
-        if isinstance(data, dict) and not isinstance(name, str):
-            comma = DECIMAL_COMMA * (value is None and is_number(name))  # {N: 200,5} is read as {N: 200, 5: null}
-            yield Fault.of((*path, repr(name)), value, f"a name must be text{comma}")
-        if isinstance(value, dict | list | tuple):
-            yield from _faults_of_names(value, (*path, str(name)))
-
-
 class Strict(BaseModel):
     """Base of all models of input: immutable, no unknown keys, numbers converted to SI. Its `ParameterError` lists all
     faults, those of parts too; rules between values are checked where each by itself is right."""
@@ -190,11 +174,7 @@ class Strict(BaseModel):
 
     if not TYPE_CHECKING:  # type checkers have the fields from pydantic
 
-        def __init__(self, /, *unnamed: Any, **data: Any) -> None:
-            if unnamed:
-                name, named = type(self).__name__, zip(type(self).model_fields, unnamed, strict=False)
-                example = ", ".join(f"{key}={as_text(value)}" for key, value in named)
-                raise ParameterError(f"{name} takes named values: {name}({example})")
+        def __init__(self, /, **data: Any) -> None:
             try:
                 super().__init__(**data)
             except ValidationError as error:
@@ -205,7 +185,8 @@ class Strict(BaseModel):
     def _in_si(cls, data: Any, handler: Any) -> Any:
         """Refuse names that are not text, on which pydantic would fail, and convert numbers with units."""
         if isinstance(data, dict):
-            faults = [*_faults_of_names(data)]
+            rule = "a name must be text, and a number have a decimal point"
+            faults = [Fault.of((repr(x),), data[x], rule) for x in data if not isinstance(x, str)]
             data = in_si(data, cls._units(data), faults, ())
             raise_faults(faults)
         return handler(data)
@@ -225,35 +206,14 @@ class Strict(BaseModel):
         except ValidationError as error:
             raise ParameterError(*faults_of(error, obj, cls)) from None
 
+    def replace(self, **changes: Any) -> Self:
+        """A validated copy with some values changed."""
+        return type(self)(**{**dict(self), **changes})
+
 
 def given_values(model: Strict) -> dict[str, Any]:
     """The values of a model that were given, in the order of its fields."""
     return {name: getattr(model, name) for name in type(model).model_fields if name in model.model_fields_set}
-
-
-class Checked(Strict):
-    """Base of models that callers make, with changed copies."""
-
-    @classmethod
-    def model_validate_json(cls, json_data: str | bytes | bytearray, **kwargs: Any) -> Self:
-        """The model from JSON text."""
-        try:
-            values = json.loads(json_data)
-        except (ValueError, TypeError, RecursionError) as error:
-            raise ParameterError(Fault.of(("json_data",), json_data, f"must be JSON ({error})")) from None
-        return cls.model_validate(values)
-
-    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
-        """A copy; unlike in pydantic, the changes by `update` are validated."""
-        return self.replace(**(update or {}))
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        change = f"{name}={as_text(value)}"
-        raise ParameterError(f"{change}: cannot be set in place, replace({change}) returns a changed copy")
-
-    def replace(self, **changes: Any) -> Self:
-        """A validated copy with some values changed."""
-        return type(self)(**{**dict(self), **changes})
 
 
 # ---- Names by content

@@ -75,8 +75,6 @@ def from_state(**changes: Any) -> None:
 
 ARGUMENTS: list[tuple[Callable[[], object], str]] = [
     (lambda: p(mu_k=0.5), "mu_k=0.5 <= mu_s=0.4"),
-    (lambda: dm.Parameters(385), "Parameters named N=385"),
-    (lambda: dm.Parameters.model_validate_json("{"), "json_data JSON"),
     (lambda: p(contact_compliance="soft"), "contact_compliance='soft' 'residual'"),
     (lambda: disc(diameters=[0, 1, 2], omega=[1490.0, 0.0, 1820.0]), "omega.1=0 0.001"),
     (lambda: disc(amplitude=[0, 0, 0]), "amplitude 0 all modes"),

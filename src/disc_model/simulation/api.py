@@ -29,7 +29,7 @@ from disc_model.simulation.case import CaseSpec, Ramp, Start, Windows, pieces, r
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import Array, State
 from disc_model.sources import git_commit, source_hash, versions
-from disc_model.units import TOLERANCES, Checked, Count, content_key, in_si, is_number, limits_faults, must, number
+from disc_model.units import TOLERANCES, Count, Strict, content_key, in_si, is_number, limits_faults, must, number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,7 +53,7 @@ def _shows(progress: object) -> bool:
     return progress is None or isinstance(progress, bool) or callable(progress)
 
 
-class Execution(Checked):
+class Execution(Strict):
     """How a run is carried out. No setting changes the motion, but a run ends early after `max_steps`.
 
     Attributes

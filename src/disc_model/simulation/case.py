@@ -17,13 +17,13 @@ from pydantic import Field, create_model, field_validator, model_serializer, mod
 from disc_model.data.variables import BESIDE_WINDOWS
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import AUTO, Parameters
-from disc_model.units import Checked, Count, Finite, Positive, Real, Seconds, Strict, Unit, canonical_json, content_key
+from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit, canonical_json, content_key
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
 Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]
 
 
-class Interval(Checked):
+class Interval(Strict):
     """An interval of time, from a `start` to a later `stop` or `end`."""
 
     @model_validator(mode="after")
@@ -345,7 +345,7 @@ class Start(Strict):
 _LATER = ("start", "truncation", "modes", "ramps")  # fields whose defaults older content addresses do not have
 
 
-class CaseSpec(Checked):
+class CaseSpec(Strict):
     """A case ready to be run: everything that a simulation depends on, and nothing else."""
 
     parameters: Parameters

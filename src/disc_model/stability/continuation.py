@@ -25,7 +25,7 @@ from disc_model.parameters import DEFAULTS, Parameters, Quantity, foreign_case
 from disc_model.simulation.states import State, is_finite_array
 from disc_model.stability.cycle import FloquetResult, bifurcation_type, find_cycle, guess_faults, multipliers
 from disc_model.stability.return_map import ENDS, PARAMETERS, Array, ComplexArray, Counts, Flight, ReturnMap, rounding
-from disc_model.units import CYCLE_TOLERANCES, Checked, Count, Finite, Positive, in_si, is_number, limits_faults
+from disc_model.units import CYCLE_TOLERANCES, Count, Finite, Positive, Strict, in_si, is_number, limits_faults
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -299,7 +299,7 @@ def interval_in_si(name: Any, bounds: Any) -> Any:
     return ends if is_finite_array(ends, 2) and ends[0] < ends[1] else None
 
 
-class StepControl(Checked):
+class StepControl(Strict):
     """Step lengths and limits of a continuation.
 
     Parameters
