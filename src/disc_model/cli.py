@@ -28,7 +28,7 @@ from disc_model.disc.plate import coupled_natural_frequencies, mode_arrays
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.disc.tables import damping_ratios, disc_table, read_disc
 from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
-from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeChoice, chosen_modes, read_asked
+from disc_model.mode_choice import CHOSEN_BY, ModeChoice, chosen_modes, read_asked
 from disc_model.parameters import AUTO, Parameters
 from disc_model.sources import PACKAGE
 from disc_model.units import CYCLE_TOLERANCES, TOLERANCES, Count, CycleTolerance, Seconds, Strict, Tolerance
@@ -43,14 +43,8 @@ if TYPE_CHECKING:
 class Choice(Strict):
     """How ``--n-diameters auto`` chooses the modes."""
 
-    truncation_quantity: Literal[*CHOSEN_BY] | None = Field(  # type: ignore[valid-type]
-        None, description=f"quantity by which {AUTO} chooses, {FREQUENCIES} if not given"
-    )
-    truncation_tolerance: str | None = Field(
-        None,
-        description=f"relative tolerance of this quantity, at least {TRUSTED:g}; if not given, "
-        + ", ".join(f"{default:g} for {name}" for name, default in CHOSEN_BY.items()),
-    )
+    truncation_quantity: str | None = Field(None, description=f"what {AUTO} chooses by: {', '.join(CHOSEN_BY)}")
+    truncation_tolerance: str | None = Field(None, description="relative tolerance of this quantity")
 
 
 CASE = Parameters.model_fields | Choice.model_fields

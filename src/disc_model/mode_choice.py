@@ -255,11 +255,9 @@ def chosen_modes(p: Parameters, request: ModeRequest) -> ModeChoice:
         if change <= request.tolerance:
             count, chosen = count_modes(p, size), resized(p, size)
             return ModeChoice(chosen, request.tolerance, change, count, group[-1], request.quantity, values)
-    changes = f"by {change:.2g} of itself" if math.isfinite(change) else "between being there and being not"
-    changes += f" among {_listed(p, group)}, more than the tolerance {request.tolerance:g}"
-    advice = "give the number of modes, a larger tolerance"
-    advice += "" if p.contact_compliance else ", or contact_compliance='residual'"
-    raise DiscModelError(f"n_diameters: undecided: {request.quantity} still changes {changes}; {advice}")
+    changes = f"changes by {change:.2g} of itself among {_listed(p, group)}, more than {request.tolerance:g}"
+    advice = "give the number of modes, a larger tolerance, or contact_compliance='residual'"
+    raise DiscModelError(f"n_diameters: undecided: {request.quantity} still {changes}; {advice}")
 
 
 def _compared(p: Parameters) -> Iterator[tuple[tuple[int, ...], ...]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 import operator
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sized
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from importlib import import_module
 from itertools import pairwise
@@ -137,22 +137,16 @@ class Disc(Strict):
     if TYPE_CHECKING:  # for type checkers: any sequence of numbers will do
 
         def __init__(  # noqa: PLR0913
-            self, *, diameters: Column, omega: Column, amplitude: Column, damping_ratio: Column | None = ...,
-            circles: Column | None = ..., tangential: Column = ..., static_compliance: Quantity | None = ...,
+            self, *, diameters: Column, omega: Column, amplitude: Column, damping_ratio: Column = ...,
+            circles: Column = ..., tangential: Column = ..., static_compliance: Quantity | None = ...,
             radii: Column = ..., shapes: Iterable[Column] = ...,
         ) -> None: ...  # fmt: skip
 
-    @model_validator(mode="wrap")
-    @classmethod
-    def _consistent(cls, data: Any, handler: Any) -> Self:
-        """Check the rules between columns; an empty key of a file leaves a column out."""
-        if not isinstance(data, dict):
-            return handler(data)
-        disc = handler({x: data[x] for x in data if data[x] is not None or x not in ("damping_ratio", "circles")})
-        circles = data.get("circles")
-        counted = circles is None or (isinstance(circles, Sized) and not len(circles))
-        raise_faults(disc._faults_of_columns() or disc._faults_of_modes(counted))
-        return disc
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        """Check the rules between columns."""
+        raise_faults(self._faults_of_columns() or self._faults_of_modes("circles" not in self.model_fields_set))
+        return self
 
     @pydantic.model_serializer(mode="wrap")
     def _older(self, handler: Any) -> dict[str, Any]:
@@ -350,14 +344,10 @@ class Disc(Strict):
         pairs = [(i, j) for j in range(len(same)) for i in range(j) if same[i] == same[j]]
         for i, j in pairs:
             apart = abs(self.omega[j] - self.omega[i]) / max(self.omega[i], self.omega[j])
-            rule = f"modes {i + 1} and {j + 1} have {self.diameters[j]} nodal diameters and "
-            if apart < 1e-9:
-                rule += "one frequency: each mode, and each pair of modes, must be given once"
-            else:
-                rule += (
-                    f"frequencies {100 * apart:.2g} % apart: the disc must be axisymmetric; give such a pair once, by "
-                    "its mean frequency, and what splits it is neglected"
-                )
+            rule = (
+                f"modes {i + 1} and {j + 1} have as many diameters and are {100 * apart:.2g} % apart: the disc must be "
+            )
+            rule += "axisymmetric, with each pair of modes given once, by its mean frequency"
             if apart < 0.05 or not counted:
                 faults.append(Fault.of(("omega", str(j)), self.omega[j], rule))
         return faults[:3]
