@@ -69,7 +69,9 @@ def _option(name: str, field: Any, panel: str, placeholder: str | None = None) -
         told += rf" \[default: {f'{default:g}' if isinstance(default, float) else default}]"
     option = typer.Option(
         option_name(name),
-        metavar=None if flag else "|".join(words if words and float not in types else ["VALUE", *words]),
+        metavar=None
+        if flag
+        else "|".join(words if words and not isinstance(field.default, float) else ["VALUE", *words]),
         help=told,
         show_default=False,
         rich_help_panel=panel,
@@ -374,8 +376,7 @@ def init(
 
 def _require_snakemake() -> None:
     if find_spec("snakemake") is None:
-        rule = "studies are computed by Snakemake, which is not installed: pip install 'disc_model[workflow]'"
-        raise DiscModelError(rule)
+        raise ModuleNotFoundError(name="snakemake")
 
 
 def _command(files: Sequence[Path], options: Sequence[str]) -> list[str]:

@@ -55,28 +55,19 @@ AMPLITUDES = (1e-6, 1e6)  # limits of the largest modal amplitude, kg^-1/2: the 
 
 # words by which texts that identify cases and batches know the kinds of contact, and the field's own
 CONTACTS = {"separable": "unilateral", "bonded": "bilateral"}
+IDENTITIES = {own: word for word, own in CONTACTS.items()}
 # added later: their defaults are left out of the canonical form, so that older hashes stay valid
 _LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc", "friction_offset", "friction_decay")
 
 
-def _or_word(word: str) -> BeforeValidator:
-    """Validator of a finite number >= 0, or a word in its place."""
-
-    def check(value: Any) -> Any:
-        with suppress(ValueError):
-            if value == word or 0 <= (value := number(value)) < math.inf:
-                return value
-        raise ValueError(f"must be a finite number >= 0, or {word!r}")
-
-    return BeforeValidator(check)
-
-
+_Distance = Annotated[Real, AfterValidator(must(lambda value: 0 <= value < math.inf, "must be a finite number >= 0"))]
 # Beyond, the start of slip is lost in rounding.
 _DECAY = must(lambda value: value <= 1e12 or value == math.inf, "must be at most 1e12 s/m, or inf")
 # What only study files and the command line accept is refused with the name of the function to use instead.
 _CHOSEN = must(lambda value: value != AUTO, "must be a whole number; disc_model.choose_modes finds one")
-_READ_RULE = "must be a Disc: disc_model.Disc.from_csv reads one from a table of modes"
-_READ = must(lambda value: not isinstance(value, str), _READ_RULE)
+_READ = must(
+    lambda value: not isinstance(value, str), "must be a Disc: disc_model.Disc.from_csv reads a table of modes"
+)
 
 
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
@@ -427,13 +418,13 @@ class Parameters(Strict):
         Literal["unilateral", "bilateral"],
         BeforeValidator(lambda word: CONTACTS.get(word, word) if isinstance(word, str) else word),
     ] = _field("unilateral", "", "whether the slider may leave the disc: bilateral contact holds it, but lets it slide")
-    contact_compliance: Annotated[float | Literal["residual"], _or_word(RESIDUAL)] = _field(
+    contact_compliance: _Distance | Literal["residual"] = _field(
         0.0, "m/N", "compliance of the contact, 0 if it is rigid; residual: that of the modes left out"
     )
     contact_force: Literal["vertical", "normal"] = _field(
         "vertical", "", "direction of the contact force: vertical as in the paper, or normal to the bent disc"
     )
-    friction_offset: Annotated[float | Literal["surface"], _or_word(SURFACE)] = _field(
+    friction_offset: _Distance | Literal["surface"] = _field(
         0.0, "m", "height above the disc's middle plane at which friction acts; surface: h/2, or by the table of a disc"
     )
     friction_decay: Annotated[Real, AfterValidator(_DECAY)] = _field(
@@ -550,7 +541,7 @@ class Parameters(Strict):
     def canonical(self) -> dict[str, Any]:
         """The values that identify a case: all, except defaults of parameters that the paper's model does not have."""
         fields = type(self).model_fields
-        values = in_identities(self.model_dump())
+        values = in_words(self.model_dump(), IDENTITIES)
         return {name: x for name, x in values.items() if name not in _LATER or x != fields[name].default}
 
     @property
@@ -597,15 +588,10 @@ _arguments = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY) for name i
 Parameters.__signature__ = inspect.Signature([x.replace(default=DEFAULTS.get(x.name, x.empty)) for x in _arguments])
 
 
-def in_identities(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Values of a case in the words of texts that identify it; see `CONTACTS`."""
-    words = {new: old for old, new in CONTACTS.items()}
+def in_words(values: Mapping[str, Any], words: Mapping[str, str] = CONTACTS) -> dict[str, Any]:
+    """Values from a text that identifies a case, in the words of the field, as files and readers have them; or, by
+    `IDENTITIES`, those of a case in the words of such a text."""
     return {name: words.get(value, value) if name == "contact" else value for name, value in values.items()}
-
-
-def in_words(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Values from a text that identifies a case, in the words of the field, as files and readers have them."""
-    return {name: CONTACTS.get(value, value) if name == "contact" else value for name, value in values.items()}
 
 
 def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:

@@ -119,7 +119,9 @@ class GridStudy:
                 if name in self.varied:
                     named[kind] = {word: known[word].model_dump() for word in {str(point[name]) for point in points}}
             if points:
-                content = part | {"points": [[*parameters.in_identities(point).values()] for point in points]}
+                content = part | {
+                    "points": [[*parameters.in_words(point, parameters.IDENTITIES).values()] for point in points]
+                }
                 texts.append(canonical_json(shared | named | content))
         return {content_key(text): text for text in texts}
 
