@@ -45,7 +45,7 @@ def scaling(
         points += [common | {"model": model} for model in models]
     common = {"varies": "horizon", "quantity": "outcome", "grid": several}
     points += [common | {"horizon": horizon} for horizon in horizons]
-    return run("scaling", points, measure, cores=CORES, title="How cost grows", Conventions="CF-1.11")
+    return run("scaling", points, measure, title="How cost grows", Conventions="CF-1.11")
 
 
 def measure(
