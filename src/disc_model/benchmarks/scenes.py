@@ -5,7 +5,6 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache
-from itertools import accumulate, chain, cycle, islice, takewhile
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -90,36 +89,12 @@ def problem(name: str) -> Problem:
 
 @lru_cache(maxsize=8)
 def answer(name: str) -> Answer:
-    """The correct answer of a scene; those stored are in long double, by ``tests/references/``."""
-    if name == "rigid":
-        return rigid_cycle(problem(name))
+    """The correct answer of a scene, as stored by ``tests/references/``: in long double, or in closed form (rigid)."""
     right = stored("benchmark_reference")[name]
     if right["parameters"] != problem(name).parameters.key:
         raise DiscModelError(f"the stored reference of {name} is of other parameters: make it anew")
     times, final = np.array([np.longdouble(t) for t in right["times"]]), read_state(right["final"])
     return Answer(times, tuple(right["kinds"]), final, right["largest_difference_to_check_run"])
-
-
-def rigid_cycle(problem: Problem) -> Answer:
-    """Stick-slip on a rigid disc from a relaxed spring, in closed form (contact force N, no damping). At E = 1e20 Pa
-    the disc's remaining flexibility, k psi^2/omega^2, is 3e-9, and the answer is exact to about that."""
-    p = problem.parameters
-    w, Omega = math.sqrt(p.k_p / p.m), p.Omega
-    held, slipping = p.mu_s * p.N / (p.k_p * p.r_0), p.mu_k * p.N / (p.k_p * p.r_0)
-    d = held - slipping
-    slip = 2.0 / w * (math.pi - math.atan(d * w / Omega))
-    lengths = chain([held / Omega], cycle([slip, (held - (slipping - d)) / Omega]))
-    times = [*takewhile(lambda t: t < problem.t_end, accumulate(lengths))]
-    kinds = [*islice(cycle(["stick_to_slip", "slip_to_stick"]), len(times))]
-    phase = "slip" if len(times) % 2 else "stick"
-    tau = problem.t_end - (times[-1] if times else 0.0)
-    if phase == "stick":
-        psi, f = (slipping - d if times else 0.0) + Omega * tau, 0.0
-    else:
-        psi = slipping + d * math.cos(w * tau) + Omega / w * math.sin(w * tau)
-        f = Omega + d * w * math.sin(w * tau) - Omega * math.cos(w * tau)
-    final = problem.start.replace(time=problem.t_end, phase=phase, direction=int(phase == "slip"), psi=psi, f=f)
-    return Answer(np.array(times, dtype=np.longdouble), tuple(kinds), final, error=1e-9 * problem.t_end)
 
 
 def errors(problem: Problem, answer: Answer, result: MethodResult) -> Errors:
