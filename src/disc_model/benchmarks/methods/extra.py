@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import ctypes
 import time as clock
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import cache, lru_cache
@@ -101,54 +101,44 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
     Parameters at run time: N - k u_0, Omega and, in slip, its direction."""
     import heyoka as hy
 
-    p, n, l, s = physics.p, physics.n, physics.l, physics.shape
+    p, n, s = physics.p, physics.n, physics.shape
     load, drive, sign = (hy.par[i] for i in range(3))
     a, b, alpha, beta = ([hy.make_vars(f"{letter}{i}") for i in range(n)] for letter in "abpq")
     psi, f, u, v = hy.make_vars("psi", "f", "u", "v")
-    nothing = hy.expression(0.0)
+    fa, fb, falpha, fbeta = ([f * x for x in each] for each in (a, b, alpha, beta))
     sticks, touches = phase == "stick", phase != "separation"
-    turning = [] if sticks else [i for i in range(n) if l[i] > 0]
-    fa, fb, falpha, fbeta = ({i: f * x[i] for i in turning} for x in (a, b, alpha, beta))
+    l, paired, below = (0.0 if sticks else 1.0) * physics.l, 1.0 * (physics.l > 0), 1.0 + p.m * physics.compliance
+    by = s / below
 
-    def combined(*terms: tuple[Any, Any]) -> Any:
-        used = [factor * x for factor, x in terms if not isinstance(factor, float) or factor]
-        return hy.sum(used) if used else nothing
+    def total(*terms: tuple[Any, Any]) -> Any:
+        """Sum of products of factors and variables, without those that vanish."""
+        used = [float(c) * x for factors, xs in terms for c, x in zip(factors, xs, strict=True) if c]
+        return hy.sum(used) if used else hy.expression(0.0)
 
-    def each(factors: Any, x: Any, modes: Iterable[int] = range(n)) -> list[tuple[float, Any]]:
-        return [(float(factors[i]), x[i]) for i in modes]
+    def each(*terms: tuple[Any, Any]) -> list[Any]:
+        return [total(*((c[i : i + 1], x[i : i + 1]) for c, x in terms)) for i in range(n)]
 
-    def turned(i: int, factors: Any, product: Any) -> list[tuple[float, Any]]:
-        return each(factors, product, [i] if i in product else [])
-
-    F = combined((p.k_p, psi), (p.c_p, drive), (0.0 if sticks else -p.c_p, f))
-    P = nothing
+    F = total(((p.k_p, p.c_p, 0.0 if sticks else -p.c_p), (psi, drive, f)))
+    P, f_rate = hy.expression(0.0), hy.expression(0.0) if sticks else F / p.m
     if touches:
-        below = 1.0 + p.m * physics.compliance
-        by = s / below
-        held = each((p.k - p.m * physics.stiffness) * by, a) + each((p.c - p.m * physics.damping) * by, alpha)
-        swept = each(2.0 * p.m * l * by, fbeta, turning) + each(p.c * l * by, fb, turning)
-        P = combined((1.0 / below, load), *held, *swept)
-    if turning and touches:
-        tilt = combined(*each(l * by, b, turning))
-        P = P - f * combined(*each(p.m * l**2 * by, fa, turning)) + tilt * F
+        held = ((p.k - p.m * physics.stiffness) * by, a), ((p.c - p.m * physics.damping) * by, alpha)
+        P = total(([1.0 / below], [load]), *held, (2.0 * p.m * l * by, fbeta), (p.c * l * by, fb))
+    if touches and l.any():
+        tilt = total((l * by, b))
+        P = P - f * total((p.m * l**2 * by, fa)) + tilt * F
         P = P / (1.0 + sign * (p.mu_k / p.r_0 * tilt))
-    f_rate = nothing if sticks else F / p.m
     if phase == "slip":
         f_rate = f_rate - sign * (p.mu_k / (p.m * p.r_0)) * P
 
-    d, w2 = -physics.damping, -physics.stiffness
-    rows = [(a[i], combined((1.0, alpha[i]), *turned(i, l, fb))) for i in range(n)]
-    rows += [(b[i], combined((1.0, beta[i]), *turned(i, -l, fa)) if l[i] else nothing) for i in range(n)]
-    push = [(-float(s[i]), P) if touches else (0.0, P) for i in range(n)]
-    for i in range(n):
-        rows.append((alpha[i], combined((d[i], alpha[i]), (w2[i], a[i]), push[i], *turned(i, l, fbeta))))
-    for i in range(n):
-        row = combined((d[i], beta[i]), (w2[i], b[i]), *turned(i, -l, falpha))
-        rows.append((beta[i], row if l[i] else nothing))
-    rows += [(psi, drive if sticks else drive - f), (f, f_rate)]
+    damping, stiffness = -physics.damping, -physics.stiffness
+    rates = each((np.ones(n), alpha), (l, fb)) + each((paired, beta), (-l, fa))
+    rates += each((damping, alpha), (stiffness, a), (-s * touches, [P] * n), (l, fbeta))
+    rates += each((damping * paired, beta), (stiffness * paired, b), (-l, falpha))
+    rates += [drive if sticks else drive - f, f_rate]
+    rows = list(zip([*a, *b, *alpha, *beta, psi, f], rates, strict=True))
     if not touches:
-        rows += [(u, v), (v, combined((-1.0 / p.m, load), (-p.k / p.m, u), (-p.c / p.m, v)))]
-        return rows, [SHIFT + u - combined(*each(s, a))]
+        rows += [(u, v), (v, total(((-1.0 / p.m, -p.k / p.m, -p.c / p.m), (load, u, v))))]
+        return rows, [SHIFT + u - total((s, a))]
     if sticks:
         return rows, [p.mu_s * P - p.r_0 * F, p.mu_s * P + p.r_0 * F]
     return rows, [sign * f] if p.contact == "bilateral" else [P, sign * f]
