@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import METHODS, Method, MethodUnavailable, base
+from disc_model.benchmarks.methods import METHODS, base
 from disc_model.benchmarks.methods.base import Problem, RunStatus
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.benchmarks.scenes import answer, problem
@@ -101,11 +101,6 @@ def test_a_state_that_overflows_is_no_answer(name):
     start = lively("slip", 1, P).replace(f=1e160)
     result = METHODS[name].solve(Problem(P, start, 1e-4), 2e-6 if METHODS[name].setting == "step" else 1e-9, 1.0)
     assert result.outcome in (RunStatus.NON_FINITE, RunStatus.FAILED)
-
-
-def test_a_method_that_is_not_installed_says_what_brings_it():
-    with pytest.raises(MethodUnavailable, match="x needs no_such: install the extra"):
-        Method(name="x", label="x", function="", settings={}, requires=("no_such",)).solve(problem("stick_slip"), 1.0)
 
 
 @pytest.mark.parametrize("name", [*SHORT, "LSODA", "Radau", "regularised"])

@@ -14,17 +14,11 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, PositiveFloat
 
-from disc_model.errors import DiscModelError
-
 if TYPE_CHECKING:
     from disc_model.benchmarks.methods.base import MethodResult, Problem
 
 Scene = Literal["stick_slip", "separating", "many_modes", "rigid"]
 SCENES: tuple[str, ...] = get_args(Scene)  # names of the benchmark's scenes, see `disc_model.benchmarks.scenes`
-
-
-class MethodUnavailable(DiscModelError, ImportError):
-    """A method whose optional package is not installed."""
 
 
 class Method(BaseModel):
@@ -54,9 +48,6 @@ class Method(BaseModel):
 
     def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
         """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds, see `base`."""
-        if missing := ", ".join(self.absent()):
-            reason = f"{self.name} needs {missing}: install the extra `bench` (pip install disc_model[bench])"
-            raise MethodUnavailable(reason)
         result: MethodResult = resolve_name(f"{__name__}.{self.function}")(problem, value, budget, *self.arguments)
         return result
 
