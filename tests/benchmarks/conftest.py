@@ -24,7 +24,7 @@ class Known:
 
     def __init__(self, like: str, error, cost, outcome=RunStatus.FINISHED, glue=math.nan) -> None:
         own = METHODS[like]
-        self.name, self.label, self.setting, self.order = own.name, own.label, own.setting, own.order
+        self.name, self.label, self.setting = own.name, own.label, own.setting
         self.error, self.cost, self.outcome, self.glue = error, cost, outcome, glue
         self.tried: list[float] = []
 

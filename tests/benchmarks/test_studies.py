@@ -51,12 +51,9 @@ def test_points_are_measured_in_turn(monkeypatch: pytest.MonkeyPatch) -> None:
 # ------------------------------------------------------------------------ Speed against accuracy
 def test_the_dataset_holds_what_the_methods_did(dataset: xr.Dataset, known: dict[str, Known]) -> None:
     rk4 = dataset.sel(scene="stick_slip", solver="RK4")
-    assert rk4["order_event"] == pytest.approx(4.0, abs=1e-3)
-    assert rk4["order_theory"] == 4.0
     np.testing.assert_allclose(rk4["event_error"], [1e8 * h**4 for h in SETTINGS["stick_slip"]["RK4"]], rtol=1e-5)
     assert flag_names(rk4["verdict"]).tolist() == ["inaccurate", "converged", "converged", "converged"]
     series = dataset.sel(scene="stick_slip", solver="series")
-    assert series["order_event"] == pytest.approx(1.0, abs=1e-3)  # exponent of the tolerance
     assert flag_names(series["verdict"])[3] == "not_run"
     assert (series["repeats"][:3] == 2).all()
     assert series["cost"][0] == pytest.approx(1e-3 + 6e-5)

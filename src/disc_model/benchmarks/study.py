@@ -31,7 +31,6 @@ def run(
     dims: Sequence[str] = (),  # the axes, or coordinates that become dimensions; without any, results are rows
     *,
     rounds: int = 1,  # in which all points are measured in turn, so that a disturbance affects all alike
-    summarise: Callable[[Any], pd.DataFrame] = lambda groups: groups.median(),  # results grouped by dims, to one each
     flags: Flags | None = None,  # meanings; the last stands where nothing was measured, and nan in other variables
     **about: Any,
 ) -> xr.Dataset:
@@ -47,7 +46,9 @@ def run(
     frame = frame.astype({name: float for name, variable in variables.items() if variable.units and name not in dims})
     if dims:
         axes = {dim: [*dict.fromkeys(point[dim] for point in points)] for dim in dims}
-        dataset = summarise(frame.groupby([*dims])).to_xarray().reindex(axes)
+        groups = frame.groupby([*dims])
+        repeats = {"repeats": groups.size()} if "repeats" in variables else {}
+        dataset = groups.median().assign(**repeats).to_xarray().reindex(axes)
     else:
         dataset = frame.rename_axis("row").to_xarray().drop_vars("row")
     for name, variable in variables.items():

@@ -18,7 +18,6 @@ from disc_model.benchmarks.methods.base import STABILITY_LIMIT, Problem, RunStat
 from disc_model.benchmarks.scenes import JUDGED, Answer, Verdict
 from disc_model.benchmarks.study import TABLES, Row, run
 from disc_model.data.dataset import json_attribute
-from disc_model.data.variables import Variable
 from disc_model.disc.plate import mode_arrays
 from disc_model.mode_choice import real_modes
 from disc_model.parameters import Parameters
@@ -28,18 +27,16 @@ DEFAULT = 1e-10  # the series engine's default tolerance, and the event-time err
 BUDGET, RIGID_BUDGET = 12.0, 4.0  # for a point, s; the second on the rigid disc, which methods in Python cannot finish
 LONG = 0.5  # longest time of a point measured in later rounds, s; a tenth of it or less is measured in all rounds
 FURTHER = 4.0  # extension of quick points beyond a scene's end, in spans of the scene, for the cost of a further second
-ROUNDING = 1e-13  # errors below this (s, or relative) are rounding and are left out of the fit of the order
 FLOOR = 1e-15  # errors below this count as equal in costs, zero among them, s
 COLUMNS = TABLES["work_precision_table"]  # variables by the column of the table that shows them
 Settings = Mapping[str, Mapping[str, Sequence[float]]]  # settings from coarse to fine, by scene and method
 
 
 def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.Dataset:
-    """Measure all points along (scene, solver, point), at most ``rounds`` times, of which the median is reported; along
-    (scene, solver) are orders by `fitted_order`. A method that gives up at a setting is not tried at finer ones."""
+    """Measure all points along (scene, solver, point), at most ``rounds`` times, of which the median is reported. A
+    method that gives up at a setting is not tried at finer ones."""
     if settings is None:
-        declared = [(scene, method, values) for method in METHODS.values() for scene, values in method.settings.items()]
-        settings = {scene: {m.name: values for s, m, values in declared if s == scene} for scene in SCENES}
+        settings = {x: {name: each.settings[x] for name, each in METHODS.items() if x in each.settings} for x in SCENES}
     points = [
         {"scene": scene, "solver": solver, "point": point, "value": value}
         for scene, by_method in settings.items()
@@ -79,26 +76,14 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.
             "whole_call": _whole_call() if (scene, solver, value) == (JUDGED[0], "series", DEFAULT) else math.nan,
         }  # fmt: skip
 
-    def summarise(groups: Any) -> pd.DataFrame:
-        seconds = groups["seconds"]
-        return pd.DataFrame(groups.median()).assign(seconds_spread=seconds.max() - seconds.min(), repeats=groups.size())
-
     described: dict[str, Any] = {f"scene_{name}": json_attribute(scenes.describe(name)) for name in settings}
     dataset = run(
-        "work_precision", points, measure, ["scene", "solver", "point"], rounds=rounds, summarise=summarise,
-        flags={"verdict": Verdict}, title="Speed against accuracy", Conventions="CF-1.11", **described,
+        "work_precision", points, measure, ["scene", "solver", "point"], rounds=rounds, flags={"verdict": Verdict},
+        title="Speed against accuracy", Conventions="CF-1.11", **described,
     )  # fmt: skip
     solvers = [name for name in METHODS if name in dataset["solver"]]
     dataset = dataset.drop_vars("point").sel(solver=solvers)
-    lines: dict[str, Any] = {
-        "label": ("solver", [METHODS[name].label for name in solvers]),
-        "order_theory": ("solver", [METHODS[name].order for name in solvers]),
-    }
-    for error in ("event", "state"):
-        orders = [[_line_order(dataset, scene, name, error) for name in solvers] for scene in dataset["scene"].values]
-        lines[f"order_{error}"] = (("scene", "solver"), orders)
-    attributes = {name: Variable(*entry).attributes for name, entry in TABLES["work_precision_lines"].items()}
-    return dataset.assign({name: (*data, attributes[name]) for name, data in lines.items()})
+    return dataset.assign(label=("solver", [METHODS[name].label for name in solvers], {"long_name": "name in words"}))
 
 
 def _whole_call() -> float:
@@ -113,30 +98,6 @@ def _whole_call() -> float:
 
 def _quick(times: Sequence[float]) -> bool:
     return float(np.median(times)) < 0.1 * LONG
-
-
-def _line_order(dataset: xr.Dataset, scene: str, solver: str, error: str) -> float:
-    """Order against the step; for a method of variable order, the exponent q of error ~ tolerance^q."""
-    line, method = dataset.sel(scene=scene, solver=solver), METHODS[solver]
-    usable = np.isin(line["verdict"].values, (int(Verdict.CONVERGED), int(Verdict.INACCURATE)))
-    # the number of right-hand sides counts the steps of a method of fixed order; other settings stand for themselves
-    n = line["work"].values if method.setting == "tol" and math.isfinite(method.order) else 1.0 / line["value"].values
-    return fitted_order(n[usable], line[f"{error}_error"].values[usable])
-
-
-def fitted_order(n: np.ndarray, error: np.ndarray) -> float:
-    """Order p of error ~ n^-p by least squares on the asymptotic part; nan if fewer than two points are left. That part
-    are errors above `ROUNDING` and below a tenth of the largest, or all above it if that leaves fewer than three."""
-    usable = np.isfinite(n) & np.isfinite(error) & (error > ROUNDING) & (n > 0)
-    if np.count_nonzero(usable) < 2:
-        return math.nan
-    below = usable & (error <= 0.1 * np.max(error[usable]))
-    if np.count_nonzero(below) >= 3:
-        usable = below
-    x, y = np.log(n[usable]), np.log(error[usable])
-    if np.ptp(x) < math.log(1.5):  # stability or events, not the steps, decide the error
-        return math.nan
-    return float(-np.polyfit(x, y, 1)[0])
 
 
 # ---- The measured points as a table, and costs at equal error

@@ -12,7 +12,7 @@ from pathlib import Path
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Literal, get_args
 
-from pydantic import BaseModel, ConfigDict, PositiveFloat
+from pydantic import BaseModel, ConfigDict
 
 if TYPE_CHECKING:
     from disc_model.benchmarks.methods.base import MethodResult, Problem
@@ -30,7 +30,6 @@ class Method(BaseModel):
     function: str
     arguments: tuple[str, ...] = ()
     setting: Literal["tol", "step", "epsilon"] = "tol"
-    order: PositiveFloat = math.nan
     settings: dict[Scene, tuple[float, ...]]
     map_values: tuple[float, ...] = tuple(float(f"1e-{digits}") for digits in range(2, 12))
     map_budget: float = 1.0
