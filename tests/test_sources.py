@@ -122,7 +122,7 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
     assert {"config/paper.yaml", "paper/section41.yaml"} <= of(SCRIPTS / "check_claims.py")
     assert "config/paper.yaml" not in of(SCRIPTS / "draw_figure.py", "paper.figures.runs")
     assert "explorer/static/page.css" in of(SCRIPTS / "build_explorer.py")
-    assert {"benchmarks/methods/base.py", "benchmarks/methods/rivals.toml", "benchmarks/data/answers.json"} <= of(
+    assert {"benchmarks/methods/kernels.py", "benchmarks/methods/rivals.toml", "benchmarks/data/answers.json"} <= of(
         SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.answers"
     )
     assert "benchmarks/answers.py" not in of(SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.scaling")

@@ -9,7 +9,7 @@ import xarray as xr
 from disc_model.benchmarks import answers, figures, scenes, work_precision
 from disc_model.benchmarks.answers import AnswerStatus, Reply
 from disc_model.benchmarks.methods import METHODS, SCENES, Method
-from disc_model.benchmarks.methods.base import MethodResult, RunStatus
+from disc_model.benchmarks.methods.integrators import MethodResult, RunStatus
 from disc_model.benchmarks.scenes import answer
 
 SET_UP = 1e-4

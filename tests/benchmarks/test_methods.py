@@ -7,8 +7,8 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import METHODS, base
-from disc_model.benchmarks.methods.base import Problem, RunStatus
+from disc_model.benchmarks.methods import METHODS, integrators
+from disc_model.benchmarks.methods.integrators import Problem, RunStatus
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.benchmarks.scenes import answer, problem
 from disc_model.errors import ParameterError
@@ -121,5 +121,5 @@ def test_the_regularised_model_is_of_order_two_thirds_in_eps_and_stiff_in_propor
     late = np.array([float(result.times[0] - answer("stick_slip").times[0]) for result in results])
     assert np.polyfit(np.log(eps), np.log(late), 1)[0] == pytest.approx(2 / 3, abs=0.12)
     stuck = Problem(BASE, start, 0.004)  # nothing moves but the drive
-    coarse, fine = (base.solve_regularised(stuck, value, np.inf, "RK45").work for value in (0.1, 0.01))
+    coarse, fine = (integrators.solve_regularised(stuck, value, np.inf, "RK45").work for value in (0.1, 0.01))
     assert fine > 4 * coarse

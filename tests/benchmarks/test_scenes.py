@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods.base import MethodResult, RunStatus
+from disc_model.benchmarks.methods.integrators import MethodResult, RunStatus
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.benchmarks.scenes import Verdict, answer, errors, problem
 from tests.references import stored

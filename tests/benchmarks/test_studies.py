@@ -11,7 +11,7 @@ import xarray as xr
 from disc_model.benchmarks import answers, figures, study, work_precision
 from disc_model.benchmarks.answers import AnswerStatus, AnswerVerdict, Reply, verdict
 from disc_model.benchmarks.methods import METHODS, Method
-from disc_model.benchmarks.methods.base import MethodResult, RunStatus
+from disc_model.benchmarks.methods.integrators import MethodResult, RunStatus
 from disc_model.benchmarks.scaling import contact_study, scaling
 from disc_model.benchmarks.scenes import Verdict
 from disc_model.benchmarks.work_precision import headline, measured_points, table

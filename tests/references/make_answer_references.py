@@ -17,7 +17,7 @@ import numpy as np
 from disc_model.benchmarks import answers
 from disc_model.benchmarks.answers import Reply, Solve
 from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.base import Problem
+from disc_model.benchmarks.methods.integrators import Problem
 from disc_model.benchmarks.scenes import stored
 from disc_model.errors import script
 from disc_model.parameters import Parameters

@@ -14,7 +14,7 @@ import pytest
 from disc_model import Parameters, plate_modes, simulate
 from disc_model.analysis.classify import CLOSES, shortest_period
 from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.base import Problem
+from disc_model.benchmarks.methods.integrators import Problem
 from disc_model.paper.model import paper_cases
 from disc_model.paper.paper_tables import motion_to
 from tests.contact_laws import LAWS

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from disc_model import Execution, Parameters, Result, State, Status, Window, plate_modes, simulate
 from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.base import Problem
+from disc_model.benchmarks.methods.integrators import Problem
 from disc_model.simulation.states import static_start
 
 # phase left -> (kind, phase entered): the table of switches

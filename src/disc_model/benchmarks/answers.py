@@ -20,7 +20,7 @@ from scipy.signal import find_peaks
 
 from disc_model.analysis.classify import share, shortest_period
 from disc_model.benchmarks.methods import METHODS, Method
-from disc_model.benchmarks.methods.base import Array, MethodResult, Problem, RunStatus
+from disc_model.benchmarks.methods.integrators import Array, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.scenes import read_state, stored
 from disc_model.benchmarks.study import CONTACTS, TABLES, Flags, Row, run
 from disc_model.benchmarks.work_precision import DEFAULT, REFERENCE_TOL, MapSettings, map_settings, with_facts

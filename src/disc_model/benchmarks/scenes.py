@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from disc_model.benchmarks.methods.base import MethodResult, Problem, RunStatus
+from disc_model.benchmarks.methods.integrators import MethodResult, Problem, RunStatus
 from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters

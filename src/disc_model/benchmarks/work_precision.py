@@ -14,7 +14,7 @@ import xarray as xr
 
 from disc_model.benchmarks import scenes
 from disc_model.benchmarks.methods import METHODS, SCENES, Method
-from disc_model.benchmarks.methods.base import STABILITY_LIMIT, Problem, RunStatus
+from disc_model.benchmarks.methods.integrators import STABILITY_LIMIT, Problem, RunStatus
 from disc_model.benchmarks.scenes import JUDGED, Answer, Verdict
 from disc_model.benchmarks.study import TABLES, Row, run
 from disc_model.data.dataset import json_attribute

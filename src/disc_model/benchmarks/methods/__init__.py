@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 from pydantic import BaseModel, ConfigDict
 
 if TYPE_CHECKING:
-    from disc_model.benchmarks.methods.base import MethodResult, Problem
+    from disc_model.benchmarks.methods.integrators import MethodResult, Problem
 
 Scene = Literal["stick_slip", "separating", "many_modes", "rigid"]
 SCENES: tuple[str, ...] = get_args(Scene)  # names of the benchmark's scenes, see `disc_model.benchmarks.scenes`
@@ -46,8 +46,9 @@ class Method(BaseModel):
         return self if self.map_arguments is None else self.model_copy(update={"arguments": self.map_arguments})
 
     def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
-        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds, see `base`."""
-        result: MethodResult = resolve_name(f"{__name__}.{self.function}")(problem, value, budget, *self.arguments)
+        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds."""
+        function = resolve_name(f"{__name__}.integrators:{self.function}")
+        result: MethodResult = function(problem, value, budget, *self.arguments)
         return result
 
 

@@ -180,7 +180,7 @@ STRIBECK = 30.0  # f/eps at which static friction has fallen to kinetic
 
 @_kernel
 def smooth_friction(c, law, f):
-    """Coefficient of friction with the sign of f; ``law`` is (eps, dmu, K, C), see `base`."""
+    """Coefficient of friction with the sign of f; ``law`` is (eps, dmu, K, C), see `integrators`."""
     x = f / law[0]
     return math.tanh(x) * (c[_MUK] + law[1] * math.exp(-min((x / STRIBECK) ** 2, 700.0)))
 
@@ -240,7 +240,7 @@ def _margins(c, phase, direction, y, n, P, F, w, out):
 
 @_kernel
 def switch_values(modes, c, phase, direction, y, out):
-    """Fill ``out`` with the functions whose fall through zero ends the phase (`base.ENDS`); returns their number."""
+    """Fill ``out`` with the functions whose fall through zero ends the phase (`integrators.ENDS`); returns how many."""
     n = modes.shape[1]
     P, F = contact(modes, c, direction, y)
     return _margins(c, phase, direction, y, n, P, F, disc_point(modes, y)[0], out)
