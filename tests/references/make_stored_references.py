@@ -155,7 +155,7 @@ def rigid_cycle():
         "t_end": task.t_end,
         "largest_difference_to_check_run": 1e-9 * task.t_end,
         "kinds": ["stick_to_slip", "slip_to_stick", "stick_to_slip"],
-        "times": [decimal(t) for t in times],
+        "times": [f"{t:.25f}" for t in times],
         "final": as_json(task.start.replace(time=task.t_end, phase="slip", direction=1, psi=psi, f=f)),
     }
 
