@@ -95,14 +95,12 @@ def priced(late: Method, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
         status = AnswerStatus.FOUND if count else AnswerStatus.NONE
         return {"first_separation": Reply(51.0 + (8 - count) / 80 if count else math.nan, 0.1, status)}
 
-    def onset(p, tol):
-        return Reply(15.09 + tol, 1e-4 / tol**0.1, AnswerStatus.FOUND)
+    def ask_cycle(model, tol):
+        onset, none = Reply(15.09 + tol, 1e-4 / tol**0.1, AnswerStatus.FOUND), AnswerStatus.NONE
+        return {"onset": onset, "growth_rate": Reply(math.nan, 1e-4 / tol**0.1, none, "no cycle")}
 
-    def growth_rate(p, tol):
-        return Reply(math.nan, 1e-4 / tol**0.1, AnswerStatus.NONE, "no cycle")
-
-    for name, function in (("ask_model", ask), ("cycle_onset", onset), ("cycle_growth_rate", growth_rate)):
-        monkeypatch.setattr(answers, name, function)
+    monkeypatch.setattr(answers, "ask_model", ask)
+    monkeypatch.setattr(answers, "ask_cycle", ask_cycle)
     monkeypatch.setattr(answers, "_richest", lambda: ask({"n_diameters": 8}))
     monkeypatch.setattr(answers, "CONTACTS", {"rigid": {}})
     parts = [answers.answers(late.name, (1.0, 0.3, 1e-2, 1e-4, 1e-6, 1e-7), asked=("first_separation",))]

@@ -8,7 +8,7 @@ import enum
 import math
 import time as clock
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import lru_cache, partial, wraps
+from functools import lru_cache, partial
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
@@ -304,7 +304,7 @@ def answers(
         if question in hopeless:
             return
         if line == "cycle":
-            replies = {"onset": cycle_onset(SEPARATING, setting), "growth_rate": cycle_growth_rate(GROWING, setting)}
+            replies = ask_cycle({}, setting)
             right = {"onset": reference("fold").value, "growth_rate": reference("growth_rate").value}
         elif line in CONTACTS:
             replies = ask_model({"n_diameters": setting} | CONTACTS[line])
@@ -347,9 +347,7 @@ def in_words(dataset: xr.Dataset) -> pd.DataFrame:
 def ask_model(model: Mapping[str, Any]) -> Replies:
     """The answers to all questions with these modes, given as fields of the parameters."""
     replies = first_separation(SERIES, NEVER, SEPARATING.replace(**model))
-    replies |= settled_after_separation(SETTLED.replace(**model))
-    replies["onset"] = cycle_onset(SEPARATING.replace(**model), DEFAULT)
-    replies["growth_rate"] = cycle_growth_rate(GROWING.replace(**model), DEFAULT)
+    replies |= settled_after_separation(SETTLED.replace(**model)) | ask_cycle(model, DEFAULT)
     replies["region"] = judged(partial(cell, SERIES, NEVER, **model), _right_cell, NEVER, CELLS)
     return replies
 
@@ -370,24 +368,23 @@ def settled_after_separation(p: Parameters) -> Replies:
     return after_separation(SERIES, NEVER, p, late.final_state)
 
 
-def _least_time(function: Callable[[Parameters, float], Reply]) -> Callable[[Parameters, float], Reply]:
-    """A question with the least processor time (s) of several runs; the first run may have compiled."""
-
-    @wraps(function)
-    def timed(p: Parameters, tol: float) -> Reply:
-        seconds, reply = math.inf, function(p, tol)
+def ask_cycle(model: Mapping[str, Any], tol: float) -> Replies:
+    """Onset and growth rate with these modes from the cycle itself, without a simulation, and the least processor time
+    (s) of several runs."""
+    replies = {}
+    for name, function, case in (("onset", cycle_onset, SEPARATING), ("growth_rate", cycle_growth_rate, GROWING)):
+        p, seconds = case.replace(**model), math.inf
+        reply = function(p, tol)  # may have compiled
         for _ in range(REPEATS):
             began = clock.thread_time()
-            reply = function(p, tol)
+            function(p, tol)
             seconds = min(seconds, clock.thread_time() - began)
             if seconds > QUICK:
                 break
-        return reply._replace(seconds=seconds)
+        replies[name] = reply._replace(seconds=seconds)
+    return replies
 
-    return timed
 
-
-@_least_time
 def cycle_onset(p: Parameters, tol: float) -> Reply:
     """Speed (rad/s) of the first fold of the quiet cycle above 14.5 rad/s."""
     low, high = 14.5, 16.0
@@ -398,7 +395,6 @@ def cycle_onset(p: Parameters, tol: float) -> Reply:
     return reply_of(folds[0, 0] if len(folds) else math.nan, 0.0, f"no fold from {low:g} to {high:g} rad/s")
 
 
-@_least_time
 def cycle_growth_rate(p: Parameters, tol: float) -> Reply:
     """Growth rate (1/s) of the stick-slip cycle, from its multipliers."""
     cycle = floquet(p, tol=tol)
