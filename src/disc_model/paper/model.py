@@ -5,12 +5,12 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from itertools import product
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
 import yaml
-from pydantic import BaseModel, ConfigDict, TypeAdapter, model_validator
+from pydantic import BaseModel, ConfigDict, TypeAdapter
 
 from disc_model.analysis.classify import Settled
 from disc_model.data.dataset import Missing
@@ -75,13 +75,6 @@ class Row(BaseModel):
     print_error: bool = False  # it is an error in print, counted apart
     after_the_fact: bool = False  # the rule was chosen when the numbers were known
     also: str = ""  # the row of the ledger that judges the same, of a conclusion that is judged under several models
-
-    @model_validator(mode="after")
-    def _names_cases_of_the_paper(self) -> Self:
-        steady, separates = (names if isinstance(names, tuple) else () for names in (self.steady, self.separates))
-        if unknown := {*self.cases, *steady, *separates} - paper_cases().keys():
-            raise ValueError(f"no case {', '.join(sorted(unknown))} in the paper's")
-        return self
 
     @property
     def rule(self) -> str:
