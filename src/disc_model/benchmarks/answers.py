@@ -104,22 +104,15 @@ def setting_of(method: Method, value: float) -> Solve:
 class Broken(Exception):
     """The result of a run on which an answer depends, and which did not reach its end."""
 
-    def reply(self, seconds: float) -> Reply:
-        (result,) = self.args
-        name = "UNSTABLE" if result.outcome is RunStatus.NON_FINITE else result.outcome.name
-        return Reply(math.nan, seconds, AnswerStatus[name], result.message or f"{result.outcome}")
-
 
 def first_separation(
     solve: Solve, budget: float, p: Parameters = SEPARATING, horizon: float = SEPARATION_HORIZON
 ) -> Replies:
     """Time of the first loss of contact after the static start."""
     result, seconds = _timed(solve, Problem(p, static_start(p), horizon, stop=True), budget)
-    try:
-        time = _separation(result)
-    except Broken as broken:
-        return {"first_separation": broken.reply(seconds)}
-    return {"first_separation": reply_of(time, seconds, f"no separation within {horizon:g} s")}
+    times = _times(result, "separation")
+    missing = f"no separation within {horizon:g} s"
+    return {"first_separation": reply_of(times[0] if len(times) else math.nan, seconds, missing, result)}
 
 
 def after_separation(solve: Solve, budget: float, p: Parameters = SETTLED, start: State | None = None) -> Replies:
@@ -131,7 +124,7 @@ def after_separation(solve: Solve, budget: float, p: Parameters = SETTLED, start
     if seconds < 3.0:  # without the disc's range, for which some methods make a call per step
         _, seconds = _timed(solve, Problem(p, start, problem.t_end), budget)
     if result.outcome is not RunStatus.FINISHED:
-        return dict.fromkeys(AFTER_SEPARATION, Broken(result).reply(seconds))
+        return dict.fromkeys(AFTER_SEPARATION, reply_of(math.nan, seconds, "", result))
     low, high = result.heights
     gaps = np.diff(_times(result, "stick_to_slip"))  # equal if they differ by less than a thousandth of the largest
     repeats = shortest_period(gaps, 1e-3 * np.max(gaps, initial=0.0), near_return=np.inf) or math.nan
@@ -149,7 +142,7 @@ def onset(solve: Solve, budget: float, within: float = ONSET_WITHIN) -> Replies:
         p = SEPARATING.replace(Omega=speed)
         result = solve(Problem(p, static_start(p), ONSET_HORIZON, stop=True), max(budget - used, 0.1))
         used += result.seconds
-        return math.isfinite(_separation(result))
+        return _separates(result)
 
     low, high = ONSET_BETWEEN
     try:
@@ -162,7 +155,7 @@ def onset(solve: Solve, budget: float, within: float = ONSET_WITHIN) -> Replies:
             low, high = (low, middle) if separates(middle) else (middle, high)
         reply = reply_of(0.5 * (low + high), used, "")
     except Broken as broken:
-        reply = broken.reply(used)
+        reply = reply_of(math.nan, used, "", *broken.args)
     return {"onset": reply._replace(low=low, high=high)}
 
 
@@ -170,10 +163,8 @@ def growth_rate(solve: Solve, budget: float) -> Replies:
     """Rate at which a deviation from the cycle grows, from the stretches between releases."""
     start = start_of("growing")
     result, seconds = _timed(solve, Problem(GROWING, start, start.time + GROWING_SPAN), budget)
-    if result.outcome is not RunStatus.FINISHED:
-        return {"growth_rate": Broken(result).reply(seconds)}
-    rate = growth(_times(result, "stick_to_slip"))
-    return {"growth_rate": reply_of(rate, seconds, "no oscillation that grows or dies out steadily")}
+    rate = growth(_times(result, "stick_to_slip")) if result.outcome is RunStatus.FINISHED else math.nan
+    return {"growth_rate": reply_of(rate, seconds, "no oscillation that grows or dies out steadily", result)}
 
 
 def growth(releases: Array) -> float:
@@ -226,7 +217,7 @@ def judged(
             return Reply(math.nan, each * len(indices), AnswerStatus.TOO_SLOW, why, cells=TRIED)
         verdicts += [judge(int(index)) for index in indices[TRIED:count]]
     except Broken as broken:
-        return broken.reply(sum(s for _, s in verdicts))._replace(cells=len(verdicts))
+        return reply_of(math.nan, sum(s for _, s in verdicts), "", *broken.args)._replace(cells=len(verdicts))
     wrong = sum(apart != right(int(index)) for (apart, _), index in zip(verdicts, indices, strict=False))
     part = float(wrong) / count
     low, high = share(int(wrong), count)[1:] if count < len(indices) else (part, part)
@@ -239,7 +230,7 @@ def cell(solve: Solve, budget: float, index: int, **model: Any) -> tuple[bool, f
     load, speed = np.linspace(*REGION_LOADS, SIDE), np.linspace(*REGION_SPEEDS, SIDE)
     p = Parameters(N=float(load[index // SIDE]), Omega=float(speed[index % SIDE]), **model)
     result = solve(Problem(p, static_start(p), REGION_HORIZON, stop=True), budget)
-    return math.isfinite(_separation(result)), result.seconds
+    return _separates(result), result.seconds
 
 
 ASKED: Mapping[str, tuple[Callable[[Solve, float], Replies], float]] = {  # and the budget at one setting, s
@@ -259,25 +250,26 @@ def _timed(solve: Solve, problem: Problem, budget: float) -> tuple[MethodResult,
     return results[0], min(result.seconds for result in results)
 
 
-def reply_of(value: float, seconds: float, missing: str) -> Reply:
-    """An answer; ``missing`` is the reason if it is nan."""
+def reply_of(value: float, seconds: float, missing: str, result: MethodResult | None = None) -> Reply:
+    """An answer; if it is nan, the reason is ``missing`` or, if the run that gave it did not end, how that failed."""
     if math.isfinite(value):
         return Reply(float(value), seconds, AnswerStatus.FOUND)
-    return Reply(math.nan, seconds, AnswerStatus.NONE, missing)
+    if result is None or result.outcome is RunStatus.FINISHED:
+        return Reply(math.nan, seconds, AnswerStatus.NONE, missing)
+    name = "UNSTABLE" if result.outcome is RunStatus.NON_FINITE else result.outcome.name
+    return Reply(math.nan, seconds, AnswerStatus[name], result.message or f"{result.outcome}")
 
 
 def _times(result: MethodResult, kind: str) -> Array:
     return result.times[[event == kind for event in result.kinds]]
 
 
-def _separation(result: MethodResult) -> float:
-    """Time of the first separation (s), nan if the motion ended without one; raises `Broken` if it did not end."""
-    times = _times(result, "separation")
-    if len(times):
-        return float(times[0])
-    if result.outcome is not RunStatus.FINISHED:
+def _separates(result: MethodResult) -> bool:
+    """Whether contact is lost; raises `Broken` if the motion neither lost it nor reached its end."""
+    separates = "separation" in result.kinds
+    if not separates and result.outcome is not RunStatus.FINISHED:
         raise Broken(result)
-    return math.nan
+    return separates
 
 
 # ---- Costs
