@@ -45,9 +45,7 @@ GROWING_AT, GROWING_SPAN = 100.0, 10.0  # the same of a motion from a cycle; by 
 SIDE = 32  # number of cells of the region along each axis
 REGION_SPEEDS, REGION_LOADS = (14.0, 34.0), (480.0, 600.0)  # rad/s, N
 REGION_HORIZON = 25.0  # s
-QUESTIONS: dict[str, dict[str, Any]] = {
-    name: dict(zip(("title", "units", "enough"), entry, strict=True)) for name, entry in TABLES["questions"].items()
-}
+QUESTIONS: dict[str, dict[str, Any]] = TABLES["questions"]
 """Name in words, unit, and the tolerance (in the unit) of a correct answer."""
 
 
