@@ -21,7 +21,7 @@ from docs.make_gallery import shrink
 from disc_model.benchmarks.answers import in_words
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import CONVERGED, JUDGED
-from disc_model.benchmarks.work_precision import DEFAULT, at_default, cost_at, headline, measured_points
+from disc_model.benchmarks.work_precision import DEFAULT, cost_at, measured_points
 from disc_model.data.dataset import load, markdown_table
 from disc_model.errors import DiscModelError, script
 
@@ -67,6 +67,24 @@ def speed_numbers(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.D
         "costs": _costs(points),
         "cycle": _cycle(in_words(answers)),
     }
+
+
+def at_default(points: pd.DataFrame) -> pd.DataFrame:
+    return points[(points["solver"] == "series") & (points["value"] == DEFAULT)]
+
+
+def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
+    """Cost of a further second with events correct to `DEFAULT` s, or to the series engine's own error if that is
+    larger, over the cost of the series engine at its default, by scene and method."""
+    ratios: dict[str, dict[str, float]] = {}
+    for scene in JUDGED:
+        part = points[points["scene"] == scene]
+        for _, series in at_default(part).dropna(subset="event_error").iterrows():
+            error = max(DEFAULT, series["event_error"])
+            costs = {str(name): cost_at(line, error) for name, line in part.groupby("solver", sort=False)}
+            costs["series"] = series["further"]
+            ratios[scene] = {name: cost / costs["series"] for name, cost in costs.items() if math.isfinite(cost)}
+    return ratios
 
 
 def _own(points: pd.DataFrame) -> Rows:

@@ -7,6 +7,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 import xarray as xr
+from docs.write_benchmark_pages import headline
 
 from disc_model.benchmarks import answers, figures, study, work_precision
 from disc_model.benchmarks.answers import AnswerStatus, AnswerVerdict, Reply, verdict
@@ -14,7 +15,7 @@ from disc_model.benchmarks.methods import METHODS, Method
 from disc_model.benchmarks.methods.integrators import MethodResult, RunStatus
 from disc_model.benchmarks.scaling import contact_study, scaling
 from disc_model.benchmarks.scenes import Verdict
-from disc_model.benchmarks.work_precision import headline, measured_points, table
+from disc_model.benchmarks.work_precision import measured_points, table
 from disc_model.data.variables import flag_names
 from disc_model.figures.drawing import save
 from disc_model.simulation.api import simulate

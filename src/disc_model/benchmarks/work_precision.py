@@ -108,20 +108,6 @@ def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
     return frame.assign(further=frame["marginal_cost"].fillna(frame["cost"]))
 
 
-def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
-    """Cost of a further second with events correct to `DEFAULT` s, or to the series engine's own error if that is
-    larger, over the cost of the series engine at its default, by scene and method."""
-    ratios: dict[str, dict[str, float]] = {}
-    for scene in JUDGED:
-        part = points[points["scene"] == scene]
-        for _, series in at_default(part).dropna(subset="event_error").iterrows():
-            error = max(DEFAULT, series["event_error"])
-            costs = {str(name): cost_at(line, error) for name, line in part.groupby("solver", sort=False)}
-            costs["series"] = series["further"]
-            ratios[scene] = {name: cost / costs["series"] for name, cost in costs.items() if math.isfinite(cost)}
-    return ratios
-
-
 def cost_at(line: pd.DataFrame, wanted: float, cost: str = "further") -> float:
     """Cost at which a line reaches an event-time error (s): interpolated in log-log; nan if no setting is as accurate.
     A setting counts only if no cheaper one is as accurate; nothing is extrapolated to coarser settings."""
@@ -132,10 +118,6 @@ def cost_at(line: pd.DataFrame, wanted: float, cost: str = "further") -> float:
     if not len(errors) or not errors[-1] <= max(wanted, FLOOR):
         return math.nan
     return float(np.exp(np.interp(-math.log(max(wanted, FLOOR)), -np.log(errors), np.log(costs))))
-
-
-def at_default(points: pd.DataFrame) -> pd.DataFrame:
-    return points[(points["solver"] == "series") & (points["value"] == DEFAULT)]
 
 
 def table(dataset: xr.Dataset) -> pd.DataFrame:
