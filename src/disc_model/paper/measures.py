@@ -119,14 +119,12 @@ class CaseView:
         """The same in words."""
         times, motion = self.intervals(), self.late_motion
         if not motion.period:
-            rate = f"{motion}: there are {1 / times.mean():.1f} releases per second, the intervals between them do not"
-            most = f"repeat with any period of up to {motion.longest} releases, and the 0-1 test for chaos gives"
-            return f"{rate} {most} {motion.chaos:.2f}"
+            most = f"{motion}: it does not repeat after any number of releases up to {motion.longest}"
+            return f"{most}, and the 0-1 test for chaos gives {motion.chaos:.2f}"
         length = float(times[: motion.period].sum())
         apart = round(self.rate_of("separation") * length)
         after = counted(motion.period, "release") + (f" and {counted(apart, 'separation')}" if apart else "")
-        period = f"periodic: one period has {after}, and lasts {length:.6g} s. From one period to the next, the"
-        return f"{period} intervals between releases differ by at most {motion.closure:.0e} s"
+        return f"periodic: it repeats after {after}, every {length:.6g} s"
 
     @property
     def early(self) -> Range:

@@ -11,9 +11,9 @@ from scipy.integrate import fixed_quad
 
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
-from disc_model.disc.plate import coupled_frequencies, coupled_natural_frequencies, mode_shapes, plate_modes
+from disc_model.disc.plate import coupled_natural_frequencies, mode_shapes, plate_modes
 from disc_model.paper import measures
-from disc_model.paper.measures import Array, CaseView, extent, or_none, pairs, sliding_growth
+from disc_model.paper.measures import Array, CaseView, extent, pairs, sliding_growth
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded, parameters_of
 from disc_model.parameters import Parameters
 
@@ -54,12 +54,9 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
     quiet = {x: parameters_of(SEPARATING[x][1], "orthonormal") for x in points if kinds[x] != "separation"}
     kept = [x for x, p in quiet.items() if not measures.separates_within(p, horizons[x])]
     grow = [horizons[figure] for figure in kept if kinds[figure] == "growing"]
-    unless = {x: f"none within {horizons[x]:g} s ({kinds[x]})" for x in points}
-    rows = times.itertuples()
-    first = [f"{x}, {or_none(was, '.0f', ' s')} and {or_none(now, '.0f', ' s', unless[x])}" for x, was, now in rows]
     counts = (len(times), times["as_published"].count(), len(times) - len(kept), len(kept) - len(grow), len(grow))
     verdict, until = graded(speed < share * critical for speed in lowest), extent(grow) if grow else None
-    return Answer(verdict, counts=counts, until=until, lowest=lowest, critical=critical, first=first)
+    return Answer(verdict, counts=counts, until=until, lowest=lowest, critical=critical)
 
 
 def norms(p: Parameters) -> Array:
@@ -71,8 +68,7 @@ def norms(p: Parameters) -> Array:
 
 def normalised(*, within: float) -> Answer:
     norms_of_base = norms(BASE)
-    squares = [plate_modes(p)["psi"][1] ** 2 for p in (BASE, NORMALISED)]
-    return Answer(np.max(np.abs(norms_of_base - 1)) <= within, norms=[*norms_of_base], squares=squares)
+    return Answer(np.max(np.abs(norms_of_base - 1)) <= within, norms=[*norms_of_base])
 
 
 def second_relation(*, within: float) -> Answer:
@@ -90,7 +86,7 @@ def slip_condition(*cases: CaseView) -> Answer:
         true += (pull < case["mu_s"] * stops["P"].values).tolist()
     if not true:
         raise Missing("no case keeps an end of slip")
-    return Answer(not any(true), held=sum(true), ends=len(true), spans=[case.kept_span.width for case in cases])
+    return Answer(not any(true), held=sum(true), ends=len(true))
 
 
 def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
@@ -102,13 +98,12 @@ def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
     more, *circles = [bool(np.allclose(row, rows[0], rtol=share)) for row in rows[1:]]
     verdict = TRUE if all_soon and more and all(circles) else PART if soon and more else FALSE
     change = ["hardly change" if same else "change" for same in (more, all(circles))]
-    return Answer(verdict, change=change, rows=rows, first=first)
+    return Answer(verdict, change=change, rows=rows)
 
 
 def attached_frequencies(*, printed: Sequence[float], within: float) -> Answer:
     ours = coupled_natural_frequencies(BASE)
-    shifted, other = ([*coupled_frequencies(p)] for p in (BASE, NORMALISED))
-    return Answer(np.all(np.abs(ours - np.sort(printed)) <= within), ours=[*ours], shifted=shifted, other=other)
+    return Answer(np.all(np.abs(ours - np.sort(printed)) <= within), ours=[*ours])
 
 
 def moving_load(*, printed: float, within: float) -> Answer:
@@ -139,36 +134,29 @@ SPEEDS = np.arange(5.0, 1501.0, 5.0)  # rad/s, up to where all speeds are unstab
 
 
 @cache
-def growths(loads: tuple[float, ...], c: float, **friction: float) -> list[Array]:
+def growths(loads: tuple[float, ...], c: float, **friction: float) -> Array:
     """Largest growth rates of sliding, 1/s: without friction, with it, and with a damper too: (3, load, speed)."""
-    rates = []
-    for scale in (BASE, NORMALISED):
-        p = scale.replace(contact="bilateral", **friction)
-        points = product((p.replace(mu_s=0.0, mu_k=0.0), p, p.replace(c=c)), loads, SPEEDS)
-        growth = [sliding_growth(each.replace(N=N, Omega=speed)) for each, N, speed in points]
-        rates.append(np.reshape(growth, (3, len(loads), SPEEDS.size)))
-    return rates
+    p = BASE.replace(contact="bilateral", **friction)
+    points = product((p.replace(mu_s=0.0, mu_k=0.0), p, p.replace(c=c)), loads, SPEEDS)
+    growth = [sliding_growth(each.replace(N=N, Omega=speed)) for each, N, speed in points]
+    return np.reshape(growth, (3, len(loads), SPEEDS.size))
 
 
 def additional(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
     """Whether friction makes speeds unstable that are stable without, and the damper raises growth at all of them."""
-    verdicts, rows, critical = [], [], moving_load_speed(BASE)
-    for alone, both, damped in growths(tuple(loads), c, **friction):
-        new = (both > 0) & ~(alone > 0)
-        raised = new & (damped > both)
-        # open if it raises some: the disc of the precursor, of which we have the abstract, is not known
-        verdicts.append(FALSE if not raised.any() else TRUE if (raised == new).all() else NOT_COMPUTED)
-        slowest = SPEEDS[raised.any(axis=0)].min(initial=np.inf)
-        below = new & (critical > SPEEDS)
-        rows.append((new.sum(), raised.sum(), slowest, (new & (damped < 0)).sum(), below.sum()))
-    return Answer(verdicts[0], rows=rows, size=new.size, critical=critical)
+    alone, both, damped = growths(tuple(loads), c, **friction)
+    critical, new = moving_load_speed(BASE), (both > 0) & ~(alone > 0)
+    raised = new & (damped > both)
+    # open if it raises some: the disc of the precursor, of which we have the abstract, is not known
+    verdict = FALSE if not raised.any() else TRUE if (raised == new).all() else NOT_COMPUTED
+    slowest, below = SPEEDS[raised.any(axis=0)].min(initial=np.inf), new[:, critical > SPEEDS]
+    counts = (new.sum(), raised.sum(), below.sum())
+    return Answer(verdict, size=new.size, counts=counts, slowest=slowest, critical=critical)
 
 
 def reduced(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
-    verdicts, rows = [], []
-    for alone, both, _ in growths(tuple(loads), c, **friction):
-        old = alone > 0
-        stable, lower = ((old & each).sum() for each in (both < 0, both < alone))
-        verdicts.append(FALSE if not lower else TRUE if lower == old.sum() and stable else NOT_COMPUTED)
-        rows.append((old.sum(), stable, lower))
-    return Answer(verdicts[0], rows=rows, size=old.size)
+    alone, both, _ = growths(tuple(loads), c, **friction)
+    old = alone > 0
+    stable, lower = ((old & each).sum() for each in (both < 0, both < alone))
+    verdict = FALSE if not lower else TRUE if lower == old.sum() and stable else NOT_COMPUTED
+    return Answer(verdict, size=old.size, counts=(old.sum(), stable, lower))

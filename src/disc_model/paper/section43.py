@@ -1,7 +1,7 @@
 """Rows on Section 4.3: effects of single parameters."""
 
 import math
-from itertools import groupby, product
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -49,9 +49,8 @@ def becomes_unstable(case: CaseView) -> Answer:
 def only_between(*cases: CaseView, largest: float) -> Answer:
     shown = sum(case["N"] <= largest for case in cases)
     stable = [stays_calm(x) if x["N"] <= largest or "history" in x.node else not x.separates for x in cases]
-    holds, here = stable[:shown] == [True, False, True], " ".join(calm_text(case) for case in cases)
-    part = holds and not all(stable[shown:])
-    return Answer(PART if part else holds, here, part=part)
+    holds, rows = stable[:shown] == [True, False, True], [(cases[i].place, calm) for i, calm in enumerate(stable)]
+    return Answer(PART if holds and not all(stable[shown:]) else holds, rows=rows)
 
 
 def hardly_moves(large: CaseView, huge: CaseView, *, held: float) -> Answer:
@@ -69,15 +68,14 @@ def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: fl
     never = [speed for speed, time in times.items() if math.isnan(time)]
     lower = [speed for speed, time in times.items() if speed < printed - within and time <= horizon]
     apart, rows = times[printed] <= horizon, [row for row in times.items() if row[0] not in never]
-    verdict, lowest = PART if apart and lower else apart, (lower[0], 1 - lower[0] / printed) if lower else ()
-    return Answer(verdict, N=known["N"], rows=rows, never=never, end=end, horizon=horizon, lower=lowest)
+    verdict = PART if apart and lower else apart
+    return Answer(verdict, N=known["N"], rows=rows, never=never, end=end, horizon=horizon, lower=lower)
 
 
 def undamped_separates_lower(*cases: CaseView) -> Answer:
     undamped, damped = ([case for case in cases if (case["D_star"] == 0) == free] for free in (True, False))
     lowest = [min((case["Omega"] for case in each if case.separates), default=math.inf) for each in (undamped, damped)]
-    rows = [(case["D_star"], case["Omega"], case.contact) for case in cases]
-    return Answer(lowest[0] < lowest[1], rows=rows, N=cases[0]["N"], lowest=lowest)
+    return Answer(lowest[0] < lowest[1], N=cases[0]["N"], lowest=lowest)
 
 
 def twice_the_damping(*cases: CaseView) -> Answer:
@@ -87,7 +85,7 @@ def twice_the_damping(*cases: CaseView) -> Answer:
 
 def inplane_damping(without: CaseView, case: CaseView) -> Answer:
     verdict = not without.separates and case.separates
-    return Answer(verdict, fates=(without.fate, case.fate), motion=case.motion, span=case.kept_span)
+    return Answer(verdict, fates=(without.fate, case.fate))
 
 
 def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
@@ -116,9 +114,8 @@ def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
         raise Missing(f"study {study.attrs.get('study', '')} has no growing cycle")
     part = np.mean(np.concatenate([np.diff(row) < 0 for row in rows]))
     ranks = [spearmanr(range(row.size), row)[0] for row in rows]
-    rank, above = np.median(ranks), (int(np.sum(np.array(ranks) > -trend)), len(ranks))
-    verdict = TRUE if part == 1 else PART if rank <= -trend else FALSE
-    return Answer(verdict, part=part, rank=rank, above=above)
+    rank = np.median(ranks)
+    return Answer(TRUE if part == 1 else PART if rank <= -trend else FALSE, part=part, rank=rank)
 
 
 def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = False) -> Answer:
@@ -131,7 +128,7 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
     last, before = float(np.median(widths[:count])), float(np.median(widths[count:]))
     holds = not case.separates and last > factor * case.early.width and last < bounded * before
     verdict = PART if holds and cause else holds
-    return Answer(verdict, fate=calm_text(case), before=before, last=last, most=max(widths))
+    return Answer(verdict, fate=calm_text(case), before=before, last=last)
 
 
 def quasi_periodic_and_irregular(case: CaseView) -> Answer:
@@ -154,14 +151,11 @@ def softer_separates_sooner(*evidence: Any) -> Answer:
 
 def stiff_enough(case: CaseView, *, name: str, larger: list[float]) -> Answer:
     points = _grid(case.parameters)
-    unstable = [p for p in points if not _growth(p) < 0]
-    calm, stable = stays_calm(case), len(points) - len(unstable)
-    groups = groupby(unstable, lambda p: p.N)
-    others = [f"{N:g} N with {', '.join(f'{p.Omega:g}' for p in group)} rad/s" for N, group in groups]
+    calm, stable = stays_calm(case), sum(_growth(p) < 0 for p in points)
     more = [(x, sum(_growth(p.replace(**{name: 1e3 * x})) < 0 for p in points)) for x in larger]
     every = calm and all(count == len(points) for count in (stable, *dict(more).values()))
     verdict = PART if calm and stable and not every else every
-    return Answer(verdict, fate=calm_text(case), stable=stable, size=len(points), others=others, more=more)
+    return Answer(verdict, fate=calm_text(case), stable=stable, size=len(points), more=more)
 
 
 def _growth(p: Parameters) -> float:
@@ -201,12 +195,12 @@ def lowest_position(case: CaseView, *, share: float) -> Answer:
         raise Missing(f"no separation in the window of case {case.name}")
     location = separation_location(time, height, starts, share)
     # by its events: samples come late, and the velocity of a light slider changes fast
-    where, speed = (float(np.median(lost[name].values)) for name in ("u", "u_velocity"))
+    speed = float(np.median(lost["u_velocity"].values))
     above = float(np.median(height[starts - 1]) - height.min()) / np.ptp(height)
     swings = int(np.sum((np.diff(height)[1:] > 0) & (np.diff(height)[:-1] <= 0)))
-    counts, heights = (starts.size, swings), (where - case["u_0"], height.min(), height.max())
+    counts = (starts.size, swings)
     holds = location.kind == "at the lowest position" and above <= share
-    return Answer(holds, counts=counts, heights=heights, span=extent(time), part=location.height, speed=speed)
+    return Answer(holds, counts=counts, span=extent(time), part=location.height, speed=speed)
 
 
 def seen_in_section(case: CaseView, *, share: float) -> Answer:
@@ -221,16 +215,14 @@ def seen_in_section(case: CaseView, *, share: float) -> Answer:
 
 def bounded(*cases: CaseView, factor: float) -> Answer:
     widths = [case.last_quarters("w_point") for case in cases]
-    rows = [f"{1e3 * late:.1f} mm at {case.place}" for case, (late, _) in zip(cases, widths, strict=True)]
     widest, most = max(late / before for late, before in widths), max(late for late, _ in widths) / cases[0]["h"]
-    return Answer(graded(late <= factor * before for late, before in widths), rows=rows, widest=widest, most=most)
+    return Answer(graded(late <= factor * before for late, before in widths), widest=widest, most=most)
 
 
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
     vanishes = any(stick_disappears(case.stick_in_all, case.stick, share) for case in cases if case.from_rest)
     begun = [[(x.place, x.stick, x.stick_in_all) for x in cases if x.from_rest == rest] for rest in (True, False)]
-    spans = sorted({f"{case['time_reached'] - case.kept_span.low:g}" for case in cases}, key=float)
-    return Answer(vanishes, begun=begun, spans=" to ".join([spans[0], *spans[1:][-1:]]))
+    return Answer(vanishes, begun=begun)
 
 
 def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:

@@ -24,7 +24,7 @@ EARLY, LATER, LATE = ("spectrum_a", 0.0, 10.0), ("spectrum_b", 38.0, 48.0), ("sp
 
 def when_it_separates(case: CaseView, *, printed: float, within: float) -> Answer:
     off = abs(case["first_separation"] - printed)
-    return Answer(off <= within, contact=case.contact.capitalize(), off=off if case.separates else "")
+    return Answer(off <= within, contact=case.contact.capitalize())
 
 
 def rest_late(case: CaseView, *, within: float) -> Answer:
@@ -48,20 +48,13 @@ def lines(case: CaseView, *, bound: float) -> Answer:
     lines, table, signal = table_2_lines(case), table_2(case), case.signal(*EARLY)
     off = np.abs(table["ours_Hz"] - table["paper_Hz"])
     chance = len(lines) * max(spectra.chance(signal.time, signal.values, line, SEARCHED) for line in lines)
-    floor = min(line.amplitude for line in lines) / max(line.amplitude for line in lines)
-    others = [
-        f"{line.frequency:.2f}"
-        for line in signal.lines(above=1.0, below=300.0, floor=floor, apart=1.0)
-        if np.min(np.abs(line.frequency - table["ours_Hz"])) > bound
-    ]
     rows = [f"{row.ours_Hz:.2f} ({row.paper_Hz:g}, {row.ours_is})" for row in table.itertuples()]
     named, rate, most = (table["ours_is"] != UNNAMED).sum(), stick_slip_rate(case), off.max()
-    holds = most <= bound and chance <= 1e-3
-    return Answer(holds, off=most, named=named, rate=rate, rows=rows, others=others, chance=chance)
+    return Answer(most <= bound and chance <= 1e-3, off=most, named=named, rate=rate, rows=rows)
 
 
 def follow(*cases: CaseView, within: float) -> Answer:
-    rows, off, shifted, natural = [], list[float](), list[bool](), list[bool]()
+    off, shifted, natural = list[float](), list[bool](), list[bool]()
     for case in cases:
         lines = sorted(case.signal(*EARLY).lines(6, above=100, below=300, apart=1.0))
         rate = stick_slip_rate(case)
@@ -69,11 +62,9 @@ def follow(*cases: CaseView, within: float) -> Answer:
         off, shifted = off + [abs(each.deviation) for each in names], shifted + [each.m != 0 for each in names]
         beside = np.add.outer(natural_frequencies(case), case.drive * np.array([-3, -2, -1, 1, 2, 3]))
         natural += [bool(np.min(np.abs(beside - line.frequency)) <= within) for line in lines]
-        place = measures.place(case["N"], case["Omega"])
-        rows.append((place, 1e-3 * case["k_p"], rate, [line.frequency for line in lines]))
     combined = [each <= within for each in off]
     verdict = TRUE if all(natural) else PART if all(combined) and np.mean(shifted) >= 0.5 else FALSE
-    return Answer(verdict, combined=combined, shifted=shifted, natural=natural, rows=rows)
+    return Answer(verdict, combined=combined, shifted=shifted, natural=natural)
 
 
 def inplane_frequency(case: CaseView, *, printed: float, within: float) -> Answer:
@@ -90,8 +81,7 @@ def close_to_natural(case: CaseView, *, within: float) -> Answer:
     far = np.abs(nearest - computed) > within
     verdict = TRUE if not far.any() else PART if far.mean() <= 0.5 else FALSE
     rows = [f"{f:.1f} Hz ({n:.1f} Hz)" for f, n in zip(computed, nearest, strict=True)]
-    twice = 2 * stick_slip_rate(case)
-    return Answer(verdict, rows=rows, far=(far.sum(), far.size), twice=twice, coupled=natural[0])
+    return Answer(verdict, rows=rows, far=(far.sum(), far.size))
 
 
 def higher(*cases: CaseView, factor: float, floor: float, windows: str, spans: Sequence[float]) -> Answer:
@@ -122,7 +112,7 @@ def explained_by_slider(*pair: CaseView, share: float) -> Answer:
     disc = [[case.signal(*span).filled for span in (LATER, LATE)] for case in pair]
     slider = [[case.signal(name, start, start + length, "psi").filled for name, start in begins] for case in pair]
     clear, alike = ([each[-1] < share * each[0] for each in filled] for filled in (disc, slider))
-    return Answer(PART if clear[0] and clear == alike else FALSE, length=length, disc=disc, slider=slider)
+    return Answer(PART if clear[0] and clear == alike else FALSE, disc=disc, slider=slider)
 
 
 def later_periodic(case: CaseView, bonded: CaseView) -> Answer:
@@ -235,7 +225,7 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
 
 
 def vertical_branch(*cases: CaseView, within: float) -> Answer:
-    rows, follows, alone, levels = [], [], [], []
+    rows, follows, alone = [], [], []
     free = float(np.sqrt(cases[0]["k"] / cases[0]["m"])) / (2 * np.pi)
     for pair in zip(cases[::2], cases[1::2], strict=True):
         rates = [1 / float(case.intervals("separation").mean()) for case in pair]
@@ -244,10 +234,6 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
         follows.append(rise / of_mode)
         alone.append(rise / (math.sqrt(pair[1]["k"] / pair[0]["k"]) - 1))
         rows.append((pair[0].place, rates[0]))
-        signal = pair[0].signal("late", 0.0, np.inf)
-        frequencies, amplitude = spectra.amplitude_spectrum(signal.time, signal.values)
-        near, every = (float(amplitude[band].max()) for band in (np.abs(frequencies - free) < 1, frequencies > 1))
-        levels.append(measures.ratio(near, every, f"the spectrum of case {pair[0].name}"))
     by_mode, by_spring = (all(abs(each - 1) <= within for each in rises) for rises in (follows, alone))
-    told = {"coupled": modes[0], "free": free, "follows": follows, "level": max(levels)}
-    return Answer(AMBIGUOUS if by_mode else by_spring, rows=rows, by_mode=by_mode, **told)
+    told = {"coupled": modes[0], "free": free, "follows": follows}
+    return Answer(AMBIGUOUS if by_mode else by_spring, rows=rows, **told)
