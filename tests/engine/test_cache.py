@@ -3,14 +3,13 @@
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
 import numba
 import pytest
 
 from disc_model import Parameters, floquet, simulate
 from disc_model.engine import event_loop
-from disc_model.engine.jit import cache, helper, kernel, merging
+from disc_model.engine.jit import cache
 from tests.processes import python, run
 
 KERNEL = """
@@ -73,32 +72,6 @@ def test_what_is_in_the_cache_is_found_again_and_what_is_damaged_or_gone_is_comp
     printed.append(ask_for_a_kernel(tmp_path, code=KERNEL + OUTER).stdout.splitlines())
     assert [lines[0] for lines in printed] == ["42 0", "42 1", "42 0"]
     assert [lines[1] for lines in printed] == ["6.875 7.875"] * 3
-
-
-def half_more(x):  # type: ignore[no-untyped-def]
-    return x + 0.5
-
-
-def twice(x):  # type: ignore[no-untyped-def]
-    return 2.0 * part(x)
-
-
-part: Any = half_more
-
-
-@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")
-def test_a_kernel_that_is_gone_is_made_of_stored_helpers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """And from its own file while that is there."""
-    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
-    for kept in (0, 1, 0):
-        monkeypatch.setattr(merging.HelperLibrary, "known", {})
-        cache.stored_helpers.cache_clear()
-        for file in tmp_path.glob("*.kernel") if not kept else ():
-            file.unlink()
-        monkeypatch.setitem(globals(), "part", helper(half_more))
-        made = kernel(twice)
-        assert (made(1.0), sum(made.stats.cache_hits.values())) == (3.0, kept)
-    cache.stored_helpers.cache_clear()
 
 
 def test_a_folder_that_cannot_be_written_costs_time_not_the_result(tmp_path: Path) -> None:

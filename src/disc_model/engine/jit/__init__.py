@@ -8,8 +8,6 @@ A ``kernel`` is separate machine code that Python calls and the cache stores.  A
 of each kernel that calls it.  An ``inlined`` helper is merged into its caller.
 """
 
-import functools
-from types import FunctionType, ModuleType
 from typing import Any
 
 import numba
@@ -28,7 +26,7 @@ RULES: dict[str, Any] = {
 }
 _MERGED: dict[str, Any] = {"no_cpython_wrapper": True}
 try:
-    from .merging import HelperCache, HelperCompiler, KernelCache, KernelCompiler
+    from .merging import HelperCompiler, KernelCache, KernelCompiler
 except (ImportError, AttributeError, TypeError) as error:  # a part of numba is missing or has changed
     cache.warn_once(
         f"numba {numba.__version__} compiles otherwise than expected ({error}): it takes four times as long"
@@ -68,8 +66,7 @@ def kernel(function):
 
 
 def helper(function, forceinline=False):
-    """Compile a function as a part of kernels. Python calls a separate kernel instead of it. It is specialised on no
-    more of the types than it uses."""
+    """Compile a function as a part of kernels. Python calls a separate kernel instead of it."""
     # set in either case: a helper would inherit it from the inlined one that was being compiled
     part = numba.njit(**(RULES | _MERGED), forceinline=forceinline)(function)
     if part is function:  # compilation is switched off
@@ -79,36 +76,15 @@ def helper(function, forceinline=False):
     def add_overload(compiled):
         part.overloads[tuple(compiled.signature.args)] = compiled
 
-    def narrowed(kind):
-        kind = numba.types.unliteral(kind)
-        return kind.narrowed(_names(function)) if hasattr(kind, "narrowed") else kind
-
     part._compile_for_args = lambda *_, **__: called_by_python
     part.add_overload = add_overload
-    part.get_call_template = lambda args, kws: template(tuple(map(narrowed, args)), kws)
-    if "pipeline_class" in RULES:
-        part._cache = HelperCache(function)
+    part.get_call_template = lambda args, kws: template(tuple(map(numba.types.unliteral, args)), kws)
     return part
 
 
 def inlined(function):
     """Compile a function into its callers: a small helper of hot loops, where a call would cost more than its work."""
     return helper(function, forceinline=True)
-
-
-@functools.cache
-def _names(function: FunctionType) -> frozenset[str]:
-    """All names in the code of a function and of those that it calls."""
-    names, seen, waiting = set[str](), {function}, [function]
-    while waiting:
-        caller = waiting.pop()
-        used, known = caller.__code__.co_names, caller.__globals__
-        modules = (vars(known[name]) for name in used if isinstance(known.get(name), ModuleType))
-        called = {getattr(scope.get(name), "py_func", function) for scope in (known, *modules) for name in used}
-        names.update(used)
-        waiting += called - seen
-        seen |= called
-    return frozenset(names)
 
 
 def compiled_for(function, arguments: tuple[object, ...]):

@@ -24,8 +24,6 @@ from numba.core import event, serialize
 
 from disc_model.sources import cache_folder, code_hash
 
-HELPERS = ".helpers"  # suffix of files with the helpers that were first compiled for a kernel, for later ones
-
 
 @functools.cache
 def folder() -> Path:
@@ -80,15 +78,6 @@ def compiling(report: bool = True) -> Iterator[None]:
         LINES.listening -= report
 
 
-@functools.cache
-def stored_helpers(codegen: Any) -> dict[str, bytes]:
-    """The helpers that were compiled for earlier kernels."""
-    stored: dict[str, bytes] = {}
-    for path in sorted(folder().glob(f"*.{hash_of(codegen.magic_tuple())}{HELPERS}")):
-        stored |= read(path) or {}
-    return stored
-
-
 @contextmanager
 def lock(name: str) -> Iterator[None]:
     """Let other processes wait that come to a lock of the same name, where files can be locked."""
@@ -108,7 +97,6 @@ def lock(name: str) -> Iterator[None]:
                     fcntl.flock(file, fcntl.LOCK_EX)
                 finally:
                     told.cancel()
-                stored_helpers.cache_clear()  # the other process has stored its helpers
         yield
 
 

@@ -1,22 +1,18 @@
 """Kernels and their files, and helpers that are compiled only as parts of kernels.
 
 Numba optimises every function and generates its machine code before it links it into its callers.  Here a helper stays
-unoptimised until its kernel is complete, which is then optimised as a whole. Its code is stored beside the kernel that
-first needed it (``cache.HELPERS``), and linked into kernels that other processes compile later.
+unoptimised until its kernel is complete, which is then optimised as a whole.
 
 The module uses internals of numba that may change: `jit` does without it if one is missing.
 """
 
 import gc
-import pickle
 from copy import copy
-from typing import ClassVar
 
 import llvmlite.binding as llvm
 from numba.core.caching import NullCache
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder, compile_result
-from numba.core.serialize import dumps
+from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder
 from numba.core.typed_passes import InlineOverloads, NopythonRewrites
 from numba.core.untyped_passes import InlineClosureLikes, LiteralUnroll, WithLifting
 
@@ -48,37 +44,6 @@ class HelperLibrary(JITCodeLibrary):
     def get_pointer_to_function(self, name):
         return 0
 
-    known: ClassVar[dict] = {}  # libraries by their keys, the function and the types of its arguments, or by their code
-    key = None
-
-    def stored(self):
-        """Its code as bytes.  Helpers that it calls are named; other code that it calls is included."""
-        parts = dict.fromkeys(self._linking_libraries)
-        keys = (getattr(each, "key", None) for each in parts)
-        links = [(e.name, key or e._get_module_for_linking().as_bitcode()) for e, key in zip(parts, keys, strict=True)]
-        return dumps((self.name, self._final_module.as_bitcode(), links, self.result))
-
-    @classmethod
-    def of_code(cls, codegen, name, code):
-        if code not in cls.known:
-            cls.known[code] = cls(codegen, name)
-            cls.known[code]._final_module, cls.known[code]._finalized = llvm.parse_bitcode(code), True
-        return cls.known[code]
-
-    @classmethod
-    def restored(cls, codegen, key):
-        """The library with a key, from files if need be.  Raises KeyError."""
-        if key not in cls.known:
-            name, code, links, result = pickle.loads(cache.stored_helpers(codegen)[key])
-            self = cls.of_code(codegen, name, code)
-            for called, link in links:
-                stored = isinstance(link, str)
-                part = cls.restored(codegen, link) if stored else cls.of_code(codegen, called, link)
-                self._linking_libraries.append(part)
-            self.key, self.result = key, result
-            cls.known[key] = self
-        return cls.known[key]
-
 
 class KernelCache:
     """The files of one kernel, with the methods that numba's dispatcher calls."""
@@ -91,62 +56,25 @@ class KernelCache:
         return str(cache.folder())
 
     def load_overload(self, signature, target):
-        reduced = cache.read(cache.folder() / self._file(signature, target.codegen().magic_tuple()))
+        reduced = cache.read(self._path(signature, target.codegen()))
         return None if reduced is None else CompileResult._rebuild(target, *reduced)
 
     def save_overload(self, signature, compiled):
         """Save compiled code if possible: a full or read-only disk costs time, not the result."""
-        processor, helpers = compiled.codegen.magic_tuple(), compiled.library.new_helpers()
-        path = cache.folder() / self._file(signature, processor)
+        path = self._path(signature, compiled.codegen)
         try:
             cache.write(path, compiled._reduce())
-            if helpers:
-                cache.write(path.with_suffix(f".{cache.hash_of(processor)}{cache.HELPERS}"), helpers)
         except OSError as error:
             cache.warn_once(
                 f"{path.parent}: compiled kernels cannot be kept there ({error.strerror}); "
                 "every process compiles them again"
             )
 
-    def _file(self, signature, processor):
-        return f"{self._name}.{cache.hash_of(signature, processor)}.kernel"
-
-
-class HelperCache:
-    """The helpers of kernels compiled before, as in a `KernelCache`."""
-
-    cache_path = None
-
-    def __init__(self, function):
-        self._name = f"{function.__module__}.{function.__qualname__}"
-
-    def load_overload(self, signature, target):
-        try:
-            library = HelperLibrary.restored(target.codegen(), f"{self._name}{signature}")
-        except KeyError:
-            return None
-        typed, descriptor = library.result
-        return compile_result(
-            target_context=target, typing_context=target.typing_context, library=library, entry_point=object(),
-            fndesc=descriptor, signature=typed, objectmode=False,
-        )  # fmt: skip
-
-    def save_overload(self, signature, compiled):
-        library, descriptor = compiled.library, compiled.fndesc
-        descriptor.typemap = descriptor.calltypes = None  # not needed any more, and large
-        library.key, library.result = f"{self._name}{signature}", (compiled.signature, descriptor)
-        library.known[library.key] = library
+    def _path(self, signature, codegen):
+        return cache.folder() / f"{self._name}.{cache.hash_of(signature, codegen.magic_tuple())}.kernel"
 
 
 class KernelLibrary(JITCodeLibrary):
-    def new_helpers(self):
-        """The helpers that are in no file yet, by their keys, as bytes."""
-        stored = cache.stored_helpers(self._codegen)
-        keys = {getattr(each, "key", None): each for each in self._linking_libraries}
-        new = {key: each.stored() for key, each in keys.items() if key and key not in stored}
-        stored |= new
-        return new
-
     def _optimize_functions(self, ll_module):
         ll_module.data_layout = self._codegen._data_layout
 
@@ -178,9 +106,6 @@ class HelperCompiler(CompilerBase):
 
     def define_pipelines(self):
         state = self.state
-        if self.library is HelperLibrary:
-            # usually a number that counts compilations: callers from files know helpers by their names
-            state.func_id.unique_id = 0
         if state.library is None:
             state.library = self.library(state.targetctx.codegen(), state.func_id.func_qualname)
             state.library.enable_object_caching()

@@ -2,8 +2,7 @@
 
 Numba would pass a tuple of arrays entry by entry: a model is 147 numbers to LLVM. A ``packed`` tuple is a block of
 memory with its numbers and, for each array, the address and the lengths. LLVM is told that it is never written.
-An entry that is a tuple is a flag, (True,) or (): its length is a part of the type, and it takes no memory.  A helper
-that reads none of the flags is compiled once for all of them: it receives a `PackedType.narrowed` type.
+An entry that is a tuple is a flag, (True,) or (): its length is a part of the type, and it takes no memory.
 """
 
 import ctypes
@@ -24,7 +23,6 @@ else:
     from llvmlite import ir
     from numba import extending, types
     from numba.core import cgutils
-    from numba.core.typeconv import Conversion
     from numba.core.typing.templates import AttributeTemplate
 
     _WORD, _BIT = ir.IntType(64), ir.IntType(1)
@@ -33,18 +31,9 @@ else:
         """``fields``: type of each entry, and the words of memory before it; an array is followed by its lengths."""
 
         def __init__(self, name, fields):
-            self.of, self.fields = name, fields
+            self.fields = fields
             self.format = "".join(_format(kind) for kind, _ in fields.values())
             super().__init__(name=f"{name}_{hashlib.sha256(repr(fields).encode()).hexdigest()[:8]}")
-
-        @functools.cache  # noqa: B019 - a few types, which last as long as the process
-        def narrowed(self, used):
-            """The type without the flags whose names are not in ``used``."""
-            fields = self.fields.items()
-            return PackedType(self.of, {name: f for name, f in fields if name in used or not _is_flag(f[0])})
-
-        def can_convert_to(self, typingctx, other):  # a narrowed type is the same memory
-            return Conversion.safe if isinstance(other, PackedType) and other.of == self.of else None
 
     def _is_flag(kind):
         return isinstance(kind, types.UniTuple)
@@ -56,10 +45,6 @@ else:
         if isinstance(kind, types.Array):
             return "q" * (1 + kind.ndim)
         return "d" if kind == types.float64 else "q"
-
-    @extending.lower_cast(PackedType, PackedType)
-    def _cast(context, builder, of, to, value):
-        return value
 
     _KNOWN: dict[Any, PackedType] = {}
 
