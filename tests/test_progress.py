@@ -3,13 +3,11 @@
 import io
 import logging
 import sys
-import threading
 from pathlib import Path
 
 import pytest
 
 from disc_model import Execution, Parameters, critical, display, simulate
-from disc_model.engine.jit import cache
 from disc_model.simulation import api
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -42,24 +40,6 @@ def test_a_long_search_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(display, "PATIENCE", 0.0)
     critical(Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6), "mu_s", (0.3, 0.42), points=7)
     assert all(f" {what} of mu_s\n" in stderr.getvalue() for what in ("7 values", "further values", "crossings"))
-
-
-def test_a_wait_for_another_process_is_said(monkeypatch: pytest.MonkeyPatch, tmp_path) -> None:
-    fcntl = pytest.importorskip("fcntl")
-    monkeypatch.setattr(sys, "stderr", stderr := io.StringIO())
-    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
-    monkeypatch.setattr(cache.LINES, "shown", set())
-    with cache.compiling(), cache.lock("free"):
-        pass
-    assert not stderr.getvalue()
-    for loading, said in ((60.0, ""), (0.0, f"{cache.WAITING}\n")):  # one that only loads the kernel is soon done
-        monkeypatch.setattr(cache, "LOADING", loading)
-        with (tmp_path / "taken.lock").open("a") as file:
-            fcntl.flock(file, fcntl.LOCK_EX)
-            threading.Timer(0.2, fcntl.flock, (file, fcntl.LOCK_UN)).start()
-            with cache.compiling(), cache.lock("taken"):
-                pass
-        assert stderr.getvalue() == said
 
 
 @EVERYWHERE

@@ -2,6 +2,8 @@
 
 import subprocess
 import sys
+import threading
+import time
 from pathlib import Path
 
 import numba
@@ -96,6 +98,19 @@ def test_without_a_part_of_numba_kernels_work_and_it_is_said_once(part: str, tmp
 
 
 # ---------------------------------------------------------------- two processes that need the same kernel at once
+
+
+def test_a_process_waits_while_another_compiles_the_same_kernel(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fcntl = pytest.importorskip("fcntl")
+    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
+    with (tmp_path / "taken.lock").open("a") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        released, start = threading.Timer(0.2, fcntl.flock, (file, fcntl.LOCK_UN)), time.perf_counter()
+        released.start()
+        with cache.lock("taken"):
+            assert time.perf_counter() - start >= 0.2
 
 
 @pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")

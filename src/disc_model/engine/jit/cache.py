@@ -9,7 +9,6 @@ import functools
 import hashlib
 import pickle
 import sys
-import threading
 import uuid
 import warnings
 import zlib
@@ -41,41 +40,32 @@ def hash_of(*of: object) -> str:
     return hashlib.sha256(repr((*of, versions)).encode()).hexdigest()[:16]
 
 
-WAITING = "waiting for another process that compiles the same kernel"
-LOADING = 3.0  # s, more than it takes to load a kernel, which keeps its lock as well
+class _Listener(event.Listener):
+    """Says once in a process that kernels are compiled."""
 
-
-class _Lines(event.Listener):
-    """Says each text once in a process."""
-
-    def __init__(self) -> None:
-        self.shown: set[str] = set()
-        self.listening = 0
-
-    def say(self, text: str) -> None:
-        if self.listening and text not in self.shown:
-            print(text, file=sys.stderr, flush=True)
-            self.shown.add(text)
+    listening, said = 0, False
 
     def on_start(self, event: Any) -> None:
-        self.say("compiling kernels, once: 10 to 20 s for each kind")
+        if self.listening and not self.said:
+            print("compiling kernels, once: 10 to 20 s for each kind", file=sys.stderr, flush=True)
+            self.said = True
 
     def on_end(self, event: Any) -> None:
         pass
 
 
-LINES = _Lines()
+LISTENER = _Listener()
 
 
 @contextmanager
 def compiling(report: bool = True) -> Iterator[None]:
-    """Say so if the block compiles kernels or waits for them; also usable as a decorator."""
-    LINES.listening += report
+    """Say so if the block compiles kernels; also usable as a decorator."""
+    LISTENER.listening += report
     try:
-        with event.install_listener("numba:compile", LINES):
+        with event.install_listener("numba:compile", LISTENER):
             yield
     finally:
-        LINES.listening -= report
+        LISTENER.listening -= report
 
 
 @contextmanager
@@ -88,15 +78,7 @@ def lock(name: str) -> Iterator[None]:
             folder().mkdir(parents=True, exist_ok=True)
             # never deleted: a process may wait for this file while the next one makes another
             file = stack.enter_context((folder() / f"{name}.lock").open("a"))
-            try:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                told = threading.Timer(LOADING, LINES.say, (WAITING,))
-                told.start()
-                try:
-                    fcntl.flock(file, fcntl.LOCK_EX)
-                finally:
-                    told.cancel()
+            fcntl.flock(file, fcntl.LOCK_EX)
         yield
 
 
