@@ -50,23 +50,6 @@ def no_modes() -> StickModes:
     return StickModes(*(np.zeros(0) for _ in StickModes._fields))
 
 
-def _eigenmodes(omega, damping, psi, k, c, m, unit):
-    """Modes of d'' = -M^-1 (C d' + K d) in rigid contact; psi is 0 for a mode that does not feel the slider."""
-    rank_one = np.outer(psi, psi)
-    inverse = np.eye(len(omega)) - rank_one * (m / (1.0 + m * psi @ psi))
-    stiffness, damping = np.diag(omega**2) + k * rank_one, np.diag(damping) + c * rank_one
-    return _decomposed(inverse @ stiffness, inverse @ damping, omega * unit, unit)
-
-
-def _compliant_eigenmodes(omega, damping, psi, k, c, m, unit, compliance):
-    """Modes as of `_eigenmodes` for a compliant contact: the last entry of d is the slider's u."""
-    stretch = np.append(psi, -1.0)
-    mass = np.append(np.ones(len(omega)), m)
-    stiffness = np.diag(np.append(omega**2, k)) + np.outer(stretch, stretch) / compliance
-    scale = np.append(omega, np.sqrt((1.0 / compliance + k) / m)) * unit
-    return _decomposed(stiffness / mass[:, None], np.diag(np.append(damping, c / m)), scale, unit)
-
-
 def _decomposed(stiffness, damping, scale, unit):
     """Modes of d'' = -stiffness d - damping d', both matrices over the masses: lambda (n,) in 1 / ``unit``, V (2n, n)
     and W (n, 2n) of (d, d') = 2 Re V q, q = W (d, d').  ``scale`` of displacements gives both halves of an eigenvector
@@ -109,20 +92,27 @@ def build_stick_modes(components, places, slider, *, u, length, unit, compliance
 
 @lru_cache(maxsize=256)
 def _under_unit_load(arrays, length, k, c, m, unit, compliance) -> StickModes:
-    """`StickModes` for N = 1, shared by many cases; last of ``arrays``: indices of (d, d') in `EngineState.disc`."""
+    """`StickModes` for N = 1, shared by many cases. ``arrays``: omega, damping, shape and arm of `build_stick_modes`,
+    and the indices of (d, d') in `EngineState.disc`; on a compliant contact the last entry of d is u."""
     omega, damping, shape, arm, where = map(np.array, arrays)
-    system = (omega, damping, shape, k, c, m, unit)
-    modes = _compliant_eigenmodes(*system, compliance) if compliance else _eigenmodes(*system)
-    if modes is None:
-        return no_modes()
     rest = aligned(length)
     rest[where[: len(omega)]] = -shape / omega**2
-    # dP of a unit change of each displacement and velocity
+    # the matrices over the masses; dP of a unit change of each displacement and velocity
     if compliance:
         rest[where[len(omega)]] = -(np.sum((shape / omega) ** 2) + compliance)
+        stretch, mass = np.append(shape, -1.0), np.append(np.ones(len(omega)), m)
+        stiffness = np.diag(np.append(omega**2, k)) + np.outer(stretch, stretch) / compliance
+        scale = np.append(omega, np.sqrt(stiffness[-1, -1] / m)) * unit
+        modes = _decomposed(stiffness / mass[:, None], np.diag(np.append(damping, c / m)), scale, unit)
         force = np.concatenate([shape / compliance, [-1.0 / compliance], np.zeros(len(omega) + 1)])
     else:
+        rank_one = np.outer(shape, shape)
+        inverse = np.eye(len(omega)) - rank_one * (m / (1.0 + m * shape @ shape))
+        stiffness = np.diag(omega**2) + k * rank_one
+        modes = _decomposed(inverse @ stiffness, inverse @ (np.diag(damping) + c * rank_one), omega * unit, unit)
         force = np.concatenate([shape * (k - m * omega**2), shape * (c - m * damping)]) / (1.0 + m * shape @ shape)
+    if modes is None:
+        return no_modes()
     # d'' + damping d' + omega^2 d = -arm T with T'' = 0
     friction = np.zeros((2, length) if arm.any() else (0, length))
     if len(friction):
