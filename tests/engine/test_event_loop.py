@@ -104,7 +104,7 @@ def test_rounding_of_a_gap_is_that_of_the_modes_it_is_made_of(gap: float, known:
     here.z[0], here.z[1] = 0.01 / case.model.mode_amplitude[0], -0.01 / case.model.mode_amplitude[1]
     w, _, _ = transitions.disc_point(case.model, here)
     here.x[layout.U] = w + gap
-    transitions.lose_contact(case.model, here)
+    transitions.change_phase(case.model, here, transitions.CONTACT_LOST, False)
     assert here.x[layout.KNOWN] == known
 
 

@@ -169,21 +169,23 @@ def event_function(model, i, cause, slipping):
 
 @inlined
 def _begin(state, phase, direction, known, force, known_force=0):
-    """Begin a phase; known, known_force: multiplicity of the root there, of event function and force of the contact."""
+    """Begin a phase; known, known_force: multiplicity of the root there, of event function and force of the contact.
+    Returns CONSISTENT."""
     x = state.x
     x[layout.PHASE], x[layout.DIRECTION], x[layout.KNOWN], x[layout.KNOWN_FORCE] = phase, direction, known, known_force
     x[layout.FORCE], x[layout.PROPAGATED] = force, 0.0
+    return CONSISTENT
 
 
 @inlined
 def _enter_separation(model, state, P, noise):
     """Begin separation at the force P, up to ``noise``: the gap starts as t**3 from P = 0, as t**2 from P < 0; that of
-    a compliant contact starts as t, or is already open."""
+    a compliant contact starts as t, or is already open.  Returns CONSISTENT."""
     known = 0 if noise < -P else 1
     if not model.compliant:
         state.x[layout.U], state.x[layout.U_VELOCITY], _ = disc_point(model, state)
         known += 2
-    _begin(state, layout.SEPARATION, 0.0, known, 0.0)
+    return _begin(state, layout.SEPARATION, 0.0, known, 0.0)
 
 
 @helper
@@ -193,8 +195,7 @@ def enter_slip(model, state, direction):
     if denominator <= PAINLEVE_MARGIN * usual_denominator(model):
         return NO_SOLUTION
     if P < 0.0 and not model.bonded:
-        _enter_separation(model, state, P, noise)
-        return CONSISTENT
+        return _enter_separation(model, state, P, noise)
     known = 0
     if state.x[layout.F] == 0.0:
         # f starts at zero: the root at the start is known.  It is double where f', which points into the direction of
@@ -207,36 +208,12 @@ def enter_slip(model, state, direction):
         F, friction = inplane_force_per_radius(model, state), resistance * P / model.r_0
         rounding = ROUNDING * abs(F) + bound * noise / model.r_0
         known = 2 if direction * F - friction <= rounding else 1
-    _begin(state, layout.SLIP, direction, known, P)
-    return CONSISTENT
+    return _begin(state, layout.SLIP, direction, known, P)
 
 
 @inlined
 def friction_drops(model):
     return model.mu_s > model.mu_k and len(model.decaying) == 0  # numba has no `not` of a tuple as a value
-
-
-@helper
-def release(model, state, direction, at_once):
-    """Begin slip in ``direction``.  Returns CONSISTENT or NO_SOLUTION. ``at_once``: stick had no duration, so that the
-    spring may pull harder than friction can hold."""
-    outcome = enter_slip(model, state, direction)
-    if state.x[layout.PHASE] == layout.SLIP and not friction_drops(model) and not at_once:
-        # friction does not jump: f' = 0, despite the error of the event's time
-        state.x[layout.KNOWN] = 2
-    return outcome
-
-
-@helper
-def lose_contact(model, state):
-    """Loss of contact: P has reached zero, or was negative from the start."""
-    if state.x[layout.PHASE] == layout.SLIP:
-        P, _, noise = slip_force(model, state, state.x[layout.DIRECTION])
-    else:
-        i, size = instant(model, state)
-        P, noise = laws.stick_numerator(model, i), _rounding(model, state, i, size)
-    _enter_separation(model, state, P, noise)
-    return CONSISTENT
 
 
 @helper
@@ -247,8 +224,7 @@ def stop_slip(model, state):
     P = laws.vertical_in_stick(model, i)
     pull, press = laws.stick_loads(model, i, P)
     if abs(pull) < model.mu_s * press:
-        _begin(state, layout.STICK, 0.0, 0, force_in_stick(model, state, P))
-        return CONSISTENT
+        return _begin(state, layout.STICK, 0.0, 0, force_in_stick(model, state, P))
     # contact may hold although P in stick is negative: in slip the spring presses the slider on with B F
     return enter_slip(model, state, -1.0 if pull < 0.0 else 1.0)
 
@@ -259,14 +235,12 @@ def reattach(model, state):
     if model.compliant:
         f, F = state.x[layout.F], inplane_force_per_radius(model, state)
         if f == 0.0 and F == 0.0:
-            _begin(state, layout.STICK, 0.0, 0, 0.0, 1)
-            return CONSISTENT
+            return _begin(state, layout.STICK, 0.0, 0, 0.0, 1)
         direction = 1.0 if (f if f != 0.0 else F) > 0.0 else -1.0
         _, denominator, _ = slip_force(model, state, direction)
         if denominator <= PAINLEVE_MARGIN:
             return NO_SOLUTION
-        _begin(state, layout.SLIP, direction, 1 if f == 0.0 else 0, 0.0, 1)
-        return CONSISTENT
+        return _begin(state, layout.SLIP, direction, 1 if f == 0.0 else 0, 0.0, 1)
     impact(model, state)
     f = state.x[layout.F]
     if f == 0.0:
@@ -274,7 +248,7 @@ def reattach(model, state):
     return enter_slip(model, state, 1.0 if f > 0.0 else -1.0)
 
 
-@inlined
+@helper
 def change_phase(model, state, cause, at_once):
     """Carry out an event; ``at_once``: the phase had no duration.  Returns CONSISTENT or NO_SOLUTION."""
     if cause == GAP_CLOSED:
@@ -282,5 +256,16 @@ def change_phase(model, state, cause, at_once):
     if cause == AT_REST:
         return stop_slip(model, state)
     if cause == CONTACT_LOST:
-        return lose_contact(model, state)
-    return release(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0, at_once)
+        # P has reached zero, or was negative from the start
+        if state.x[layout.PHASE] == layout.SLIP:
+            P, _, noise = slip_force(model, state, state.x[layout.DIRECTION])
+        else:
+            i, size = instant(model, state)
+            P, noise = laws.stick_numerator(model, i), _rounding(model, state, i, size)
+        return _enter_separation(model, state, P, noise)
+    outcome = enter_slip(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0)
+    if state.x[layout.PHASE] == layout.SLIP and not friction_drops(model) and not at_once:
+        # friction does not jump: f' = 0, despite the error of the event's time. Where stick had no duration, the spring
+        # may pull harder than friction can hold.
+        state.x[layout.KNOWN] = 2
+    return outcome
