@@ -186,24 +186,11 @@ def point_motion(model, state, angle):
 
 
 @helper
-def _write_row(model, s, order, x, time, phase, theta, probe, row):
-    move_to(model, s, order, x, phase, probe)
-    w, velocity, _ = disc_point(model, probe)
-    angle = theta - (layout.drive_angle(model, time) - probe.x[PSI])
-    row[1], row[2] = time, force_at(model, s, order, phase, probe)
-    row[3], row[4], row[5] = w, velocity, w
-    if model.compliant or phase == layout.SEPARATION:
-        row[3], row[4] = probe.x[U], probe.x[U_VELOCITY]
-    row[6], row[7] = point_motion(model, probe, angle)
-    row[8], row[9], row[10] = probe.x[PSI], layout.drive_now(model, probe) - probe.x[F], phase
-
-
-@helper
 def sample_step(model, s, order, state, x_end, samplers, progress, probe, rows, filled):
     """Append to ``rows`` one for every sample time within the step that starts at ``state`` and lasts ``x_end`` units,
     its end included, to rounding.  Returns the number of rows filled. ``samplers``: shape (n, 5), columns first time,
     interval, number of samples, theta, end of run; ``progress``: shape (n,), samples taken so far."""
-    start, low = state.x[layout.TIME], state.x[layout.TIME_LOW]
+    start, low, phase = state.x[layout.TIME], state.x[layout.TIME_LOW], state.x[PHASE]
     last = x_end + SAME_INSTANT * (start / model.unit + x_end + 1.0)
     for i in range(len(samplers)):
         while progress[i] < samplers[i, 2]:
@@ -212,8 +199,15 @@ def sample_step(model, s, order, state, x_end, samplers, progress, probe, rows, 
             x = ((time - start) - low) / model.unit
             if x > last:
                 break
-            rows[filled, 0] = i
-            _write_row(model, s, order, max(x, 0.0), time, state.x[layout.PHASE], samplers[i, 3], probe, rows[filled])
+            move_to(model, s, order, max(x, 0.0), phase, probe)
+            row, (w, velocity, _) = rows[filled], disc_point(model, probe)
+            angle = samplers[i, 3] - (layout.drive_angle(model, time) - probe.x[PSI])
+            row[0], row[1], row[2] = i, time, force_at(model, s, order, phase, probe)
+            row[3], row[4], row[5] = w, velocity, w
+            if model.compliant or phase == layout.SEPARATION:
+                row[3], row[4] = probe.x[U], probe.x[U_VELOCITY]
+            row[6], row[7] = point_motion(model, probe, angle)
+            row[8], row[9], row[10] = probe.x[PSI], layout.drive_now(model, probe) - probe.x[F], phase
             filled += 1
             progress[i] += 1
     return filled
