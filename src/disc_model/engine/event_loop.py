@@ -140,17 +140,16 @@ def step_size(model, s, order, tolerance, phase):
 
 
 @inlined
-def expand(compliant, normal, decaying, model, s, state, order):
+def expand(compliant, normal, other, model, s, state, order):
     """Series of the current phase.  Returns the denominator of P in slip over that without friction, else 1. The first
-    arguments are flags of the model: the compiler drops a branch unseen if its condition is an argument's length."""
+    arguments are flags of the model (``other``: of the normal force or of falling friction): the compiler drops a
+    branch unseen if its condition is an argument's length."""
     load_state(model, s, state)
     phase, direction = state.x[layout.PHASE], state.x[layout.DIRECTION]
     if phase == layout.SLIP:
         if len(compliant) == 1:
             return series.compliant_slip_series(model, s, order, direction)
-        if len(normal) == 1:
-            return series.rigid_slip_series(model, s, order, direction) / transitions.usual_denominator(model)
-        if len(decaying) == 1:
+        if len(other) > 0:
             return series.rigid_slip_series(model, s, order, direction) / transitions.usual_denominator(model)
         return series.slip_series(model, s, order, direction) / transitions.usual_denominator(model)
     if phase == layout.SEPARATION:
@@ -183,17 +182,16 @@ def first_event(model, s, state, order, x_end):
     set_powers(s.powers, x_end, order)
     if phase == layout.SEPARATION:
         x, cause = _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
-        if cause != transitions.GAP_CLOSED or known != 0:
-            return x, cause
-        # a run that was cut just after a separation knows no root there, but the gap, and its rates per radian of the
-        # fastest motion, are still rounding
-        rounding = transitions.ROUNDING * transitions.deflection_size(model, state)
-        while known < 3 and abs(s.switch[known]) <= rounding:
-            known += 1
-        if known == 0:
-            return x, cause
-        set_powers(s.powers, x_end, order)
-        return _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
+        if cause == transitions.GAP_CLOSED and known == 0:
+            # a run that was cut just after a separation knows no root there, but the gap, and its rates per radian of
+            # the fastest motion, are still rounding
+            rounding = transitions.ROUNDING * transitions.deflection_size(model, state)
+            while known < 3 and abs(s.switch[known]) <= rounding:
+                known += 1
+            if known > 0:
+                set_powers(s.powers, x_end, order)
+                return _sooner(s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING)
+        return x, cause
     if phase == layout.SLIP:
         x_end, cause = _sooner(s, s.switch, known, order, x_end, transitions.AT_REST, transitions.NOTHING)
         if not model.bonded:
@@ -320,7 +318,7 @@ def follow(model, s, state, probe, limits, buffers, t):
         if x_end > 0.0:
             order = CLOSED_FORM
         else:
-            denominator = expand(model.compliant, model.normal, model.decaying, model, s, state, order)
+            denominator = expand(model.compliant, model.normal, model.normal + model.decaying, model, s, state, order)
             if denominator <= transitions.PAINLEVE_MARGIN:
                 return transitions.NO_SOLUTION
             x_end = step_size(model, s, order, limits.tolerance, x[layout.PHASE])
@@ -416,9 +414,9 @@ def _leave_section(model, s, state, t, course, section, start):
 
 
 @kernel
-def _flight(model, s, state, t, course, section, start, from_section):
+def _flight(model, s, state, t, course, section, start):
     """See ``integrate``."""
-    if from_section:
+    if len(start) > 0:
         outcome = _leave_section(model, s, state, t, course, section, start)
         if outcome != transitions.CONSISTENT:
             return outcome
@@ -436,10 +434,10 @@ def _flight(model, s, state, t, course, section, start, from_section):
 _NOWHERE = Section(np.zeros(0, np.int64), np.zeros(0), np.zeros(0), np.zeros((0, 0)))
 
 
-def integrate(model, s, state, t, course, section=_NOWHERE, start=None):
+def integrate(model, s, state, t, course, section=_NOWHERE, start=_NOWHERE.end):
     """Advance ``state`` and, if requested, the columns ``t.now`` to the end of an integration; returns its exit code.
     At the last release, not at ``t_max``, the columns are projected onto the section (their event time is t.tau, the
     state still in stick). ``t.log`` is incremented, or set from a point ``start`` of a section on, where this is its
     return map, with its Jacobian if the course asks for it. A point is given by its modal coordinates; f is 0 and psi
     follows from the release condition. ``t.parameters`` may change parameters in the columns from n on."""
-    return _flight(model, s, state, t, course, section, section.end if start is None else start, start is not None)
+    return _flight(model, s, state, t, course, section, start)
