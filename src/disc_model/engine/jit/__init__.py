@@ -8,6 +8,7 @@ A ``kernel`` is separate machine code that Python calls and the cache stores.  A
 of each kernel that calls it.  An ``inlined`` helper is merged into its caller.
 """
 
+import warnings
 from typing import Any
 
 import numba
@@ -28,9 +29,8 @@ _MERGED: dict[str, Any] = {"no_cpython_wrapper": True}
 try:
     from .merging import HelperCompiler, KernelCache, KernelCompiler
 except (ImportError, AttributeError, TypeError) as error:  # a part of numba is missing or has changed
-    cache.warn_once(
-        f"numba {numba.__version__} compiles otherwise than expected ({error}): it takes four times as long"
-    )
+    changed = f"numba {numba.__version__} compiles otherwise than expected ({error}): it takes four times as long"
+    warnings.warn(changed, RuntimeWarning, stacklevel=2)
 else:
     RULES["pipeline_class"] = KernelCompiler
     _MERGED["pipeline_class"] = HelperCompiler

@@ -10,7 +10,6 @@ import hashlib
 import pickle
 import sys
 import uuid
-import warnings
 import zlib
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
@@ -100,8 +99,3 @@ def read(path: Path) -> Any:
         return pickle.loads(zlib.decompress(path.read_bytes()))
     except (OSError, zlib.error):
         return None
-
-
-@functools.cache
-def warn_once(what: str) -> None:
-    warnings.warn(what, RuntimeWarning, stacklevel=3)

@@ -7,6 +7,7 @@ The module uses internals of numba that may change: `jit` does without it if one
 """
 
 import gc
+import warnings
 from copy import copy
 
 import llvmlite.binding as llvm
@@ -65,10 +66,8 @@ class KernelCache:
         try:
             cache.write(path, compiled._reduce())
         except OSError as error:
-            cache.warn_once(
-                f"{path.parent}: compiled kernels cannot be kept there ({error.strerror}); "
-                "every process compiles them again"
-            )
+            reason = f"compiled kernels cannot be kept there ({error.strerror}); every process compiles them again"
+            warnings.warn(f"{path.parent}: {reason}", RuntimeWarning, stacklevel=2)
 
     def _path(self, signature, codegen):
         return cache.folder() / f"{self._name}.{cache.hash_of(signature, codegen.magic_tuple())}.kernel"
