@@ -6,8 +6,7 @@ import logging
 import math
 import os
 import time as clock
-import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
@@ -39,14 +38,10 @@ log = logging.getLogger(__name__)
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
 STEPS_PER_PAUSE = 100_000  # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
 
-_STATUS = {
-    transitions.TIME_OVER: Status.OK,
-    transitions.STOPPED: Status.STOPPED,
-    transitions.STEP_LIMIT: Status.STEP_LIMIT,
-    transitions.NO_SOLUTION: Status.PARADOX,
-    transitions.STALLED: Status.STALLED,
-    transitions.NON_FINITE: Status.NON_FINITE,
-}
+_EXITS = (  # in the order of `Status`
+    transitions.TIME_OVER, transitions.STOPPED, transitions.STEP_LIMIT, transitions.NO_SOLUTION, transitions.STALLED,
+    transitions.NON_FINITE,
+)  # fmt: skip
 
 
 def _shows(progress: object) -> bool:
@@ -141,10 +136,8 @@ def simulate(  # noqa: PLR0913
     if duration is not None and initial_state is not None and is_number(end):
         end = time + end
     begin = time if states.is_finite(time) else 0.0
-    later, rule = is_number(end) and begin < end < math.inf, ""
-    if not later:
-        rule = f"must be finite and > {as_text(begin)} (the time of the initial state)"
-        rule = "must be a number in s, or with a unit of time, such as '2 min'" if isinstance(end, str) else rule
+    later = is_number(end) and begin < end < math.inf
+    rule = f"must be finite, in s or a text such as '2 min', and > {as_text(begin)} (the time of the initial state)"
     stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
     rules = violations(
         (isinstance(events, bool), "events", events, "must be True or False"),
@@ -157,16 +150,8 @@ def simulate(  # noqa: PLR0913
     raise_faults([*foreign_case(p), *limits_faults("tol", tol, TOLERANCES), *rules, *request_faults(p, windows, ramps)])
     # numbers of other types would make the engine compile again, and would round differently
     start, end = float(time), float(end)
-    if windows:
-        windows = resolved_windows(windows, start, end)
-        rule = f"must be <= {as_text(end)}, where the run ends"
-        late = [(name, window.start) for name, window in windows.items() if window.start > end]
-        raise_faults([Fault.of(("windows", name, "start"), begin, rule) for name, begin in late])
-        for name, window in windows.items():
-            if window.stop < start:  # no error: the parts of a run may share windows
-                where = f"windows.{name} = [{window.start:g}, {window.stop:g}] s"
-                warnings.warn(f"{where}: stays empty, the run is from {start:g} to {end:g} s", stacklevel=2)
-    run = _Run(p, end, float(tol), initial_state, windows or {}, events, stop_at, ramps, execution)
+    windows = resolved_windows(windows or {}, start, end)
+    run = _Run(p, end, float(tol), initial_state, windows, events, stop_at, ramps, execution)
     code = run.advance()
     if code == transitions.PAUSED or callable(execution.progress):  # a short run has no progress to show
         with simulating(execution.progress, end) as tell:
@@ -174,7 +159,7 @@ def simulate(  # noqa: PLR0913
                 tell(run.time)
                 code = run.advance()
             tell(run.time)
-    return run.result(_STATUS[code])
+    return run.result([*Status][_EXITS.index(code)])
 
 
 def snapshots(
@@ -328,12 +313,12 @@ class _Run:
             windows=self.windows,
             status=status,
             message=message,
-            event_rows=self.collector.events(),
+            event_rows=np.concatenate(self.collector.events),
             first_separation=self.collector.first_separation,
             final_state=states.read_state(self.case, self.state, self.key),
             u_0=self.model.u_0,
             statistics=self._statistics(),
-            samples=self.collector.finish(),
+            samples={name: samples.arrays() for name, samples in self.collector.samples.items()},
             ramps=self.ramps,
             initial_state=self.initial_state,
         )
@@ -368,8 +353,8 @@ _ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}  # compiled, by blocks 
 
 # ---- Recorded rows of a run: buffers between the engine and the arrays of a result
 
-BUFFER = 1 << 15  # rows of a buffer: large enough for cheap draining, small enough to stay in the cache
-SMALL_BUFFER = 1 << 8  # rows of the first buffer of events: a large one takes longer to make than a short simulation
+BUFFER = 1 << 15  # rows of samples between two pauses: large enough for cheap draining, small enough for the cache
+EVENT_BUFFER = 1 << 10  # events between two pauses: a larger buffer takes longer to make than a short simulation
 _FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 _FOLDED_ROW = ("time", *(f"{name}_{end}" for name in _FOLDED for end in ("min", "max")))
 
@@ -380,85 +365,68 @@ class Collector:
     def __init__(
         self, p: Parameters, windows: Windows, events: bool, start: float, t_end: float, longest_step: float
     ) -> None:
-        self._names, self._keeps_events = [*windows], events
-        # samples in a bin of an envelope; None where single samples are kept
-        self._folds = [getattr(window, "envelope", None) for window in windows.values()]
-        grids = [window.grid(p, start, t_end) for window in windows.values()]
-        capacity = BUFFER if grids else 0
+        grids = {name: window.grid(p, start, t_end) for name, window in windows.items()}
+        folds = {name: getattr(window, "envelope", None) or 1 for name, window in windows.items()}
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
         longest = longest_step + dense_output.SAME_INSTANT * t_end
-        per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids)
-        if grids:
-            self._check_room([float(grid[2]) for grid in grids], per_step)
-        counters, sampled = np.zeros(event_loop.N_COUNTERS, np.int64), np.zeros(len(grids), np.int64)
-        samplers = np.array(grids) if grids else np.zeros((0, 5))
-        sample_rows = np.empty((capacity + per_step, len(dense_output.ROW)))
-        event_rows = np.empty((SMALL_BUFFER, len(event_loop.EVENT_ROW)))
-        # in order, as this takes half the time that names do
-        self.buffers = event_loop.RunBuffers(
-            counters, np.zeros(3), np.zeros(audit.N_SUMS), samplers, sampled, sample_rows, capacity, event_rows
-        )
-        self.first_separation = math.nan  # s
-        # recorded arrays in order of time; those of the rest, rows of bins that are not full
-        self._events: list[Array] = []
-        self._samples: list[list[Array]] = [[] for _ in grids]
-        self._rest: list[list[Array]] = [[] for _ in grids]
-
-    def _check_room(self, counts: list[float], per_step: int) -> None:
-        """Raise `ParameterError` if memory cannot hold the recorded rows, open bins included, and those of a step."""
-        rows = [n if fold is None else n / fold + 2 * min(fold, n) for n, fold in zip(counts, self._folds, strict=True)]
-        size, room = 8.0 * len(dense_output.ROW) * (sum(rows) + per_step), _memory()
+        per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids.values())
+        rows = {name: float(grid[2]) / folds[name] for name, grid in grids.items()}
+        size, room = 8.0 * len(dense_output.ROW) * (sum(rows.values()) + per_step), _memory()
         if size > room:
-            path = ("windows", self._names[rows.index(max(rows))])
             rule = f"must fit into memory: {size / 1e9:.3g} GB of samples in all, and there are {room / 1e9:.3g} GB"
-            raise ParameterError(Fault(path, "", rule))
+            raise ParameterError(Fault(("windows", max(rows, key=rows.__getitem__)), "", rule))
+        self.samples = {name: _Samples(int(grid[2]), folds[name]) for name, grid in grids.items()}
+        self.first_separation = math.nan  # s
+        self.keeps_events, self.events = events, [np.zeros((0, len(event_loop.EVENT_ROW)))]
+        capacity = BUFFER if grids else 0
+        self.buffers = event_loop.RunBuffers(
+            counters=np.zeros(event_loop.N_COUNTERS, np.int64),
+            phase_times=np.zeros(3),
+            audit=np.zeros(audit.N_SUMS),
+            samplers=np.array([*grids.values()] or np.zeros((0, 5))),
+            sampled=np.zeros(len(grids), np.int64),
+            sample_rows=np.empty((capacity + per_step, len(dense_output.ROW))),
+            sample_capacity=capacity,
+            event_rows=np.empty((EVENT_BUFFER, len(event_loop.EVENT_ROW))),
+        )
 
     def drain(self) -> None:
         """Copy the rows from the buffers and empty them."""
-        counters, event_rows = self.buffers.counters, self.buffers.event_rows
-        events = event_rows[: counters[event_loop.EVENT_ROWS]]
+        counters = self.buffers.counters
+        events = self.buffers.event_rows[: counters[event_loop.EVENT_ROWS]]
         rows = self.buffers.sample_rows[: counters[event_loop.SAMPLE_ROWS]]
         counters[event_loop.EVENT_ROWS] = counters[event_loop.SAMPLE_ROWS] = 0
         if counters[event_loop.SEPARATIONS] > 0 and math.isnan(self.first_separation):
             self.first_separation = events[events[:, 1] == event_loop.LOSS_OF_CONTACT][0, 0].item()
-        if self._keeps_events and len(events):
-            self._events.append(events.copy())
-        if len(events) > len(event_rows) - event_loop.MAX_EVENTS_PER_STEP:  # the small buffer was full
-            self.buffers = self.buffers._replace(event_rows=np.empty((BUFFER, len(event_loop.EVENT_ROW))))
-        for i, (fold, samples, rest) in enumerate(zip(self._folds, self._samples, self._rest, strict=True)):
-            if len(new := rows[rows[:, 0] == i]):  # a copy, as of every index that is a mask
-                (samples if fold is None else rest).append(new)
-            if fold is not None and sum(map(len, rest)) >= fold:
-                together = np.concatenate(rest)
-                whole = len(together) // fold * fold
-                rest[:] = [together[whole:].copy()]
-                samples.append(_fold(together[:whole].reshape(-1, fold, together.shape[1])))
-
-    def events(self) -> Array:
-        """All recorded events, shape (n, len(EVENT_ROW))."""
-        if len(self._events) == 1:  # of most runs, whose rows are not copied once more
-            return self._events[0]
-        return np.concatenate([np.zeros((0, len(event_loop.EVENT_ROW))), *self._events])
-
-    def finish(self) -> dict[str, dict[str, Array]]:
-        """Samples of each window."""
-        names = [dense_output.ROW if fold is None else _FOLDED_ROW for fold in self._folds]
-        return dict(zip(self._names, map(_columns, self._samples, names), strict=True))
+        if self.keeps_events:
+            self.events.append(events.copy())
+        for i, samples in enumerate(self.samples.values()):
+            if len(new := rows[rows[:, 0] == i]):
+                samples.add(new)
 
 
-def _columns(parts: list[Array], names: Sequence[str]) -> dict[str, Array]:
-    """Columns of all parts, filled part by part, as a part fits into the cache. Each part is removed from the list, so
-    that memory never holds more than one part twice."""
-    columns = {name: np.empty(sum(map(len, parts))) for name in names}
-    start = 0
-    parts.reverse()
-    while parts:
-        part = parts.pop()
-        for column, values in zip(columns.values(), part.T, strict=True):
-            column[start : start + len(part)] = values
-        start += len(part)
-    columns.pop("sampler", None)
-    return columns
+class _Samples:
+    """Samples of a window, or bins of an envelope, in columns for as many as there may be, of which some are filled."""
+
+    def __init__(self, count: int, fold: int) -> None:
+        names = dense_output.ROW[1:] if fold == 1 else _FOLDED_ROW
+        self.columns = {name: np.empty(count // fold) for name in names}
+        self.fold, self.filled = fold, 0
+        self.rest = np.empty((0, len(dense_output.ROW)))  # rows of the bin that is not full
+
+    def add(self, rows: Array) -> None:
+        """Take in rows of the engine in order of time."""
+        rows = np.concatenate([self.rest, rows]) if self.fold > 1 else rows
+        whole = len(rows) // self.fold * self.fold
+        self.rest, rows = rows[whole:], rows[:whole]
+        done = _fold(rows.reshape(-1, self.fold, rows.shape[1])) if self.fold > 1 else rows[:, 1:]
+        for column, values in zip(self.columns.values(), done.T, strict=True):
+            column[self.filled : self.filled + len(done)] = values
+        self.filled += len(done)
+
+    def arrays(self) -> dict[str, Array]:
+        """What was recorded, by name."""
+        return {name: column[: self.filled] for name, column in self.columns.items()}
 
 
 def _fold(cells: Array) -> Array:

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, create_model, field_validator, model_serializer, model_validator
 
 from disc_model.data.variables import BESIDE_WINDOWS
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
+from disc_model.errors import Fault, ParameterError, as_text, require
 from disc_model.parameters import AUTO, Parameters
 from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit, canonical_json, content_key
 
@@ -185,15 +185,15 @@ def request_faults(p: object, windows: object, ramps: object) -> Iterator[Fault]
 
 
 def resolved_windows(windows: Windows, start: float, t_end: float) -> Windows:
-    """The windows with absolute times, for a run from ``start`` to ``t_end``, by `Span.resolved`."""
-    faults: list[str] = []
+    """The windows with absolute times, for a run from ``start`` to ``t_end``, by `Span.resolved`. One may end before
+    the run starts, as parts of a run may share windows, but not begin after its end."""
     resolved: dict[str, Window | Poincare] = {}
     for name, window in windows.items():
         try:
             resolved[name] = window.resolved(start, t_end) if isinstance(window, Window) else window
+            require((window.start <= t_end, "start", window.start, f"must be <= {as_text(t_end)}, where the run ends"))
         except ParameterError as error:
-            faults += [fault.inside(("windows", name)) for fault in error.faults]
-    raise_faults(faults)
+            raise ParameterError(*(fault.inside(("windows", name)) for fault in error.faults)) from None
     return resolved
 
 
