@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 
 from disc_model import Disc, Parameters, Poincare, Window
-from disc_model.data.dataset import UnreadableFile, WriteError, load, load_inputs, save
+from disc_model.data.dataset import WriteError, load, save
 from disc_model.data.variables import STATUSES, flag_names
 from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
@@ -116,14 +116,3 @@ def test_a_file_that_cannot_be_written_stays_as_it_was(path: Path) -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert path.read_bytes() == before
     assert os.listdir(path.parent) == ["case.nc"]
-
-
-def test_all_inputs_that_cannot_be_read_are_named_with_a_command(path: Path) -> None:
-    other, intact = path.with_name("other file.nc"), path.with_name("intact.nc")
-    intact.write_bytes(path.read_bytes())
-    other.write_bytes(b"")
-    os.truncate(path, 100)
-    with pytest.raises(UnreadableFile) as stop:
-        load_inputs([path, intact, other])
-    lines = str(stop.value).splitlines()
-    assert [*(line.split(":")[0] for line in lines[:2]), lines[-1]] == [str(path), str(other), f"rm {path} '{other}'"]

@@ -5,7 +5,7 @@ import logging
 import sys
 from pathlib import Path
 
-from disc_model.data.dataset import load_inputs
+from disc_model.data.dataset import load
 from disc_model.errors import script
 from disc_model.explorer import Picture, page, study_contents
 
@@ -15,9 +15,8 @@ def main(output: str) -> None:
     plan = json.load(sys.stdin)
     studies = []
     for study in plan["studies"]:
-        given = [Path(study[role]) for role in ("data", "motions") if study[role]]
-        data, *motions = (tree.to_dataset() for tree in load_inputs(given))
-        studies.append(study_contents(study["name"], data, next(iter(motions), None), study["text"]))
+        data, motions = (load(study[role]).to_dataset() if study[role] else None for role in ("data", "motions"))
+        studies.append(study_contents(study["name"], data, motions, study["text"]))
     pictures = [Picture(**{**picture, "file": Path(picture["file"])}) for picture in plan["pictures"]]
     text = page(plan["title"], studies, pictures)
     Path(output).write_text(text, encoding="utf-8")

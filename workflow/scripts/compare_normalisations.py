@@ -1,8 +1,6 @@
 """Set the cases of both normalisations beside each other: all cases as CSV, the page, and all as HTML."""
 
-from pathlib import Path
-
-from disc_model.data.dataset import load_inputs
+from disc_model.data.dataset import load
 from disc_model.data.texts import write_page
 from disc_model.errors import script
 from disc_model.paper.ledger import TEXTS, compare
@@ -11,8 +9,7 @@ from disc_model.paper.measures import views
 
 @script
 def main(csv: str, md: str, html: str, published: str, orthonormal: str) -> None:
-    models = load_inputs([Path(published), Path(orthonormal)])
-    parts = compare(*(views({"cases": cases}) for cases in models))
+    parts = compare(*(views({"cases": load(path)}) for path in (published, orthonormal)))
     parts["cases"][2].to_csv(csv, index=False)
     write_page(md, TEXTS["title"], parts["brief"], parts["modes"])
     write_page(html, TEXTS["title"], *parts.values())

@@ -1,15 +1,13 @@
 """Draw one figure of the benchmark from its datasets."""
 
-from pathlib import Path
-
 from disc_model.benchmarks.figures import draw
-from disc_model.data.dataset import load_inputs
+from disc_model.data.dataset import load
 from disc_model.errors import script
 from disc_model.figures.drawing import save
 
 
 @script
 def main(name: str, pdf: str, png: str, *inputs: str) -> None:
-    figure = draw(name, [tree.to_dataset() for tree in load_inputs([Path(path) for path in inputs])])
+    figure = draw(name, [tree.to_dataset() for tree in map(load, inputs)])
     for path in (png, pdf):
         save(figure, path)

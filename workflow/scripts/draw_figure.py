@@ -1,9 +1,8 @@
 """Draw one figure: the plot as its kind describes it, and the title of the files, as JSON; inputs as name=file."""
 
 import json
-from pathlib import Path
 
-from disc_model.data.dataset import load_inputs
+from disc_model.data.dataset import load
 from disc_model.errors import script
 from disc_model.figures.drawing import save
 from disc_model.figures.kind import kind_of
@@ -13,7 +12,7 @@ from disc_model.figures.kind import kind_of
 def main(plot: str, title: str, pdf: str, png: str, *inputs: str) -> None:
     options = json.loads(plot)
     names, _, files = zip(*(pair.partition("=") for pair in inputs), strict=True)
-    shown = dict(zip(names, load_inputs([*map(Path, files)]), strict=True))
+    shown = dict(zip(names, map(load, files), strict=True))
     figure = kind_of(options["kind"]).model_validate(options).render(shown)
     for path in (png, pdf):
         save(figure, path, title=json.loads(title))

@@ -1,7 +1,5 @@
 """Judge the paper's conclusions under five models of disc and contact: evidence as CSV, the page, and both as HTML."""
 
-from pathlib import Path
-
 from disc_model.data.dataset import load_cases
 from disc_model.data.texts import write_page
 from disc_model.errors import script
@@ -11,7 +9,7 @@ from disc_model.paper.survival import TEXTS, evidence_of, judge_models, page_of
 
 @script
 def main(csv: str, md: str, html: str, *inputs: str) -> None:
-    table = judge_models(views(load_cases([*map(Path, inputs)])))
+    table = judge_models(views(load_cases(inputs)))
     table.to_csv(csv, index=False)
     page = page_of(table)
     write_page(md, TEXTS["title"], page)

@@ -1,7 +1,5 @@
 """Make Table 1 or 2 of the paper beside ours, or a table of what results rest on: as CSV, as Markdown and as a page."""
 
-from pathlib import Path
-
 from disc_model.data.dataset import Missing, load_cases
 from disc_model.data.texts import write_page
 from disc_model.errors import script
@@ -11,7 +9,7 @@ from disc_model.paper.paper_tables import COLUMNS, TABLE_2, TABLES, TEXTS
 
 @script
 def main(name: str, csv: str, md: str, html: str, *paths: str) -> None:
-    cases = {case: CaseView(case, tree) for case, tree in load_cases([*map(Path, paths)]).items()}
+    cases = {case: CaseView(case, tree) for case, tree in load_cases(paths).items()}
     page = TEXTS["pages"][name]
     try:
         table, note = TABLES[name](cases).round(page["digits"]), page["note"]

@@ -2,7 +2,6 @@
 case, its labels are JSON."""
 
 import json
-from pathlib import Path
 
 import pandas as pd
 import xarray as xr
@@ -47,7 +46,7 @@ def row(name: str, case: xr.DataTree, label: dict[str, str]) -> dict[str, object
 
 @script
 def main(title: str, labels: str, output: str, page: str, *paths: str) -> None:
-    cases, texts = load_cases([*map(Path, paths)]), json.loads(labels)
+    cases, texts = load_cases(paths), json.loads(labels)
     save(merged := merge_cases(cases, texts), output)
     rows = pd.DataFrame([row(name, case, texts.get(name, {})) for name, case in cases.items()])
     write_page(page, json.loads(title), ("Sources", WORDS, sources(merged.attrs)), ("Cases", "", rows))

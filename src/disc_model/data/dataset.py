@@ -10,7 +10,6 @@ import math
 import os
 import re
 import secrets
-import shlex
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from types import SimpleNamespace
@@ -154,10 +153,19 @@ def _encode(variable: xr.Variable) -> dict[str, Any]:
 # ---- Tables of a result in files of several kinds
 
 
-def save_tables(tables: Tables, described: str, path: str | Path) -> None:
-    """Write tables and a text that describes them, as ".csv" or ".mat", in the form of which `Result.save` tells."""
+def save_tables(tables: Tables, described: str, path: str | Path, tree: xr.DataTree | None = None) -> None:
+    """Write tables and a text that describes them in the form of which `Result.save` tells; as netCDF, the groups of
+    a tree, with columns and tables that it lacks."""
     file = regular_file(path)
-    if file.suffix == ".csv":
+    if file.suffix == ".nc":
+        tree = xr.DataTree() if tree is None else tree
+        for name, table in tables.items():
+            known = tree[name].to_dataset() if name in tree.children else xr.Dataset()
+            along = next(iter(known.dims), "mode")
+            tree[name] = known.assign({key: (along, x) for key, x in table.items() if key not in known})
+        tree.attrs["result"] = described
+        save(tree, file)
+    elif file.suffix == ".csv":
         columns = json.dumps({name: [*table] for name, table in tables.items()})
         frames = []
         for name, table in tables.items():
@@ -258,23 +266,9 @@ def write_atomically(path: Path, write: Callable[[str], object]) -> None:
             temporary.unlink()
 
 
-def load_inputs(paths: Sequence[Path]) -> list[xr.DataTree]:
-    """Read files that other jobs wrote by `save`; one `UnreadableFile` names all that cannot be read."""
-    trees, unreadable = [], {}
-    for path in paths:
-        try:
-            trees.append(load(path))
-        except UnreadableFile as error:
-            unreadable[str(path)] = str(error)
-    if unreadable:
-        advice = "Delete what cannot be read and run the same command again, which computes it anew:"
-        raise UnreadableFile("\n".join([*unreadable.values(), advice, f"rm {shlex.join(unreadable)}"]))
-    return trees
-
-
-def load_cases(paths: Sequence[Path]) -> dict[str, xr.DataTree]:
-    """The trees of `load_inputs` by the names of their files, such as those of cases or studies."""
-    return dict(zip([path.stem for path in paths], load_inputs(paths), strict=True))
+def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:
+    """Trees by the names of their files, such as those of cases or studies."""
+    return {Path(path).stem: load(path) for path in paths}
 
 
 # ---- Access to the tree of one case, for claims and figures; a missing part is explained

@@ -21,7 +21,7 @@ from disc_model.errors import Fault, ParameterError, Status, require, suggestion
 from disc_model.parameters import Parameters, in_words
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, values_at
 from disc_model.simulation.pictures import Pictures
-from disc_model.simulation.states import PLAIN, Array, State, is_finite_array, modal_arrays
+from disc_model.simulation.states import Array, State, is_finite_array
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -166,33 +166,22 @@ class Result(Summarised, Pictures):
         >>> dm.Result.load("run.mat")["late"].equals(run["late"])
         True
         """
-        import xarray as xr
-
         from disc_model.data import dataset
 
-        states = {"final_state": self.final_state}
+        states = {"final_state": self.final_state.parts}
         if self.initial_state is not None:
-            states["initial_state"] = self.initial_state
-        plain = (*PLAIN, "direction", "_roots", "phase", "case_key")
+            states["initial_state"] = self.initial_state.parts
         described = {
             "parameters": in_words(self.parameters.canonical),
-            **{which: {name: getattr(state, name) for name in plain} for which, state in states.items()},
+            **{which: values for which, (values, _) in states.items()},
             "windows": {name: [type(window).__name__, window.model_dump()] for name, window in self.windows.items()},
             "ramps": [ramp.model_dump() for ramp in self.ramps],
             "statistics": {name: value for name, value in self.statistics.items() if name != "wall_time"},
             **{name: getattr(self, name) for name in ("t_end", "tol", "status", "message", "first_separation", "u_0")},
         }
-        modal = {which: modal_arrays(state) for which, state in states.items()}
-        events, text = dict(zip(EVENT_ROW, self.event_rows.T, strict=True)), json.dumps(described)
-        if dataset.regular_file(path).suffix != ".nc":
-            dataset.save_tables({"events": events, **modal, **self.samples}, text, path)
-            return
-        tree = self.to_tree()
-        tree["events"] = tree["events"].to_dataset().assign(direction=("event", events["direction"]))
-        for which, arrays in modal.items():
-            tree[which] = xr.Dataset({name: ("mode", values) for name, values in arrays.items()})
-        tree.attrs["result"] = text
-        dataset.save(tree, path)
+        events = dict(zip(EVENT_ROW, self.event_rows.T, strict=True))
+        tables = {"events": events, **{which: arrays for which, (_, arrays) in states.items()}, **self.samples}
+        dataset.save_tables(tables, json.dumps(described, default=float), path, self.to_tree())
 
     @classmethod
     def load(cls, path: str | Path) -> Result:
@@ -212,10 +201,7 @@ class Result(Summarised, Pictures):
         require((whole, "path", str(path), "must be a file written by Result.save"))
         values, events, kinds = json.loads(text), tables.pop("events"), {"Window": Window, "Poincare": Poincare}
         for which in values.keys() & {"final_state", "initial_state"}:
-            modal = tables.pop(which)
-            for array in modal.values():
-                array.setflags(write=False)
-            values[which] = State(**values[which], **modal)
+            values[which] = State(**values[which], **tables.pop(which))
         values["parameters"] = Parameters(**values["parameters"])
         values["status"] = Status(values["status"])
         values["windows"] = {name: kinds[kind](**window) for name, (kind, window) in values["windows"].items()}

@@ -4,6 +4,7 @@ read, order and tolerance of series."""
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
@@ -30,9 +31,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
-MODAL = {"a": "m kg1/2", "b": "m kg1/2", "alpha": "m kg1/2 s-1", "beta": "m kg1/2 s-1"}
-PLAIN = {"time": "s", "time_low": "s", "psi": "rad", "f": "rad s-1", "u": "m", "u_velocity": "m s-1"}
-"""Units of the variables in a state's file: one value a mode, and scalars."""
+MODAL = ("a", "b", "alpha", "beta")
+PLAIN = {"time": "s", "time_low": "s", "psi": "rad", "f": "rad/s", "u": "m", "u_velocity": "m/s"}
+"""Names of the variables of a state with one value a mode, and units of its scalars."""
 _PLACES = dict(
     zip(PLAIN, (layout.TIME, layout.TIME_LOW, layout.PSI, layout.F, layout.U, layout.U_VELOCITY), strict=True)
 )
@@ -113,24 +114,27 @@ class State(Summarised):
         yield from ((name, f"{getattr(self, name):.9g} {unit}") for name, unit in PLAIN.items() if name != "time_low")
         yield "modes", len(self.a)
 
+    @property
+    def parts(self) -> tuple[dict[str, Any], dict[str, Array]]:
+        """What files hold of it: values for JSON text, and arrays with one value a mode."""
+        values = {each.name: getattr(self, each.name) for each in dataclasses.fields(self)}
+        modal = {name: values.pop(name) for name in (*MODAL, "mode_amplitudes")}
+        return values, {name: np.asarray(array, float) for name, array in modal.items() if array is not None}
+
     def save(self, path: str | Path) -> None:
-        """Write the state as netCDF; `load` reads back the same bits.
+        """Write the state in one of the forms of `Result.save`, such as netCDF; `load` reads back the same bits.
 
         Raises
         ------
+        ParameterError
+            If the file has another suffix than .nc, .csv or .mat.
         disc_model.data.dataset.WriteError
             If the folder does not exist, or the disk is full.
         """
-        import xarray as xr
-
         from disc_model.data import dataset
 
-        units = MODAL | {"mode_amplitudes": "kg-1/2"}
-        modal = {name: ("mode", values, {"units": units[name]}) for name, values in modal_arrays(self).items()}
-        plain = {name: ((), float(getattr(self, name)), {"units": unit}) for name, unit in PLAIN.items()}
-        whole = {"direction": ((), np.int64(self.direction)), "roots": ("kind", np.array(self._roots, np.int64))}
-        attrs = {"Conventions": dataset.CONVENTIONS, "phase": self.phase, "case_key": self.case_key}
-        dataset.save(xr.DataTree(xr.Dataset(modal | plain | whole, attrs=attrs)), path)
+        values, arrays = self.parts
+        dataset.save_tables({"state": arrays}, json.dumps(values, default=float), path)
 
     @classmethod
     def load(cls, path: str | Path) -> State:
@@ -145,19 +149,9 @@ class State(Summarised):
         """
         from disc_model.data import dataset
 
-        data = dataset.load(path).to_dataset()
-        whole = "phase" in data.attrs and {*MODAL, *PLAIN, "direction", "roots"} <= data.data_vars.keys()
-        require((whole, "path", str(path), "must be a file written by State.save"))
-        values: dict[str, Any] = {name: data[name].values for name in (*MODAL, "mode_amplitudes") if name in data}
-        values |= {name: float(data[name]) for name in PLAIN}
-        values |= {"direction": int(data["direction"]), "_roots": tuple(data["roots"].values.tolist())}
-        return cls(phase=str(data.attrs["phase"]), case_key=str(data.attrs.get("case_key", "")), **values)
-
-
-def modal_arrays(state: State) -> dict[str, Array]:
-    """Modal coordinates of a state, and the amplitudes of the modes as far as they are known."""
-    arrays = {name: getattr(state, name) for name in (*MODAL, "mode_amplitudes")}
-    return {name: np.asarray(values, float) for name, values in arrays.items() if values is not None}
+        text, tables = dataset.load_tables(path)
+        require((text and [*tables] == ["state"], "path", str(path), "must be a file written by State.save"))
+        return cls(**json.loads(text), **tables["state"])
 
 
 def static_start(p: Parameters) -> State:
