@@ -40,7 +40,7 @@ def test_a_state_of_other_modes_is_refused(tmp_path: Path) -> None:
     state = simulate(ORTHONORMAL, 0.1).final_state
     other = state.replace(mode_amplitudes=np.array([1.0, 1.0, 1.0, -1.0, 1.0]) * state.mode_amplitudes)
     other.save(tmp_path / "state.nc")
-    rule = r"mode_amplitudes\.3=-?2\.13\d+: must be -?2\.13\d+, psi of this mode in plate_modes"
+    rule = r"mode_amplitudes=array\(.*: must be psi of plate_modes"
     for start in (other, State.load(tmp_path / "state.nc"), other.replace(time=0.0)):
         with pytest.raises(ParameterError, match=rf"^initial_state\.{rule}"):
             simulate(ORTHONORMAL, 0.2, initial_state=start)

@@ -23,7 +23,7 @@ from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import Summarised
 from disc_model.engine import layout
 from disc_model.engine.series import Series, build_series
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion, violations
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import is_number
 
@@ -233,20 +233,18 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     modes, (low, high), radii, angles = mode_arrays(p), radial_range(p), finite_numbers(r), finite_numbers(theta)
     states_in_order: list[Any] = list(states) if np.iterable(states) else [states]
     within = radii is not None and radii.size and np.all((radii >= low) & (radii <= high))
-    limits = f"a={as_text(low)} and b={as_text(high)}" if p.disc is None else f"{as_text(low)} and {as_text(high)}"
-    faults = violations(
-        (within, "r", r, f"must be within {limits}"), (angles is not None, "theta", theta, "must be finite")
+    fits = [isinstance(state, State) and len(state.a) == len(modes.psi) for state in states_in_order]
+    require(
+        (within, "r", r, f"must be within {as_text(low)} and {as_text(high)}"),
+        (angles is not None, "theta", theta, "must be finite"),
+        *(
+            (fit, f"states.{i}", states_in_order[i], "must be a State with the case's modes")
+            for i, fit in enumerate(fits)
+        ),
     )
-    for i, state in enumerate(states_in_order):
-        path, n_modes = ("states", str(i)), len(modes.psi)
-        if not isinstance(state, State):
-            faults.append(Fault.of(path, state, "must be a State"))
-        elif len(state.a) != n_modes:
-            faults.append(Fault(path, "", f"must have {n_modes} modes, as the case, and not {len(state.a)}"))
-        else:
-            faults += amplitude_faults(state, modes.psi, path)
-    if faults or radii is None or angles is None:
-        raise ParameterError(*faults)
+    require(*(amplitude_rule(state, modes.psi, f"states.{i}.") for i, state in enumerate(states_in_order)))
+    assert radii is not None
+    assert angles is not None
     shapes = mode_shapes(p, radii)
     w = np.empty((len(states_in_order), len(radii), len(angles)))
     for i, state in enumerate(states_in_order):
@@ -346,7 +344,7 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
 def write_state(case: EngineCase, source: State, state: layout.EngineState, key: str = "") -> bool:
     """Write ``source`` to the engine's state; key as in `read_state`. Returns whether the engine has to determine the
     phase at this instant first: the state lies at an event of another case. Raises `ParameterError`."""
-    raise_faults(_faults(source, case))
+    _check(source, case)
     state.disc.fill(0.0)
     state.x.fill(0.0)
     state.disc[case.places] = np.concatenate((source.a, source.b, source.alpha, source.beta))[case.present]
@@ -388,42 +386,42 @@ def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
     return False
 
 
-def _faults(source: State, case: EngineCase) -> list[str]:
-    n_modes, path = len(case.amplitudes), ("initial_state",)
+def _check(state: State, case: EngineCase) -> None:
+    """Raise `ParameterError` if a state cannot be the initial one of a case."""
+    n_modes, path = len(case.amplitudes), "initial_state."
     rule = f"must be {n_modes} finite numbers, one per row of plate_modes"
-    wrong = [name for name in MODAL if not is_finite_array(getattr(source, name), n_modes)]
-    faults: list[str] = [Fault((*path, name), "", rule) for name in wrong]
-    finite = {name: is_finite(getattr(source, name)) for name in PLAIN}
-    # the clock's compensation is at most a unit in the last place of the time
-    small = finite["time_low"] and (not finite["time"] or abs(source.time_low) <= math.ulp(source.time))
-    phase = source.phase if isinstance(source.phase, str) else ""
-    f, directed = source.f if finite["f"] else 0.0, is_number(source.direction) and source.direction in (-1, 1)
-    against = phase == "slip" and directed and f * source.direction < 0
-    rules = (
-        *((finite[name], name, "must be finite") for name in PLAIN if name != "time_low"),
-        (small, "time_low", "must be less than the last digit of the time"),
-        (phase in PHASES, "phase", f"must be one of {', '.join(PHASES)}"),
-        (phase != "stick" or f == 0, "f", "must be 0 in stick"),
-        (phase != "slip" or directed, "direction", "must be -1 or 1 in slip"),
-        (not against, "f", f"must have the sign of direction={source.direction}"),
+    values = {name: getattr(state, name) for name in (*MODAL, *PLAIN, "phase", "direction")}
+    known = isinstance(state.phase, str) and state.phase in PHASES
+    signed = is_number(state.direction) and (state.direction in (-1, 1) or state.phase != "slip")
+    require(
+        *((is_finite_array(values[name], n_modes), path + name, values[name], rule) for name in MODAL),
+        *((is_finite(values[name]), path + name, values[name], "must be finite") for name in PLAIN),
+        (known, path + "phase", state.phase, f"must be one of {', '.join(PHASES)}"),
+        (signed, path + "direction", state.direction, "must be -1 or 1 in slip"),
     )
-    faults += amplitude_faults(source, case.amplitudes, path)
-    return faults + [Fault.of((*path, name), getattr(source, name), rule) for holds, name, rule in rules if not holds]
+    # the clock's compensation is at most a unit in the last place of the time
+    small, against = abs(state.time_low) <= math.ulp(state.time), state.f * state.direction < 0
+    require(
+        (small, path + "time_low", state.time_low, "must be less than the last digit of the time"),
+        (state.phase != "stick" or state.f == 0, path + "f", state.f, "must be 0 in stick"),
+        (
+            state.phase != "slip" or not against,
+            path + "f",
+            state.f,
+            f"must have the sign of direction={state.direction}",
+        ),
+        amplitude_rule(state, case.amplitudes, path),
+    )
 
 
-def amplitude_faults(state: State, amplitudes: Array, path: tuple[str, ...]) -> list[str]:
-    """Faults of a state's `mode_amplitudes` for a case whose modes have these amplitudes, shape (n_modes,)."""
-    stated = state.mode_amplitudes
-    if stated is None or stated is amplitudes:
-        return []
-    path = (*path, "mode_amplitudes")
-    if not is_finite_array(stated, len(amplitudes)):
-        return [Fault(path, "", f"must be {len(amplitudes)} finite numbers, psi of plate_modes")]
-    # modes from two processors differ by at most 1e-13 (measured)
-    other = np.abs(stated - amplitudes) > 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
-    rule = "must be {:.9g}, psi of this mode in plate_modes: the state belongs to other modes"
-    first = np.flatnonzero(other)[:1]
-    return [Fault((*path, str(i)), as_text(float(stated[i])), rule.format(amplitudes[i])) for i in first]
+def amplitude_rule(state: State, amplitudes: Array, path: str) -> tuple[bool, str, object, str]:
+    """The rule, for `require`, that a state's `mode_amplitudes` are those of a case, shape (n_modes,)."""
+    stated, same = state.mode_amplitudes, True
+    if stated is not None and stated is not amplitudes:
+        # modes from two processors differ by at most 1e-13 (measured)
+        within = 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
+        same = is_finite_array(stated, len(amplitudes)) and bool(np.all(np.abs(stated - amplitudes) <= within))
+    return same, path + "mode_amplitudes", stated, "must be psi of plate_modes: the state belongs to other modes"
 
 
 def is_finite(value: object) -> bool:
