@@ -83,7 +83,7 @@ ARGUMENTS: list[tuple[Callable[[], object], str]] = [
     (lambda: dm.Window(rate=1, stop=2, last=1), "last=1 stop"),
     (lambda: from_state(phase="flight"), "initial_state.phase='flight' stick slip separation"),
     (lambda: from_state(psy=0.1), "psy=0.1 psi"),
-    (lambda: dm.deflection(p(), dm.snapshots(p(), 0.1), 0.2, 0.0), "r=0.2 b=0.12"),
+    (lambda: dm.deflection(p(), dm.snapshots(p(), 0.1), 0.2, 0.0), "r=0.2 0.12"),
     (lambda: p(omega=3), "omega=3 unknown Omega"),
     (lambda: p(Omega="3 Hz"), "Omega='3 Hz' rad/s rpm"),
     (lambda: p(n_diameters="auto"), "n_diameters='auto' choose_modes"),

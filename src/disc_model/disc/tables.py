@@ -5,11 +5,13 @@ from __future__ import annotations
 import csv
 import math
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from disc_model.disc.flexibility import residual_flexibility
 from disc_model.disc.plate import Array, modal_damping, mode_arrays, modes_of_table, tangential_amplitudes
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
 from disc_model.parameters import Disc, Parameters
@@ -17,7 +19,6 @@ from disc_model.parameters import Disc, Parameters
 if TYPE_CHECKING:
     import os
 
-TANGENTIAL = "tangential_per_sqrt_kg"
 COLUMNS = {
     "diameters": ("diameters", 1.0),
     "frequency_Hz": ("omega", math.tau),
@@ -25,7 +26,7 @@ COLUMNS = {
     "amplitude_per_sqrt_kg": ("amplitude", 1.0),
     "damping_ratio": ("damping_ratio", 1.0),
     "circles": ("circles", 1.0),
-    TANGENTIAL: ("tangential", 1.0),
+    "tangential_per_sqrt_kg": ("tangential", 1.0),
 }
 """Field of a `Disc` that each column of a table gives, and the factor on its values; shapes have further columns."""
 SHAPE = re.compile(r"shape_at_(\d*\.?\d+(?:e-?\d+)?)_m")  # name of the column with the shapes at a radius
@@ -38,19 +39,15 @@ def read_disc(path: str | os.PathLike[str]) -> Disc:
     """Read a disc from a table of its modes, see `disc_model.Disc.from_csv`."""
     try:
         lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, TypeError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or ("not UTF-8" if isinstance(error, UnicodeError) else repr(error))
-        raise _fault(path, f"must be a text file that can be read ({reason})") from None
+    except (OSError, ValueError) as error:
+        raise _fault(path, f"must be a text file that can be read ({error})") from None
     stated = re.compile(rf"\s*#\s*{STATIC_COMPLIANCE}\s*[:=]\s*(\S+)\s*")
     static = [match[1] for line in lines if (match := stated.fullmatch(line))]
-    if len(static) > 1:
-        raise _fault(path, f"must give {STATIC_COMPLIANCE} once")
+    # empty rows, which spreadsheets append, are skipped
+    cells = csv.reader([line for line in lines if not line.lstrip().startswith("#")], skipinitialspace=True)
+    table = [row for row in ([cell.strip() for cell in row] for row in cells) if any(row)]
     try:
-        values: dict[str, Any] = {"static_compliance": float(static[0]) if static else None}
-    except ValueError:
-        raise _fault(path, f"{STATIC_COMPLIANCE}={as_text(static[0])}: must be a number") from None
-    try:
-        return _disc(values, *_rows([line for line in lines if not line.lstrip().startswith("#")]))
+        return _disc(*(table or [[]]), static_compliance=static[0] if static else None)
     except ParameterError as error:
         raise ParameterError(*(fault.inside((Path(path).name,)) for fault in error.faults)) from None
 
@@ -133,21 +130,12 @@ def _harmonic_fit(angle: Array, moves: Array, l: int) -> tuple[float, float, flo
     return float(solution[0]), float(solution[1]) if l else 0.0, float(np.sum((moves - waves @ solution) ** 2))
 
 
-def _rows(lines: list[str]) -> tuple[list[str], list[list[str]]]:
-    """Names of the columns, and the cells of each mode; empty rows, which spreadsheets append, are skipped."""
-    try:
-        table = [[cell.strip() for cell in row] for row in csv.reader(lines, skipinitialspace=True)]
-    except csv.Error as error:
-        raise ParameterError(Fault((), "", f"must be a table of comma-separated values ({error})")) from None
-    names, *rows = [row for row in table if any(row)] or [[]]
+def _disc(names: list[str], *rows: list[str], static_compliance: str | None) -> Disc:
+    """The disc of a table; a fault in a number names its column, mode and cell."""
     rule = f"values: must be as many as columns, {len(names)}"
     uneven = [f"mode {i} has {len(row)} {rule}" for i, row in enumerate(rows, 1) if len(row) != len(names)]
     raise_faults(_column_faults(names) or uneven[:3])
-    return names, rows
-
-
-def _disc(values: dict[str, Any], names: list[str], rows: list[list[str]]) -> Disc:
-    """The disc of a table; a fault in a number names its column, mode and cell."""
+    values: dict[str, Any] = {"static_compliance": static_compliance}
     radii = sorted((float(match[1]), i) for i, name in enumerate(names) if (match := SHAPE.fullmatch(name)))
     columns: dict[tuple[str, ...], int] = {("shapes", str(i)): column for i, (_, column) in enumerate(radii)}
     for column, (target, factor) in ((column, COLUMNS[name]) for column, name in enumerate(names) if name in COLUMNS):
@@ -175,7 +163,7 @@ def _number(cell: str, factor: float = 1.0) -> float | str:
         return cell
 
 
-def _of_table(fault: Fault, columns: dict[tuple[str, ...], int], names: list[str], rows: list[list[str]]) -> Fault:
+def _of_table(fault: Fault, columns: dict[tuple[str, ...], int], names: list[str], rows: Sequence[list[str]]) -> Fault:
     """A fault of a `Disc` with column, cell and mode of the table."""
     if len(fault.path) < 2 or (column := columns.get((fault.path[0], *fault.path[2:]))) is None:
         return fault
@@ -194,29 +182,26 @@ def damping_ratios(p: Parameters) -> Array:
 
 def disc_table(p: Parameters) -> str:
     """The modes of a case as a table, with enough digits for `read_disc` to restore each number exactly."""
-    from disc_model.disc.flexibility import residual_flexibility
-
     if p.disc is not None:
         return table_text(p.disc)
-    modes = mode_arrays(p)
-    numbers = (modes.diameters, modes.circles, modes.omega, modes.psi, damping_ratios(p))
-    further = {TANGENTIAL: tangential_amplitudes(p)} if p.friction_offset else {}
-    return _text_of(numbers, further, residual_flexibility(p).total)
+    modes, tangential = mode_arrays(p), tangential_amplitudes(p) if p.friction_offset else np.zeros(0)
+    return table_text(
+        Disc(
+            diameters=modes.diameters.tolist(), circles=modes.circles.tolist(), omega=modes.omega.tolist(),
+            amplitude=modes.psi.tolist(), damping_ratio=damping_ratios(p).tolist(), tangential=tangential.tolist(),
+            static_compliance=residual_flexibility(p).total,
+        )
+    )  # fmt: skip
 
 
 def table_text(disc: Disc) -> str:
     """A disc as a table."""
-    numbers = (disc.diameters, disc.circles, disc.omega, disc.amplitude, disc.damping_ratio)
-    further: dict[str, Any] = {TANGENTIAL: disc.tangential} if disc.tangential else {}
-    shapes = zip(disc.radii, zip(*disc.shapes, strict=True), strict=True)
-    return _text_of(numbers, further | {f"shape_at_{r}_m": shape for r, shape in shapes}, disc.static_compliance)
-
-
-def _text_of(numbers: tuple[Any, ...], further: dict[str, Any], static: float | None) -> str:
-    names = ("diameters", "circles", "omega_rad_per_s", "amplitude_per_sqrt_kg", "damping_ratio")
-    columns = dict(zip(names, numbers, strict=True)) | further
+    fields = ("diameters", "circles", "omega", "amplitude", "damping_ratio", "tangential")
+    names = {field: name for name, (field, factor) in COLUMNS.items() if factor == 1.0}
+    columns: dict[str, Any] = {names[field]: column for field in fields if (column := getattr(disc, field))}
+    columns |= {f"shape_at_{r}_m": shape for r, shape in zip(disc.radii, zip(*disc.shapes, strict=True), strict=True)}
     rows = [[*columns], *zip(*columns.values(), strict=True)]
-    comment = "" if static is None else f"# {STATIC_COMPLIANCE}: {static}\n"
+    comment = "" if disc.static_compliance is None else f"# {STATIC_COMPLIANCE}: {disc.static_compliance}\n"
     return comment + "".join(",".join(map(str, row)) + "\n" for row in rows)
 
 
