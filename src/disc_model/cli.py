@@ -24,9 +24,9 @@ from rich.table import Column, Table
 
 from disc_model import __version__
 from disc_model.disc.flexibility import residual_flexibility
+from disc_model.disc.given import damping_ratios, disc_table, read_disc
 from disc_model.disc.plate import coupled_natural_frequencies, mode_arrays
 from disc_model.disc.plausibility import warn_of_doubts
-from disc_model.disc.tables import damping_ratios, disc_table, read_disc
 from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
 from disc_model.mode_choice import CHOSEN_BY, ModeChoice, chosen_modes, read_asked
 from disc_model.parameters import AUTO, Parameters

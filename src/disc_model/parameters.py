@@ -177,7 +177,7 @@ class Disc(Strict):
         Disc
         """
         file = import_module("disc_model.data.dataset").regular_file(path)
-        return import_module("disc_model.disc.tables").read_disc(file)
+        return import_module("disc_model.disc.given").read_disc(file)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the table that `from_csv` reads, with enough digits to restore each number exactly.
@@ -193,8 +193,8 @@ class Disc(Strict):
         >>> dm.Disc.from_csv("disc.csv") == disc
         True
         """
-        dataset, tables = (import_module(f"disc_model.{name}") for name in ("data.dataset", "disc.tables"))
-        text = tables.table_text(self)
+        dataset, given = (import_module(f"disc_model.{name}") for name in ("data.dataset", "disc.given"))
+        text = given.table_text(self)
         dataset.write_atomically(dataset.regular_file(path), lambda name: Path(name).write_text(text, encoding="utf-8"))
 
     @classmethod
@@ -219,7 +219,7 @@ class Disc(Strict):
         ParameterError
             If the file cannot be read, or lacks nodes on the circle, modal masses or modes across the disc.
         """
-        return import_module("disc_model.disc.tables").read_uff(path, r_0)
+        return import_module("disc_model.disc.given").read_uff(path, r_0)
 
     @classmethod
     def from_section(  # noqa: PLR0913
@@ -266,10 +266,10 @@ class Disc(Strict):
         ImplausibleValue
             If no solid has such values of E and rho.
         """
-        elements = import_module("disc_model.disc.finite_elements")
-        mesh = section if size is None else elements.section(section, size)
+        given = import_module("disc_model.disc.given")
+        mesh = section if size is None else given.section(section, size)
         material = {"E": E, "nu": nu, "rho": rho, "damping_ratio": damping_ratio}
-        return elements.disc_of_section(mesh, material, clamped, slider, highest_Hz)
+        return given.disc_of_section(mesh, material, clamped, slider, highest_Hz)
 
     def plot(self, *, r_0: float | None = None, most: int = 15, ax: Any = None) -> Any:
         """Draw the shapes of the modes with their nodal lines and frequencies; needs shapes at two radii or more.

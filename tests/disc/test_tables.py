@@ -11,8 +11,8 @@ import yaml
 
 import disc_model as dm
 from disc_model import mode_choice
+from disc_model.disc.given import disc_table
 from disc_model.disc.plate import mode_arrays, mode_shapes
-from disc_model.disc.tables import disc_table
 from disc_model.simulation.states import engine_case
 from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import merge_batches

@@ -11,7 +11,7 @@ from matplotlib import pyplot
 
 import disc_model
 from disc_model import Parameters
-from disc_model.disc.tables import disc_table
+from disc_model.disc.given import disc_table
 from disc_model.studies.study import load_study
 
 ROOT = Path(__file__).parents[2]

@@ -14,8 +14,8 @@ from typing import Any
 import yaml
 
 from disc_model.data.variables import values_text
+from disc_model.disc.given import read_disc
 from disc_model.disc.plausibility import RULES
-from disc_model.disc.tables import read_disc
 from disc_model.display import counted
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kind import NORM, CasePlot, Plot
