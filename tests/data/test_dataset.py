@@ -83,7 +83,7 @@ def test_a_failed_case_is_a_status_in_the_table(tree: xr.DataTree, tmp_path: Pat
     save(merge_cases({"A": tree, "B": failed}, {}), tmp_path / "cases.nc")
     table = load(tmp_path / "cases.nc")
     assert list(flag_names(table["status"])) == ["ok", "failed"]
-    assert "static_compliance" in str(table["message"].values[1])
+    assert "static compliance" in str(table["message"].values[1])
     assert list(table["N"].values) == [385, 385]
     assert [Disc.model_validate_json(text) if text else None for text in table["disc"].values] == [None, disc]
 

@@ -247,23 +247,19 @@ def regular_file(path: str | Path) -> Path:
 
 
 def write_atomically(path: Path, write: Callable[[str], object]) -> None:
-    """Write a file by `write` under a temporary name, and rename it: after a failure `path` is unchanged. A symbolic
-    link stays, and the file that it leads to is replaced. Raises `WriteError`."""
-    target = Path(os.path.realpath(path))
-    if not target.parent.is_dir():
+    """Write a file by `write` under a temporary name, and rename it: after a failure `path` is unchanged. Raises
+    `WriteError`."""
+    if not path.parent.is_dir():
         raise WriteError(f"{path}: must be in a folder that exists")
     # `write` makes the file, so that the umask determines its permissions
-    temporary = target.with_name(f".{target.name}.{secrets.token_hex(8)}.tmp")
+    temporary = path.with_name(f".{path.name}.{secrets.token_hex(8)}.tmp")
     try:
         write(str(temporary))
-        with temporary.open("rb") as file:
-            os.fsync(file.fileno())  # otherwise a crash of the machine may leave an empty file under the new name
-        os.replace(temporary, target)
+        os.replace(temporary, path)
     except (OSError, RuntimeError) as error:  # the netCDF library raises RuntimeError, without the system's reason
         raise WriteError(f"{path}: cannot be written: {error}") from error
     finally:
-        with contextlib.suppress(OSError):
-            temporary.unlink()
+        temporary.unlink(missing_ok=True)
 
 
 def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from disc_model.disc.plate import Array, mode_arrays
 from disc_model.display import Summarised, number_text
-from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults
+from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 
 HIGHEST_HARMONIC = 4096  # beyond it the plate is as if unbounded, unless the slider runs on its very edge
@@ -97,14 +97,10 @@ def contact_compliance(p: Parameters) -> float:
     """Compliance of a case's contact, m/N; raises `ParameterError` if "residual" is asked for and no mode left out."""
     if p.contact_compliance != RESIDUAL:
         return float(p.contact_compliance)
-    flexibility = residual_flexibility(p)
-    if not flexibility.residual > 0:
-        if p.disc is not None:
-            rule = f"must be greater than what its modes give at the slider, {flexibility.kept:.6g} m/N"
-            raise ParameterError(Fault.of(("disc", "static_compliance"), p.disc.static_compliance, rule))
-        rule = f"must be a number with n_diameters={p.n_diameters}, n_circles={p.n_circles}, which leave no mode out"
-        raise ParameterError(Fault.of(("contact_compliance",), RESIDUAL, rule))
-    return flexibility.residual
+    found = residual_flexibility(p)
+    rule = f"must be a number: of the static compliance {found.total:.6g} m/N the modes give {found.kept:.6g} m/N"
+    require((found.residual > 0, "contact_compliance", RESIDUAL, rule))
+    return found.residual
 
 
 def _modal_sum(p: Parameters) -> float:

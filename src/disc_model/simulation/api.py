@@ -42,6 +42,7 @@ _EXITS = (  # in the order of `Status`
     transitions.TIME_OVER, transitions.STOPPED, transitions.STEP_LIMIT, transitions.NO_SOLUTION, transitions.STALLED,
     transitions.NON_FINITE,
 )  # fmt: skip
+_STATUS = dict(zip(_EXITS, Status, strict=True))
 
 
 def _shows(progress: object) -> bool:
@@ -159,7 +160,7 @@ def simulate(  # noqa: PLR0913
                 tell(run.time)
                 code = run.advance()
             tell(run.time)
-    return run.result([*Status][_EXITS.index(code)])
+    return run.result(_STATUS[code])
 
 
 def snapshots(
@@ -371,23 +372,23 @@ class Collector:
         longest = longest_step + dense_output.SAME_INSTANT * t_end
         per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids.values())
         rows = {name: float(grid[2]) / folds[name] for name, grid in grids.items()}
-        size, room = 8.0 * len(dense_output.ROW) * (sum(rows.values()) + per_step), _memory()
-        if size > room:
+        size = 8.0 * len(dense_output.ROW) * (sum(rows.values()) + per_step)
+        if rows and size > (room := _memory()):
             rule = f"must fit into memory: {size / 1e9:.3g} GB of samples in all, and there are {room / 1e9:.3g} GB"
             raise ParameterError(Fault(("windows", max(rows, key=rows.__getitem__)), "", rule))
         self.samples = {name: _Samples(int(grid[2]), folds[name]) for name, grid in grids.items()}
         self.first_separation = math.nan  # s
-        self.keeps_events, self.events = events, [np.zeros((0, len(event_loop.EVENT_ROW)))]
+        self.keeps_events, self.events = events, list[Array]()
         capacity = BUFFER if grids else 0
         self.buffers = event_loop.RunBuffers(
-            counters=np.zeros(event_loop.N_COUNTERS, np.int64),
-            phase_times=np.zeros(3),
-            audit=np.zeros(audit.N_SUMS),
-            samplers=np.array([*grids.values()] or np.zeros((0, 5))),
-            sampled=np.zeros(len(grids), np.int64),
-            sample_rows=np.empty((capacity + per_step, len(dense_output.ROW))),
-            sample_capacity=capacity,
-            event_rows=np.empty((EVENT_BUFFER, len(event_loop.EVENT_ROW))),
+            np.zeros(event_loop.N_COUNTERS, np.int64),
+            np.zeros(3),
+            np.zeros(audit.N_SUMS),
+            np.array([*grids.values()]) if grids else np.zeros((0, 5)),
+            np.zeros(len(grids), np.int64),
+            np.empty((capacity + per_step, len(dense_output.ROW))),
+            capacity,
+            np.empty((EVENT_BUFFER, len(event_loop.EVENT_ROW))),
         )
 
     def drain(self) -> None:
@@ -398,8 +399,7 @@ class Collector:
         counters[event_loop.EVENT_ROWS] = counters[event_loop.SAMPLE_ROWS] = 0
         if counters[event_loop.SEPARATIONS] > 0 and math.isnan(self.first_separation):
             self.first_separation = events[events[:, 1] == event_loop.LOSS_OF_CONTACT][0, 0].item()
-        if self.keeps_events:
-            self.events.append(events.copy())
+        self.events.append(events.copy() if self.keeps_events else events[:0])
         for i, samples in enumerate(self.samples.values()):
             if len(new := rows[rows[:, 0] == i]):
                 samples.add(new)

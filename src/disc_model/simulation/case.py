@@ -10,8 +10,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, create_model, field_validator, model_serializer, model_validator
 
 from disc_model.data.variables import BESIDE_WINDOWS
@@ -35,13 +33,7 @@ class Interval(Strict):
 
 
 class Span(Interval):
-    """A stretch of time: from `start` to `stop`, over the `last` seconds of the run, or over all of it.
-
-    Parameters
-    ----------
-    start, stop : s, absolute times; from the start of the run to its end if not given
-    last : s, counted back from the end of the run, instead of start and stop
-    """
+    """A stretch of time: from `start` to `stop`, over the `last` seconds of the run, or over all of it."""
 
     start: Time = 0.0
     stop: Annotated[Real, Field(ge=0), Unit("s")] = math.inf
@@ -263,8 +255,8 @@ def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
     steady = Piece(-math.inf, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0)
     if not ramps:  # as in most cases, which are short
         return (steady,)
-    lines = {name: _line(p, ramps, name) for name in RAMPED}
-    knots = [*sorted({time for line in lines.values() for time, _, _ in line[1:]}), math.inf]
+    lines = {name: line(p, ramps, name) for name in RAMPED}
+    knots = [*sorted({time for knots in lines.values() for time, _, _ in knots[1:]}), math.inf]
     parts = [steady._replace(end=knots[0])]
     angle = p.Omega * knots[0]
     for begin, end in pairwise(knots):
@@ -274,28 +266,22 @@ def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
     return tuple(parts)
 
 
-def values_at(p: Parameters, ramps: Sequence[Ramp], name: str, times: ArrayLike) -> NDArray[np.float64]:
-    """Omega or N at given times (s)."""
-    knots, values, _ = zip(*_line(p, ramps, name), strict=True)
-    return np.asarray(np.interp(np.asarray(times, dtype=float), knots, values))
-
-
-def _line(p: Parameters, ramps: Iterable[Ramp], name: str) -> list[tuple[float, float, float]]:
+def line(p: Parameters, ramps: Iterable[Ramp], name: str) -> list[tuple[float, float, float]]:
     """Times at which the rate of Omega or N changes, with value and rate from then on; the first time is -inf."""
     value = getattr(p, name)
-    line = [(-math.inf, value, 0.0)]
+    knots = [(-math.inf, value, 0.0)]
     for ramp in sorted(ramps, key=lambda ramp: ramp.start):
         if ramp.parameter == name and ramp.to != value:
-            if line[-1][0] == ramp.start:  # one ramp continues where another ends
-                line.pop()
-            line += [(ramp.start, value, (ramp.to - value) / (ramp.end - ramp.start)), (ramp.end, ramp.to, 0.0)]
+            if knots[-1][0] == ramp.start:  # one ramp continues where another ends
+                knots.pop()
+            knots += [(ramp.start, value, (ramp.to - value) / (ramp.end - ramp.start)), (ramp.end, ramp.to, 0.0)]
             value = ramp.to
-    return line
+    return knots
 
 
-def _at(line: list[tuple[float, float, float]], time: float) -> tuple[float, float]:
+def _at(knots: list[tuple[float, float, float]], time: float) -> tuple[float, float]:
     """Value and rate from ``time`` on."""
-    begin, value, rate = next(knot for knot in reversed(line) if knot[0] <= time)
+    begin, value, rate = next(knot for knot in reversed(knots) if knot[0] <= time)
     return (value + rate * (time - begin) if rate else value), rate
 
 

@@ -19,7 +19,7 @@ from disc_model.display import Summarised, counted, number_text
 from disc_model.engine.event_loop import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status, require, suggestion
 from disc_model.parameters import Parameters, in_words
-from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, values_at
+from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, line
 from disc_model.simulation.pictures import Pictures
 from disc_model.simulation.states import Array, State, is_finite_array
 
@@ -109,7 +109,8 @@ class Result(Summarised, Pictures):
             (isinstance(name, str) and name in RAMPED, "name", name, f"must be one of {', '.join(RAMPED)}"),
             (is_finite_array(times, flat=False), "times", times, "must be finite numbers"),
         )
-        return values_at(self.parameters, self.ramps, name, times)
+        knots, values, _ = zip(*line(self.parameters, self.ramps, name), strict=True)
+        return np.asarray(np.interp(np.asarray(times, dtype=float), knots, values))
 
     def __getitem__(self, name: str) -> xr.Dataset:
         """The samples of a window along `time`, with units, by the window's name; raises `ParameterError`."""

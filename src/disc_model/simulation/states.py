@@ -390,12 +390,11 @@ def _check(state: State, case: EngineCase) -> None:
     """Raise `ParameterError` if a state cannot be the initial one of a case."""
     n_modes, path = len(case.amplitudes), "initial_state."
     rule = f"must be {n_modes} finite numbers, one per row of plate_modes"
-    values = {name: getattr(state, name) for name in (*MODAL, *PLAIN, "phase", "direction")}
     known = isinstance(state.phase, str) and state.phase in PHASES
     signed = is_number(state.direction) and (state.direction in (-1, 1) or state.phase != "slip")
     require(
-        *((is_finite_array(values[name], n_modes), path + name, values[name], rule) for name in MODAL),
-        *((is_finite(values[name]), path + name, values[name], "must be finite") for name in PLAIN),
+        *((is_finite_array(x := getattr(state, name), n_modes), path + name, x, rule) for name in MODAL),
+        *((is_finite(x := getattr(state, name)), path + name, x, "must be finite") for name in PLAIN),
         (known, path + "phase", state.phase, f"must be one of {', '.join(PHASES)}"),
         (signed, path + "direction", state.direction, "must be -1 or 1 in slip"),
     )
