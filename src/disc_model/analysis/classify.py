@@ -139,16 +139,14 @@ def stick_disappears(before: float, after: float, bound: float = 1e-3) -> bool:
 
 
 class Location(NamedTuple):
-    """Position in the oscillation of the height at which contact is lost; shares are relative to its range.
+    """Position in the oscillation of the height at which contact is lost.
 
     kind : "at the lowest position", "falling", "rising" or "at the highest position"
     height : median share of the range, 0 at the lowest and 1 at the highest point
-    to_lowest : median share of the range between the loss of contact and the next lowest point
     """
 
     kind: str
     height: float
-    to_lowest: float
 
 
 def separation_location(time: Array, height: Array, starts: NDArray[np.int64], bound: float = 0.1) -> Location:
@@ -170,16 +168,15 @@ def separation_location(time: Array, height: Array, starts: NDArray[np.int64], b
     half = max(2, round(len(height) / max(1, int(np.argmax(amplitude[1:]) + 1))) // 2)
     measured = []
     for i in starts:
-        cycle, ahead = height[max(0, i - half) : i + half + 1], height[i : i + half + 1]
-        swing = float(np.ptp(cycle)) or 1.0
-        measured.append(((height[i] - cycle.min()) / swing, (height[i] - ahead.min()) / swing, velocity[i]))
-    where, drop, moving = np.median(measured, axis=0).tolist()
+        cycle = height[max(0, i - half) : i + half + 1]
+        measured.append(((height[i] - cycle.min()) / (float(np.ptp(cycle)) or 1.0), velocity[i]))
+    where, moving = np.median(measured, axis=0).tolist()
     kind = "rising" if moving > 0 else "falling"
     if where <= bound:
         kind = "at the lowest position"
     elif where >= 1 - bound:
         kind = "at the highest position"
-    return Location(kind, where, drop)
+    return Location(kind, where)
 
 
 class Share(NamedTuple):

@@ -23,7 +23,7 @@ from xarray.backends import NetCDF4DataStore
 
 from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, require
 from disc_model.parameters import RESIDUAL, SURFACE, Parameters
 
 CONVENTIONS = "CF-1.11"
@@ -70,8 +70,7 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
     disc_model.data.dataset.WriteError
         If the file cannot be written, for example because the disk is full.
     """
-    if not isinstance(tree, xr.DataTree):
-        raise ParameterError(Fault.of(("tree",), tree, "must be an xarray.DataTree"))
+    require((isinstance(tree, xr.DataTree), "tree", tree, "must be an xarray.DataTree"))
     write_atomically(regular_file(path), lambda name: _write(tree, name))
 
 
@@ -176,9 +175,9 @@ def save_tables(tables: Tables, described: str, path: str | Path, tree: xr.DataT
     elif file.suffix == ".mat":
         from scipy.io import savemat
 
-        for name in tables:
-            if not re.fullmatch(r"(?!(result|units)$)[A-Za-z]\w{0,62}", name, re.ASCII):
-                raise ParameterError(Fault(("windows", name), "", "must be a name that MATLAB allows, but not `units`"))
+        allowed = re.compile(r"(?!(result|units)$)[A-Za-z]\w{0,62}", re.ASCII)
+        rule = "must be a name that MATLAB allows, but not `units`"
+        raise_faults([Fault(("windows", name), "", rule) for name in tables if not allowed.fullmatch(name)])
         units = {name: SERIES[name].units for table in tables.values() for name in table if name in SERIES}
         content = {"result": described, "units": units, **tables}
         options: dict[str, Any] = {"appendmat": False, "long_field_names": True, "oned_as": "column"}
@@ -241,8 +240,8 @@ class UnreadableFile(DiscModelError):
 
 def regular_file(path: str | Path) -> Path:
     """A path that leads to a file or to nothing; raises `ParameterError` otherwise."""
-    if not isinstance(path, str | os.PathLike) or (Path(path).exists() and not Path(path).is_file()):
-        raise ParameterError(Fault.of(("path",), str(path), "must be the name of a file"))
+    named = isinstance(path, str | os.PathLike) and (Path(path).is_file() or not Path(path).exists())
+    require((named, "path", str(path), "must be the name of a file"))
     return Path(path)
 
 

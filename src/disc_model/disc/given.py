@@ -7,6 +7,7 @@ import itertools
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -60,10 +61,7 @@ def read_disc(path: str | os.PathLike[str]) -> Disc:
 
 def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
     """Read mode shapes from a universal file, see `disc_model.Disc.from_uff`."""
-    try:
-        import pyuff
-    except ModuleNotFoundError:
-        raise ModuleNotFoundError("universal files need pyuff: pip install 'disc_model[uff]'") from None
+    pyuff = _brought("pyuff", "uff")
     try:
         sets = np.atleast_1d(pyuff.UFF(str(path)).read_sets()).tolist()
     except Exception as error:  # pyuff raises what the text of the file happens to lead to
@@ -246,7 +244,7 @@ MOST_EQUAL = 64  # modes with equal nodal diameters
 def section(rectangles: Iterable[tuple[float, float, float, float]], size: float) -> MeshQuad:
     """A mesh of a union of rectangles (r from, r to, z from, z to), m, with a line of nodes along every edge of each;
     `size`: m, largest edge of an element."""
-    mesh_type = _skfem().MeshQuad
+    mesh_type = _brought("skfem", "fe").MeshQuad
     numbers = [tuple(map(float, rectangle)) for rectangle in rectangles]
     for i, box in enumerate(numbers or [()]):
         if not (len(box) == 4 and 0 < box[0] < box[1] < math.inf and -math.inf < box[2] < box[3] < math.inf):
@@ -278,7 +276,7 @@ def disc_of_section(
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    skfem = _skfem()
+    skfem = _brought("skfem", "fe")
     iron = Parameters(N=0, Omega=0, normalization="orthonormal", **material)
     is_point = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
     is_mesh = isinstance(mesh, skfem.MeshQuad)
@@ -353,7 +351,7 @@ def _harmonic(
 
 def _matrices(basis: Any, l: int, E: float, nu: float, rho: float) -> tuple[Any, Any]:
     """Stiffness and mass matrices of the solid for one harmonic."""
-    form = _skfem().BilinearForm
+    form = _brought("skfem", "fe").BilinearForm
     lame, shear = E * nu / ((1 + nu) * (1 - 2 * nu)), E / 2 / (1 + nu)
     angle = math.pi if l else 2 * math.pi  # of cos^2(l theta)
 
@@ -374,9 +372,9 @@ def _matrices(basis: Any, l: int, E: float, nu: float, rho: float) -> tuple[Any,
     return form(energy).assemble(basis) * angle, form(inertia).assemble(basis) * angle
 
 
-def _skfem() -> Any:
+def _brought(module: str, extra: str) -> Any:
+    """A module of an optional package, which an extra of the installation brings."""
     try:
-        import skfem
+        return import_module(module)
     except ModuleNotFoundError:
-        raise ModuleNotFoundError("finite elements need scikit-fem: pip install 'disc_model[fe]'") from None
-    return skfem
+        raise ModuleNotFoundError(f"there is no module {module}: pip install 'disc_model[{extra}]'") from None

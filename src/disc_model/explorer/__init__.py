@@ -27,7 +27,6 @@ from disc_model.parameters import RATIOS, Parameters
 
 TRACES = ("P", "u", "psi")
 LEVELS = 65535  # steps between the least and the greatest value of a stored history
-MOST_SINGLE = 3.4e38  # magnitude up to which numbers fit into 32 bits
 BITS = 17  # number of bits kept of the 23 of a 32-bit mantissa: five digits, as many as are shown
 
 
@@ -116,15 +115,13 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
 
 
 def _variable(variable: xr.DataArray) -> dict[str, Any]:
-    """Numbers as 32-bit floats of `BITS`, or of 64 bits if they are too great for that; flags as bytes with words."""
+    """Numbers as 32-bit floats of `BITS`; flags as bytes with words."""
     attrs, values = variable.attrs, variable.values
     described = _named(str(variable.name), attrs) | {"dims": list(variable.dims)}
     if "flag_meanings" in attrs:
         words = str(attrs["flag_meanings"]).split()
         codes = np.atleast_1d(attrs.get("flag_values", range(len(words))))
         return described | {"flags": words, "data": packed(np.searchsorted(codes, values), "u1")}
-    if np.abs(values[np.isfinite(values)]).max(initial=0.0) > MOST_SINGLE:
-        return described | {"wide": True, "data": packed(values, "<f8")}
     return described | {"data": packed(shortened(values), "<f4")}
 
 

@@ -42,7 +42,7 @@ async function unpacked(text, Kind) {
 /** Unpacks what a study holds, once. */
 async function unpack(study) {
   const parts = [
-    ...study.variables.map((variable) => [variable, variable.flags ? Uint8Array : variable.wide ? Float64Array : Float32Array]),
+    ...study.variables.map((variable) => [variable, variable.flags ? Uint8Array : Float32Array]),
     ...(study.messages ? [[study.messages, Uint32Array]] : []),
     ...(study.motions ? study.motions.traces.map((trace) => [trace, Uint16Array]) : []),
   ].filter(([part]) => !part.numbers);
