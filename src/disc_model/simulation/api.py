@@ -24,7 +24,7 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, as_text, raise_faults, require, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation import states
-from disc_model.simulation.case import CaseSpec, Ramp, Start, Windows, pieces, request_faults, resolved_windows
+from disc_model.simulation.case import CaseSpec, Poincare, Ramp, Start, Windows, pieces, ramp_faults, resolved_windows
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import Array, State
 from disc_model.sources import git_commit, source_hash, versions
@@ -45,8 +45,7 @@ _EXITS = (  # in the order of `Status`
 _STATUS = dict(zip(_EXITS, Status, strict=True))
 
 
-def _shows(progress: object) -> bool:
-    return progress is None or isinstance(progress, bool) or callable(progress)
+_SHOWS = must(lambda x: x is None or isinstance(x, bool) or callable(x), "must be a function of the time, or False")
 
 
 class Execution(Strict):
@@ -69,7 +68,7 @@ class Execution(Strict):
     """
 
     audit_every_step: bool = False
-    progress: Annotated[Progress, PlainValidator(must(_shows, "must be a function of the time, or False"))] = None
+    progress: Annotated[Progress, PlainValidator(_SHOWS)] = None
     max_steps: Annotated[Count, Field(ge=1)] | None = None
 
 
@@ -138,7 +137,7 @@ def simulate(  # noqa: PLR0913
         end = time + end
     begin = time if states.is_finite(time) else 0.0
     later = is_number(end) and begin < end < math.inf
-    rule = f"must be finite, in s or a text such as '2 min', and > {as_text(begin)} (the time of the initial state)"
+    rule = "" if later else f"must be finite, in s or as '2 min', and > {as_text(begin)}, the time of the initial state"
     stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
     rules = violations(
         (isinstance(events, bool), "events", events, "must be True or False"),
@@ -148,10 +147,12 @@ def simulate(  # noqa: PLR0913
         (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
         (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
     )
-    raise_faults([*foreign_case(p), *limits_faults("tol", tol, TOLERANCES), *rules, *request_faults(p, windows, ramps)])
+    raise_faults([*foreign_case(p), *limits_faults("tol", tol, TOLERANCES), *rules])
     # numbers of other types would make the engine compile again, and would round differently
     start, end = float(time), float(end)
-    windows = resolved_windows(windows or {}, start, end)
+    windows = {} if windows is None else resolved_windows(windows, start, end)
+    if not isinstance(ramps, tuple) or ramps:
+        raise_faults([*ramp_faults(p, ramps, poincare=any(isinstance(x, Poincare) for x in windows.values()))])
     run = _Run(p, end, float(tol), initial_state, windows, events, stop_at, ramps, execution)
     code = run.advance()
     if code == transitions.PAUSED or callable(execution.progress):  # a short run has no progress to show
@@ -367,11 +368,13 @@ class Collector:
         self, p: Parameters, windows: Windows, events: bool, start: float, t_end: float, longest_step: float
     ) -> None:
         grids = {name: window.grid(p, start, t_end) for name, window in windows.items()}
-        folds = {name: getattr(window, "envelope", None) or 1 for name, window in windows.items()}
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
         longest = longest_step + dense_output.SAME_INSTANT * t_end
-        per_step = sum(1 + math.ceil(min(longest / grid[1], grid[2])) for grid in grids.values())
-        rows = {name: float(grid[2]) / folds[name] for name, grid in grids.items()}
+        per_step, folds, rows = 0, dict[str, int](), dict[str, float]()
+        for name, (_, interval, count, *_) in grids.items():
+            per_step += 1 + math.ceil(min(longest / interval, count))
+            folds[name] = getattr(windows[name], "envelope", None) or 1
+            rows[name] = float(count) / folds[name]
         size = 8.0 * len(dense_output.ROW) * (sum(rows.values()) + per_step)
         if rows and size > (room := _memory()):
             rule = f"must fit into memory: {size / 1e9:.3g} GB of samples in all, and there are {room / 1e9:.3g} GB"

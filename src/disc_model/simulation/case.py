@@ -157,30 +157,20 @@ Windows = Mapping[str, Window | Poincare]  # samples to keep, by their names
 _GROUP = re.compile(r"\w([^/]{0,58}[^/\s])?")  # readable names of groups that netCDF accepts, however long in bytes
 
 
-def request_faults(p: object, windows: object, ramps: object) -> Iterator[Fault]:
-    """Faults of the windows of a run, each of which becomes a group of a file, beside others; and of its ramps."""
-    if isinstance(p, Parameters) and not (isinstance(ramps, tuple) and not ramps):
-        turns = windows.values() if isinstance(windows, Mapping) else ()
-        yield from ramp_faults(p, ramps, poincare=any(isinstance(window, Poincare) for window in turns))
-    if windows is None:
-        return
-    if not isinstance(windows, Mapping):
-        yield Fault.of(("windows",), windows, "must be windows by name, such as {'late': Window(last=1, rate=1000)}")
-        return
-    for name, window in windows.items():
-        good = isinstance(name, str) and _GROUP.fullmatch(name) and name.isprintable() and name not in BESIDE_WINDOWS
-        if not good:
-            rule = "the name of a window must be at most 60 printable characters, a letter, digit or _ first, no / and "
-            yield Fault(("windows", as_text(name)), "", f"{rule}no space last, and not that of a variable")
-        if not isinstance(window, Window | Poincare):
-            yield Fault.of(("windows", str(name)), window, "must be a Window, or Poincare")
-
-
-def resolved_windows(windows: Windows, start: float, t_end: float) -> Windows:
-    """The windows with absolute times, for a run from ``start`` to ``t_end``, by `Span.resolved`. One may end before
-    the run starts, as parts of a run may share windows, but not begin after its end."""
+def resolved_windows(windows: object, start: float, t_end: float) -> Windows:
+    """Windows by name with absolute times, for a run from ``start`` to ``t_end``, by `Span.resolved`. Each becomes a
+    group of a file, beside others. One may end before the run starts, as parts of a run may share windows, but not
+    begin after its end. Raises `ParameterError`."""
+    by_name = isinstance(windows, Mapping)
+    require((by_name, "windows", windows, "must be windows by name, such as {'late': Window(last=1, rate=1000)}"))
     resolved: dict[str, Window | Poincare] = {}
-    for name, window in windows.items():
+    for name, window in dict(windows).items():  # type: ignore[call-overload]
+        good = isinstance(name, str) and _GROUP.fullmatch(name) and name.isprintable() and name not in BESIDE_WINDOWS
+        rule = "the name of a window must be at most 60 printable characters, a letter, digit or _ first, no / and no "
+        require(
+            (good, "windows", name, f"{rule}space last, and not that of a variable"),
+            (isinstance(window, Window | Poincare), f"windows.{name}", window, "must be a Window, or Poincare"),
+        )
         try:
             resolved[name] = window.resolved(start, t_end) if isinstance(window, Window) else window
             require((window.start <= t_end, "start", window.start, f"must be <= {as_text(t_end)}, where the run ends"))
@@ -306,8 +296,7 @@ class Prerun(Strict):
     @classmethod
     def _checked(cls, values: dict[str, Any]) -> dict[str, Any]:
         """The values as `Parameters` converts them: floats, whole numbers, words."""
-        if values.get("n_diameters") == AUTO:
-            raise ParameterError(Fault(("n_diameters",), "'auto'", "must be a whole number, that of the points"))
+        require((values.get("n_diameters") != AUTO, "n_diameters", AUTO, "must be a whole number, that of the points"))
         checked = SomeParameters(**values)
         return {name: getattr(checked, name) for name in values}
 
