@@ -64,7 +64,6 @@ try:
     from disc_model.sources import source_hash
     from disc_model.studies.study import (
         check_owner,
-        check_targets,
         closing_lines,
         read_file,
         study_from_config,

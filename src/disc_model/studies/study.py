@@ -3,15 +3,14 @@
 One `StudyError` lists all faults: those of single values, or those between values once these are right.
 """
 
-from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial, reduce
 from glob import glob
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import yaml
+from yaml.composer import ComposerError
 
 from disc_model.data.variables import values_text
 from disc_model.disc.given import read_disc
@@ -50,38 +49,28 @@ def read_file(path: Path) -> Any:
 def read_yaml(text: str, source: str = "study") -> Any:
     """A YAML document; raises `StudyError` if the text is none or gives a key twice."""
     try:
-        loader = yaml.SafeLoader(text)
-        node = loader.get_single_node()
-        faults = _given_twice(node)
-        if not faults:
-            return None if node is None else loader.construct_document(node)
+        return yaml.load(text, _Loader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         line = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
-        faults = [line + ", ".join(part for part in (error.context, error.problem) if part)]
+        fault = line + ", ".join(part for part in (error.context, error.problem) if part)
     except (yaml.YAMLError, ValueError, RecursionError, AttributeError, KeyError, TypeError) as error:
         # ValueError and what follows: a value looks like a number or date, or has a tag, that it does not fit
-        faults = [f"a value does not fit its form or tag ({' '.join(str(error).split())})"]
-    raise StudyError(*faults, source=source)
+        fault = f"a value does not fit its form or tag ({' '.join(str(error).split())})"
+    raise StudyError(fault, source=source)
 
 
-def _given_twice(root: yaml.Node | None) -> list[str]:
-    """Keys that are given twice, of which YAML itself would take the last value."""
-    nodes, visited, faults = [root], set[int](), list[str]()
-    for node in nodes:
-        if id(node) in visited:  # an alias of an earlier node
-            continue
-        visited.add(id(node))
-        if isinstance(node, yaml.MappingNode):
-            lines: dict[Any, list[int]] = {}
-            for key, _ in node.value:
-                lines.setdefault(key.value, []).append(key.start_mark.line + 1)
-            twice = ((key, *places) for key, places in lines.items() if len(places) > 1 and key != "<<")
-            faults += [f"{key}: given twice, in lines {first} and {second}" for key, first, second, *_ in twice]
-            nodes += chain(*node.value)
-        elif isinstance(node, yaml.SequenceNode):
-            nodes += node.value
-    return faults
+class _Loader(yaml.SafeLoader):
+    """Refuses a key that is given twice, of which YAML itself would take the last value."""
+
+    def compose_mapping_node(self, anchor: Any) -> yaml.MappingNode:
+        node = super().compose_mapping_node(anchor)
+        known = set[str]()
+        for key, _ in node.value:
+            if key.value in known and key.value != "<<":
+                raise ComposerError(None, None, f"{key.value} is given twice", key.start_mark)
+            known.add(key.value)
+        return node
 
 
 def mapping(value: Any) -> Mapping[Any, Any]:
@@ -328,7 +317,7 @@ def _misfits(plot: Plot, role: str, study: GridStudy, other: GridStudy) -> Itera
         yield f"must be computed for the same {NORM}: {', '.join(sorted(absent))}"
 
 
-# ---- Checks of what is requested of a workflow and of its folder, and what a finished run says
+# ---- Whose results a folder holds, and what a finished run says
 
 
 def check_owner(name: str, results: str, files: list[str], owner: Path) -> None:
@@ -344,28 +333,6 @@ def check_owner(name: str, results: str, files: list[str], owner: Path) -> None:
         )
 
 
-def check_targets(
-    targets: Iterable[str], study: Study, grids: Mapping[str, GridStudy], figures: Mapping[str, Sequence[str]]
-) -> None:
-    """Raise DiscModelError if a file is requested by a name that no study, figure (here by study) or case has."""
-    known: Collection[str]
-    for target in targets:
-        match Path(target).parts:
-            case ["results", name, _, *_] if name not in (*figures, *OTHER_FOLDERS):
-                kind, wanted, known, where = "study", name, figures, ""
-            case ["results", name, "figures", file] if name in figures:
-                kind, wanted, known, where = "figure", Path(file).stem, figures[name], f" in {name}"
-            case ["results", study.name, "cases", file]:
-                kind, wanted, known, where = "case", Path(file).stem, study.specs, f" in {study.name}"
-            case ["results", name, "batches", file] if name in grids:
-                kind, wanted, known, where = "batch", Path(file).stem, grids[name].batches, ""
-            case _:
-                continue
-        if wanted not in known:
-            listed = ", ".join([*known][:50] + ["..."] * (len(known) > 50)) or "none"
-            raise DiscModelError(f"{target}: there is no {kind} {wanted}{where} (known: {listed})")
-
-
 def closing_lines(study: Study, figures: Sequence[Path], grids: Mapping[str, GridStudy]) -> Iterator[str]:
     if figures:
         folders = {str(figure.parent) for figure in figures}
@@ -373,12 +340,10 @@ def closing_lines(study: Study, figures: Sequence[Path], grids: Mapping[str, Gri
         yield f"{study.name}: {counted(len(figures), 'figure')} in {folder}"
     if grids:
         lists = [Path(f"results/{name}/{name}.failed.txt") for name in grids]
-        failures = {file: file.read_text(encoding="utf-8").splitlines() for file in lists}
-        points, failed = sum(grid.n_points for grid in grids.values()), [*chain(*failures.values())]
-        lacking = f", for others see {', '.join(str(file) for file in failures if failures[file])}" if failed else ""
-        yield f"{points - len(failed)} of {points} points have a result{lacking}"
-        reasons = Counter(line.partition(": ")[2] for line in failed)
-        yield from (f"  {count} x {reason}" for reason, count in reasons.most_common(5))
+        failed = {file: len(file.read_text(encoding="utf-8").splitlines()) for file in lists}
+        points, lacking = sum(grid.n_points for grid in grids.values()), ", ".join(str(x) for x in lists if failed[x])
+        others = f", for others see {lacking}" if lacking else ""
+        yield f"{points - sum(failed.values())} of {points} points have a result{others}"
         page = f"results/{study.name}/explorer.html"
         yield f"The same command with the target `explorer` makes a page of every point: {page}"
         yield "(disc-model study ... --target explorer, or snakemake ... explorer)"
