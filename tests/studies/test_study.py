@@ -82,29 +82,31 @@ def test_keys_given_twice(tmp_path: Path) -> None:
         assert faults_of(load, path) == ["line 3, column 56: N is given twice"]
 
 
-def test_faults_of_several_studies_are_reported_together(tmp_path: Path) -> None:
+def test_faults_between_studies_are_reported_together(tmp_path: Path) -> None:
     figure = {"f": {"kind": "region_map", "x": "Omega", "y": "N", "overlays": {"curves": "elsewhere"}}}
-    plane = {
-        "study": "three",
-        "quantity": "regions",
-        "options": {"horizon": 1},
-        "axes": {"N": [1], "Omega": [1]},
-        "figures": figure,
-    }
-    texts = {"one": "study: one\nquantity: outcome\n", "three": json.dumps(plane)}
-    texts["five"] = json.dumps({"study": "five", "cases": {"A": CASE}})
-    for name, text in texts.items():
-        (tmp_path / f"{name}.yaml").write_text(text)
-    study = parse_study({"study": "three", "studies": ["*.yaml"], "cases": {"A": CASE}, "overrides": {"six": {}}})
-    found = "\n".join(faults_of(study.grids, [tmp_path]))
+    plane = {"study": "three", "quantity": "regions", "options": {"horizon": 1}, "axes": {"N": [1], "Omega": [1]}}
+    (tmp_path / "three.yaml").write_text(json.dumps(plane | {"figures": figure}))
+    study = parse_study({"study": "all", "studies": ["*.yaml"], "overrides": {"six": {}}})
+    found = faults_of(study.grids, [tmp_path])
     for fault in (
-        "one.yaml: options.horizon: is required",
-        "study = 'three': is the name of another folder of results",
-        "three: figures.f.overlays.curves = 'elsewhere': no such study (known: five, one, three)",
-        "study = 'five': must be a grid alone",
-        "overrides.six: no such study (known: five, one, three)",
+        "three: figures.f.overlays.curves = 'elsewhere': no such study (known: three)",
+        "overrides.six: no such study (known: three)",
     ):
         assert fault in found, found
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "fault"),
+    [
+        ("one", {"study": "one", "quantity": "outcome"}, "options.horizon: is required"),
+        ("all", GRID | {"study": "all"}, "study = 'all': is the name of another folder of results"),
+        ("five", {"study": "five", "cases": {"A": CASE}}, "study = 'five': must be a grid alone"),
+    ],
+)
+def test_a_fault_of_another_file_is_named(name: str, content: Any, fault: str, tmp_path: Path) -> None:
+    (tmp_path / f"{name}.yaml").write_text(json.dumps(content))
+    study = parse_study({"study": "all", "studies": ["*.yaml"]})
+    assert faults_of(study.grids, [tmp_path]) == [fault]
 
 
 def test_overrides_and_resolution_are_laid_over_the_file(tmp_path: Path) -> None:

@@ -6,8 +6,8 @@ from typing import Any
 from pydantic import BaseModel
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
 
-from disc_model.studies.document import Document
 from disc_model.studies.quantity import quantity_names, quantity_of
+from disc_model.studies.study import Study
 
 
 class _Plain(GenerateJsonSchema):
@@ -35,12 +35,12 @@ class _Plain(GenerateJsonSchema):
 def schema_text() -> str:
     """The JSON Schema of study files, as shipped; it describes the values of each key, but no rules between keys."""
     options = {name: quantity_of(name) for name in quantity_names()}
-    models: tuple[type[BaseModel], ...] = (Document, *options.values())
+    models: tuple[type[BaseModel], ...] = (Study, *options.values())
     refs, content = models_json_schema([(model, "validation") for model in models], schema_generator=_Plain)
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "A study of disc_model",
-        **content["$defs"].pop(Document.__name__),
+        **content["$defs"].pop(Study.__name__),
         "anyOf": [{"required": [key]} for key in ("cases", "quantity", "studies")],
         "allOf": [
             {

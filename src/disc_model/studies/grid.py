@@ -1,22 +1,22 @@
-"""A grid study: its points, their batches, and the rules between its parts.
+"""A grid study: its axes, their points and batches, and the rules between its parts.
 
 The hash of a batch's text is its name. Blocks of values are cut into batches of similar cost, only inside a block: a
 finer axis adds batches and keeps the others.
 """
 
 import math
-import re
-from collections import Counter
+from collections import ChainMap, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from itertools import chain, pairwise, product
-from typing import Any, NamedTuple
+from itertools import chain, islice, pairwise, product
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
-from pydantic import create_model
+import pydantic
+from pydantic import Field, Tag, WithJsonSchema, create_model
 
 from disc_model import parameters
-from disc_model.data.variables import PERTURBATIONS, START
-from disc_model.disc.plausibility import RULES
+from disc_model.data.variables import PERTURBATIONS, START, attributes
+from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.general import General
 from disc_model.figures.kind import Kind, Plot
@@ -24,13 +24,96 @@ from disc_model.figures.maps import RegionMap
 from disc_model.mode_choice import asked_modes
 from disc_model.parameters import AUTO, PLATE, RATIOS, RELATED, RESIDUAL, SURFACE, Parameters, case_of
 from disc_model.simulation.case import SomeParameters, Start
-from disc_model.studies.document import STATIC, VARIED, BatchSpec, Document, blocks_of
-from disc_model.studies.quantity import WORK, Blocks, Quantity, Value, compiled_rule, holds
-from disc_model.units import Finite, Positive, canonical_json, content_key, given_values, is_number
+from disc_model.studies.quantity import WORK, Blocks, Quantity, Range, Value, compiled_rule, holds
+from disc_model.units import Count, Finite, Positive, Strict, canonical_json, content_key, given_values, is_number
+
+if TYPE_CHECKING:
+    from disc_model.studies.study import Study
 
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
 REQUIRED = ("N", "Omega")  # parameters without a base value
+STATIC = "static"  # name of the default start
 MOST_POINTS = 1_000_000  # Snakemake takes hours over so many jobs; many more do not fit into memory
+TILE = 32  # approximate intervals along the side of a tile of a plane
+
+# ---- Values along an axis: lists, linear and logarithmic ranges, and blocks of them
+NumberOrUnit = Annotated[Any, WithJsonSchema({"type": ["number", "string"]})]
+"""A value as given in the file; its parameter determines its meaning."""
+
+
+class AxisRange(Range):
+    """Evenly spaced values along an axis, and `extra` ones, whose batches leave those of the range unchanged."""
+
+    extra: list[NumberOrUnit] = Field([])
+
+    def blocks(self, resolution: int = 1) -> Blocks:
+        return (*super().blocks(resolution), *([tuple(self.extra)] if self.extra else []))
+
+
+def _axis_kind(raw: Any) -> str | None:
+    if isinstance(raw, Mapping):
+        return "BlocksOf" if "blocks" in raw else "AxisRange"
+    return "a list" if isinstance(raw, list) and raw else None
+
+
+_NO_AXIS = "must be a list of values, or a range {start, stop, count or step}"
+_BY_KIND = pydantic.Discriminator(_axis_kind, custom_error_type="axis", custom_error_message=_NO_AXIS)
+Listed = Annotated[list[NumberOrUnit], Field(min_length=1), Tag("a list")]
+Block = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")], _BY_KIND]
+
+
+class BlocksOf(Strict):
+    """Values in blocks, each with batches of its own; a value in several blocks belongs to the first."""
+
+    blocks: Annotated[list[Block], Field(min_length=1)]
+
+
+Axis = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")] | Annotated[BlocksOf, Tag("BlocksOf")], _BY_KIND]
+
+
+def blocks_of(axis: list[Any] | AxisRange | BlocksOf, resolution: int = 1) -> Blocks:
+    """Blocks of the values of an axis; raises ValueError if there are too many values."""
+    if isinstance(axis, BlocksOf):
+        return tuple(block for part in axis.blocks for block in blocks_of(part, resolution))
+    return axis.blocks(resolution) if isinstance(axis, AxisRange) else (tuple(axis),)
+
+
+VARIED = (*Parameters.model_fields, *RATIOS, START, *PERTURBATIONS)  # what a grid may vary, in this order
+
+
+class _Columns(Strict):
+    _unknown: ClassVar[str] = "cannot be an axis"
+
+
+_WORDS = {START: "where the motion starts: names of starts", "disc": "discs: tables of modes, or names of `discs`"}
+
+
+def described(name: str) -> dict[str, Any]:
+    """Description and unit of a value in the schema of files."""
+    if name in _WORDS:
+        return {"description": _WORDS[name]}
+    if field := Parameters.model_fields.get(name):
+        return {"description": field.description, "json_schema_extra": field.json_schema_extra}
+    stated = attributes(name)
+    return {"description": stated["long_name"], "json_schema_extra": {"unit": stated["units"]}}
+
+
+_columns: dict[str, Any] = {name: (Axis, Field(None, **described(name))) for name in VARIED}
+Columns = create_model("Columns", __base__=_Columns, **_columns)  # an axis for each of several names of `VARIED`
+
+
+class BatchSpec(Strict):
+    """Division of the points of a grid into jobs."""
+
+    # dimensions that are cut, where each value of the others has batches of its own; if not given, the first ones are,
+    # as far as `size` requires. For a plane at once: its two, by default the only ones that are numbers, then those
+    # whose values share a batch, by default all others
+    over: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
+    size: Annotated[Count, Field(ge=1)] | None = None  # most points in a batch; if not given, about 20 s of work
+
+
+# ---- The grid
+
 _OTHERS: dict[str, Any] = dict.fromkeys(PERTURBATIONS, (Finite, 0.0)) | dict.fromkeys(RATIOS, (Positive, 1.0))
 _Varied = create_model("_Varied", __base__=SomeParameters, **_OTHERS)
 
@@ -71,13 +154,13 @@ class FigureEntry(NamedTuple):
 class GridStudy:
     """A grid study; raises `ParameterError` with the faults between the parts of its file."""
 
-    def __init__(self, document: Document, plots: Mapping[str, Plot]) -> None:
-        self.document, self.plots = document, plots
-        self.name, self.title, self.quantity = document.study, document.title, str(document.quantity)
-        self.where, self.discs, self.starts = document.where, document.discs, {STATIC: Start(), **document.starts}
-        self.options: Quantity = document.options
+    def __init__(self, file: "Study", plots: Mapping[str, Plot]) -> None:
+        self.file, self.plots = file, plots
+        self.name, self.title, self.quantity = file.name, file.title, str(file.quantity)
+        self.where, self.discs, self.starts = file.where, file.discs, {STATIC: Start(), **file.starts}
+        self.options: Quantity = file.options
         try:  # what does not vary, and a choice of modes at each point
-            self.base, self.mode_request = asked_modes(given_values(document.base))
+            self.base, self.mode_request = asked_modes(given_values(file.base))
         except ParameterError as error:
             raise ParameterError(*(fault.inside(("base",)) for fault in error.faults)) from None
         of_options = [Dimension([name], map(zip, blocks)) for name, blocks in self.options.dimensions.items()]
@@ -94,7 +177,7 @@ class GridStudy:
     @cached_property
     def batches(self) -> dict[str, str]:
         """JSON text of each batch by its name, 12 hexadecimal digits."""
-        batch = self.document.batch
+        batch = self.file.batch
         if self.options.tiled:
             maps = [plot for plot in self.plots.values() if isinstance(plot, RegionMap)]
             marked = [{plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()]
@@ -170,28 +253,22 @@ class GridStudy:
 
     @property
     def doubts(self) -> Iterator[str]:
-        """Warnings about implausible points, each with their number."""
+        """Warnings about implausible corners of the grid, one by each rule."""
         base = {name: value for name, value in self.base.items() if name not in parameters.CHOOSING and value != AUTO}
-        base |= next(self.points_along(self.dims))
-        for rule in RULES.values():
-            dims = [dim for dim in self.dims if not set(rule.names).isdisjoint(dim.names)]
-            thinned = [dim.thinned(round(300 ** (1 / len(dims)))) for dim in dims]  # about 300 points
-            cases = [base | point for point in self.points_along(thinned, base)] or [base]
-            texts = [text for case in cases if (text := rule.doubt(Parameters(**case_of(case, self.discs))))]
-            if texts:
-                about = "" if [len(dim.values) for dim in thinned] == [len(dim.values) for dim in dims] else "about "
-                yield f"{texts[0]} ({about}{len(texts) * self.n_points // len(cases)} of {self.n_points} points)"
+        corners = chain(
+            self.points_along([dim.thinned(2) for dim in self.dims]), islice(self.points_along(self.dims), 1)
+        )
+        cases = (Parameters(**case_of(base | point, self.discs)) for point in corners)
+        yield from ChainMap(*map(doubts, cases)).values()
 
     # ---- what the file says
 
     def _read_dimensions(self) -> list[Dimension]:
         faults: list[Fault] = []
         dims = []
-        for name, blocks in self._columns(self.document.axes, ("axes",), faults, self.document.resolution).items():
-            if isinstance(getattr(self.document.axes, name), list) and len({*blocks[0]}) < len(blocks[0]):
-                faults.append(Fault.of(("axes", name), [*blocks[0]], "must be different values"))
+        for name, blocks in self._columns(self.file.axes, ("axes",), faults, self.file.resolution).items():
             dims.append(Dimension([name], map(zip, blocks)))
-        for i, group in enumerate(self.document.zip):
+        for i, group in enumerate(self.file.zip):
             path = ("zip", str(i))
             columns = {name: [*chain(*blocks)] for name, blocks in self._columns(group, path, faults).items()}
             if len({len(column) for column in columns.values()}) > 1:
@@ -218,49 +295,41 @@ class GridStudy:
     def _value(self, name: str, value: Value) -> Value:
         """Convert and check one value by itself; `_base_of_points` checks them together."""
         if name in (START, "disc"):
-            if isinstance(value, str) and value in (self.starts if name == START else self.discs):
-                return value
-            no_start = f"no such start{suggestion(value, self.starts)}"
-            raise ParameterError(Fault.of((), value, no_start if name == START else "must be the table of a disc"))
-        if (name, value) in (("n_diameters", AUTO), ("contact_compliance", RESIDUAL), ("friction_offset", SURFACE)):
+            known = [*(self.starts if name == START else self.discs)]
+            if value not in known:
+                raise ParameterError(Fault.of((), value, f"no such {name}{suggestion(value, known)}"))
+            return value
+        if (name, value) in (("contact_compliance", RESIDUAL), ("friction_offset", SURFACE)):
             raise ParameterError(Fault.of((), value, "must be a number along an axis: give it in base, for all points"))
         return getattr(_Varied.model_validate({name: value}), name)  # type: ignore[no-any-return]
 
     # ---- rules between its parts
 
     def _wrong_names(self) -> Iterator[Fault]:
-        in_base, scanned = self.document.base.model_fields_set, self.options.scanned
-        quantity, counts = f"the quantity {self.quantity}", Counter(self.varied)
-        for name in sorted({*scanned} & {*counts, *in_base}):
-            yield Fault(("axes" if name in counts else "base", name), "", f"is varied by {quantity}")
-        if self.mode_request is not None and "n_circles" in in_base:
-            yield Fault(("base", "n_circles"), "", _CHOSEN)
-        for name in sorted(in_base & RATIOS.keys()):
-            if RATIOS[name][0] in {*in_base, *counts}:
-                yield Fault(("base", name), "", f"stands for {RATIOS[name][0]}, which is given as well")
-        for name in sorted(counts):
-            stands_for, other = RATIOS.get(name, ("", ""))
-            others = {RATIOS.get(word, (word,))[0] for word in (*counts.keys() - {name}, *in_base, *scanned)}
-            of_plate = not {name, stands_for, other}.isdisjoint((*PLATE, "damping_ratio"))
-            if name in in_base:
-                value = getattr(self.document.base, name)
-                yield Fault.of(("base", name), value, "varies as well: give it in base or as an axis, not both")
-            for broken, rule in (
-                (counts[name] > 1, "varies along two dimensions"),
-                (of_plate and "disc" in {*counts, *in_base}, "must be left out where a disc is given"),
-                (stands_for in others, f"stands for {stands_for}, which is given as well"),
-                (other in scanned, f"needs {other}, which {quantity} varies"),
-                (self.mode_request is not None and name in ("n_diameters", "n_circles"), _CHOSEN),
-            ):
-                if broken:
-                    yield Fault(("axes", name), "", rule)
-        for name in sorted({*REQUIRED}.difference(counts, in_base, scanned)):
+        """Each parameter must be given once: along an axis, in base, by a ratio, or by the quantity."""
+        in_base, scanned, quantity = self.file.base.model_fields_set, self.options.scanned, f"quantity {self.quantity}"
+        given = defaultdict[str, list[tuple[str, ...]]](list)
+        for part, names in (("axes", self.varied), ("base", sorted(in_base)), (quantity, scanned)):
+            for name in names:
+                given[RATIOS.get(name, (name,))[0]].append((part, name))
+        if self.mode_request is not None:
+            given["n_circles"].append(("base", "n_diameters"))
+        for path, *others in given.values():
+            for other in others:
+                yield Fault(path, "", f"is given by {' '.join(other)} as well, and must be given once")
+        for name in self.varied:
+            upper, lower = RATIOS.get(name, (name, ""))
+            if "disc" in given and not {upper, lower}.isdisjoint((*PLATE, "damping_ratio")):
+                yield Fault(("axes", name), "", "must be left out where a disc is given")
+            if lower in scanned:
+                yield Fault(("axes", name), "", f"needs {lower}, which the {quantity} varies")
+        for name in sorted({*REQUIRED}.difference(given)):
             yield Fault(("axes", name), "", "is required, here, in a zip or in base")
         if not self.dims:
             yield Fault(("axes",), "", "is required: at least one axis or zip")
         if self.options.over and self.options.over not in self.values:
-            yield Fault(("axes", self.options.over), "", f"is required: {quantity} looks along it")
-        for name in sorted({*(self.document.batch.over or ())}.difference(self.values)):
+            yield Fault(("axes", self.options.over), "", f"is required: the {quantity} looks along it")
+        for name in sorted({*(self.file.batch.over or ())}.difference(self.values)):
             yield Fault.of(("batch", "over"), name, f"must name dimensions (known: {', '.join(self.values)})")
 
     def _wrong_starts(self) -> Iterator[Fault]:
@@ -276,7 +345,7 @@ class GridStudy:
                     yield Fault(("options", key), "", "must not be given where the start varies: say it under starts")
 
     def _wrong_extent(self) -> Iterator[Fault]:
-        over, known = self.document.batch.over, [*dict.fromkeys((*Parameters.model_fields, *self.varied))]
+        over, known = self.file.batch.over, [*dict.fromkeys((*Parameters.model_fields, *self.varied))]
         if self.options.tiled and len(_plane(self.dims, over)) != 2:
             rule = f"must name the two dimensions, single numbers, of {self.quantity}'s plane first"
             yield Fault.of(("batch", "over"), over and list(over), rule)
@@ -289,31 +358,28 @@ class GridStudy:
             yield Fault(("where",), "", "leaves no point")
 
     def _base_of_points(self) -> dict[str, Any]:
-        """All values that do not vary; raises `ParameterError` by rules between values, each where it first breaks."""
+        """All values that do not vary; raises `ParameterError` with the rules that the first such point breaks."""
         unused = {name: 0.0 for name in self.options.scanned if name in REQUIRED}
         first = next(self.points_along(self.dims))
-        faults: dict[str, Fault] = {}
-        whole: dict[str, Any] = {}
+        ratios = {RATIOS[name][0]: name for name in self.varied if name in RATIOS}
         for point in self.points_of(RELATED):
             try:
-                values = unused | case_of({**self.base, **first, **point}, self.discs)
-                whole = Parameters(**values).canonical
+                whole = Parameters(**unused | case_of({**self.base, **first, **point}, self.discs)).canonical
             except ParameterError as error:
-                faults = {fault.path[0]: fault for fault in error.faults} | faults
-        ratios = {RATIOS[name][0]: name for name in self.varied if name in RATIOS}
-        for name, fault in faults.items():
-            part, hint = "axes" if name in self.varied or name in ratios else "base", ""
-            if (rule := re.match(r"must be (<=?) (\w+)=", fault.rule)) and whole:
-                hint = f"; where: {name} {rule[1]} {rule[2]} leaves out the points that break this"
-            path = (ratios.get(name, name), *[name] * (name in ratios), *fault.path[1:])
-            faults[name] = Fault((part, *path), fault.value, fault.rule + hint)
-        raise_faults([*faults.values()])
+                raise_faults([self._located(fault, ratios) for fault in error.faults])
         dropped = {*first, *(RATIOS[name][0] for name in (first | self.base).keys() & RATIOS)}
         whole |= {name: value for name, value in self.base.items() if name in RATIOS}
         if self.mode_request is not None:
             dropped.add("n_circles")
             whole |= self.mode_request.given
         return {name: value for name, value in whole.items() if name not in dropped}
+
+    def _located(self, fault: Fault, ratios: Mapping[str, str]) -> Fault:
+        """A fault of a point where the file gives the value."""
+        name, *rest = fault.path
+        if name not in ratios and name not in self.varied:
+            return fault.inside(("base",))
+        return Fault(("axes", ratios.get(name, name), *rest), fault.value, f"{fault.rule}, or `where` must exclude it")
 
     # ---- its figures
 
@@ -341,9 +407,6 @@ class GridStudy:
         title = plot.title or f"{self.title or self.name}: {name}"
         caption = f"{plot.caption} From the grid study {self.name}.".strip()
         return FigureEntry(plot, inputs, category, plot.section, title, caption)
-
-
-_CHOSEN = f"is chosen for each point, since base.n_diameters is {AUTO!r}"
 
 
 # ---- Batches
@@ -380,7 +443,7 @@ def _tiles(dims: Sequence[Dimension], batch: BatchSpec, marks: list[dict[str, fl
     names = [dim.name for dim in plane]
     gathered = batch.over or [dim.name for dim in others]
     shares = [[dim.values] if dim.name in gathered else [(value,) for value in dim.values] for dim in others]
-    for chosen, tile in product(product(*shares), product(*(_cuts(dim.values, batch.tile) for dim in plane))):
+    for chosen, tile in product(product(*shares), product(*(_cuts(dim.values, TILE) for dim in plane))):
         along, within_tile = zip(*tile, strict=True)
         values = dict(zip([dim.name for dim in (*others, *plane)], [*chosen, *within_tile], strict=True))
         indices = [[index_of(mark[name], side) for name, side in zip(names, along, strict=True)] for mark in marks]

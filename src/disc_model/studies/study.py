@@ -3,24 +3,35 @@
 One `StudyError` lists all faults: those of single values, or those between values once these are right.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from functools import partial, reduce
+import json
+import os
+from collections import ChainMap
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from functools import cached_property, partial, reduce
 from glob import glob
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal, Self, Union
 
+import pydantic
 import yaml
+from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, WithJsonSchema, create_model
 from yaml.composer import ComposerError
 
-from disc_model.data.variables import values_text
+from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, values_text
 from disc_model.disc.given import read_disc
-from disc_model.disc.plausibility import RULES
+from disc_model.disc.plausibility import doubts
 from disc_model.display import counted
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
-from disc_model.figures.kind import NORM, CasePlot, Plot
-from disc_model.simulation.case import CaseSpec
-from disc_model.studies.document import Document
-from disc_model.studies.grid import GRID_KEYS, FigureEntry, GridStudy
+from disc_model.figures.kind import NORM, CasePlot, Kind, Plot, kind_of, kinds_in
+from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeRequest, by_frequencies, read_asked
+from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
+from disc_model.simulation.case import CaseSpec, Poincare, Ramp, SomeParameters, Span, Start, Window, ramp_faults
+from disc_model.studies.grid import GRID_KEYS, STATIC, BatchSpec, Columns, FigureEntry, GridStudy, described
+from disc_model.studies.quantity import checked_rule, quantity_names, quantity_of
+from disc_model.units import Count, Finite, Positive, Seconds, Strict, Tolerance, must
+
+OTHER_FOLDERS = ("compiled", "bench")  # in results/, beside those of studies
+MODES = {"as_published": "modes scaled as in the published results", "orthonormal": "modes normalised as Eq. (17) says"}
 
 # ---- Reading
 
@@ -91,48 +102,234 @@ def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
     return merged
 
 
-# ---- Studies
+# ---- Names
+TAKEN = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameters.model_fields})
+"""Names of variables in a study's file. Cases and windows become groups beside them and must differ."""
 
-OTHER_FOLDERS = ("compiled", "bench")  # in results/, beside those of studies
-MODES = {"as_published": "modes scaled as in the published results", "orthonormal": "modes normalised as Eq. (17) says"}
+
+def _but(taken: Collection[str], rule: str) -> AfterValidator:
+    return AfterValidator(must(lambda name: name not in taken, rule))
 
 
-class Study:
-    """A study; raises `ParameterError` with the faults between the parts of its file."""
+_LETTERS = pydantic.StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=100)
+Name = Annotated[str, _LETTERS]
+CaseName = Annotated[Name, _but(TAKEN, "must not be the name of a variable")]
+WindowName = Annotated[Name, _but(TAKEN | BESIDE_WINDOWS, "must not be the name of a variable or group")]
+StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 
-    def __init__(self, document: Document) -> None:
-        self.document, self.name, self.title, self.claims = document, document.study, document.title, document.claims
-        self.cases, self.studies, self.figures = document.cases, document.studies, document.figures
-        self.specs: dict[str, CaseSpec] = {}  # what is simulated of each case
-        self.grid: GridStudy | None = None  # the file's own
-        self._grid_plots = [(name, plot) for name, plot in self.figures.items() if isinstance(plot, Plot)]
+# ---- Named cases
+
+
+def _in_part(model: type[pydantic.BaseModel], **others: Any) -> type[Strict]:
+    """What may be said of a model in part: the rest is inherited. The others are types of fields that are models."""
+    fields: dict[str, Any] = {
+        name: (others.get(name, Annotated[field.annotation, *field.metadata, "in part"]) | None, None)
+        for name, field in model.model_fields.items()
+    }
+    return create_model(f"Some{model.__name__.removesuffix('Spec')}", __base__=Strict, __doc__=model.__doc__, **fields)
+
+
+class RecordSpec(Strict):
+    """What is recorded of a case. Figures and claims refer to windows by their names."""
+
+    windows: dict[WindowName, Window] = Field({})
+    poincare: Poincare | None = None
+    events: bool | Span = True
+    audit_every_step: bool = False
+
+
+SomeRecord = _in_part(RecordSpec, windows=dict[WindowName, _in_part(Window) | None])  # type: ignore[misc]
+_ratios: dict[str, Any] = {name: (Positive | None, Field(None, **described(name))) for name in RATIOS}
+_WithRatios = create_model("_WithRatios", __base__=SomeParameters, **_ratios)
+_BY = "quantity by which n_diameters: auto chooses the modes"
+
+
+class GivenParameters(_WithRatios):  # type: ignore[misc, valid-type]
+    """Parameters, or ratios of them, any of which may be left out; the number of modes may be left to each case."""
+
+    n_diameters: Annotated[
+        int,
+        *Parameters.model_fields["n_diameters"].metadata,
+        pydantic.WrapValidator(lambda value, check: value if value == AUTO else check(value)),
+        WithJsonSchema({"anyOf": [{"type": "integer", "minimum": -1, "maximum": 60}, {"const": AUTO}]}),
+    ] = Field(None, **described("n_diameters"))
+    truncation_quantity: Literal[*CHOSEN_BY] = Field(None, description=_BY)  # type: ignore[valid-type]
+    truncation_tolerance: Annotated[Finite, Field(ge=TRUSTED)] = Field(  # type: ignore[assignment]
+        None, description="relative tolerance of this quantity"
+    )
+
+
+def _mapping(raw: Any) -> Mapping[str, Any]:
+    if not isinstance(raw, Mapping):
+        raise ValueError("must be a mapping")
+    return raw
+
+
+class NamedCase(Strict):
+    """One named simulation of a study."""
+
+    title: str = ""
+    reference: str = ""
+    parameters: Annotated[
+        tuple[Parameters, ModeRequest | None],
+        PlainValidator(lambda raw: read_asked(_mapping(raw)), json_schema_input_type=GivenParameters),
+    ] = Field({}, validate_default=True)
+    t_end: Seconds
+    tol: Tolerance = 1e-10
+    stop_at: Literal["first_separation"] | None = None
+    start: Start = Start()
+    ramps: tuple[Ramp, ...] = ()
+    record: Annotated[RecordSpec, BeforeValidator(lambda raw: raw, json_schema_input_type=SomeRecord)] = RecordSpec()
+
+    @cached_property
+    def spec(self) -> CaseSpec:
+        """What is simulated; raises `ParameterError` with places inside the case."""
         faults: list[Fault] = []
-        for name, case in self.cases.items():
+        (p, request), record, truncation, modes = self.parameters, self.record, "", ""
+        if request is not None and request.quantity != FREQUENCIES:  # the modes are chosen when the case runs
+            modes = json.dumps(request.model_dump(), sort_keys=True)
+        elif request is not None:
             try:
-                self.specs[name] = case.spec()
-            except ParameterError as error:
-                faults += [fault.inside(("cases", name)) for fault in error.faults]
-        keys = document.model_fields_set
+                choice = by_frequencies(p, request.tolerance)
+                p, truncation = choice.parameters, choice.to_json()
+            except DiscModelError as error:  # no number of modes meets the tolerance
+                faults.append(Fault.of(("parameters", "n_diameters"), AUTO, str(error)))
+        spans: dict[tuple[str, ...], Any] = {("windows", name): window for name, window in record.windows.items()}
+        if record.events:
+            spans["events",] = Span() if record.events is True else record.events
+        for path, span in spans.items():
+            start, stop = span.ends(0.0, self.t_end)
+            if 0 <= start < stop <= self.t_end:
+                spans[path] = span.resolved(0.0, self.t_end)
+            else:
+                rule = f"must be within the run: 0 <= start={start:g} < stop={stop:g} <= t_end={self.t_end:g}"
+                faults.append(Fault(("record", *path), "", rule))
+        for fault in ramp_faults(p, self.ramps, poincare=record.poincare is not None) if self.ramps else ():
+            faults.append(fault.inside(("parameters",)) if fault.path[0] in Parameters.model_fields else fault)
+        raise_faults(faults)
+        events = spans.pop(("events",), None)
+        windows = tuple((name, window) for (_, name), window in spans.items())
+        rest = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
+        rest |= {name: getattr(record, name) for name in ("poincare", "audit_every_step")}
+        rest |= {"windows": windows, "events": events and (events.start, events.stop)}
+        return CaseSpec(parameters=p, truncation=truncation, modes=modes, **rest)
+
+    @pydantic.model_validator(mode="after")
+    def _consistent(self) -> Self:
+        """Check the rules between the values of the case."""
+        self.spec  # noqa: B018
+        return self
+
+
+# ---- Figures
+
+
+def _figure(raw: Any) -> Kind:
+    return raw if isinstance(raw, Kind) else kind_of(_mapping(raw).get("kind")).model_validate(raw)
+
+
+_OTHER_NAME = {"kind": {"type": "string", "pattern": r"^\w+\.\w+$"}}
+_OTHER_KIND = Annotated[Any, WithJsonSchema({"type": "object", "properties": _OTHER_NAME, "required": ["kind"]})]
+_KIND: Any = Annotated[Union[*(kind for _, kind in sorted(kinds_in("").items()))], Field(discriminator="kind")]
+Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND | _OTHER_KIND)]
+"""A figure of any kind; the schema for editors knows the keys of the library's kinds, and not those of the paper's."""
+
+
+def _given_figures(raw: Any) -> Any:
+    """Figures by their names, without those that null drops."""
+    return {name: plot for name, plot in raw.items() if plot is not None} if isinstance(raw, Mapping) else raw
+
+
+def _several(value: Any) -> Any:
+    return value if isinstance(value, list | tuple) else [value]
+
+
+def _known(name: str | None) -> str | None:
+    if name is not None and "status" not in quantity_of(name).COLUMNS:
+        raise ParameterError(Fault.of((), name, "COLUMNS of its class must contain 'status'"))
+    return name
+
+
+def _options(raw: Any, info: pydantic.ValidationInfo) -> Any:
+    """The quantity with its options; what is given for an unknown one is checked once it is known."""
+    quantity = info.data.get("quantity")
+    return raw if quantity is None else quantity_of(quantity).model_validate(_mapping(raw))
+
+
+# ---- The study
+
+
+class Study(Strict):
+    """A study: named cases, a grid of points, or both, and their figures; see docs/studies.md."""
+
+    study: Name
+    title: str = ""
+    base: GivenParameters = GivenParameters()
+    figures: Annotated[
+        dict[Name, Figure], BeforeValidator(_given_figures, json_schema_input_type=dict[Name, Figure | None])
+    ] = Field({})
+    tol: Tolerance | None = 1e-10  # of all cases, as `record`
+    record: SomeRecord = SomeRecord()  # type: ignore[valid-type]
+    cases: Annotated[dict[CaseName, NamedCase], Field(min_length=1)] = Field({}, validate_default=False)
+    claims: bool = False  # whether the paper's claims and tables are checked against the cases
+    quantity: Annotated[str | None, AfterValidator(_known), WithJsonSchema({"enum": quantity_names()})] = None
+    options: Annotated[Any, PlainValidator(_options), WithJsonSchema({"type": "object"})] = None
+    axes: Columns = Columns()
+    where: Annotated[
+        tuple[Annotated[str, AfterValidator(checked_rule)], ...],
+        BeforeValidator(_several, json_schema_input_type=str | list[str]),
+    ] = ()
+    zip: Annotated[tuple[Columns, ...], BeforeValidator(_several, json_schema_input_type=Columns | list[Columns])] = ()
+    batch: BatchSpec = BatchSpec()
+    starts: dict[StartName, Start] = Field({})
+    discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
+    studies: tuple[str, ...] = ()  # further files of grid studies, * stands for any part of a name
+    overrides: dict[str, dict[str, Any]] = Field({})  # of values in these files, by the name of the study
+    resolution: Annotated[Count, Field(ge=1)] = 1  # divides the intervals of all ranges
+
+    @pydantic.model_validator(mode="after")
+    def _consistent(self) -> Self:
+        """Check the rules between the parts of the file."""
+        faults: list[Fault] = []
         if self.name in OTHER_FOLDERS:
             faults.append(Fault.of(("study",), self.name, "is the name of another folder of results"))
-        if document.quantity is not None:
-            try:
-                plots = {name: plot for name, plot in self._grid_plots if plot.study in ("", self.name)}
-                self.grid = GridStudy(document, plots)
-            except ParameterError as error:
-                faults += error.faults
-        elif keys & GRID_KEYS:
+        if self.quantity is None and self.model_fields_set & GRID_KEYS:
             faults.append(Fault(("quantity",), "", "is required"))
-        elif not keys & {"cases", "studies"}:
+        elif self.quantity is None and not self.model_fields_set & {"cases", "studies"}:
             faults.append(Fault(("study",), "", "must say what to compute: cases, or quantity and axes, or studies"))
-        recorded = {name: self.specs[name].sections if name in self.specs else None for name in self.cases}
+        recorded = {name: spec.sections for name, spec in self.specs.items()}
         for name, plot in self.figures.items():
             if isinstance(plot, CasePlot):
                 faults += (fault.inside(("figures", name)) for fault in plot.faults(recorded))
-            elif isinstance(plot, Plot) and not plot.study and document.quantity is None:
+            elif isinstance(plot, Plot) and not plot.study and self.quantity is None:
                 rule = "shows a grid: this study has none, and no other one is named as its study"
                 faults.append(Fault.of(("figures", name, "kind"), plot.kind, rule))
+        try:
+            self.grid  # noqa: B018
+        except ParameterError as error:
+            faults += error.faults
         raise_faults(faults)
+        return self
+
+    @property
+    def name(self) -> str:
+        return self.study
+
+    @property
+    def specs(self) -> dict[str, CaseSpec]:
+        """What is simulated of each case."""
+        return {name: case.spec for name, case in self.cases.items()}
+
+    @property
+    def plots(self) -> dict[str, Plot]:
+        """The figures of grids."""
+        return {name: plot for name, plot in self.figures.items() if isinstance(plot, Plot)}
+
+    @cached_property
+    def grid(self) -> GridStudy | None:
+        """The file's own grid; raises `ParameterError` with the faults between its parts."""
+        own = {name: plot for name, plot in self.plots.items() if plot.study in ("", self.name)}
+        return None if self.quantity is None else GridStudy(self, own)
 
     @property
     def labels(self) -> dict[str, dict[str, str]]:
@@ -160,62 +357,44 @@ class Study:
 
     @property
     def doubts(self) -> Iterator[str]:
-        """Warnings about implausible cases, each with their number."""
-        for rule in RULES.values():
-            if texts := [text for spec in self.specs.values() if (text := rule.doubt(spec.parameters))]:
-                yield f"{texts[0]} ({len(texts)} of {len(self.specs)} cases)"
+        """Warnings about implausible cases, one by each rule."""
+        yield from ChainMap(*(doubts(spec.parameters) for spec in self.specs.values())).values()
 
     def grids(self, folders: Sequence[Path] = (Path(),)) -> tuple[dict[str, GridStudy], tuple[str, ...]]:
         """All grids, also those that only figures show, and the names of those of this file and the files it names."""
+        paths = {path.stem: path for pattern in self.studies for path in _matching(pattern, folders)}
         grids = {} if self.grid is None else {self.name: self.grid}
-        paths = [path for pattern in self.studies for path in _matching(pattern, folders)]
-        requested = (*grids, *(path.stem for path in paths))
-        shown = {name for _, plot in self._grid_plots for name in (plot.study, *plot.overlays.values()) if name}
+        requested = (*grids, *paths)
+        shown = {name for plot in self.plots.values() for name in (plot.study, *plot.overlays.values()) if name}
         further = [path for name in sorted(shown.difference(requested)) for path in _matching(f"{name}.yaml", folders)]
-        paths += (path for path in further if path.is_file())
-        known = {*requested, *(path.stem for path in paths)}
-        faults: list[str] = []
-        for path in paths:
-            self._add_grid(path, grids, faults)
-        for name in self.document.overrides.keys() - known:
-            faults.append(f"overrides.{name}: no such study{suggestion(name, sorted(known))}")
-        plots = [(grids[name], figure, plot) for name in sorted({*grids} & {*requested})
-                 for figure, plot in grids[name].plots.items()]  # fmt: skip
-        for figure, plot in self._grid_plots:
-            if plot.study in grids and plot.study != self.name:
-                plots.append((grids[plot.study], figure, plot))
-                misfits = grids[plot.study].faults_of(plot)
-                faults += [fault.inside(("figures", figure)).in_file for fault in misfits]
-            elif plot.study and plot.study not in known:
-                rule = f"no such study{suggestion(plot.study, sorted(known))}"
-                faults.append(Fault.of(("figures", figure, "study"), plot.study, rule).in_file)
-        for grid, figure, plot in plots:
-            owner = grid.name if figure in grid.plots else self.name
-            for role, other in plot.overlays.items():
-                rules = [f"no such study{suggestion(other, sorted(known))}"] if other not in known else []
-                rules += _misfits(plot, role, grid, grids[other]) if other in grids else []
-                faults += [f"{owner}: figures.{figure}.overlays.{role} = {other!r}: {rule}" for rule in rules]
+        paths |= {path.stem: path for path in further if path.is_file()}
+        grids |= {name: self._grid_of(path) for name, path in paths.items()}
+        unknown = sorted(self.overrides.keys() - grids.keys())
+        faults = [f"overrides.{name}: no such study{suggestion(name, sorted(grids))}" for name in unknown]
+        figures = [(self.name, name, plot) for name, plot in self.plots.items()]
+        for name in sorted({*requested} - {self.name}):
+            figures += ((name, figure, plot) for figure, plot in grids[name].plots.items())
+        for owner, figure, plot in figures:
+            misfits = (fault.inside(("figures", figure)) for fault in _misfits(plot, owner, grids))
+            faults += (f"{owner}: {fault.in_file}" for fault in misfits)
         if faults:
             raise StudyError(*faults, source="grid studies")
         return grids, requested
 
-    def _add_grid(self, path: Path, grids: dict[str, GridStudy], faults: list[str]) -> None:
-        try:
-            content = inherit(mapping(read_file(path)), self.document.overrides.get(path.stem, {}))
-            study = parse_study({"resolution": self.document.resolution, **content}, path.parent, _shown_path(path))
-        except StudyError as error:
-            faults += [f"{error.source}: {fault}" for fault in error.faults]
-            return
+    def _grid_of(self, path: Path) -> GridStudy:
+        """The grid of another file, with the overrides of this one."""
+        content = inherit(mapping(read_file(path)), self.overrides.get(path.stem, {}))
+        study = parse_study({"resolution": self.resolution, **content}, path.parent, os.path.relpath(path))
         wrong = {
             "must be the name of the file": study.name != path.stem,
-            "is another file's study": path.stem in grids,
-            "is the name of another folder of results": study.name == self.name and self.grid is None,
+            "is the name of another folder of results": study.name == self.name,
             "must be a grid alone": study.grid is None or study.cases or study.studies,
-            "must have no figures of other studies": any(p.study not in ("", study.name) for _, p in study._grid_plots),
+            "must have no figures of other studies": any(p.study not in ("", study.name) for p in study.plots.values()),
         }
-        faults += [f"{path}: study = {study.name!r}: {rule}" for rule, broken in wrong.items() if broken]
-        if study.grid is not None:
-            grids[path.stem] = study.grid
+        if study.grid is None or any(wrong.values()):
+            faults = [f"study = {study.name!r}: {rule}" for rule, broken in wrong.items() if broken]
+            raise StudyError(*faults, source=str(path))
+        return study.grid
 
 
 def load_study(*paths: str | Path) -> Study:
@@ -232,63 +411,52 @@ def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
     paths = [Path(file) for file in files]
     for path in paths:
         read_file(path)  # finds duplicate keys, which the mapping no longer shows
-    return parse_study(config, paths[-1].parent if paths else Path(), ", ".join(map(_shown_path, paths)) or "study")
+    return parse_study(config, paths[-1].parent if paths else Path(), ", ".join(map(os.path.relpath, paths)) or "study")
 
 
 def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> Study:
     """The study of the mapping that a file holds, with tables of discs from a folder, if it may name any."""
     try:
-        return Study(_document(raw if folder is None else _with_discs(raw, folder)))
+        return Study.model_validate(_inherited(raw if folder is None else _with_discs(raw, folder)))
     except ParameterError as error:
         # what is wrong in the values for all cases is wrong in each
         faults = [fault for fault in error.faults if fault.path[:1] != ("cases",)] or error.faults
         raise StudyError(*faults, source=source) from None
 
 
-def _document(raw: Any) -> Document:
+def _inherited(raw: Any) -> Any:
     """The content of a file, in which each case has what it inherits."""
-    if not isinstance(raw, Mapping):
-        raise ParameterError(Fault.of(("study",), raw, "must be a mapping"))
-    content = dict(raw)
-    if isinstance(raw.get("cases"), Mapping):
-        keys = {"base": "parameters", "record": "record", "tol": "tol"}
-        shared = {inner: raw[key] for key, inner in keys.items() if raw.get(key) is not None}
+    content = dict(mapping(raw))
+    keys = {"base": "parameters", "record": "record", "tol": "tol"}
+    shared = {inner: content[key] for key, inner in keys.items() if content.get(key) is not None}
+    if isinstance(cases := content.get("cases"), Mapping):
         content["cases"] = {
             name: {"parameters": {}} | inherit(shared, case) if isinstance(case, Mapping) else case
-            for name, case in raw["cases"].items()
+            for name, case in cases.items()
         }
-    if raw.get("quantity") is not None:
+    if content.get("quantity") is not None:
         content.setdefault("options", {})
-    return Document.model_validate(content)
+    return content if isinstance(raw, Mapping) else raw
 
 
-def _with_discs(raw: Any, folder: Path, path: tuple[str, ...] = ()) -> Any:
+def _with_discs(raw: Any, folder: Path) -> Any:
     """A file's content with discs in place of the names of their tables: recomputation depends on a table's content."""
-    if not isinstance(raw, Mapping):
-        return raw
-    if not path:  # names along an axis of discs are tables too
-        zips = raw.get("zip")
-        groups = [raw.get("axes"), *(zips if isinstance(zips, list) else [zips])]
-        axes = [mapping(group).get("disc") for group in groups]
-        varied = [name for axis in axes if isinstance(axis, list) for name in axis if isinstance(name, str)]
-        if varied:
-            raw = {**raw, "discs": {**dict(zip(varied, varied, strict=True)), **mapping(raw.get("discs"))}}
-    content = {}
-    for key, value in raw.items():
-        inner = (*path, str(key))
-        if isinstance(value, str) and (path == ("discs",) or inner[-2:] in (("base", "disc"), ("parameters", "disc"))):
-            try:
-                content[key] = read_disc(folder / value).model_dump(mode="json", exclude_none=True)
-            except ParameterError as error:
-                raise ParameterError(*(Fault(inner, "", str(fault)) for fault in error.faults)) from None
-        else:
-            content[key] = _with_discs(value, folder, inner)
-    return content
 
+    def read(value: Any, path: tuple[str, ...]) -> Any:
+        if isinstance(value, Mapping):
+            return {key: read(part, (*path, str(key))) for key, part in value.items()}
+        named = path[:-1] == ("discs",) or path[-2:] in (("base", "disc"), ("parameters", "disc"))
+        if not (named and isinstance(value, str)):
+            return value
+        try:
+            return read_disc(folder / value).model_dump(mode="json", exclude_none=True)
+        except ParameterError as error:
+            raise ParameterError(*(Fault(path, "", str(fault)) for fault in error.faults)) from None
 
-def _shown_path(path: Path) -> str:
-    whole, current = path.resolve(), Path.cwd()
-    return str(whole.relative_to(current) if whole.is_relative_to(current) else path)
+    content = mapping(raw)
+    axes = [mapping(group).get("disc") for group in (content.get("axes"), *_several(content.get("zip")))]
+    varied = {name: name for axis in axes if isinstance(axis, list) for name in axis if isinstance(name, str)}
+    return read({**content, "discs": varied | dict(mapping(content.get("discs")))} if varied else raw, ())
 
 
 def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
@@ -297,24 +465,28 @@ def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
     return [Path(path) for path in next(filter(None, matches), [pattern])]
 
 
-def _misfits(plot: Plot, role: str, study: GridStudy, other: GridStudy) -> Iterator[str]:
-    """Rules that a further study breaks in a role of a study's figure."""
-    wanted = plot.roles[role]
-    if other.quantity not in (wanted.quantity, wanted.instead):
-        good = " or ".join(filter(None, (wanted.quantity, wanted.instead)))
-        yield f"must be a study of the quantity {good}, and not {other.quantity}"
-        return
-    for name, value in wanted.options.items():
-        if (option := getattr(other.options, name)) != value:
-            yield f"must have options.{name} = {value!r}, and not {option!r}"
-    needs = plot.dims if wanted.dims is None else wanted.dims
-    if (dims := other.values.keys() - {NORM}) != set(needs):
-        needed, varied = (", ".join(sorted(names)) or "nothing" for names in (needs, dims))
-        yield f"must vary {needed} beside {NORM}, and not {varied}"
-        return
-    norms = [{str(value) for (value,) in grid.values.get(NORM, [(grid.base.get(NORM),)])} for grid in (study, other)]
-    if absent := norms[0] - norms[1]:
-        yield f"must be computed for the same {NORM}: {', '.join(sorted(absent))}"
+def _misfits(plot: Plot, owner: str, grids: Mapping[str, GridStudy]) -> list[Fault]:
+    """What keeps a figure in the file of a study from showing grids of other files."""
+    named = [(("study",), plot.study or owner), *((("overlays", role), name) for role, name in plot.overlays.items())]
+    known = sorted(grids)
+    if unknown := [(path, name) for path, name in named if name not in known]:
+        return [Fault.of(path, name, f"no such study{suggestion(name, known)}") for path, name in unknown]
+    study = grids[plot.study or owner]
+    faults = [] if plot.study in ("", owner) else [*study.faults_of(plot)]
+    for role in plot.overlays.keys() & plot.roles.keys():
+        wanted, other = plot.roles[role], grids[plot.overlays[role]]
+        needs = {*(plot.dims if wanted.dims is None else wanted.dims)}
+        norms, same = ({str(x) for (x,) in grid.values.get(NORM, [(grid.base.get(NORM),)])} for grid in (study, other))
+        options = {name: getattr(other.options, name, None) for name in wanted.options}
+        rules = {
+            f"must be a study of the quantity {wanted.quantity}": other.quantity
+            not in (wanted.quantity, wanted.instead),
+            f"must have the options {wanted.options}": options != wanted.options,
+            f"must vary {', '.join(sorted(needs)) or 'nothing'} beside {NORM}": other.values.keys() - {NORM} != needs,
+            f"must be computed for the same {NORM}": not norms <= same,
+        }
+        faults += [Fault.of(("overlays", role), other.name, rule) for rule, broken in rules.items() if broken][:1]
+    return faults
 
 
 # ---- Whose results a folder holds, and what a finished run says
