@@ -41,5 +41,5 @@ def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
     study = parse_grid(STILL)
     fewer = parse_grid(STILL | {"axes": {"N": [100], "Omega": [10, 20]}})
     for some, grid in ((batches[1:], study.grid), ([*batches, batches[0]], study.grid), (batches, fewer.grid)):
-        with pytest.raises(MergeError, match=r"not the \d points of the grid"):
+        with pytest.raises(MergeError, match="not those of the grid"):
             merge_batches(some, grid, {})

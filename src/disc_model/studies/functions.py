@@ -442,11 +442,8 @@ def run_study(
     >>> dm.run_study(study)["growth_rate"].sizes
     Frozen({'mu_s': 2, 'mu_k': 1})
     """
-    try:
-        from disc_model.studies.study import load_study, parse_study
-    except ModuleNotFoundError as error:
-        text = f"studies need {error.name}: pip install 'disc_model[workflow]' brings it"
-        raise ModuleNotFoundError(text, name=error.name) from None
+    from disc_model.studies.study import load_study, parse_study  # needs yaml, of the extra `workflow`
+
     named = isinstance(source, str | Path | Mapping)
     rule = "must be the path of a study file, or a mapping"
     require((named, "source", source, rule), *_rules_of_workers(workers, processes))

@@ -505,17 +505,9 @@ def check_owner(name: str, results: str, files: list[str], owner: Path) -> None:
         )
 
 
-def closing_lines(study: Study, figures: Sequence[Path], grids: Mapping[str, GridStudy]) -> Iterator[str]:
-    if figures:
-        folders = {str(figure.parent) for figure in figures}
-        folder = folders.pop() if len(folders) == 1 else "results/*/figures"
-        yield f"{study.name}: {counted(len(figures), 'figure')} in {folder}"
-    if grids:
-        lists = [Path(f"results/{name}/{name}.failed.txt") for name in grids]
-        failed = {file: len(file.read_text(encoding="utf-8").splitlines()) for file in lists}
-        points, lacking = sum(grid.n_points for grid in grids.values()), ", ".join(str(x) for x in lists if failed[x])
-        others = f", for others see {lacking}" if lacking else ""
-        yield f"{points - sum(failed.values())} of {points} points have a result{others}"
-        page = f"results/{study.name}/explorer.html"
-        yield f"The same command with the target `explorer` makes a page of every point: {page}"
-        yield "(disc-model study ... --target explorer, or snakemake ... explorer)"
+def closing_lines(grids: Mapping[str, GridStudy]) -> Iterator[str]:
+    """Grids with points that have no result, and where these are listed."""
+    for name, grid in grids.items():
+        file = Path(f"results/{name}/{name}.failed.txt")
+        if failed := len(file.read_text(encoding="utf-8").splitlines()):
+            yield f"{name}: {failed} of {grid.n_points} points have no result, see {file}"

@@ -15,9 +15,8 @@ from pydantic import Field
 from disc_model.analysis.classify import share
 from disc_model.data import variables
 from disc_model.data.variables import EXCLUDED, SAMPLE, SCALARS, STABLE_CYCLES, Variable, flag_names
-from disc_model.errors import Fault, ParameterError, as_text
-from disc_model.parameters import DEFAULTS, PLATE, RELATED, Disc, Parameters, case_of, cross_faults
-from disc_model.simulation.case import SomeParameters
+from disc_model.errors import Fault, ParameterError, as_text, suggestion
+from disc_model.parameters import DEFAULTS, RELATED, Disc, Parameters, case_of
 from disc_model.studies import quantity
 from disc_model.studies.quantity import NUMBERS, STATUS, Blocks, Coordinate, Dataset, Point, Quantity, Row, Ruled, tried
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Seconds, Tolerance, Units, is_number
@@ -135,46 +134,39 @@ class Sensitivity(Quantity):
 
     def faults(self, grid: Any) -> Iterator[Fault]:
         """Distributions must be of numbers, of no parameter that varies otherwise, and within valid values."""
-        path, numbers = ("options", "distributions"), _numbers(grid)
-        varied = {*grid.varied, *({*numbers}.difference(NUMBERS) if "disc" in grid.varied else ())}
-        faults, own = [], _own_values(grid.base)
-        for name, distribution in self.distributions.items():
-            nominal, relative = own.get(name), distribution.relative
-            scales = is_number(nominal) and nominal != 0
-            rules = {
-                f"must be of a parameter that is a number (known: {', '.join(numbers)})": name not in numbers,
-                "must be relative, since it varies along an axis as well": name in varied and not relative,
-                f"must not be relative to {as_text(nominal)}": name not in varied and relative and not scales,
-            }
-            faults += [Fault((*path, name), "", rule) for rule, broken in rules.items() if broken][:1]
-        yield from faults
-        first: dict[str, Fault] = {}  # where each rule is broken first
-        for fault in () if faults else self._out_of_reach(grid):
-            first.setdefault(fault.path[0], fault)
-        for fault in first.values():
-            inside = path if fault.path[0] in self.distributions else ("base",)
-            yield Fault((*inside, *fault.path), fault.value, f"{fault.rule}; distributions reach that far")
-
-    def _out_of_reach(self, grid: Any) -> Iterator[Fault]:
-        """Rules broken by an end of a distribution at any point; rules between parameters are tested at all corners."""
-        related = [name for name in sorted(self.distributions) if name in RELATED]
-        every = (point.items() for point in grid.points_of([*self.distributions, *RELATED]))
-        for point in dict.fromkeys(tuple((name, value) for name, value in items if name != SAMPLE) for items in every):
-            case = case_of({**grid.base, **dict(point)}, grid.discs)
-            ends, own = dict[str, list[float]](), _own_values(case)
+        path, faults = ("options", "distributions"), dict[str, Fault]()  # the first one of each name
+        first = next(grid.points_along(grid.dims))
+        for point in grid.points_of([*self.distributions, *RELATED]):
+            case = case_of({**grid.base, **first, **point}, grid.discs)
+            own = _own_values(case)
             for name, distribution in self.distributions.items():
-                scale = own[name] if distribution.relative else 1.0
-                ends[name] = [scale * end for end in distribution.ends]
-                for end in ends[name]:
-                    try:
-                        if name in NUMBERS:
-                            SomeParameters.model_validate({name: end})
-                        else:
-                            case["disc"].with_numbers(**{name: end})
-                    except ParameterError as error:
-                        yield from (Fault((name,), fault.value, fault.rule) for fault in error.faults)
-            for corner in product(*(ends[name] for name in related)):
-                yield from cross_faults(DEFAULTS | case | dict(zip(related, corner, strict=True)))
+                nominal, varies = own.get(name), name in grid.varied or (name not in NUMBERS and "disc" in grid.varied)
+                if name not in NUMBERS and (name not in own or name in DEFAULTS):
+                    rule = f"must be of a parameter that is a number{suggestion(name, NUMBERS)}"
+                elif varies and not distribution.relative:
+                    rule = "must be relative, since it varies along an axis as well"
+                elif distribution.relative and not (is_number(nominal) and nominal):
+                    rule = f"must not be relative to {as_text(nominal)}"
+                else:
+                    continue
+                faults.setdefault(name, Fault((*path, name), "", rule))
+            for fault in () if faults else self._out_of_reach(case, own):
+                inside = path if fault.path[0] in self.distributions else ("base",)
+                rule = f"{fault.rule}; distributions reach that far"
+                faults.setdefault(fault.path[0], Fault((*inside, *fault.path), fault.value, rule))
+        yield from faults.values()
+
+    def _out_of_reach(self, case: Mapping[str, Any], own: Mapping[str, Any]) -> Iterator[Fault]:
+        """Rules broken by an end of a distribution at a point; rules between parameters are tested at all corners."""
+        p, ends = Parameters(**case), dict[str, list[float]]()
+        for name, distribution in self.distributions.items():
+            ends[name] = [(own[name] if distribution.relative else 1.0) * end for end in distribution.ends]
+        related = [name for name in ends if name in RELATED]
+        for side, *corner in product((0, 1), *(ends[name] for name in related)):
+            try:
+                p.replace(**{name: pair[side] for name, pair in ends.items()} | dict(zip(related, corner, strict=True)))
+            except ParameterError as error:
+                yield from error.faults  # type: ignore[misc]
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         p, names = point.parameters, sorted(self.distributions)
@@ -203,16 +195,6 @@ class Sensitivity(Quantity):
             chance = share(int(np.isin(known, hit).sum()), len(known), len(words) - len(known))
             values |= {f"n_known_{counted}": len(known), **quantity.with_ends(f"probability_{name}", chance)}
         return values
-
-
-def _numbers(grid: Any) -> list[str]:
-    """Names that can be distributed: parameters that are numbers, and those of the modes that all discs have."""
-    discs: list[Disc] = [*grid.discs.values()] if "disc" in grid.varied else []
-    discs += [disc] if (disc := grid.base.get("disc")) is not None else []
-    if not discs:
-        return [*NUMBERS]
-    common = [name for name in discs[0].numbers if all(name in disc.numbers for disc in discs)]
-    return [*(name for name in NUMBERS if name not in (*PLATE, "damping_ratio")), *common]
 
 
 def _own_values(values: Mapping[str, Any]) -> dict[str, Any]:
