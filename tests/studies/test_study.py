@@ -1,6 +1,7 @@
 """What study files amount to: cases, grids, figures of either, and the files that they name."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -79,7 +80,7 @@ def test_keys_given_twice(tmp_path: Path) -> None:
     text = "study: x\ncases:\n  A: {title: a, t_end: 1, parameters: {N: 1, Omega: 2, N: -3}}\n"
     (path := tmp_path / "twice.yaml").write_text(text)
     for load in (load_study, lambda file: study_from_config({"study": "x", "cases": {"A": CASE}}, [file])):
-        assert faults_of(load, path) == ["line 3, column 56: N is given twice"]
+        assert re.search(r"N is given twice\n.* line 3, column 56", faults_of(load, path)[0])
 
 
 def test_faults_between_studies_are_reported_together(tmp_path: Path) -> None:

@@ -53,22 +53,16 @@ def read_file(path: Path) -> Any:
     try:
         return read_yaml(path.read_text(encoding="utf-8"), str(path))
     except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else f"byte {error.start} is no UTF-8"
-        raise StudyError(f"cannot be read: {reason}", source=str(path)) from None
+        raise StudyError(f"cannot be read: {error}", source=str(path)) from None
 
 
 def read_yaml(text: str, source: str = "study") -> Any:
     """A YAML document; raises `StudyError` if the text is none or gives a key twice."""
     try:
         return yaml.load(text, _Loader)
-    except yaml.MarkedYAMLError as error:
-        mark = error.problem_mark or error.context_mark
-        line = f"line {mark.line + 1}, column {mark.column + 1}: " if mark else ""
-        fault = line + ", ".join(part for part in (error.context, error.problem) if part)
     except (yaml.YAMLError, ValueError, RecursionError, AttributeError, KeyError, TypeError) as error:
         # ValueError and what follows: a value looks like a number or date, or has a tag, that it does not fit
-        fault = f"a value does not fit its form or tag ({' '.join(str(error).split())})"
-    raise StudyError(fault, source=source)
+        raise StudyError(f"is no YAML, or a value does not fit its form or tag: {error}", source=source) from None
 
 
 class _Loader(yaml.SafeLoader):

@@ -162,7 +162,7 @@ class Sensitivity(Quantity):
         for name, distribution in self.distributions.items():
             ends[name] = [(own[name] if distribution.relative else 1.0) * end for end in distribution.ends]
         related = [name for name in ends if name in RELATED]
-        for side, *corner in product((0, 1), *(ends[name] for name in related)):
+        for side, corner in product((0, 1), product(*(ends[name] for name in related))):
             try:
                 p.replace(**{name: pair[side] for name, pair in ends.items()} | dict(zip(related, corner, strict=True)))
             except ParameterError as error:
