@@ -28,7 +28,7 @@ GRID, CASE = FAULTS["grid"], FAULTS["case"]
 STUDIES = [
     (whole | change, words) for whole, name in ((GRID, "grids"), (CASE, "cases")) for change, words in FAULTS[name]
 ]
-STUDIES.append(({"study": "s"}, "study what compute"))
+STUDIES.append(({"study": "s"}, "quantity required cases studies"))
 
 
 def assert_named(faults: list[str], words: str) -> None:

@@ -56,8 +56,8 @@ def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:
     assert list(entries) == [(CASES["study"], "f"), ("other", "growth")]
     with pytest.raises(StudyError, match=r"figures\.f\.study = 'elsewhere': no such study"):
         parse_study(CASES | {"figures": {"f": growth | {"study": "elsewhere"}}}).grids([tmp_path])
-    with pytest.raises(StudyError, match="shows a grid: this study has none"):
-        parse_study(CASES | {"figures": GRID["figures"]})
+    with pytest.raises(StudyError, match=r"figures\.growth\.study = 'small': no such study"):
+        parse_study(CASES | {"figures": GRID["figures"]}).grids()
 
 
 # ---- cases

@@ -196,7 +196,7 @@ class GridStudy:
         shared = {"quantity": self.quantity, "options": self.options.model_dump(), "base": self.base}
         texts = []
         for part in parts:
-            points = [*self.points_along(self.dims, every=part["points"])]
+            points = [*self.points_along(self.dims, part["points"])]
             named: dict[str, Any] = {"names": self.varied}
             for name, kind, known in ((START, "starts", self.starts), ("disc", "discs", self.discs)):
                 if name in self.varied:
@@ -208,14 +208,12 @@ class GridStudy:
                 texts.append(canonical_json(shared | named | content))
         return {content_key(text): text for text in texts}
 
-    def points_along(
-        self, dims: Sequence[Dimension], base: Mapping[str, Any] = {}, every: Iterable[Any] | None = None
-    ) -> Iterator[dict[str, Any]]:
+    def points_along(self, dims: Sequence[Dimension], every: Iterable[Any] | None = None) -> Iterator[dict[str, Any]]:
         """The varying values, by name, at every point along some dimensions that keeps the file's rules."""
         names = [name for dim in dims for name in dim.names]
         for point in product(*(dim.values for dim in dims)) if every is None else every:
             values = dict(zip(names, chain.from_iterable(point), strict=True))
-            if not self.where or holds(self.where, {**(base or self.base), **values}):
+            if not self.where or holds(self.where, {**self.base, **values}):
                 yield values
 
     def points_of(self, names: Iterable[str]) -> Iterator[dict[str, Value]]:

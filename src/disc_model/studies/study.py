@@ -30,7 +30,6 @@ from disc_model.studies.grid import GRID_KEYS, STATIC, BatchSpec, Columns, Figur
 from disc_model.studies.quantity import checked_rule, quantity_names, quantity_of
 from disc_model.units import Count, Finite, Positive, Seconds, Strict, Tolerance, must
 
-OTHER_FOLDERS = ("compiled", "bench")  # in results/, beside those of studies
 MODES = {"as_published": "modes scaled as in the published results", "orthonormal": "modes normalised as Eq. (17) says"}
 
 # ---- Reading
@@ -256,7 +255,7 @@ def _options(raw: Any, info: pydantic.ValidationInfo) -> Any:
 class Study(Strict):
     """A study: named cases, a grid of points, or both, and their figures; see docs/studies.md."""
 
-    study: Name
+    study: Annotated[Name, _but({"compiled", "bench"}, "is the name of another folder of results")]
     title: str = ""
     base: GivenParameters = GivenParameters()
     figures: Annotated[
@@ -285,19 +284,13 @@ class Study(Strict):
     def _consistent(self) -> Self:
         """Check the rules between the parts of the file."""
         faults: list[Fault] = []
-        if self.name in OTHER_FOLDERS:
-            faults.append(Fault.of(("study",), self.name, "is the name of another folder of results"))
-        if self.quantity is None and self.model_fields_set & GRID_KEYS:
-            faults.append(Fault(("quantity",), "", "is required"))
-        elif self.quantity is None and not self.model_fields_set & {"cases", "studies"}:
-            faults.append(Fault(("study",), "", "must say what to compute: cases, or quantity and axes, or studies"))
+        given = self.model_fields_set
+        if self.quantity is None and (given & GRID_KEYS or not given & {"cases", "studies"}):
+            faults.append(Fault(("quantity",), "", "is required, unless the file has only cases, or studies"))
         recorded = {name: spec.sections for name, spec in self.specs.items()}
         for name, plot in self.figures.items():
             if isinstance(plot, CasePlot):
                 faults += (fault.inside(("figures", name)) for fault in plot.faults(recorded))
-            elif isinstance(plot, Plot) and not plot.study and self.quantity is None:
-                rule = "shows a grid: this study has none, and no other one is named as its study"
-                faults.append(Fault.of(("figures", name, "kind"), plot.kind, rule))
         try:
             self.grid  # noqa: B018
         except ParameterError as error:
