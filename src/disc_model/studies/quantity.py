@@ -9,7 +9,6 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, partial
 from importlib import import_module
-from itertools import chain
 from pkgutil import iter_modules
 from types import CodeType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
@@ -93,8 +92,6 @@ class Range(Ruled):
         by_level: dict[int, list[Value]] = {}
         for i in range(n + 1):  # the level of a value is the lowest resolution at which it is there
             by_level.setdefault(resolution // math.gcd(i, resolution), []).append(self._at(i / n))
-        if len({*chain(*by_level.values())}) <= n:
-            raise ValueError(f"must be {n + 1} values that differ in their first 12 digits")
         return tuple(tuple(by_level[level]) for level in sorted(by_level))
 
     def _at(self, share: float) -> float:

@@ -128,7 +128,6 @@ class RecordSpec(Strict):
     windows: dict[WindowName, Window] = Field({})
     poincare: Poincare | None = None
     events: bool | Span = True
-    audit_every_step: bool = False
 
 
 SomeRecord = _in_part(RecordSpec, windows=dict[WindowName, _in_part(Window) | None])  # type: ignore[misc]
@@ -203,8 +202,7 @@ class NamedCase(Strict):
         events = spans.pop(("events",), None)
         windows = tuple((name, window) for (_, name), window in spans.items())
         rest = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
-        rest |= {name: getattr(record, name) for name in ("poincare", "audit_every_step")}
-        rest |= {"windows": windows, "events": events and (events.start, events.stop)}
+        rest |= {"windows": windows, "poincare": record.poincare, "events": events and (events.start, events.stop)}
         return CaseSpec(parameters=p, truncation=truncation, modes=modes, **rest)
 
     @pydantic.model_validator(mode="after")

@@ -13,7 +13,7 @@ from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.stability.outcome import OutcomeResult
-from disc_model.studies import refinement
+from disc_model.studies import grid, refinement
 from disc_model.studies.quantities.regions import Regions
 from tests.studies.conftest import computed
 from tests.studies.refused import parse_grid
@@ -59,14 +59,17 @@ def raw(**changes) -> dict:
             "N": {"start": 50, "stop": 600, "count": 49},
             "normalization": ["as_published"],
         },
-        "batch": {"over": PLANE, "tile": 32},
+        "batch": {"over": PLANE},
     }
     return study | changes
 
 
 @pytest.mark.parametrize("tile", [16, 32, 64])
-def test_a_region_is_found_as_by_brute_force_with_fewer_points(made_up, tile: int) -> None:
-    study = computed(**raw(batch={"over": PLANE, "tile": tile})).isel(normalization=0)
+def test_a_region_is_found_as_by_brute_force_with_fewer_points(
+    made_up, tile: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(grid, "TILE", tile)
+    study = computed(**raw()).isel(normalization=0)
     assert not wrong(study).any()
     origin = flag_names(study["method"])
     assert set(np.unique(origin)) == {"simulation", "inferred"}
