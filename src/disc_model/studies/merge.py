@@ -28,11 +28,8 @@ class MergeError(DiscModelError):
 def merge_batches(
     batches: Sequence[xr.Dataset], grid: Sequence[Mapping[str, Any]], attrs: Mapping[str, str]
 ) -> xr.Dataset:
-    """Merge batches; raises `MergeError` if they disagree, or if they do not match `grid`, as of `GridStudy.grid`."""
-    try:
-        flat = xr.concat(batches, POINT, compat="equals", **JOINED)
-    except ValueError as error:
-        raise MergeError(f"the batches do not fit together: {error}") from None
+    """Merge batches; raises `MergeError` if they do not match `grid`, as of `GridStudy.grid`."""
+    flat = xr.concat(batches, POINT, compat="equals", **JOINED)
     base = _common(batches)
     indices = [_indices(flat, dim) for dim in grid]
     dims, shape = ["_".join(dim["names"]) for dim in grid], [len(dim["values"]) for dim in grid]

@@ -33,11 +33,11 @@ FARTHEST = 6.47  # standard deviations at which it is cut off, rounded up
 _FAR = f"low and high must be within {FARTHEST:g} deviations of mean={{0.mean:g}}"
 
 
-class _Distribution(Ruled):
+class Uniform(Ruled):
+    """A uniform distribution: all values from `low` to `high` are equally likely."""
+
+    distribution: Literal["uniform"]
     relative: bool = False  # whether the numbers are multiples of the parameter's own value at the point
-
-
-class _Bounded(_Distribution):
     low: Finite
     high: Finite
 
@@ -48,32 +48,27 @@ class _Bounded(_Distribution):
         return self.low, self.high
 
 
-class Uniform(_Bounded):
-    """A uniform distribution: all values from `low` to `high` are equally likely."""
+class TruncatedNormal(Uniform):
+    """A normal distribution, restricted to values from `low` to `high`; mean and deviation are those of the whole."""
 
-    distribution: Literal["uniform"]
+    distribution: Literal["truncated_normal"]  # type: ignore[assignment]
+    mean: Finite
+    deviation: Positive
+
+    _rules = (*Uniform._rules, (lambda d: max(d.low - d.mean, d.mean - d.high) <= FARTHEST * d.deviation, _FAR))
 
 
-class Normal(_Distribution):
+class Normal(Ruled):
     """A normal distribution, cut off at 6.47 standard deviations."""
 
     distribution: Literal["normal"]
+    relative: bool = False
     mean: Finite
     deviation: Positive
 
     @property
     def ends(self) -> tuple[float, float]:
         return self.mean - FARTHEST * self.deviation, self.mean + FARTHEST * self.deviation
-
-
-class TruncatedNormal(_Bounded):
-    """A normal distribution, restricted to values from `low` to `high`; mean and deviation are those of the whole."""
-
-    distribution: Literal["truncated_normal"]
-    mean: Finite
-    deviation: Positive
-
-    _rules = (*_Bounded._rules, (lambda d: max(d.low - d.mean, d.mean - d.high) <= FARTHEST * d.deviation, _FAR))
 
 
 Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator="distribution")]
@@ -224,7 +219,7 @@ def quantile(distribution: Distribution, nominal: float, share: float) -> float:
 
     scale = nominal if distribution.relative else 1.0
     low, high = distribution.ends
-    if isinstance(distribution, Uniform):
+    if not isinstance(distribution, Normal | TruncatedNormal):
         return float(scale * (low + share * (high - low)))
     first, last = EDGE / 2, 1 - EDGE / 2
     if isinstance(distribution, TruncatedNormal):
