@@ -8,7 +8,7 @@ import math
 from collections import ChainMap, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from itertools import chain, islice, pairwise, product
+from itertools import chain, pairwise, product
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 import pydantic
@@ -253,9 +253,7 @@ class GridStudy:
     def doubts(self) -> Iterator[str]:
         """Warnings about implausible corners of the grid, one by each rule."""
         base = {name: value for name, value in self.base.items() if name not in parameters.CHOOSING and value != AUTO}
-        corners = chain(
-            self.points_along([dim.thinned(2) for dim in self.dims]), islice(self.points_along(self.dims), 1)
-        )
+        corners = self.points_along([dim.thinned(2) for dim in self.dims])
         cases = (Parameters(**case_of(base | point, self.discs)) for point in corners)
         yield from ChainMap(*map(doubts, cases)).values()
 
