@@ -46,7 +46,7 @@ def mirrored(p: Parameters, growth: Callable[[Parameters], float] = measures.gro
     return -growth(p)
 
 
-def course(p: Parameters, until: float) -> tuple[Powers, ...]:
+def course(p: Parameters, until: float, widest: float = np.inf) -> tuple[Powers, ...]:
     """Powers in W by the square of the width in mm: separation withholds the surplus of maintained contact."""
     if p.contact == "bilateral":
         return tuple(Powers(1e-3 * x, 2.0 * x**2, 0.0, x**2, x**2) for x in range(1, 9))

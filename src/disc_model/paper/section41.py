@@ -1,5 +1,6 @@
 """Rows on Sections 4.1 and 4.2: separation occurs, ignoring it changes the motion, and the critical speed."""
 
+import math
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -253,8 +254,8 @@ def _waves(angle: Array, most: int) -> Array:
     return np.concatenate([np.ones((1, angle.size)), np.cos(orders), np.sin(orders)])
 
 
-def course(p: Parameters, until: float) -> list[Powers]:
-    """Powers at `STAGES` times of the motion from the static start, up to a time in s."""
+def course(p: Parameters, until: float, widest: float = math.inf) -> list[Powers]:
+    """Powers at `STAGES` times of the motion from the static start, up to a time in s or beyond a width in m."""
     from disc_model.simulation.api import simulate
     from disc_model.simulation.case import Window
 
@@ -266,6 +267,8 @@ def course(p: Parameters, until: float) -> list[Powers]:
         run = simulate(p, end, windows, initial_state=state).raise_for_status()
         state = run.final_state
         courses.append(powers(p, run.u_0, theta, [*run.samples.values()]))
+        if len(courses) > 1 and courses[-1].width > widest:
+            break
     return courses
 
 
