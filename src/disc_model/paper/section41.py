@@ -78,11 +78,12 @@ def releases_regularly(*cases: CaseView, within: float) -> Answer:
 
 
 def more_frequencies(*cases: CaseView, floor: float) -> Answer:
-    rows = []
+    rows = list[tuple[str, int, int]]()
     for pair in pairs(cases):
         late = [(x["time"].values, x["w_point"].values) for x in (case.samples("late") for case in pair)]
         if pair[0].from_rest:
-            rows.append((pair[0].place, *(len(spectra.lines(*x, above=1.0, floor=floor)) for x in late)))
+            free, bonded = (len(spectra.lines(*x, above=1.0, floor=floor)) for x in late)
+            rows.append((pair[0].place, free, bonded))
     return Answer(graded(free > bonded for _, free, bonded in rows) if rows else NOT_COMPUTED, rows=rows)
 
 
