@@ -89,15 +89,15 @@ def inplane_damping(without: CaseView, case: CaseView) -> Answer:
 
 
 def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
-    grid, raised, growing, lowered, lost = _grid(case.parameters), list[str](), list[int](), 0, 0
+    grid, raised, growing, lowered, lost = _grid(case.parameters), list[str](), 0, 0, 0
     values = (0.0, value, 2 * value)
     none, some, twice = (np.array([measures.growth_of(p.replace(**{name: x})) for p in grid]) for x in values)
     for before, after in ((none, some), (some, twice)):
         grows = (before > 0) & np.isfinite(after)
-        growing, lowered = [*growing, int(grows.sum())], lowered + int((grows & (after < before)).sum())
+        growing, lowered = growing + int(grows.sum()), lowered + int((grows & (after < before)).sum())
         raised += [measures.place(grid[i].N, grid[i].Omega) for i in np.flatnonzero((before < 0) & (after > before))]
         lost += int(((before > 0) & np.isnan(after)).sum())
-    verdict, most = sum(growing) == lowered > 0, values_text({name: 2 * value})
+    verdict, most = growing == lowered > 0, values_text({name: 2 * value})
     return Answer(verdict, most=most, lowered=lowered, growing=growing, raised=raised, lost=lost)
 
 
