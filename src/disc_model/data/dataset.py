@@ -262,8 +262,12 @@ def write_atomically(path: Path, write: Callable[[str], object]) -> None:
 
 
 def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:
-    """Trees by the names of their files, such as those of cases or studies."""
-    return {Path(path).stem: load(path) for path in paths}
+    """Trees by the names of their files, such as those of cases or studies; raises `UnreadableFile` with a remedy."""
+    try:
+        return {Path(path).stem: load(path) for path in paths}
+    except UnreadableFile as error:
+        remedy = "Delete this file and run the same command again, which computes it anew"
+        raise UnreadableFile(f"{error}\n{remedy}") from None
 
 
 # ---- Access to the tree of one case, for claims and figures; a missing part is explained

@@ -103,9 +103,15 @@ def plot_spectrum(case: xr.DataTree, window: str, variable: str, highest: float 
     known = highest is None or (is_number(highest) and highest > 0)
     require((known, "highest", highest, "must be a number > 0, in Hz"))
     samples = window_of(case, window, ("variable", variable), samples=True)
+    span = float(np.ptp(samples["time"].values)) if samples["time"].size else 0.0
+    half = (samples["time"].size - 1) / (2 * span) if span else 0.0  # of the rate
+    highest = min(motion.HIGHEST, half) if highest is None else highest
+    least = 1 / span if span else 0.0  # resolution
+    rule = f"must be within {least:.3g} Hz, the resolution, and {half:.6g} Hz, half the rate of the window"
+    require((not span or least <= highest <= half * (1 + 1e-9), "highest", highest, rule))  # the span is rounded
     try:
         with canvas(ax, 1.3 * COLUMN, 2.6, title=_stated(case)) as [axes]:
-            motion.draw_spectrum(axes, samples, variable, motion.HIGHEST if highest is None else highest)
+            motion.draw_spectrum(axes, samples, variable, highest)
     except dataset.Missing as reason:
         raise ParameterError(Fault.of(("window",), window, str(reason))) from None
     return axes

@@ -4,7 +4,6 @@ One `StudyError` lists all faults: those of single values, or those between valu
 """
 
 import json
-import os
 from collections import ChainMap
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, partial, reduce
@@ -369,7 +368,7 @@ class Study(Strict):
     def _grid_of(self, path: Path) -> GridStudy:
         """The grid of another file, with the overrides of this one."""
         content = inherit(mapping(read_file(path)), self.overrides.get(path.stem, {}))
-        study = parse_study({"resolution": self.resolution, **content}, path.parent, os.path.relpath(path))
+        study = parse_study({"resolution": self.resolution, **content}, path.parent, _shown(path))
         wrong = {
             "must be the name of the file": study.name != path.stem,
             "is the name of another folder of results": study.name == self.name,
@@ -396,7 +395,12 @@ def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
     paths = [Path(file) for file in files]
     for path in paths:
         read_file(path)  # finds duplicate keys, which the mapping no longer shows
-    return parse_study(config, paths[-1].parent if paths else Path(), ", ".join(map(os.path.relpath, paths)) or "study")
+    return parse_study(config, paths[-1].parent if paths else Path(), ", ".join(map(_shown, paths)) or "study")
+
+
+def _shown(path: Path) -> str:
+    """A path as short as it can be in a message."""
+    return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
 
 def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> Study:
