@@ -54,6 +54,8 @@ def one_case(**text: Any) -> CaseSpec:
 
 def test_a_case_is_run_with_the_modes_that_its_quantity_needs(measured: Measured) -> None:
     measured(lambda d, c: 1.0 + 0.1 / d**2)
+    with pytest.raises(DiscModelError, match=r"choose=None: must be `disc_model\.mode_choice\.choose_when_run`"):
+        run_case(one_case(truncation_quantity="growth"))
     done = run_case(one_case(truncation_quantity="growth"), choose=choose_when_run)
     assert json.loads(done.attrs["parameters"])["n_diameters"] == 3
     assert json.loads(done.attrs["truncation"])["quantity"] == "growth"

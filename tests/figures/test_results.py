@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from matplotlib import pyplot
 from PIL import Image
 
@@ -113,6 +114,11 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
     assert labels(dm.plot_sweep(outcomes, "outcome").figure) == ["quiet", "unresolved"]
     with pytest.raises(dm.ParameterError, match="variable='perod': must be one over the grid, did you mean period"):
         dm.plot_sweep(plane, "perod")
+    with pytest.raises(dm.ParameterError, match="variable='period': varies along c, Omega, N: select"):
+        dm.plot_sweep(plane.expand_dims(c=[0.0, 0.1]), "period")
+    counted = {"growth_rate": (("branch", "branch_point"), np.ones((2, 3))), "reached": ("sweep_value", [1.0, 2.0])}
+    branches = xr.Dataset(counted, {"branch": [0, 1], "branch_point": [0, 1, 2], "sweep_value": [10.0, 11.0]})
+    np.testing.assert_allclose(dm.plot_sweep(branches).lines[0].get_ydata(), [1, 2])
 
 
 def test_shares_of_starts_are_bars_of_the_outcomes_that_occur() -> None:

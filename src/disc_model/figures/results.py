@@ -368,7 +368,8 @@ def plot_sweep(
     )
     alone = "basin_fraction" in study and study["basin_fraction"].size == study.sizes["attractor_class"]  # one case
     study = study.squeeze([dim for dim, size in study.sizes.items() if size == 1 and not (alone and dim == "energy")])
-    numbers = [str(dim) for dim in study.dims if dim in study.coords and study[dim].dtype.kind in "fi"]
+    counted = {"branch", "branch_point"}  # what numbers their values count is no quantity
+    numbers = [str(x) for x in study.dims if x in study.coords and x not in counted and study[x].dtype.kind in "fi"]
     over = {str(name): {*values.dims} for name, values in study.items()}
     choices = [name for name, dims in over.items() if dims & {*numbers} and dims <= {*study.coords}]
     flat = [name for name in choices if len(over[name]) < 3]
@@ -378,8 +379,9 @@ def plot_sweep(
     dims = [str(dim) for dim in study[named].dims]
     possible = [dim for dim in dims if dim in numbers]
     across = x or possible[0]
-    rule = f"must be one of {', '.join(possible)}, and one or two must vary: select values of others"
-    require((across in possible and len(dims) < 3, "x", across, rule))
+    rule = f"varies along {', '.join(dims)}: select values of all but two"
+    require((len(dims) < 3, "variable", named, rule))
+    require((across in possible, "x", across, f"must be one of {', '.join(possible)}"))
     case = json.loads(study.attrs.get("base", study.attrs.get("parameters", "{}")))
     shown = {str(name).removeprefix("sweep_").removeprefix("scan_") for name in study.coords}
     fixed = {str(name): x.item() for name, x in study.coords.items() if not x.ndim}

@@ -482,6 +482,8 @@ def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
 
     from disc_model.data.dataset import json_attribute, scalars_dataset
 
+    needed = "must be `disc_model.mode_choice.choose_when_run`, as the case leaves its modes to be chosen"
+    require((callable(choose) or not spec.modes, "choose", choose, needed))
     p, truncation = spec.parameters, spec.truncation
     try:
         if spec.modes:
