@@ -32,12 +32,13 @@ def test_the_paper_s_radius_and_damping_are_no_defaults_for_another_disc() -> No
     assert text.endswith(": state the damping (D_star or damping_ratio)")
 
 
-def test_a_study_tells_of_doubts_once() -> None:
+def test_a_study_tells_of_how_many_points() -> None:
     axes = {"h": {"start": 0.001, "stop": 0.02, "count": 20}, "Omega": [10, 20, 30]}
     raw: dict[str, Any] = {"study": "thick", "quantity": "floquet", "base": BASE_OF_GRID, "axes": axes}
     [text] = parse_grid(raw).doubts
-    assert text.startswith("h = 0.02 m is more than a fifth")
+    assert text.startswith("h = 0.016 m is more than a fifth")
+    assert text.endswith(" (15 of 60 points)")
     one = {"title": "one", "t_end": 1}
     cases = {"A": one, "B": one | {"parameters": {"rho": 7.2}}}
     study = parse_study({"study": "some", "base": BASE | {"normalization": "orthonormal", "D_star": 0}, "cases": cases})
-    assert [text.partition(" ")[0] for text in study.doubts] == ["rho", "E"]
+    assert [text[-14:] for text in study.doubts] == ["(1 of 2 cases)"] * 2

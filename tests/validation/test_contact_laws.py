@@ -149,7 +149,7 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
     write_state(case, start, state)
     if rates:
         layout.set_course(model, state)
-    event_loop.expand(model.compliant, model.normal, model.decaying, model, s, state, order)
+    event_loop.expand(model.compliant, model.normal, model.normal + model.decaying, model, s, state, order)
     powers = np.array([float(model.unit) ** k for k in range(order + 1)])
 
     def compare(own, wanted, rtol=1e-10, degree=order):
