@@ -236,4 +236,4 @@ def vertical_branch(*cases: CaseView, within: float) -> Answer:
         rows.append((pair[0].place, rates[0]))
     by_mode, by_spring = (all(abs(each - 1) <= within for each in rises) for rises in (follows, alone))
     told = {"coupled": modes[0], "free": free, "follows": follows}
-    return Answer(AMBIGUOUS if by_mode else by_spring, rows=rows, **told)
+    return Answer(AMBIGUOUS if by_mode or by_spring else False, rows=rows, **told)
