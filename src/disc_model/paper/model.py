@@ -107,7 +107,7 @@ class Row(BaseModel):
         studies = [cases[name].node.to_dataset() for name in self.scans]
         beside = [cases[name].node.to_dataset() if name in cases else None for name in self.beside]
         answer = check(*needed.values(), *studies, *beside, **self.given)
-        which = "The motion has" if len(steady) == 1 else "All motions that the rule judges have"
+        which = "The motion has" if len(steady) == 1 else "All motions judged here have"
         place, stated = next((case.place for case in needed.values()), ""), facts(studies[0]) if studies else {}
         texts = (self.here, self.note) if not answer.here or not self.here else ("", "")  # nothing fills them
         here, note = (fill(text, **{"place": place, "stated": stated} | self.given | answer.values) for text in texts)
