@@ -75,26 +75,6 @@ def measured_of(part):
     return made_of("measure", "benchmarks.methods", f"benchmarks.{source}")
 
 
-def duration(job):
-    """Expected duration of a job (s): that of last time, or else by what a study knows of its cost."""
-    record = job.output and workflow.persistence.metadata(job.output[0])
-    if record and record.endtime:
-        return record.endtime - (record.starttime or record.endtime)
-    if job.rule.name != "compute_batch":
-        return 3.0  # other jobs are short
-    study = GRIDS[job.wildcards.study]
-    batch = json.loads(study.batches[job.wildcards.batch])
-    points = 1 if study.options.tiled else len(batch["points"])
-    return 1.0 + study.options.cost() * points
-
-
-def durations():
-    """Expected durations of all jobs to run, by number, and how many run at the same time."""
-    dag = workflow.dag
-    jobs = {dag.jobid(job): duration(job) for job in dag.needrun_jobs()}
-    return jobs, workflow.cores if workflow.local_exec else workflow.nodes
-
-
 @cache
 def unrecorded():
     """Results without a record of Snakemake, which would take them for up to date."""

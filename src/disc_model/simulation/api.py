@@ -17,7 +17,6 @@ from numpy.typing import ArrayLike
 from pydantic import Field, PlainValidator
 
 from disc_model.data.variables import PHASES
-from disc_model.display import Progress, simulating
 from disc_model.engine import audit, dense_output, event_loop, layout, transitions
 from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
@@ -55,8 +54,7 @@ class Execution(Strict):
     ----------
     audit_every_step : whether to audit both energy balances on every step instead of every 256th
         (the run takes about ten times as long)
-    progress : function that is called repeatedly with the time reached. None shows the progress of a long run and of
-        compilation; False shows nothing
+    progress : function that is called repeatedly with the time reached; False hides that kernels are compiled
     max_steps : largest number of steps; None sets a generous limit from the highest frequency
 
     Examples
@@ -68,7 +66,7 @@ class Execution(Strict):
     """
 
     audit_every_step: bool = False
-    progress: Annotated[Progress, PlainValidator(_SHOWS)] = None
+    progress: Annotated[Callable[[float], object] | bool | None, PlainValidator(_SHOWS)] = None
     max_steps: Annotated[Count, Field(ge=1)] | None = None
 
 
@@ -155,12 +153,11 @@ def simulate(  # noqa: PLR0913
         raise_faults([*ramp_faults(p, ramps, poincare=any(isinstance(x, Poincare) for x in windows.values()))])
     run = _Run(p, end, float(tol), initial_state, windows, events, stop_at, ramps, execution)
     code = run.advance()
-    if code == transitions.PAUSED or callable(execution.progress):  # a short run has no progress to show
-        with simulating(execution.progress, end) as tell:
-            while code == transitions.PAUSED:
-                tell(run.time)
-                code = run.advance()
-            tell(run.time)
+    tell = execution.progress if callable(execution.progress) else lambda _: None
+    while code == transitions.PAUSED:
+        tell(run.time)
+        code = run.advance()
+    tell(run.time)
     return run.result(_STATUS[code])
 
 
