@@ -56,7 +56,7 @@ EQUIVALENT: dict[str, str] = TABLES["equivalent"]
 """By the name of a mutant (as `Mutant` prints it): why it makes no difference."""
 PATIENCE = 100
 """s of the processor; all that is tried takes a fraction of that."""
-BUDGET = 20.0
+BUDGET = 40.0
 """s of the processor; as many of a module's tests as take this together are tried, the quickest."""
 
 

@@ -75,6 +75,14 @@ def measured_of(part):
     return made_of("measure", "benchmarks.methods", f"benchmarks.{source}")
 
 
+def concerns_the_study(record):
+    """Whether a message of Snakemake is no routine of single jobs, and no exception beside a failed job's log."""
+    of_jobs = {"job_info", "shellcmd", "job_started", "job_finished", "group_info"}
+    routine = ("Select jobs", "Execute ", "RuleException:\nCalledProcessError")
+    event, text = str(getattr(record, "event", "")), str(record.msg)
+    return event not in of_jobs and not text.startswith(routine)
+
+
 @cache
 def unrecorded():
     """Results without a record of Snakemake, which would take them for up to date."""
