@@ -34,18 +34,16 @@ class Motion(NamedTuple):
     kind : `OTHER_CYCLE` for a periodic motion, otherwise `QUASI_PERIODIC`, `IRREGULAR` or, if the 0-1 test is
         inconclusive, `UNDECIDED`
     period : number of releases after which the motion repeats, 0 if it does not
-    spread : standard deviation over mean of the intervals; 0 for a motion with one release a period
     closure : s, largest difference between an interval and the one `period` (or one) later
     chaos : result of the 0-1 test, near 0 for regular and near 1 for chaotic motion; nan if it was not needed
     longest : longest period that the record can show, in releases
     """
 
     kind: Outcome
-    period: int
-    spread: float
-    closure: float
-    chaos: float
-    longest: int
+    period: int = 0
+    closure: float = math.nan
+    chaos: float = math.nan
+    longest: int = 0
 
     def __str__(self) -> str:
         if self.period:
@@ -69,13 +67,13 @@ def motion_of(intervals: Array, tolerance: float = CLOSES) -> Motion:
     """
     if intervals.size < FEWEST:
         raise ValueError(f"{intervals.size} intervals: at least {FEWEST} are needed")
-    spread, longest = irregularity(intervals), intervals.size // 2
+    longest = intervals.size // 2
     if period := shortest_period(intervals, tolerance):
-        return Motion(Outcome.OTHER_CYCLE, period, spread, closure(intervals, period), np.nan, longest)
+        return Motion(Outcome.OTHER_CYCLE, period, closure(intervals, period), longest=longest)
     chaos = zero_one(intervals)
     kind = Outcome.QUASI_PERIODIC if chaos < REGULAR else Outcome.UNDECIDED
     kind = Outcome.IRREGULAR if chaos > 1 - REGULAR else kind
-    return Motion(kind, 0, spread, closure(intervals, 1), chaos, longest)
+    return Motion(kind, 0, closure(intervals, 1), chaos, longest)
 
 
 def irregularity(intervals: Array) -> float:
@@ -133,24 +131,10 @@ def zero_one(values: Array) -> float:
     return float(np.median(growths))
 
 
-def stick_disappears(before: float, after: float, bound: float = 1e-3) -> bool:
-    """Whether stick has a share of the time `before` a separation, and none, or less than `bound`, `after` it."""
-    return before > bound >= after
-
-
-class Location(NamedTuple):
-    """Position in the oscillation of the height at which contact is lost.
-
-    kind : "at the lowest position", "falling", "rising" or "at the highest position"
-    height : median share of the range, 0 at the lowest and 1 at the highest point
-    """
-
-    kind: str
-    height: float
-
-
-def separation_location(time: Array, height: Array, starts: NDArray[np.int64], bound: float = 0.1) -> Location:
-    """Find the position in the oscillation at which contact is lost, from samples of the height.
+def separation_location(time: Array, height: Array, starts: NDArray[np.int64], bound: float = 0.1) -> tuple[str, float]:
+    """Find the position in the oscillation at which contact is lost, from samples of the height: "at the lowest
+    position", "falling", "rising" or "at the highest position", and the median share of the range, 0 at the lowest
+    and 1 at the highest point.
 
     Parameters
     ----------
@@ -176,26 +160,18 @@ def separation_location(time: Array, height: Array, starts: NDArray[np.int64], b
         kind = "at the lowest position"
     elif where >= 1 - bound:
         kind = "at the highest position"
-    return Location(kind, where)
+    return kind, where
 
 
-class Share(NamedTuple):
-    """A share and the ends of its interval."""
-
-    value: float
-    low: float
-    high: float
-
-
-def share(hits: int, trials: int, unknown: int = 0, confidence: float = 0.95) -> Share:
-    """Share of hits among trials, with its Wilson interval. Further trials with an unknown result count as misses at
-    the lower end of the interval and as hits at the upper."""
+def share(hits: int, trials: int, unknown: int = 0, confidence: float = 0.95) -> tuple[float, float, float]:
+    """Share of hits among trials, and the ends of its Wilson interval. Further trials with an unknown result count as
+    misses at the lower end and as hits at the upper."""
     from scipy.stats import binomtest
 
     if trials == 0:
-        return Share(np.nan, 0.0, 1.0)
+        return np.nan, 0.0, 1.0
     low, high = (binomtest(h, trials + unknown).proportion_ci(confidence, "wilson") for h in (hits, hits + unknown))
-    return Share(hits / trials, float(low.low), float(high.high))
+    return hits / trials, float(low.low), float(high.high)
 
 
 # ---- Poincare sections: one sample every 2 pi/Omega
@@ -203,18 +179,12 @@ def share(hits: int, trials: int, unknown: int = 0, confidence: float = 0.95) ->
 SAME = 0.01  # share of the range, along every axis, within which two points count as one
 
 
-class Stages(NamedTuple):
-    """Masks over the samples of a run: in contact early, in contact later, separated. Each sample is in one of them.
-    The first separation divides early from later; without one, the time from which the motion has settled does."""
-
-    early: Mask
-    later: Mask
-    separated: Mask
-    divided_by_separation: bool
-
-
-def stages(time: Array, phase: NDArray[np.int8], first_separation: float, settled_since: float) -> Stages:
-    """Divide a run into the stages that the paper distinguishes by colour.
+def stages(
+    time: Array, phase: NDArray[np.int8], first_separation: float, settled_since: float
+) -> tuple[Mask, Mask, Mask]:
+    """Divide a run into the stages that the paper distinguishes by colour: masks of samples in contact early, in
+    contact later, and separated. The first separation divides early from later; without one, the time from which the
+    motion has settled does.
 
     Parameters
     ----------
@@ -223,10 +193,9 @@ def stages(time: Array, phase: NDArray[np.int8], first_separation: float, settle
     first_separation : s, nan if there was none
     settled_since : s, nan if it is not shown that the motion has settled: then all samples in contact are early
     """
-    divided = math.isfinite(first_separation)
-    before = np.asarray(~(time >= (first_separation if divided else settled_since)))
+    before = np.asarray(~(time >= (first_separation if math.isfinite(first_separation) else settled_since)))
     apart = np.asarray(phase == PHASES.index("separation"))
-    return Stages(before & ~apart, ~before & ~apart, apart, divided)
+    return before & ~apart, ~before & ~apart, apart
 
 
 def distinct_points(points: Array, extent: Array | None = None) -> int:

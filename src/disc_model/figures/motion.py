@@ -142,7 +142,8 @@ def draw_sections(
     after a heading; returns entries of a legend."""
     first, time, since = float(case["first_separation"]), samples["time"].values, _settled_since(case, samples)
     settled = math.isfinite(since)
-    masks = stages(time, samples["phase"].values, first, since if settled else time.mean())
+    divided = stages(time, samples["phase"].values, first, since if settled else time.mean())
+    masks = dict(zip(MARKS, divided, strict=True))
     for ax, name in zip(axes, ("psi", "w_point"), strict=True):
         coordinates, shares, units = [], [], []
         for axis, variable in (("x", name), ("y", f"{name}_velocity")):
@@ -156,8 +157,7 @@ def draw_sections(
             shares.append(np.ptp(coordinates[-1]) / (high - low + 2 * margin))
         # away from the bar of the thickness, which has the scale of the panel
         closer = [ax.inset_axes((0.66, 0.2, 0.34, 0.32))] if max(shares) < SMALL else []
-        for order, stage in enumerate(MARKS):  # later stages are drawn over earlier ones
-            mask = getattr(masks, stage)
+        for order, (stage, mask) in enumerate(masks.items()):  # later stages are drawn over earlier ones
             look = MARKS[stage] | {"zorder": 2 + 0.1 * order, "rasterized": bool(mask.sum() > 2000)}
             for panel in (ax, *closer):
                 panel.scatter(*(values[mask] for values in coordinates), **look)
@@ -169,10 +169,10 @@ def draw_sections(
     drawing.show_thickness(ax, case, "x")
     bonded = Parameters.model_validate_json(case.attrs["parameters"]).contact == "bilateral"
     title, names = "separation ignored" if bonded else "no separation", BY_SETTLING if settled else BY_HALVES
-    if masks.divided_by_separation:
+    if math.isfinite(first):
         title, names = f"first separation at {first:.2f} s", BY_SEPARATION
     axes[0].set_title(", ".join(filter(None, [heading, title])), loc="right")
-    present = [(MARKS[stage], name) for stage, name in zip(MARKS, names, strict=True) if getattr(masks, stage).any()]
+    present = [(MARKS[stage], name) for stage, name in zip(MARKS, names, strict=True) if masks[stage].any()]
     return [ax.scatter([], [], label=name, **(look | {"s": 14})) for look, name in present]
 
 

@@ -80,8 +80,7 @@ def motion_to(p: Parameters, t_end: float, tol: float = 1e-10, start: State | No
     run = simulate(p, t_end, tol=tol, initial_state=start)
     times = run.events.loc[run.events["kind"] == "stick_to_slip", "time"].to_numpy()
     intervals = np.diff(times[times > t_end - RECORD])
-    few = Motion(Outcome.UNDECIDED, 0, np.nan, np.nan, np.nan, 0)
-    return motion_of(intervals) if intervals.size >= FEWEST else few, run.final_state
+    return motion_of(intervals) if intervals.size >= FEWEST else Motion(Outcome.UNDECIDED), run.final_state
 
 
 def locked(p: Parameters, start: State, period: int, sign: int) -> float:

@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.stats import spearmanr
 
-from disc_model.analysis.classify import SAME, distinct_points, irregularity, separation_location, stick_disappears
+from disc_model.analysis.classify import SAME, distinct_points, irregularity, separation_location
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, values_text
 from disc_model.paper import measures
@@ -193,14 +193,14 @@ def lowest_position(case: CaseView, *, share: float) -> Answer:
     lost = case.switches("separation")
     if not starts.size or not lost.sizes["event"]:
         raise Missing(f"no separation in the window of case {case.name}")
-    location = separation_location(time, height, starts, share)
+    where, part = separation_location(time, height, starts, share)
     # by its events: samples come late, and the velocity of a light slider changes fast
     speed = float(np.median(lost["u_velocity"].values))
     above = float(np.median(height[starts - 1]) - height.min()) / np.ptp(height)
     swings = int(np.sum((np.diff(height)[1:] > 0) & (np.diff(height)[:-1] <= 0)))
     counts = (starts.size, swings)
-    holds = location.kind == "at the lowest position" and above <= share
-    return Answer(holds, counts=counts, span=extent(time), part=location.height, speed=speed)
+    holds = where == "at the lowest position" and above <= share
+    return Answer(holds, counts=counts, span=extent(time), part=part, speed=speed)
 
 
 def seen_in_section(case: CaseView, *, share: float) -> Answer:
@@ -220,7 +220,7 @@ def bounded(*cases: CaseView, factor: float) -> Answer:
 
 
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
-    vanishes = any(stick_disappears(case.stick_in_all, case.stick, share) for case in cases if case.from_rest)
+    vanishes = any(case.stick_in_all > share >= case.stick for case in cases if case.from_rest)
     begun = [[(x.place, x.stick, x.stick_in_all) for x in cases if x.from_rest == rest] for rest in (True, False)]
     return Answer(vanishes, begun=begun)
 

@@ -8,7 +8,7 @@ import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.analysis.classify import FEWEST, motion_of, stick_disappears
+from disc_model.analysis.classify import FEWEST, motion_of
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Section
 from disc_model.data.variables import Outcome, flag_names, stated_in
@@ -137,7 +137,7 @@ def smaller_vibration(*cases: CaseView, wider: float) -> Answer:
 
 def stick_vanishes(*cases: CaseView, share: float) -> Answer:
     apart = _separating(cases)
-    stays = [case.place for case in apart if not stick_disappears(case.stick_in_all, case.stick, share)]
+    stays = [case.place for case in apart if not case.stick_in_all > share >= case.stick]
     rows = [(case.place, case.stick) for case in apart]
     return Answer(len(stays) < len(apart), rows=rows, stays=stays)
 

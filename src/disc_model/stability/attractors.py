@@ -16,6 +16,7 @@ from disc_model.analysis.classify import (
     CLOSES,
     FEWEST,
     VARIATION,
+    Motion,
     Settled,
     Settling,
     closure,
@@ -122,15 +123,7 @@ def sweep(
         state = result.final_state
 
 
-class Regularity(NamedTuple):
-    """Kind of a motion; number of events after which it repeats, 0 if that is not shown; closure, s."""
-
-    kind: Outcome
-    period: int = 0
-    closure: float = math.nan
-
-
-def regularity(p: Parameters, state: State, tol: float) -> Regularity:
+def regularity(p: Parameters, state: State, tol: float) -> Motion:
     """Regularity of the motion from a state, by its separations, or else its releases, and by its largest exponent but
     that along the motion: zero on a torus, positive in chaos, negative on a cycle, however long its period."""
     run = simulate(p, state.time + thresholds.SETTLING * thresholds.FIRST_LEG, tol=tol, initial_state=state)
@@ -138,19 +131,19 @@ def regularity(p: Parameters, state: State, tol: float) -> Regularity:
     separates = bool((kinds == "separation").any())
     intervals = np.diff(times[kinds == ("separation" if separates else "stick_to_slip")])
     if not run.status.complete or len(intervals) < FEWEST:
-        return Regularity(Outcome.UNDECIDED)
+        return Motion(Outcome.UNDECIDED)
     periodic = Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE
     if n := shortest_period(intervals, CLOSES):
-        return Regularity(periodic, n, closure(intervals, n))
+        return Motion(periodic, n, closure(intervals, n))
     # exponents below -90/s are not resolved by this interval; such a motion repeats
     how: Any = {"count": 1, "interval": 0.25, "leave_out_trivial": True, "initial_state": state, "tol": tol}
     largest = lyapunov_exponents(p, thresholds.SETTLING * thresholds.FIRST_LEG / 2, **how)
     rate, error = float(largest.exponents[0]), float(largest.errors[0])
     if not (math.isfinite(rate) and math.isfinite(error)):
-        return Regularity(Outcome.UNDECIDED)
+        return Motion(Outcome.UNDECIDED)
     if abs(rate) <= max(CLEAR * error, CONVERGED[1]):
-        return Regularity(Outcome.QUASI_PERIODIC)
-    return Regularity(Outcome.IRREGULAR if rate > 0 else periodic)
+        return Motion(Outcome.QUASI_PERIODIC)
+    return Motion(Outcome.IRREGULAR if rate > 0 else periodic)
 
 
 class Basins:
