@@ -72,7 +72,7 @@ def test_what_cannot_be_followed_is_told(monkeypatch):
         raise ParameterError("no cycle")
 
     monkeypatch.setattr("disc_model.stability.curves.continue_border", lost)
-    found = neutral_curves(P, BOX, points=9)
+    found = neutral_curves(P, BOX, [225.0, 300.0, 375.0], points=9)
     assert (len(found), {failure.split()[0] for failure in found.failures}) == (0, {"fold", "neutral"})
     assert all(" near Omega=" in failure and failure.endswith(": no cycle") for failure in found.failures)
     assert repr(found).startswith("NeutralCurves(0 curves over Omega from 3 to 18 and N from 150 to 450, ")

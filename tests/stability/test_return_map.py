@@ -83,8 +83,6 @@ def test_the_section_is_where_stick_is_released():
     assert p.r_0 * (p.k_p * state.psi + p.c_p * p.Omega) == pytest.approx(p.mu_s * force, rel=1e-12)
     events = simulate(p, 1e-6, initial_state=state.replace(psi=state.psi * (1 - 1e-9))).events
     assert events["kind"][0] == "stick_to_slip"
-    with pytest.raises(ValueError, match="must be one of Omega, N"):
-        ReturnMap(p, parameters=("rho",))
 
 
 @pytest.mark.compiled

@@ -24,7 +24,7 @@ from disc_model.errors import Fault, ParameterError, raise_faults, require, sugg
 from disc_model.parameters import DEFAULTS, Parameters, Quantity, foreign_case
 from disc_model.simulation.states import State, is_finite_array
 from disc_model.stability.cycle import FloquetResult, bifurcation_type, find_cycle, guess_faults, multipliers
-from disc_model.stability.return_map import ENDS, PARAMETERS, Array, ComplexArray, Counts, Flight, ReturnMap, rounding
+from disc_model.stability.return_map import ENDS, PARAMETERS, Array, Counts, Flight, ReturnMap, newton_step, rounding
 from disc_model.units import CYCLE_TOLERANCES, Count, Finite, Positive, Strict, in_si, is_number, limits_faults
 
 if TYPE_CHECKING:
@@ -35,10 +35,6 @@ if TYPE_CHECKING:
 USUAL = {"Omega": 20.0, "N": 300.0, "c": 0.5, "c_p": 0.5, "contact_compliance": 1e-8}
 USUAL |= {"damping_ratio": 1e-3, "friction_decay": 1.0}
 DIFFERENCE = 1e-5  # over a parameter's scale: flights are accurate to 1e-13, their second derivatives of order one
-
-
-class CorrectorFailed(ParameterError):
-    """No next cycle was found. Without one as well is a place at which the case breaks a rule of `Parameters`."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +50,7 @@ class Place:
     tangent: Array = field(default_factory=lambda: np.zeros(0))
     mu: complex = 1.0
     gradient: Array = field(default_factory=lambda: np.zeros(0))
-    turning: ComplexArray = field(default_factory=lambda: np.zeros(0, complex))
+    turning: NDArray[np.complex128] = field(default_factory=lambda: np.zeros(0, complex))
 
     @cached_property
     def basis(self) -> Array:
@@ -84,15 +80,15 @@ class CycleProblem:
     def evaluate(self, z: Array) -> Place:
         p = self.case(z)
         if min(p.Omega, p.N, p.k_p) <= 0:
-            raise CorrectorFailed("the drive, the preload or the in-plane spring vanishes")
+            raise ParameterError("the drive, the preload or the in-plane spring vanishes")
         flight, turn, residual = self._fly(p, z, self._analytic)
         if self.order and flight.counts != self.order:
             counts = zip(Counts._fields, self.order, flight.counts, strict=True)
             changes = (f"{name.replace('_', ' ')} {before} to {now}" for name, before, now in counts if before != now)
-            raise CorrectorFailed(f"the order of events changes: {', '.join(changes)}")
+            raise ParameterError(f"the order of events changes: {', '.join(changes)}")
         jacobian = flight.jacobian * turn[:, None] / turn[None, :]
         if not (np.all(np.isfinite(jacobian)) and np.all(np.isfinite(flight.by)) and np.all(np.isfinite(residual))):
-            raise CorrectorFailed("the variational equations are singular: a switch is grazed")
+            raise ParameterError("the variational equations are singular: a switch is grazed")
         parameters = np.zeros((self.n, len(self.names)))
         known = [name in self._analytic for name in self.names]
         parameters[:, known] = flight.by * turn[:, None] * self.scales[None, known] / self.size
@@ -111,7 +107,7 @@ class CycleProblem:
         releases = self.order.releases if self.order else 1
         flight = map_.evaluate(x, releases=releases, tangent=tangent, may_separate=self.order is not None)
         if not flight.returned:
-            raise CorrectorFailed(f"the motion does not return: {ENDS[flight.outcome]}")
+            raise ParameterError(f"the motion does not return: {ENDS[flight.outcome]}")
         turn = self.scale / map_.scale  # they differ where frequencies of the disc are not those of the reference
         return flight, turn, (flight.end - x) * turn / self.size
 
@@ -129,7 +125,7 @@ class CycleProblem:
                 break
             last = error
             point = self.evaluate(point.z - newton_step(np.vstack([point.by, rows]), right))
-        raise CorrectorFailed("Newton's method does not converge")
+        raise ParameterError("Newton's method does not converge")
 
     def leading_diameters(self, jacobian: Array) -> int:
         """Nodal diameters of the modes with most energy in the leading multiplier's eigenvector."""
@@ -142,7 +138,7 @@ class CycleProblem:
         start = "guess: must lie near a cycle" if self.order else "p: must have a cycle of one release"
         try:
             if cycle.state is None or (cycle.releases > 1 and not self.order):
-                raise CorrectorFailed(cycle.message)
+                raise ParameterError(cycle.message)
             q = np.array([self.base.numbers[name] for name in self.names]) / self.scales
             return self.evaluate(np.concatenate([self._reference.point(cycle.state) / self.size, q]))
         except ParameterError as lost:
@@ -218,15 +214,7 @@ class CycleProblem:
             return float(point_at(brentq(turned, 0.0, length, xtol=1e-12, rtol=1e-12)).z[-1])
         except ParameterError as lost:
             where = f"{self.names[0]}={start[-1] * self.scales[0]:.6g}"
-            raise CorrectorFailed(f"{UNLOCATED} near {where}: {lost}") from None
-
-
-def newton_step(matrix: Array, right: Array) -> Array:
-    """Solution of a linear system; raises `CorrectorFailed` if it has none, or more than one."""
-    try:
-        return np.asarray(np.linalg.solve(matrix, right), dtype=float)
-    except np.linalg.LinAlgError:
-        raise CorrectorFailed("Newton's method does not converge: its matrix is singular") from None
+            raise ParameterError(f"{UNLOCATED} near {where}: {lost}") from None
 
 
 def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
@@ -258,7 +246,7 @@ class Branch:
     period: Array = field(repr=False)
     stick_fraction: Array = field(repr=False)
     growth_rate: Array = field(repr=False)
-    multipliers: ComplexArray = field(repr=False)
+    multipliers: NDArray[np.complex128] = field(repr=False)
     diameters: NDArray[np.int64] = field(repr=False)
     points: Array = field(repr=False)
     folds: Array
@@ -338,7 +326,7 @@ def follow_curve(
                 new = take(points[-1], ds)
                 cosine = float(new.tangent @ points[-1].tangent)
                 if abs(cosine) < steps.sharpest:
-                    raise CorrectorFailed("the curve bends too sharply")
+                    raise ParameterError("the curve bends too sharply")
             except ParameterError:
                 ds /= 2
                 if ds < steps.shortest:
@@ -458,7 +446,7 @@ class BorderProblem(CycleProblem):
         if self.kind == "fold":
             values = values[values.imag == 0]
             if len(values) == 0:
-                raise CorrectorFailed("no multiplier is real any more")
+                raise ParameterError("no multiplier is real any more")
         mu = complex(values[np.argmin(np.abs(values - former))])
         return (mu.real - 1.0 if self.kind == "fold" else math.log(abs(mu))), mu
 
@@ -472,7 +460,7 @@ class BorderProblem(CycleProblem):
             turns[i] = (ends[1][1] - ends[0][1]) / (2 * _DIFFERENCE)
         size = float(np.linalg.norm(slopes))
         if not size > 0:
-            raise CorrectorFailed("the multiplier does not depend on the parameters")
+            raise ParameterError("the multiplier does not depend on the parameters")
         along = np.array([-slopes[1], slopes[0]]) / size
         turning = np.asarray(turns @ basis, dtype=complex)
         return replace(point, tangent=along @ basis, mu=mu, gradient=slopes @ basis, turning=turning)
@@ -498,13 +486,13 @@ class BorderProblem(CycleProblem):
                 except ParameterError:
                     if halvings == 5:
                         raise
-        raise CorrectorFailed("no point of the curve was found near the first cycle")
+        raise ParameterError("no point of the curve was found near the first cycle")
 
     def next_place(self, start: Place, ds: float) -> Place:
         """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
         expected = start.mu + complex(start.turning @ (ds * start.tangent))
         if abs(expected - start.mu) > 2 * LARGEST_TURN:
-            raise CorrectorFailed("the multiplier turns too fast")
+            raise ParameterError("the multiplier turns too fast")
         guess, rows = start.z + ds * start.tangent, start.tangent[None, :]
         point, gradient, errors = self.evaluate(guess), start.gradient, [math.inf, math.inf]
         value, mu = self._evaluate_test(point.jacobian, expected)
@@ -521,7 +509,7 @@ class BorderProblem(CycleProblem):
             # Broyden's update: a gradient by differences would take four flights at each correction
             move = point.z - before.z
             gradient = gradient + (value - last - gradient @ move) / (move @ move) * move
-        raise CorrectorFailed("Newton's method does not converge")
+        raise ParameterError("Newton's method does not converge")
 
 
 def continue_border(
@@ -535,7 +523,8 @@ def continue_border(
     steps: StepControl = BORDER,
 ) -> Branch:
     """Follow a border of stability in two parameters from the cycle of a case near the point `guess` of the section,
-    both ways until it leaves the bounds, closes or ends; raises `ParameterError` if no cycle, or no curve, is near.
+    both ways until it leaves the bounds, closes or ends; raises `ParameterError` if no cycle, or no curve, is near, or
+    no step along it succeeds.
 
     A "neutral" border is one of the first cycle's leading multiplier; a "fold" starts from a branch's point next to it.
     """
@@ -558,4 +547,6 @@ def continue_border(
     if ended != CLOSED:
         ahead, ended = next(ways)
         points = [*points[:0:-1], *ahead]
+    if len(points) == 1:
+        raise ParameterError("no step along the curve succeeds")
     return problem.branch(points, np.zeros((0, 2)), ended)

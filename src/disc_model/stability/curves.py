@@ -95,7 +95,7 @@ class _Seed(NamedTuple):
 def neutral_curves(
     p: Parameters,
     bounds: Mapping[str, tuple[Quantity, Quantity]],
-    lines: Sequence[float] | None = None,
+    lines: Sequence[float],
     *,
     points: int = 31,
     max_points: int = 200,
@@ -108,8 +108,7 @@ def neutral_curves(
     ----------
     p : the case; its values of the two parameters are ignored
     bounds : bounds of both, by their names: two of `Parameters.numbers`; SI units, or texts with units
-    lines : values of the second parameter; along each of these lines the first parameter is scanned for curves. Three
-        within the bounds if they are not given
+    lines : values of the second parameter; along each of these lines the first parameter is scanned for curves
     points : cycles computed along each line; a curve lies between two that differ in stability or existence
     max_points : largest number of points of a curve in each direction from the line
     longest : arclength of the longest step along a curve, see `disc_model.stability.continuation`
@@ -142,14 +141,11 @@ def neutral_curves(
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
         (within, "bounds", bounds, "must be two ascending finite numbers, by the names of two parameters"),
-        (lines is None or is_finite_array(lines), "lines", lines, "must be finite numbers"),
+        (is_finite_array(lines), "lines", lines, "must be finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
     raise_faults(wrong + (free_faults(p, [*bounds]) if free else []))
     names = x, y = tuple(plane)
-    if lines is None:
-        low, high = plane[y]
-        lines = [low + share * (high - low) for share in (0.25, 0.5, 0.75)]
     curves, notes = list[StabilityCurve](), list[str]()
     span = np.array([high - low for low, high in plane.values()])
     for line in map(float, lines):
@@ -163,9 +159,6 @@ def neutral_curves(
                 branch = continue_border(seed.kind, seed.case, names, plane, guess=seed.point, tol=tol, steps=steps)
             except ParameterError as error:
                 notes.append(f"{seed.kind} near {where}: {error}")
-                continue
-            if len(branch) == 1:
-                notes.append(f"{seed.kind} near {where}: no step along the curve succeeds")
                 continue
             # the place halfway along the curve, since places are dense where two borders meet
             length = np.cumsum(np.linalg.norm(np.diff(branch.values / span, axis=0), axis=1))

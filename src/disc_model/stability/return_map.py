@@ -59,8 +59,6 @@ def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
 
 def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
     """Derivative of the equations with respect to one of `PARAMETERS`: a column of `Tangent.parameters`."""
-    if name not in PARAMETERS:
-        raise ValueError(f"parameter={name!r}: must be one of {', '.join(PARAMETERS)}")
     width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     change = np.zeros(columns.N_SCALARS + 2 * width + 2 * n0)
     ends = columns.N_SCALARS + np.cumsum([0, width, width, n0])
@@ -264,7 +262,7 @@ def newton(map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool =
     while not flight.residual <= goal:
         if not math.isfinite(flight.residual):
             return None
-        step, ratio = _solve(jacobian - identity, flight.end - flight.start), 1.0
+        step, ratio = newton_step(jacobian - identity, flight.end - flight.start), 1.0
         for shrink in range(7 if fresh else 1):
             trial = follow(flight.start - step * 0.5**shrink, tangent=False)
             if trial.returned and trial.residual < flight.residual * (1 - 0.2 * 0.5**shrink):
@@ -287,8 +285,8 @@ def newton(map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool =
     return solution if close and np.all(np.isfinite(solution.jacobian)) else None
 
 
-def _solve(matrix: Array, right: Array) -> Array:
-    """The Newton step; if the matrix is singular, the least-squares solution of least norm."""
+def newton_step(matrix: Array, right: Array) -> Array:
+    """A step of Newton's method; if the matrix is singular, the least-squares solution of least norm."""
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=float)
     except np.linalg.LinAlgError:
