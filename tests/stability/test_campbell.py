@@ -69,7 +69,7 @@ def test_a_multiplier_is_given_the_mode_that_turns_it(shift, diameters, sign):
     period = 0.0148
     frequency = next(f for f, l, bound in modes_at_rest(BASE) if l == diameters and bound == (shift == 0))
     seen = frequency + shift * diameters * BASE.Omega / (2 * math.pi)
-    resonance = nearest_resonance(BASE, period, cmath.exp(2j * math.pi * seen * period))
+    resonance = nearest_resonance(BASE, period, cmath.exp(2j * math.pi * seen * period), diameters)
     assert (resonance.frequency, resonance.diameters, resonance.sign) == (pytest.approx(frequency), diameters, sign)
     assert resonance.detuning == pytest.approx(resonance.harmonic / period - seen)
     assert resonance.label.startswith(f"{resonance.harmonic:g} f_s = {frequency:.2f} Hz")

@@ -253,8 +253,8 @@ class Resonance:
         return f"{self.harmonic:g} f_s = {self.frequency:.2f} Hz{shift}"
 
 
-def nearest_resonance(p: Parameters, period: float, multiplier: complex, diameters: int | None = None) -> Resonance:
-    """The resonance to which a cycle's multiplier belongs, among modes of so many nodal diameters, or among all.
+def nearest_resonance(p: Parameters, period: float, multiplier: complex, diameters: int) -> Resonance:
+    """The resonance to which a cycle's multiplier belongs, among modes of so many nodal diameters.
 
     In the slider's frame a free mode of l diameters has the frequency f -/+ l Omega / 2 pi; one bound to the slider, f.
     Modulo f_s that is the multiplier's angle over 2 pi T. The harmonic is the nearest multiple of f_s, or of f_s / 2.
@@ -264,7 +264,7 @@ def nearest_resonance(p: Parameters, period: float, multiplier: complex, diamete
     half = 0.5 if multiplier.imag == 0 and multiplier.real < 0 else 0.0
     resonances: list[tuple[float, Resonance]] = []
     for frequency, l, bound in modes_at_rest(p):
-        if diameters is not None and l != diameters:
+        if l != diameters:
             continue
         standing = (0,) if bound else ()
         for sign in (*standing, -1, 1) if l else (0,):
@@ -272,8 +272,6 @@ def nearest_resonance(p: Parameters, period: float, multiplier: complex, diamete
             miss = min(abs((seen - s * angle + 0.5) % 1 - 0.5) for s in (-1, 1))
             harmonic = round(seen - half) + half
             resonances.append((miss, Resonance(harmonic, frequency, l, sign, float((harmonic - seen) * rate))))
-    if not resonances:
-        raise ParameterError(f"diameters={diameters!r}: must be those of a mode")
     return min(resonances, key=lambda pair: pair[0])[1]
 
 

@@ -7,7 +7,6 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -158,13 +157,6 @@ class NearCycle:
         return float(math.log(abs(part) / before) / (count * self.cycle.period) / self.cycle.growth_rate - 1)
 
 
-class NearReturn(NamedTuple):
-    """Least change from a release to a later one, relative to the static deflection, and the number of releases."""
-
-    change: float
-    releases: int
-
-
 def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
     """The cycle near the static start, and whether the start follows it; without a cycle, the result of the search."""
     if not may_stick_and_slip(p):
@@ -175,26 +167,27 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
 
 
 def find_cycle_near(
-    map_: ReturnMap, x: Array, near_return: NearReturn | None, unstable: Sequence[float] = ()
+    map_: ReturnMap, x: Array, near_return: tuple[float, int] | None, unstable: Sequence[float] = ()
 ) -> NearCycle | None:
     """The cycle near a motion at a point of the section, and whether the motion follows it. If the cycle is unstable,
     tests for that begin at the times `unstable`, s."""
-    if near_return is None or not near_return.change <= thresholds.NEAR / 2:
+    change, releases = near_return or (math.inf, 0)
+    if not change <= thresholds.NEAR / 2:
         return None
-    flight = newton(map_, x, releases=near_return.releases, may_separate=map_.patient)
+    flight = newton(map_, x, releases=releases, may_separate=map_.patient)
     if flight is None or np.linalg.norm(flight.start - x) > thresholds.NEAR * map_.deflection:
         return None
     cycle = cycle_of(map_, run_through_once(map_, flight))
     return _relate(map_, cycle, x, thresholds.WAITS if cycle.stable else unstable)
 
 
-def find_near_return(map_: ReturnMap, x: Array, most: int = thresholds.LARGEST_PERIOD) -> NearReturn | None:
-    """The nearest return of a motion to its point of the section; None if it does not return at all."""
+def find_near_return(map_: ReturnMap, x: Array, most: int = thresholds.LARGEST_PERIOD) -> tuple[float, int] | None:
+    """Least change from a release of a motion to a later one, over the static deflection, and the number of releases
+    between them; None if the motion does not return to the section at all."""
     later = map_.returns(x, most, may_separate=map_.patient, coarse=True)
     changes = [float(np.linalg.norm(point - x) / map_.deflection) for point in later]
     # the shortest of those with about the least change
-    returns = (NearReturn(change, i) for i, change in enumerate(changes, 1) if change <= 2 * min(changes))
-    return next(returns, None)
+    return next(((change, i) for i, change in enumerate(changes, 1) if change <= 2 * min(changes)), None)
 
 
 def first_release(p: Parameters) -> float:

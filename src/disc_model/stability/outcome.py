@@ -248,9 +248,11 @@ class _OutcomeSearch:
         if x is not None and examined and (near := self._find_followed_cycle(x)) is not None:
             self.cycle = near
             return Stage.NEAR_CYCLE
-        if self._has_settled():
-            result.outcome = Outcome.GROWING
-            return Stage.STEADY
+        if self.early and result.time < self.horizon and self._grows:  # has growth ended in contact, by the record?
+            settled = settling(*np.hstack(self.angles))
+            if settled.answer is Settled.SETTLED and result.time - settled.since >= thresholds.STEADY_FOR:
+                result.outcome = Outcome.GROWING
+                return Stage.STEADY
         return Stage.ON_ITS_WAY
 
     def _simulate_leg(self) -> Result:
@@ -277,7 +279,7 @@ class _OutcomeSearch:
             return None
         self.near_return = find_near_return(self.map, x)
         self.result.times.append(self.result.time)
-        self.result.changes.append(math.nan if self.near_return is None else self.near_return.change)
+        self.result.changes.append(math.nan if self.near_return is None else self.near_return[0])
         return x
 
     def _find_followed_cycle(self, x: Array) -> NearCycle | None:
@@ -305,13 +307,6 @@ class _OutcomeSearch:
     @property
     def _grows(self) -> bool:
         return self.departed_from is not None or growing(self.result.changes)
-
-    def _has_settled(self) -> bool:
-        """Whether the record shows that growth has ended in contact."""
-        if not self.early or not self._grows or self.result.time >= self.horizon:
-            return False
-        settled = settling(*np.hstack(self.angles))
-        return settled.answer is Settled.SETTLED and self.result.time - settled.since >= thresholds.STEADY_FOR
 
 
 def find_calm(p: Parameters, leg: Result, tol: float) -> Outcome | None:
