@@ -86,7 +86,7 @@ def closure(intervals: Array, period: int) -> float:
     return float(np.max(np.abs(intervals[period:] - intervals[:-period])))
 
 
-def shortest_period(intervals: Array, tolerance: float, near_return: float = NEAR_RETURN) -> int:
+def shortest_period(intervals: Array, tolerance: float = CLOSES, near_return: float = NEAR_RETURN) -> int:
     """Least number of releases, up to half of all, after which intervals repeat to `tolerance` s; 0 if there is none.
     One that closes no better than near returns (`NEAR_RETURN`) does not count, but for 1: a slow transient."""
     extent = float(np.ptp(intervals)) if intervals.size else 0.0

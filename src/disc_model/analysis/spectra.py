@@ -130,12 +130,7 @@ def chance(time: Array, values: Array, line: Line, searched: float) -> float:
 
     Parameters
     ----------
-    line : a line found among bins no further than `searched` Hz from some frequency
-
-    Returns
-    -------
-    float
-        1 if the signal's spectrum has no line within half a bin of that frequency, whatever the amplitude of `line`
+    line : a line of the signal, found among bins no further than `searched` Hz from some frequency
 
     Notes
     -----
@@ -154,14 +149,10 @@ def chance(time: Array, values: Array, line: Line, searched: float) -> float:
     levels = [float(np.median(amplitude[part] ** 2)) for part in parts if part.any()]
     if not levels:
         raise ValueError(f"no bin of the spectrum is {near:g} to {far:g} Hz from {line.frequency:g} Hz")
-    seen, level = lines(time, values, above=line.frequency - step / 2, below=line.frequency + step / 2), max(levels)
-    if not seen:
-        return 1.0
-    if not level > 0:
+    if not max(levels) > 0:
         return 0.0
-    power = min(line.amplitude, seen[0].amplitude) ** 2
     trials = max(1.0, 2 * searched / step)
-    return float(-np.expm1(trials * np.log1p(-np.exp2(-power / level))))
+    return float(-np.expm1(trials * np.log1p(-np.exp2(-(line.amplitude**2) / max(levels)))))
 
 
 def identify(frequency: float, f_s: float, f_drive: float) -> Combination:

@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from disc_model.analysis.classify import (
-    CLOSES,
     FEWEST,
     VARIATION,
     Motion,
@@ -133,7 +132,7 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
     if not run.status.complete or len(intervals) < FEWEST:
         return Motion(Outcome.UNDECIDED)
     periodic = Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE
-    if n := shortest_period(intervals, CLOSES):
+    if n := shortest_period(intervals):
         return Motion(periodic, n, closure(intervals, n))
     # exponents below -90/s are not resolved by this interval; such a motion repeats
     how: Any = {"count": 1, "interval": 0.25, "leave_out_trivial": True, "initial_state": state, "tol": tol}

@@ -253,8 +253,6 @@ def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
     values = multipliers(flight.jacobian)
     with np.errstate(divide="ignore"):
         exponents = np.asarray(np.log(values) / flight.period, dtype=complex)
-    for array in (values, exponents):
-        array.setflags(write=False)
     named = zip(flight.counts[:-1], ("release", "backward release", "slip reversal", "separation"), strict=True)
     events = ", ".join(counted(count, name) for count, name in named if count)
     return FloquetResult(
@@ -314,40 +312,34 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> Frequencies:
     """Frequencies of steady sliding and of the stick-slip cycle near the static start; empty without steady sliding."""
     cycle = floquet(p, tol=tol)
     modes = sliding_modes(p, cycle.sliding)
-    columns = np.full((3, len(modes.frequency)), math.nan)
-    if cycle.status is CycleStatus.OK and len(modes.frequency):
-        disc = modes.diameters >= 0
-        disc_rows, _, height = split_rows(mode_arrays(p), modes.shapes[:, disc])
-        shapes = np.vstack([*disc_rows, height if len(height) else np.zeros((2, disc.sum()))])
-        columns[:, disc] = _of_cycle(p, cycle, modes.frequency[disc], shapes, tol)
-    return Frequencies(cycle, modes, *columns)
-
-
-def _of_cycle(p: Parameters, cycle: FloquetResult, seen: Array, shapes: ComplexArray, tol: float) -> Array:
-    """Frequency, growth rate and mac, shape (3, n), for modes of the disc of frequencies and shapes."""
-    assert cycle.state is not None
+    columns, disc = np.full((3, len(modes.frequency)), math.nan), modes.diameters >= 0
+    if cycle.state is None or not len(modes.frequency):
+        return Frequencies(cycle, modes, *columns)
     map_ = ReturnMap(p, tol)
     flight = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
     multipliers, vectors = np.linalg.eig(flight.jacobian)
+    disc_rows, _, height = split_rows(mode_arrays(p), modes.shapes[:, disc])
+    shapes = np.vstack([*disc_rows, height if len(height) else np.zeros((2, disc.sum()))])
     shapes = np.array([_on_section(map_, cycle.state, shape) for shape in shapes.T]).T
     shapes = shapes / np.linalg.norm(shapes, axis=0)
     # two multipliers may match a mode: one resembles its shape, one the conjugate
     mac = np.abs(np.hstack([shapes.conj(), shapes]).T @ (vectors / np.linalg.norm(vectors, axis=0))) ** 2
     from scipy.optimize import linear_sum_assignment
 
-    rows, columns = linear_sum_assignment(-mac)
+    rows, assigned = linear_sum_assignment(-mac)
     matched = np.full(len(mac), -1)
-    matched[rows] = columns
+    matched[rows] = assigned
     first, other = matched[: shapes.shape[1]], matched[shapes.shape[1] :]
     rate = 1 / cycle.period
     angle = np.angle(multipliers[first]) / (2 * math.pi)
     with np.errstate(divide="ignore"):
         growth = np.log(np.abs(multipliers)) * rate
-    frequency = (angle + np.round(seen / rate - angle)) * rate
+    frequency = (angle + np.round(modes.frequency[disc] / rate - angle)) * rate
     values = np.array([frequency, np.maximum(growth[first], growth[other]), mac[np.arange(len(first)), first]])
     # with fewer multipliers than shapes, some modes have none
     values[:, (first < 0) | (other < 0)] = math.nan
-    return values
+    columns[:, disc] = values
+    return Frequencies(cycle, modes, *columns)
 
 
 def _on_section(map_: ReturnMap, state: State, shape: ComplexArray) -> ComplexArray:
