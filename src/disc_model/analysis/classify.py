@@ -36,14 +36,12 @@ class Motion(NamedTuple):
     period : number of releases after which the motion repeats, 0 if it does not
     closure : s, largest difference between an interval and the one `period` (or one) later
     chaos : result of the 0-1 test, near 0 for regular and near 1 for chaotic motion; nan if it was not needed
-    longest : longest period that the record can show, in releases
     """
 
     kind: Outcome
     period: int = 0
     closure: float = math.nan
     chaos: float = math.nan
-    longest: int = 0
 
     def __str__(self) -> str:
         if self.period:
@@ -67,18 +65,12 @@ def motion_of(intervals: Array, tolerance: float = CLOSES) -> Motion:
     """
     if intervals.size < FEWEST:
         raise ValueError(f"{intervals.size} intervals: at least {FEWEST} are needed")
-    longest = intervals.size // 2
     if period := shortest_period(intervals, tolerance):
-        return Motion(Outcome.OTHER_CYCLE, period, closure(intervals, period), longest=longest)
+        return Motion(Outcome.OTHER_CYCLE, period, closure(intervals, period))
     chaos = zero_one(intervals)
     kind = Outcome.QUASI_PERIODIC if chaos < REGULAR else Outcome.UNDECIDED
     kind = Outcome.IRREGULAR if chaos > 1 - REGULAR else kind
-    return Motion(kind, 0, closure(intervals, 1), chaos, longest)
-
-
-def irregularity(intervals: Array) -> float:
-    """Standard deviation of the intervals over their mean."""
-    return float(np.std(intervals) / np.mean(intervals))
+    return Motion(kind, 0, closure(intervals, 1), chaos)
 
 
 def closure(intervals: Array, period: int) -> float:
@@ -131,36 +123,28 @@ def zero_one(values: Array) -> float:
     return float(np.median(growths))
 
 
-def separation_location(time: Array, height: Array, starts: NDArray[np.int64], bound: float = 0.1) -> tuple[str, float]:
-    """Find the position in the oscillation at which contact is lost, from samples of the height: "at the lowest
-    position", "falling", "rising" or "at the highest position", and the median share of the range, 0 at the lowest
-    and 1 at the highest point.
+def separation_location(height: Array, starts: NDArray[np.int64]) -> float:
+    """Find the position in the oscillation at which contact is lost, from samples of the height.
 
     Parameters
     ----------
-    time, height : uniform samples, shape (n,)
+    height : uniform samples, shape (n,)
     starts : indices of the first samples of the separations
-    bound : "at the lowest position" means that the height at the loss exceeds the lowest point of its cycle, one
-        dominant period around the loss, by at most this share of the range, before or after that point; likewise for
-        the highest
+
+    Returns
+    -------
+    float
+        Median share of the range of the cycle, one dominant period around the loss: 0 at its lowest, 1 at its highest
+        point. Raises ValueError if there is no separation.
     """
     if not len(starts):
         raise ValueError("no separation")
-    velocity = np.gradient(height, time)
     # half a period of the dominant oscillation
     amplitude = np.abs(np.fft.rfft(height - np.mean(height)))
     half = max(2, round(len(height) / max(1, int(np.argmax(amplitude[1:]) + 1))) // 2)
-    measured = []
-    for i in starts:
-        cycle = height[max(0, i - half) : i + half + 1]
-        measured.append(((height[i] - cycle.min()) / (float(np.ptp(cycle)) or 1.0), velocity[i]))
-    where, moving = np.median(measured, axis=0).tolist()
-    kind = "rising" if moving > 0 else "falling"
-    if where <= bound:
-        kind = "at the lowest position"
-    elif where >= 1 - bound:
-        kind = "at the highest position"
-    return kind, where
+    cycles = [height[max(0, i - half) : i + half + 1] for i in starts]
+    shares = [(height[i] - x.min()) / (float(np.ptp(x)) or 1.0) for i, x in zip(starts, cycles, strict=True)]
+    return float(np.median(shares))
 
 
 def share(hits: int, trials: int, unknown: int = 0, confidence: float = 0.95) -> tuple[float, float, float]:

@@ -119,7 +119,7 @@ class CaseView:
         """The same in words."""
         times, motion = self.intervals(), self.late_motion
         if not motion.period:
-            most = f"{motion}: it does not repeat after any number of releases up to {motion.longest}"
+            most = f"{motion}: it does not repeat after any number of releases up to {times.size // 2}"
             return f"{most}, and the 0-1 test for chaos gives {motion.chaos:.2f}"
         length = float(times[: motion.period].sum())
         apart = round(self.rate_of("separation") * length)

@@ -10,7 +10,6 @@ import xarray as xr
 from scipy.signal import find_peaks
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import irregularity
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import fill
 from disc_model.data.variables import Outcome, flag_names
@@ -73,7 +72,8 @@ def keeps_sticking(*evidence: Any, share: float) -> Answer:
 
 
 def releases_regularly(*cases: CaseView, within: float) -> Answer:
-    rows = [(case.place, 1e3 * case.intervals().mean(), irregularity(case.intervals())) for case in cases]
+    intervals = [(case.place, case.intervals()) for case in cases]
+    rows = [(place, 1e3 * each.mean(), float(each.std() / each.mean())) for place, each in intervals]
     return Answer(graded(spread <= within for *_, spread in rows), rows=rows)
 
 

@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.stats import spearmanr
 
-from disc_model.analysis.classify import SAME, distinct_points, irregularity, separation_location
+from disc_model.analysis.classify import SAME, distinct_points, separation_location
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, values_text
 from disc_model.paper import measures
@@ -33,7 +33,8 @@ def calm_text(case: CaseView) -> str:
 
 def stays_small(case: CaseView, *_: CaseView, share: float, within: float, last: float = 0, same: float = 1) -> Answer:
     intervals = case.intervals()
-    spread, points = irregularity(intervals), [_different(case, last, x) for x in (same, 1e-4)] if last else [0]
+    spread = float(intervals.std() / intervals.mean())
+    points = [_different(case, last, x) for x in (same, 1e-4)] if last else [0]
     holds = stays_calm(case) and case.late.width < share * case["N"] and spread <= within
     small = not last or (case.disc.width / 2 < case["h"] and points[0] <= last / 2)
     widths = (1e3 * case.disc.width, 1e6 * case.late_range("u").width) if last else ()
@@ -193,13 +194,13 @@ def lowest_position(case: CaseView, *, share: float) -> Answer:
     lost = case.switches("separation")
     if not starts.size or not lost.sizes["event"]:
         raise Missing(f"no separation in the window of case {case.name}")
-    where, part = separation_location(time, height, starts, share)
+    part = separation_location(height, starts)
     # by its events: samples come late, and the velocity of a light slider changes fast
     speed = float(np.median(lost["u_velocity"].values))
     above = float(np.median(height[starts - 1]) - height.min()) / np.ptp(height)
     swings = int(np.sum((np.diff(height)[1:] > 0) & (np.diff(height)[:-1] <= 0)))
     counts = (starts.size, swings)
-    holds = where == "at the lowest position" and above <= share
+    holds = part <= share and above <= share
     return Answer(holds, counts=counts, span=extent(time), part=part, speed=speed)
 
 

@@ -9,7 +9,6 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 
@@ -296,25 +295,16 @@ def bifurcation_type(multiplier: complex) -> str:
 # by the modal assurance criterion (MAC); n brings the frequency nearest to the mode's.
 
 
-class Frequencies(NamedTuple):
-    """Cycle and modes of steady sliding; of the multipliers matched to each mode, (n,): frequency (Hz), larger growth
-    rate of two (1/s), MAC of the shapes; nan without a cycle, and for the slider's in-plane motion."""
-
-    cycle: FloquetResult
-    modes: SlidingModes
-    cycle_frequency: Array
-    cycle_growth_rate: Array
-    mac: Array
-
-
 @compiling()
-def frequencies(p: Parameters, *, tol: float = 1e-12) -> Frequencies:
-    """Frequencies of steady sliding and of the stick-slip cycle near the static start; empty without steady sliding."""
+def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, SlidingModes, Array]:
+    """The stick-slip cycle near the static start, and the modes of steady sliding. Of the multipliers matched to each
+    mode, (3, n): frequency (Hz), larger growth rate of two (1/s) and MAC of the shapes; nan without a cycle, and for
+    the slider's in-plane motion."""
     cycle = floquet(p, tol=tol)
     modes = sliding_modes(p, cycle.sliding)
     columns, disc = np.full((3, len(modes.frequency)), math.nan), modes.diameters >= 0
     if cycle.state is None or not len(modes.frequency):
-        return Frequencies(cycle, modes, *columns)
+        return cycle, modes, columns
     map_ = ReturnMap(p, tol)
     flight = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
     multipliers, vectors = np.linalg.eig(flight.jacobian)
@@ -339,7 +329,7 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> Frequencies:
     # with fewer multipliers than shapes, some modes have none
     values[:, (first < 0) | (other < 0)] = math.nan
     columns[:, disc] = values
-    return Frequencies(cycle, modes, *columns)
+    return cycle, modes, columns
 
 
 def _on_section(map_: ReturnMap, state: State, shape: ComplexArray) -> ComplexArray:

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,12 +38,10 @@ ENDS = {
 }
 
 
-def case_faults(p: object, analysis: str) -> list[str]:
+def case_faults(p: Any, analysis: str) -> list[str]:
     """Faults of a case for ``analysis``: it must be `Parameters`, and have modes, which alone can become unstable."""
-    if not isinstance(p, Parameters):
-        return foreign_case(p)
     rule = f"must be >= 0: {analysis} needs modes of the disc"
-    return violations((p.n_diameters >= 0, "n_diameters", p.n_diameters, rule))
+    return foreign_case(p) or violations((p.n_diameters >= 0, "n_diameters", p.n_diameters, rule))
 
 
 def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
