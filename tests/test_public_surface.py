@@ -81,7 +81,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {},
         {"growth": WRONG, "easy": WRONG, "sharpest": WRONG, "scale": "None", "max_points": "huge", "beyond": "True"},
     ),
-    (dm.critical, {"p": P, "name": "N", "bounds": (1, 2), "points": 2}, {"precision": "None huge", "others": WRONG}),
+    (dm.critical, {"p": P, "name": "N", "bounds": (1, 2), "points": 2}, {"precision": "None huge"}),
     (dm.neutral_curves, PLANE, {"max_points": "huge", "lines": "nothing"}),
     (dm.lyapunov_exponents, {"p": P, "duration": 0.1}, {"initial_state": "None", "leave_out_trivial": "True"}),
     (dm.Window, {"rate": 1.0}, {"last": "None", "envelope": "None", "stop": "huge", "theta": "negative"}),

@@ -87,7 +87,7 @@ def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
 
 def test_critical_values_neutral_curves_and_exponents_are_drawn_with_their_case() -> None:
     case = P.replace(mu_k_over_mu_s=0.6)
-    critical = dm.critical(case, "mu_s", (0.3, 0.42), Omega=12, points=7)
+    critical = dm.critical(case.replace(Omega=12), "mu_s", (0.3, 0.42), points=7)
     assert critical.unstable[0, 0] == 0.3
     [band] = critical.plot().patches
     assert band.get_xy()[0] + band.get_width() == pytest.approx(critical.crossings[0])

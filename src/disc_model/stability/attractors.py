@@ -282,11 +282,8 @@ class Basins:
 
 
 def random_perturbation(p: Parameters, state: State, energy: float, key: Sequence[int]) -> State:
-    """A state after a perturbation of given energy (J) in a random direction, by whole numbers, its `key`.
-
-    The direction is uniform in the energy norm of the disc's modes: omega a, omega b, alpha, beta of each.  The slider
-    moves with the disc; f and psi are unchanged.  The energy is that of modes, slider's mass m and its spring k.
-    """
+    """A state after a perturbation of given energy (J), of modes, mass m and spring k, in a random direction, by whole
+    numbers, its `key`: uniform in the energy norm of the modes. The slider moves with the disc; f and psi stay."""
     if energy == 0:
         return state
     modes = mode_arrays(p)

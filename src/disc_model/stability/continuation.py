@@ -23,7 +23,7 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.parameters import DEFAULTS, Parameters, Quantity, foreign_case
 from disc_model.simulation.states import State, is_finite_array
-from disc_model.stability.cycle import FloquetResult, bifurcation_type, find_cycle, guess_faults, multipliers
+from disc_model.stability.cycle import FloquetResult, find_cycle, guess_faults, multipliers
 from disc_model.stability.return_map import ENDS, PARAMETERS, Array, Counts, Flight, ReturnMap, newton_step, rounding
 from disc_model.units import CYCLE_TOLERANCES, Count, Finite, Positive, Strict, in_si, is_number, limits_faults
 
@@ -275,10 +275,6 @@ class Branch:
         'Period (ms)'
         """
         return draw("plot_branch", self, y, ax=ax)
-
-    def bifurcation_types(self) -> list[str]:
-        """Return the bifurcation that the leading multiplier of each point indicates."""
-        return [bifurcation_type(complex(m[0])) for m in self.multipliers]
 
 
 def interval_in_si(name: Any, bounds: Any) -> Any:

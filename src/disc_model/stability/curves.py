@@ -296,7 +296,6 @@ def critical(
     points: int = 41,
     precision: float | None = None,
     tol: float = 1e-12,
-    **others: Any,
 ) -> Critical:
     """The least parameter value with unstable motion near the static start, and all stability changes above it.
 
@@ -312,7 +311,6 @@ def critical(
     points : number of values from which the search starts
     precision : to which crossings are bisected; a millionth of the range if not given
     tol : as in `floquet`
-    **others : values of other numbers of the case, instead of its own, such as ``Omega=20``
 
     Returns
     -------
@@ -338,8 +336,7 @@ def critical(
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
         (good, "precision", precision, "must be a number > 0"),
     )
-    raise_faults(case_faults(p, "critical") or wrong + free_faults(p, [name, *others]))
-    p = p.replace(**others) if others else p
+    raise_faults(case_faults(p, "critical") or wrong + free_faults(p, [name]))
     values = np.linspace(ends[0], ends[1], points).tolist()
     for x in values:
         p.replace(**{name: x})
