@@ -250,6 +250,7 @@ def _none(p: Parameters, tol: float, status: CycleStatus, reason: str) -> Floque
 def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
     """The result for a cycle that Newton's method has found to the tolerance."""
     values = multipliers(flight.jacobian)
+    leading = complex(values[0])
     with np.errstate(divide="ignore"):
         exponents = np.asarray(np.log(values) / flight.period, dtype=complex)
     named = zip(flight.counts[:-1], ("release", "backward release", "slip reversal", "separation"), strict=True)
@@ -262,10 +263,10 @@ def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
         period=flight.period,
         multipliers=values,
         exponents=exponents,
-        growth_rate=growth_rate(complex(values[0]), flight.period),
+        growth_rate=math.log(abs(leading)) / flight.period if leading else -math.inf,
         stick_fraction=flight.stick_time / flight.period,
         state=map_.state(flight.start),
-        bifurcation_type=bifurcation_type(complex(values[0])),
+        bifurcation_type=bifurcation_type(leading),
         **flight.counts._asdict(),
         residual=flight.residual / map_.deflection,
     )
@@ -275,11 +276,6 @@ def multipliers(jacobian: Array) -> ComplexArray:
     """Eigenvalues of the return map's Jacobian, largest modulus first; positive imaginary parts first in each pair."""
     values = np.linalg.eigvals(jacobian).astype(complex)
     return values[np.lexsort((-values.imag, -values.real, -np.round(np.abs(values), 14)))]
-
-
-def growth_rate(multiplier: complex, period: float) -> float:
-    """Logarithm of the modulus over the period, 1/s; -inf for a multiplier of zero."""
-    return math.log(abs(multiplier)) / period if multiplier else -math.inf
 
 
 def bifurcation_type(multiplier: complex) -> str:

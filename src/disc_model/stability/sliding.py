@@ -89,7 +89,7 @@ class SteadySliding(Summarised, Drawn):
         yield "contact force", number_text(self.contact_force, "N")
         yield "angle psi", number_text(self.psi, "rad")
         yield "growth rate", number_text(self.growth_rate, "1/s")
-        yield "unstable modes", self.unstable_modes if self.eigenvalues.size else ""
+        yield "unstable modes", self.growing.size if self.eigenvalues.size else ""
         yield "growing frequencies", ", ".join(number_text(value.imag / math.tau, "Hz") for value in self.growing)
 
     @property
@@ -102,10 +102,6 @@ class SteadySliding(Summarised, Drawn):
         """Eigenvalues of modes that grow by more than rounding, 1/s, (n,); of a conjugate pair the upper one."""
         grows = self.eigenvalues.real > _rounding(self.eigenvalues)
         return self.eigenvalues[grows & (self.eigenvalues.imag >= 0)]
-
-    @property
-    def unstable_modes(self) -> int:
-        return self.growing.size
 
 
 def _rounding(eigenvalues: ComplexArray) -> float:
