@@ -20,8 +20,6 @@ CLOSES = 1e-8  # s, to which intervals of a periodic motion repeat; those on a t
 # of its first n returns a quasi-periodic motion has one that misses by 1/n of its spread: a period must be far closer
 NEAR_RETURN = 1e-3
 FEWEST = 20  # fewest intervals from which a motion is classified
-# largest relative change of ranges, rates and shares over 40 s of a settled motion: aperiodic ones vary by half of it
-VARIATION = 0.01
 # a motion is regular if the 0-1 test gives less, chaotic above one minus this; known signals are within 0.1 of the ends
 REGULAR = 0.3
 

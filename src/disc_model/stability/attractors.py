@@ -12,16 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from disc_model.analysis.classify import (
-    FEWEST,
-    VARIATION,
-    Motion,
-    Settled,
-    Settling,
-    closure,
-    settling,
-    shortest_period,
-)
+from disc_model.analysis.classify import FEWEST, Motion, Settled, Settling, closure, settling, shortest_period
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
@@ -237,13 +228,15 @@ class Basins:
         if any(distances[-1] <= 2 * self.near for i, distances in enumerate(apart) if i != nearest):
             return None
         last = apart[nearest][-1]
-        nearing = all(later < earlier or later <= VARIATION for earlier, later in pairwise(apart[nearest]))
-        slows = _rest_of_drift(ranges) <= (2 * last + VARIATION) * ranges[-1]
+        nearing = all(later < earlier or later <= thresholds.VARIATION for earlier, later in pairwise(apart[nearest]))
+        slows = _rest_of_drift(ranges) <= (2 * last + thresholds.VARIATION) * ranges[-1]
         return others[nearest] if last <= self.near and nearing and slows else None
 
     def _is_steady(self, segments: Sequence[Segment]) -> bool:
         last = segments[-thresholds.SETTLING :]
-        if len(last) < thresholds.SETTLING or any(self._difference(part, last[-1]) > VARIATION for part in last[:-1]):
+        if len(last) < thresholds.SETTLING or any(
+            self._difference(part, last[-1]) > thresholds.VARIATION for part in last[:-1]
+        ):
             return False
         ranges = [max(segment.range, self.smallest) for segment in last]
         stays = abs(ranges[-1] - ranges[0]) <= thresholds.STEADY * ranges[-1]
