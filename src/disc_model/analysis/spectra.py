@@ -149,10 +149,10 @@ def chance(time: Array, values: Array, line: Line, searched: float) -> float:
     levels = [float(np.median(amplitude[part] ** 2)) for part in parts if part.any()]
     if not levels:
         raise ValueError(f"no bin of the spectrum is {near:g} to {far:g} Hz from {line.frequency:g} Hz")
-    if not max(levels) > 0:
+    level, trials = max(levels), max(1.0, 2 * searched / step)
+    if not level > 0:
         return 0.0
-    trials = max(1.0, 2 * searched / step)
-    return float(-np.expm1(trials * np.log1p(-np.exp2(-(line.amplitude**2) / max(levels)))))
+    return float(-np.expm1(trials * np.log1p(-np.exp2(-(line.amplitude**2) / level))))
 
 
 def identify(frequency: float, f_s: float, f_drive: float) -> Combination:

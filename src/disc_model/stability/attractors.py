@@ -234,9 +234,8 @@ class Basins:
 
     def _is_steady(self, segments: Sequence[Segment]) -> bool:
         last = segments[-thresholds.SETTLING :]
-        if len(last) < thresholds.SETTLING or any(
-            self._difference(part, last[-1]) > thresholds.VARIATION for part in last[:-1]
-        ):
+        varies = any(self._difference(part, last[-1]) > thresholds.VARIATION for part in last[:-1])
+        if len(last) < thresholds.SETTLING or varies:
             return False
         ranges = [max(segment.range, self.smallest) for segment in last]
         stays = abs(ranges[-1] - ranges[0]) <= thresholds.STEADY * ranges[-1]

@@ -35,9 +35,9 @@ STEADY_FOR = 360.0
 # ---- Attractors of many motions of a case
 
 NEARING, SETTLING = 4, 8  # legs over which a motion approaches a known attractor, and is steady on another one
+STEADY = 1e-3  # largest relative change of the range over these without a drift: a periodic one's is a tenth of it
 # largest relative change of ranges, rates and shares over 40 s of a settled motion: aperiodic ones vary by half of it
 VARIATION = 0.01
-STEADY = 1e-3  # largest relative change of the range over these without a drift: a periodic one's is a tenth of it
 SAME = 0.05  # segments that differ by less are of one attractor; the extrapolated rest of a drift may reach half of it
 SMALLEST = 1e-3  # range, over the static deflection, below which ranges count as equal: the slider's height is constant
 OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)  # downward, over the static deflection, from which attractors are sought
