@@ -264,7 +264,7 @@ class Disc(Strict):
         Warns
         -----
         ImplausibleValue
-            If no solid has such values of E and rho.
+            If E or rho is not within a hundredth and a hundred times that of Table 1.
         """
         given = import_module("disc_model.disc.given")
         mesh = section if size is None else given.section(section, size)
