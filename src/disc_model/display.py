@@ -42,15 +42,18 @@ def counted(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
+def brought(module: str, extra: str) -> Any:
+    """A module of an optional package, which an extra of the installation brings."""
+    try:
+        return import_module(module)
+    except ModuleNotFoundError:
+        raise ModuleNotFoundError(f"there is no module {module}: pip install 'disc_model[{extra}]'") from None
+
+
 def draw(picture: str, *inputs: Any, **options: Any) -> Any:
     """Draw by a function of `disc_model.figures.results`, imported by its name, so that no result depends on it."""
-    try:
-        return getattr(import_module("disc_model.figures.results"), picture)(*inputs, **options)
-    except ModuleNotFoundError as error:
-        if str(error.name).startswith("disc_model"):
-            raise
-        error.msg = f"pictures need {error.name}: pip install 'disc_model[plot]' brings it"
-        raise
+    brought("matplotlib", "plot")
+    return getattr(import_module("disc_model.figures.results"), picture)(*inputs, **options)
 
 
 class Drawn:

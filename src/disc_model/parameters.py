@@ -8,7 +8,7 @@ import operator
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from importlib import import_module
-from itertools import pairwise
+from itertools import combinations, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
 
@@ -135,8 +135,29 @@ class Disc(Strict):
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        """Check the rules between columns."""
-        raise_faults(self._faults_of_columns() or self._faults_of_modes("circles" not in self.model_fields_set))
+        """Check the rules between columns, and refuse modes that are given twice."""
+        count, faults = len(self.diameters), list[str]()
+        if not 1 <= count <= MOST_MODES:
+            faults.append(Fault(("diameters",), f"{count} modes", f"must be 1 to {MOST_MODES} modes"))
+        for name in self._columns:
+            column = getattr(self, name)
+            if len(column) != count and (column or name in ("omega", "amplitude")):
+                faults.append(Fault((name,), f"{len(column)} values", f"must be as many as diameters, {count}"))
+        lengths = {len(self.radii)} if self.radii else set()
+        if {*map(len, self.shapes)} != lengths or lengths == {1}:
+            rule = "must be two or more, with a value of the shape of every mode at each"
+            faults.append(Fault(("radii",), f"{len(self.radii)} radii", rule))
+        elif any(a >= b for a, b in pairwise(self.radii)):
+            faults.append(Fault.of(("radii",), [*self.radii], "must ascend"))
+        raise_faults(faults or limits_faults("largest amplitude", max(map(abs, self.amplitude)), AMPLITUDES))
+        counted = "circles" not in self.model_fields_set  # by frequency: then modes 5 % apart are no pair
+        same = self.diameters if counted else [*zip(self.diameters, self.circles, strict=True)]
+        for i, j in combinations(range(count), 2):
+            apart = abs(self.omega[j] - self.omega[i]) / max(self.omega[i], self.omega[j])
+            if same[i] == same[j] and (apart < 0.05 or not counted):
+                rule = f"modes {i + 1} and {j + 1} have as many diameters and are {100 * apart:.2g} % apart: "
+                rule += "the disc must be axisymmetric, with each pair of modes given once, by its mean frequency"
+                raise_faults([Fault.of(("omega", str(j)), self.omega[j], rule)])
         return self
 
     @pydantic.model_serializer(mode="wrap")
@@ -308,40 +329,6 @@ class Disc(Strict):
             "damping ratio": [f"{damping:.3g}" for damping in self.damping_ratio],
         }
         return html_table(columns, zip(*columns.values(), strict=True))
-
-    def _faults_of_columns(self) -> list[str]:
-        """Faults of the number of modes, and of columns that lack some or have more."""
-        count, faults = len(self.diameters), list[str]()
-        if not 1 <= count <= MOST_MODES:
-            faults.append(Fault(("diameters",), f"{count} modes", f"must be 1 to {MOST_MODES} modes"))
-        for name in self._columns:
-            column = getattr(self, name)
-            if len(column) != count and (column or name in ("omega", "amplitude")):
-                faults.append(Fault((name,), f"{len(column)} values", f"must be as many as diameters, {count}"))
-        lengths = {len(self.radii)} if self.radii else set()
-        if {*map(len, self.shapes)} != lengths or lengths == {1}:
-            rule = "must be two or more, with a value of the shape of every mode at each"
-            faults.append(Fault(("radii",), f"{len(self.radii)} radii", rule))
-        elif any(a >= b for a, b in pairwise(self.radii)):
-            faults.append(Fault.of(("radii",), [*self.radii], "must ascend"))
-        return faults
-
-    def _faults_of_modes(self, counted: bool) -> list[str]:
-        """Faults of amplitudes, and of modes given twice; those 5 % apart are no pair if circles are counted."""
-        faults = limits_faults("largest amplitude", max(map(abs, self.amplitude)), AMPLITUDES)
-        if not any(self.amplitude):
-            faults = [Fault(("amplitude",), "", "must not be 0 for all modes: the slider would not feel the disc")]
-        same = self.diameters if counted else [*zip(self.diameters, self.circles, strict=True)]
-        pairs = [(i, j) for j in range(len(same)) for i in range(j) if same[i] == same[j]]
-        for i, j in pairs:
-            apart = abs(self.omega[j] - self.omega[i]) / max(self.omega[i], self.omega[j])
-            rule = (
-                f"modes {i + 1} and {j + 1} have as many diameters and are {100 * apart:.2g} % apart: the disc must be "
-            )
-            rule += "axisymmetric, with each pair of modes given once, by its mean frequency"
-            if apart < 0.05 or not counted:
-                faults.append(Fault.of(("omega", str(j)), self.omega[j], rule))
-        return faults[:3]
 
     @property
     def numbers(self) -> dict[str, float]:

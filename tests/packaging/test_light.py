@@ -42,7 +42,7 @@ dm.plate_modes(p), dm.residual_flexibility(p), dm.choose_modes(p.replace(n_diame
 try:
     result.plot()
 except ImportError as error:
-    assert str(error) == "pictures need matplotlib: pip install 'disc_model[plot]' brings it"
+    assert str(error) == "there is no module matplotlib: pip install 'disc_model[plot]'"
 else:
     raise AssertionError("it was drawn")
 import disc_model.benchmarks.answers, disc_model.benchmarks.work_precision

@@ -7,7 +7,6 @@ import itertools
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 from disc_model.disc.flexibility import residual_flexibility
 from disc_model.disc.plate import Array, modal_damping, mode_arrays, modes_of_table, tangential_amplitudes
 from disc_model.disc.plausibility import warn_of_doubts
+from disc_model.display import brought
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
 from disc_model.parameters import Disc, Parameters
 from disc_model.units import is_number
@@ -61,7 +61,7 @@ def read_disc(path: str | os.PathLike[str]) -> Disc:
 
 def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
     """Read mode shapes from a universal file, see `disc_model.Disc.from_uff`."""
-    pyuff = _brought("pyuff", "uff")
+    pyuff = brought("pyuff", "uff")
     try:
         sets = np.atleast_1d(pyuff.UFF(str(path)).read_sets()).tolist()
     except Exception as error:  # pyuff raises what the text of the file happens to lead to
@@ -75,10 +75,10 @@ def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
     modes = [_uff_mode(data, positions, r_0, path) for data in sets if data["type"] == 55]
     pairs: list[list[dict[str, Any]]] = []
     for mode in sorted((mode for mode in modes if mode), key=lambda mode: mode["omega"]):
-        for pair in (pair for pair in pairs if len(pair) == 1 and pair[0]["diameters"] == mode["diameters"] > 0):
-            if mode["omega"] - pair[0]["omega"] < SAME_PAIR * mode["omega"]:
-                pair.append(mode)
-                break
+        alone = (pair for pair in pairs if len(pair) == 1 and pair[0]["diameters"] == mode["diameters"] > 0)
+        near = [pair for pair in alone if mode["omega"] - pair[0]["omega"] < SAME_PAIR * mode["omega"]]
+        if near:
+            near[0].append(mode)
         else:
             pairs.append([mode])
     if not pairs:
@@ -111,9 +111,12 @@ def _uff_mode(
     rule = f"must give coordinates in m of 3 or more nodes at the radius {r_0:g} m, dataset 15 or 2411"
     require((circle.sum() >= 3, Path(str(path)).name, int(circle.sum()), rule))
     require((mass > 0, "modal mass", mass, "must be > 0: shapes need a scale"))
-    fits = [_harmonic_fit(angle[circle], moves[circle], l) for l in range(min(60, (int(circle.sum()) - 1) // 2) + 1)]
-    l = int(np.argmin([rest for *_, rest in fits]))
-    cosine, sine, rest = fits[l]
+    fits = []  # of each harmonic: the sum of squares that it leaves, its number, and its cosine and sine
+    for order in range(min(60, (int(circle.sum()) - 1) // 2) + 1):
+        waves = np.stack([np.cos(order * angle), np.sin(order * angle)], axis=1)[circle]
+        solution = np.linalg.lstsq(waves, moves[circle], rcond=None)[0]
+        fits.append((float(np.sum((moves[circle] - waves @ solution) ** 2)), order, *solution.tolist()))
+    rest, l, cosine, sine = min(fits)
     if rest > 0.5 * float(np.sum(moves[circle] ** 2)):
         return None
     amplitude, turn, scale = math.hypot(cosine, sine), math.atan2(sine, cosine), 1 / math.sqrt(mass)
@@ -127,31 +130,24 @@ def _uff_mode(
     return {"diameters": l, "shape": shape, **numbers}
 
 
-def _harmonic_fit(angle: Array, moves: Array, l: int) -> tuple[float, float, float]:
-    """Cosine and sine of a harmonic around the axis, and the sum of squares that it leaves."""
-    waves = np.stack([np.cos(l * angle), np.sin(l * angle)], axis=1)[:, : 1 if l == 0 else 2]
-    solution = np.linalg.lstsq(waves, moves, rcond=None)[0]
-    return float(solution[0]), float(solution[1]) if l else 0.0, float(np.sum((moves - waves @ solution) ** 2))
-
-
 def _disc(names: list[str], *rows: list[str], static_compliance: str | None) -> Disc:
     """The disc of a table; a fault in a number names its column, mode and cell."""
     rule = f"values: must be as many as columns, {len(names)}"
     uneven = [f"mode {i} has {len(row)} {rule}" for i, row in enumerate(rows, 1) if len(row) != len(names)]
     raise_faults(_column_faults(names) or uneven[:3])
+    cells = {name: [row[i] for row in rows] for i, name in enumerate(names)}
     values: dict[str, Any] = {"static_compliance": static_compliance}
-    radii = sorted((float(match[1]), i) for i, name in enumerate(names) if (match := SHAPE.fullmatch(name)))
-    columns: dict[tuple[str, ...], int] = {("shapes", str(i)): column for i, (_, column) in enumerate(radii)}
-    for column, (target, factor) in ((column, COLUMNS[name]) for column, name in enumerate(names) if name in COLUMNS):
-        columns[target,] = column
-        values[target] = [_number(row[column], factor) for row in rows]
-    if radii:
-        values["radii"] = [r for r, _ in radii]
-        values["shapes"] = [[_number(row[column]) for _, column in radii] for row in rows]
+    for name, (field, factor) in COLUMNS.items():
+        if name in cells:
+            values[field] = [_number(cell, factor) for cell in cells[name]]
+    shapes = sorted((float(match[1]), i) for i, name in enumerate(names) if (match := SHAPE.fullmatch(name)))
+    if shapes:
+        values["radii"] = [r for r, _ in shapes]
+        values["shapes"] = [[_number(row[i]) for _, i in shapes] for row in rows]
     try:
         disc = Disc(**values)
     except ParameterError as error:
-        raise ParameterError(*(_of_table(fault, columns, names, rows) for fault in error.faults)) from None
+        raise ParameterError(*(_of_table(fault, cells) for fault in error.faults)) from None
     static, modal = disc.static_compliance, modes_of_table(disc).flexibility
     if static is not None and static < modal * (1 - 1e-9):  # both may be the same sum with different rounding
         rule = f"must not be less than what the modes give at the slider, {modal:.6g} m/N"
@@ -167,13 +163,14 @@ def _number(cell: str, factor: float = 1.0) -> float | str:
         return cell
 
 
-def _of_table(fault: Fault, columns: dict[tuple[str, ...], int], names: list[str], rows: Sequence[list[str]]) -> Fault:
-    """A fault of a `Disc` with column, cell and mode of the table."""
-    if len(fault.path) < 2 or (column := columns.get((fault.path[0], *fault.path[2:]))) is None:
+def _of_table(fault: Fault, columns: Mapping[str, Sequence[str]]) -> Fault:
+    """A fault in a number of a `Disc` with column, cell and mode of the table."""
+    name = next((name for name in columns if name in COLUMNS and COLUMNS[name][0] == fault.path[0]), "")
+    if not name or len(fault.path) != 2:
         return fault
     i = int(fault.path[1])
-    unit = " rad/s" if names[column] == "frequency_Hz" and "within" in fault.rule else ""
-    return Fault.of((names[column],), rows[i][column], f"{fault.rule}{unit} (mode {i + 1})")
+    unit = " rad/s" if name == "frequency_Hz" and "within" in fault.rule else ""
+    return Fault.of((name,), columns[name][i], f"{fault.rule}{unit} (mode {i + 1})")
 
 
 def damping_ratios(p: Parameters) -> Array:
@@ -217,11 +214,10 @@ def _column_faults(names: list[str]) -> list[Fault]:
             if ";" in name or "\t" in name:
                 return [Fault.of(("columns",), name, "must be separated by commas, with points in numbers")]
             faults.append(Fault.of(("columns",), name, f"unknown column{suggestion(name, list(COLUMNS))}"))
-    radii = [f"shape_at_{float(match[1])}_m" for name in names if (match := SHAPE.fullmatch(name))]
-    targets = [COLUMNS[name][0] for name in names if name in COLUMNS] + radii
+    targets = [COLUMNS[name][0] for name in names if name in COLUMNS]
     for target in dict.fromkeys(["diameters", "omega", "amplitude", *targets]):
         if (count := targets.count(target)) != 1:
-            wanted = " or ".join(name for name, (which, _) in COLUMNS.items() if which == target) or target
+            wanted = " or ".join(name for name, (which, _) in COLUMNS.items() if which == target)
             rule = f"must have one column {wanted}" + (f", and not {count}" if count else "")
             faults.append(Fault(("columns",), "", rule))
     return faults
@@ -244,7 +240,7 @@ MOST_EQUAL = 64  # modes with equal nodal diameters
 def section(rectangles: Iterable[tuple[float, float, float, float]], size: float) -> MeshQuad:
     """A mesh of a union of rectangles (r from, r to, z from, z to), m, with a line of nodes along every edge of each;
     `size`: m, largest edge of an element."""
-    mesh_type = _brought("skfem", "fe").MeshQuad
+    mesh_type = brought("skfem", "fe").MeshQuad
     numbers = [tuple(map(float, rectangle)) for rectangle in rectangles]
     for i, box in enumerate(numbers or [()]):
         if not (len(box) == 4 and 0 < box[0] < box[1] < math.inf and -math.inf < box[2] < box[3] < math.inf):
@@ -276,7 +272,7 @@ def disc_of_section(
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    skfem = _brought("skfem", "fe")
+    skfem = brought("skfem", "fe")
     iron = Parameters(N=0, Omega=0, normalization="orthonormal", **material)
     is_point = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
     is_mesh = isinstance(mesh, skfem.MeshQuad)
@@ -351,7 +347,7 @@ def _harmonic(
 
 def _matrices(basis: Any, l: int, E: float, nu: float, rho: float) -> tuple[Any, Any]:
     """Stiffness and mass matrices of the solid for one harmonic."""
-    form = _brought("skfem", "fe").BilinearForm
+    form = brought("skfem", "fe").BilinearForm
     lame, shear = E * nu / ((1 + nu) * (1 - 2 * nu)), E / 2 / (1 + nu)
     angle = math.pi if l else 2 * math.pi  # of cos^2(l theta)
 
@@ -370,11 +366,3 @@ def _matrices(basis: Any, l: int, E: float, nu: float, rho: float) -> tuple[Any,
         return rho * (u * u_ + w * w_ + v * v_) * point.x[0]
 
     return form(energy).assemble(basis) * angle, form(inertia).assemble(basis) * angle
-
-
-def _brought(module: str, extra: str) -> Any:
-    """A module of an optional package, which an extra of the installation brings."""
-    try:
-        return import_module(module)
-    except ModuleNotFoundError:
-        raise ModuleNotFoundError(f"there is no module {module}: pip install 'disc_model[{extra}]'") from None
