@@ -1,7 +1,6 @@
 """Warnings of values that are allowed but implausible, such as E = 150, which was probably meant in GPa."""
 
 import math
-import sys
 import warnings
 from collections.abc import Callable
 from functools import partial
@@ -33,23 +32,15 @@ def doubts(p: Parameters) -> dict[str, str]:
     return {kind: text for kind, doubt in RULES.items() if (text := doubt(p))}
 
 
-def _warn(text: str) -> None:
-    """Warn with the line that called this package, however deep in it the case is looked at."""
-    frame, level = sys._getframe(1), 2
-    while frame.f_back and frame.f_globals["__name__"].startswith(("disc_model.", "contextlib")):
-        frame, level = frame.f_back, level + 1
-    warnings.warn(text, ImplausibleValue, stacklevel=level)
-
-
 _reported: set[str] = set()
 
 
-def warn_of_doubts(p: Parameters, tell: Callable[[str], object] = _warn) -> None:
+def warn_of_doubts(p: Parameters, tell: Callable[[str], object] | None = None) -> None:
     """Report implausible values of a case, once in a process by each rule; by default as a warning."""
     for kind, text in doubts(p).items():
         if kind not in _reported:
             _reported.add(kind)
-            tell(text)
+            (tell or partial(warnings.warn, category=ImplausibleValue))(text)
 
 
 def _value(p: Parameters, name: str) -> str:
