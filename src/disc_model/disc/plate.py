@@ -140,11 +140,9 @@ def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
     if not disc.radii:
         rule = "must have shapes, in columns such as shape_at_0.08_m: only amplitudes under the slider are known"
         raise ParameterError(Fault(("disc",), "", rule))
-    radii = np.array(disc.radii)
-    others = radii[~np.isclose(radii, r_0, rtol=1e-9, atol=0)]
-    index = int(np.searchsorted(others, r_0))
-    shapes = np.array(disc.shapes)[:, np.isin(radii, others)]
-    return np.insert(others, index, r_0), np.insert(shapes, index, disc.amplitude, axis=1)
+    radii, shapes = np.array([r_0, *disc.radii]), np.column_stack([disc.amplitude, disc.shapes])
+    _, first = np.unique(np.round(radii, 9), return_index=True)  # nm, by which two radii are the same
+    return radii[first], shapes[:, first]
 
 
 def coupled_natural_frequencies(p: Parameters) -> Array:
