@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from disc_model import Parameters, choose_modes, mode_choice, simulate
+from disc_model import Parameters, choose_modes, mode_choice
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import RICH, choose_when_run, frequency_error
 from disc_model.simulation.api import run_case
@@ -65,18 +65,8 @@ def test_a_case_is_run_with_the_modes_that_its_quantity_needs(measured: Measured
 
 
 @pytest.mark.compiled
-def test_separations_are_counted_from_20_to_30_s_after_the_first_one() -> None:
-    """In pieces, without a record of events, as in one run with it."""
-    p = Parameters(N=800, Omega=40, n_diameters=2)
-    first = mode_choice.MEASURES["first_separation"](p)
-    events = simulate(p, first + 30).events
-    times = events["time"][events["kind"] == "separation"]
-    assert first == pytest.approx(times.iloc[0], abs=1e-9)
-    # the motion is steady by then; one more or less at the ends of the ten seconds
-    assert mode_choice.separation_rate(p) == pytest.approx(times.between(first + 20, first + 30).sum() / 10, abs=0.1)
-    rigid = P.replace(n_diameters=-1)  # nothing swings that could throw the slider up
-    assert math.isnan(mode_choice.MEASURES["first_separation"](rigid))
-    assert math.isnan(mode_choice.separation_rate(rigid))
+def test_a_disc_that_does_not_swing_has_no_first_separation() -> None:
+    assert math.isnan(mode_choice.MEASURES["first_separation"](P.replace(n_diameters=-1)))
 
 
 @pytest.mark.compiled

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -21,12 +21,9 @@ from disc_model.errors import DiscModelError, Fault, ParameterError, raise_fault
 from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters
 from disc_model.units import Finite, Strict
 
-if TYPE_CHECKING:
-    from disc_model.simulation.result import Result
-
 FREQUENCIES = "frequencies"  # the quantity by which modes are chosen by default
 # quantities by which modes may be chosen, and their default relative tolerances
-CHOSEN_BY = {FREQUENCIES: 1e-3, "growth": 1e-2, "first_separation": 1e-2, "separation_rate": 1e-1}
+CHOSEN_BY = {FREQUENCIES: 1e-3, "growth": 1e-2, "first_separation": 1e-2}
 RICH = (20, 6)  # diameters and circles of the reference model for frequencies
 # Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5 as published, 2e-4
 # orthonormal, against 30 diameters and 8 circles), and growth rates and times depend on the frequencies.
@@ -39,7 +36,7 @@ _PREFIX = "truncation_"  # begins the names of `CHOOSING`, beside the parameters
 BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True)
 class ModeChoice(Summarised):
     """The smallest model that meets a tolerance, and the basis of the choice.
 
@@ -60,9 +57,6 @@ class ModeChoice(Summarised):
     rich: tuple[int, ...]
     quantity: str = FREQUENCIES
     values: Mapping[tuple[int, ...], float] = field(default_factory=dict)
-
-    def __repr__(self) -> str:
-        return f"ModeChoice({', '.join(f'{name}: {text}' for name, text in self.summary())})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         p, name = self.parameters, self.quantity.replace("_", " ")
@@ -202,11 +196,10 @@ def choose_modes(
     case : `Parameters`, or a mapping of their values; n_diameters and n_circles are ignored.  With
         ``contact_compliance="residual"`` each model has the flexibility of the modes that it leaves out
     tolerance : relative, at least 1e-4; None is 1e-3 for frequencies, 1e-2 for the growth rate and the first
-        separation, 0.1 for the rate of separations
+        separation
     quantity : "frequencies", the coupled frequencies of disc and slider at rest up to twice the lowest one of the disc,
         compared with those of 20 diameters and 6 circles; "growth", the growth rate of the stick-slip cycle;
-        "first_separation", its time within 600 s; "separation_rate", separations per second from 20 to 30 s after the
-        first one.  All but the first need simulations
+        "first_separation", its time within 600 s.  All but the first need simulations
 
     Returns
     -------
@@ -293,25 +286,12 @@ def growth(p: Parameters) -> float:
     return float(floquet(p).growth_rate)
 
 
-def separation_rate(p: Parameters) -> float:
-    """Separations per second from 20 to 30 s after the first one; nan if there is none within `HORIZON`."""
-    first = _run(p, HORIZON, stop_at="first_separation")
-    if not math.isfinite(first.first_separation):
-        return math.nan
-    start = first.first_separation + 20.0
-    late = _run(p, start, initial_state=first.final_state).final_state
-    return float(_run(p, start + 10.0, initial_state=late).statistics["separations"]) / 10.0
-
-
-def _run(p: Parameters, t_end: float, **how: Any) -> Result:
-    """A complete simulation without a record of events."""
+def first_separation(p: Parameters) -> float:
+    """Time of the first separation, s; nan if there is none within `HORIZON`."""
     from disc_model.simulation.api import simulate
 
-    return simulate(p, t_end, events=False, **how).raise_for_status()
+    result = simulate(p, HORIZON, stop_at="first_separation", events=False)
+    return result.raise_for_status().first_separation
 
 
-MEASURES: dict[str, Callable[[Parameters], float]] = {
-    "growth": growth,
-    "first_separation": lambda p: _run(p, HORIZON, stop_at="first_separation").first_separation,
-    "separation_rate": separation_rate,
-}
+MEASURES: dict[str, Callable[[Parameters], float]] = {"growth": growth, "first_separation": first_separation}
