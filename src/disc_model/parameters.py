@@ -513,8 +513,6 @@ class Parameters(Strict):
         """The case as a table in a notebook."""
         values = {name: value for name, value in self if value is not None}
         texts = {name: f"{value:.15g}" if is_number(value) else value for name, value in values.items()}
-        if self.disc is not None:
-            texts["disc"] = f"{len(self.disc.omega)} modes"
         fields = type(self).model_fields
         rows = ((x, text, self.unit(x).removeprefix("1"), fields[x].description) for x, text in texts.items())
         return html_table(("symbol", "value", "unit", "meaning"), rows)

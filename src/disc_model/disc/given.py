@@ -287,8 +287,8 @@ def disc_of_section(
     apart = np.hypot(*(basis.doflocs[:, vertical] - np.array(slider)[:, None]))
     level = np.flatnonzero(np.abs(basis.doflocs[1, vertical] - slider[1]) < SAME_PLACE)
     radii, first = np.unique(basis.doflocs[0, vertical[level]], return_index=True)
-    nearest = int(np.argmin(np.hypot(*(basis.doflocs[:, circular] - np.array(slider)[:, None]))))
-    measured = np.array([vertical[int(np.argmin(apart))], circular[nearest], *vertical[level[first]]])
+    nearest = int(np.argmin(apart))  # unknowns of each displacement are in the same order
+    measured = np.array([vertical[nearest], circular[nearest], *vertical[level[first]]])
     links = coo_matrix((np.ones(mesh.facets.shape[1]), mesh.facets), shape=(mesh.p.shape[1],) * 2)
     pieces = len(np.unique(connected_components(links, directed=False)[1][mesh.t]))  # that have no node in common
     held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()

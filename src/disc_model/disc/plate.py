@@ -309,7 +309,13 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     half = (1 - inner) / 2
     nodes, weights = inner + half * (nodes + 1), half * weights
     values = _evaluate(l, lam, coefficients, exponents, nodes)
-    _check_circles(values, l, np.repeat(np.arange(n_circles + 1), n_diameters + 1), inner, nu)
+    circles = np.repeat(np.arange(n_circles + 1), n_diameters + 1)
+    for shape, diameters, expected in zip(values, l, circles, strict=True):
+        clear = shape[np.abs(shape) > 1e-7 * np.max(np.abs(shape))]  # without rounding errors near the clamp
+        counted = np.count_nonzero(clear[1:] * clear[:-1] < 0)
+        if counted != expected:
+            root = f"root {expected} for {diameters} nodal diameters at a/b={inner:g}, nu={nu:g}"
+            raise ModeError(f"plate modes: {root} has {counted} nodal circles; one was missed or doubled")
     norm = 2 * np.pi * values**2 @ (weights * nodes)
     return _Shapes(inner, l, lam, coefficients, exponents, norm)
 
@@ -318,16 +324,6 @@ def _evaluate(l: NDArray[np.int64], lam: Array, coefficients: Array, exponents: 
     """R of n modes at the radii `x` (k,), roughly in units of its largest value: (n, k)."""
     values, logs = _bessel(l[:, None], lam[:, None] * x)
     return np.sum(coefficients[..., None] * values * np.exp(logs - exponents[..., None]), axis=0)
-
-
-def _check_circles(values: Array, l: NDArray[np.int64], circles: NDArray[np.int64], inner: float, nu: float) -> None:
-    """Compare the sign changes of R, `values` (n, k), with the number of circles that belongs to the root."""
-    for shape, diameters, expected in zip(values, l, circles, strict=True):
-        clear = shape[np.abs(shape) > 1e-7 * np.max(np.abs(shape))]  # without rounding errors near the clamp
-        circles_counted = np.count_nonzero(clear[1:] * clear[:-1] < 0)
-        if circles_counted != expected:
-            root = f"root {expected} for {diameters} nodal diameters at a/b={inner:g}, nu={nu:g}"
-            raise ModeError(f"plate modes: {root} has {circles_counted} nodal circles; one was missed or doubled")
 
 
 def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
