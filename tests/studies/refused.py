@@ -17,8 +17,8 @@ def faults_of(parse: Callable[..., object], *arguments: Any, **named: Any) -> li
     return list(error.value.faults)
 
 
-def parse_grid(raw: Any, resolution: Any = 1) -> GridStudy:
+def parse_grid(raw: Any) -> GridStudy:
     """The grid that a file's content says."""
-    grid = parse_study({"resolution": resolution, **raw}).grid
+    grid = parse_study(raw).grid
     assert grid is not None
     return grid

@@ -45,21 +45,6 @@ def test_changes_change_only_the_batches_they_touch() -> None:
     assert len(set(parse_grid(study(axes={**axes, "Omega": longer})).batches) - before) == 3
 
 
-@pytest.mark.parametrize(
-    ("given", "counts"),
-    [
-        ({"start": 10, "stop": 20, "count": 4}, [4, 7, 13]),
-        ({"start": 10, "stop": 20, "count": 4, "scale": "log"}, [4, 7, 13]),
-        ({"blocks": [[1.0, 9.0], {"start": 2, "stop": 4, "count": 3}]}, [5, 7, 11]),
-    ],
-)
-def test_finer_resolution_keeps_all_batches_and_divides_ranges_alone(given: dict[str, Any], counts: list[int]) -> None:
-    axes = {"N": [100], "Omega": given}
-    coarse, fine, finest = (parse_grid(study(axes=axes), resolution) for resolution in (1, 2, "4"))
-    assert [grid.n_points for grid in (coarse, fine, finest)] == counts
-    assert coarse.batches.keys() < fine.batches.keys() < finest.batches.keys()
-
-
 AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}
 
 
@@ -92,12 +77,12 @@ def test_only_batches_whose_modes_are_chosen_depend_on_what_chooses() -> None:
 
 
 def test_extra_values_leave_the_batches_that_there_are() -> None:
-    """At any resolution; a value that is there already is not computed twice."""
+    """So does a further block; a value that is there already is not computed twice."""
     axis, base = {"start": 0, "stop": 4, "count": 3}, {"N": 1, "Omega": 1}
-    for resolution in (1, 2):
+    for finer in (axis | {"extra": [2, 3.3]}, {"blocks": [axis, [2, 3.3]]}):
         before, after = (
-            parse_grid({"study": "x", "quantity": "floquet", "base": base, "axes": {"c": given}}, resolution)
-            for given in (axis, axis | {"extra": [2, 3.3]})
+            parse_grid({"study": "x", "quantity": "floquet", "base": base, "axes": {"c": given}})
+            for given in (axis, finer)
         )
         assert {(3.3,)} == set(after.values["c"]) - set(before.values["c"])
         assert set(before.batches) < set(after.batches)

@@ -110,13 +110,13 @@ def test_a_fault_of_another_file_is_named(name: str, content: Any, fault: str, t
     assert faults_of(study.grids, [tmp_path]) == [fault]
 
 
-def test_overrides_and_resolution_are_laid_over_the_file(tmp_path: Path) -> None:
+def test_overrides_are_laid_over_the_file(tmp_path: Path) -> None:
     axes = {"N": [100, 200], "Omega": {"start": 10, "stop": 20, "count": 3}}
     small = {"study": "small", "quantity": "outcome", "options": {"horizon": 2}, "axes": axes}
     (tmp_path / "small.yaml").write_text(json.dumps(small))
     over = {"small": {"axes": {"N": [50]}, "options": {"horizon": 7}}}
-    study = parse_study({"study": "all", "studies": ["small.yaml"], "overrides": over, "resolution": 2})
+    study = parse_study({"study": "all", "studies": ["small.yaml"], "overrides": over})
     grids, asked = study.grids([tmp_path])
     assert asked == ("small",)
-    assert grids["small"].n_points == 5
+    assert grids["small"].n_points == 3
     assert grids["small"].options.horizon == 7  # type: ignore[attr-defined]

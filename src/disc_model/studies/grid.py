@@ -46,9 +46,6 @@ class AxisRange(Range):
 
     extra: list[NumberOrUnit] = Field([])
 
-    def blocks(self, resolution: int = 1) -> Blocks:
-        return (*super().blocks(resolution), *([tuple(self.extra)] if self.extra else []))
-
 
 def _axis_kind(raw: Any) -> str | None:
     if isinstance(raw, Mapping):
@@ -71,11 +68,11 @@ class BlocksOf(Strict):
 Axis = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")] | Annotated[BlocksOf, Tag("BlocksOf")], _BY_KIND]
 
 
-def blocks_of(axis: list[Any] | AxisRange | BlocksOf, resolution: int = 1) -> Blocks:
-    """Blocks of the values of an axis; raises ValueError if there are too many values."""
+def blocks_of(axis: list[Any] | AxisRange | BlocksOf) -> Blocks:
+    """Blocks of the values of an axis."""
     if isinstance(axis, BlocksOf):
-        return tuple(block for part in axis.blocks for block in blocks_of(part, resolution))
-    return axis.blocks(resolution) if isinstance(axis, AxisRange) else (tuple(axis),)
+        return tuple(block for part in axis.blocks for block in blocks_of(part))
+    return ((*axis.values,), *[(*axis.extra,)] * bool(axis.extra)) if isinstance(axis, AxisRange) else (tuple(axis),)
 
 
 VARIED = (*Parameters.model_fields, *RATIOS, START, *PERTURBATIONS)  # what a grid may vary, in this order
@@ -262,7 +259,7 @@ class GridStudy:
     def _read_dimensions(self) -> list[Dimension]:
         faults: list[Fault] = []
         dims = []
-        for name, blocks in self._columns(self.file.axes, ("axes",), faults, self.file.resolution).items():
+        for name, blocks in self._columns(self.file.axes, ("axes",), faults).items():
             dims.append(Dimension([name], map(zip, blocks)))
         for i, group in enumerate(self.file.zip):
             path = ("zip", str(i))
@@ -275,17 +272,14 @@ class GridStudy:
         raise_faults(faults)
         return dims
 
-    def _columns(self, axes: Any, path: tuple[str, ...], faults: list[Fault], resolution: int = 1) -> dict[str, Blocks]:
+    def _columns(self, axes: Any, path: tuple[str, ...], faults: list[Fault]) -> dict[str, Blocks]:
         """Valid blocks of values by name, converted to floats, whole numbers or words."""
         columns = {}
         for name, axis in given_values(axes).items():
             try:
-                blocks = blocks_of(axis, resolution)
-                columns[name] = tuple(tuple(self._value(name, value) for value in block) for block in blocks)
+                columns[name] = tuple(tuple(self._value(name, value) for value in block) for block in blocks_of(axis))
             except ParameterError as error:
                 faults += [Fault((*path, name), fault.value, fault.rule) for fault in error.faults]
-            except ValueError as error:
-                faults.append(Fault((*path, name), "", str(error)))
         return columns
 
     def _value(self, name: str, value: Value) -> Value:

@@ -82,25 +82,13 @@ class Range(Ruled):
 
     @property
     def values(self) -> list[float]:
-        return [float(value) for value in self.blocks()[0]]
-
-    def blocks(self, resolution: int = 1) -> Blocks:
-        """The own values, then those that divide each interval further: resolution 4 adds a block to those of 2."""
-        n = self.intervals * resolution
-        if n >= MOST:
-            raise ValueError(f"must be at most {MOST} values, and not {n + 1}")
-        by_level: dict[int, list[Value]] = {}
-        for i in range(n + 1):  # the level of a value is the lowest resolution at which it is there
-            by_level.setdefault(resolution // math.gcd(i, resolution), []).append(self._at(i / n))
-        return tuple(tuple(by_level[level]) for level in sorted(by_level))
-
-    def _at(self, share: float) -> float:
-        """The value at a fraction of the range, rounded to 12 digits, so that ranges and lists agree on 0.3."""
-        if share in (0.0, 1.0):
-            return self.stop if share else self.start
-        log = self.scale == "log"
-        value = self.start * (self.stop / self.start) ** share if log else self.start + share * (self.stop - self.start)
-        return float(f"{value:.12g}")
+        """All values, those inside rounded to 12 digits, so that ranges and lists agree on 0.3."""
+        shares = [i / self.intervals for i in range(1, self.intervals)]
+        if self.scale == "log":
+            inside = [self.start * (self.stop / self.start) ** share for share in shares]
+        else:
+            inside = [self.start + share * (self.stop - self.start) for share in shares]
+        return [self.start, *(float(f"{value:.12g}") for value in inside), self.stop]
 
 
 # ---- Rules between the values of a point, such as ``mu_k <= mu_s``, that exclude points of a grid

@@ -27,7 +27,7 @@ from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
 from disc_model.simulation.case import CaseSpec, Poincare, Ramp, SomeParameters, Span, Start, Window, ramp_faults
 from disc_model.studies.grid import GRID_KEYS, STATIC, BatchSpec, Columns, FigureEntry, GridStudy, described
 from disc_model.studies.quantity import checked_rule, quantity_names, quantity_of
-from disc_model.units import Count, Finite, Positive, Seconds, Strict, Tolerance, must
+from disc_model.units import Finite, Positive, Seconds, Strict, Tolerance, must
 
 MODES = {"as_published": "modes scaled as in the published results", "orthonormal": "modes normalised as Eq. (17) says"}
 
@@ -275,7 +275,6 @@ class Study(Strict):
     discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
     studies: tuple[str, ...] = ()  # further files of grid studies, * stands for any part of a name
     overrides: dict[str, dict[str, Any]] = Field({})  # of values in these files, by the name of the study
-    resolution: Annotated[Count, Field(ge=1)] = 1  # divides the intervals of all ranges
 
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -368,7 +367,7 @@ class Study(Strict):
     def _grid_of(self, path: Path) -> GridStudy:
         """The grid of another file, with the overrides of this one."""
         content = inherit(mapping(read_file(path)), self.overrides.get(path.stem, {}))
-        study = parse_study({"resolution": self.resolution, **content}, path.parent, _shown(path))
+        study = parse_study(content, path.parent, _shown(path))
         wrong = {
             "must be the name of the file": study.name != path.stem,
             "is the name of another folder of results": study.name == self.name,
