@@ -71,11 +71,9 @@ def test_more_samples_keep_those_that_there_are() -> None:
 
 @pytest.mark.parametrize("share", [1e-6, 0.1, 0.5, 0.999])
 def test_quantiles_are_those_of_the_distributions(share: float) -> None:
-    """Both tails of 5e-11 that are left out move what lies within them by less than the tolerance."""
     normal = {"mean": 2, "deviation": 0.3}
     for text, one in (
         ({"distribution": "uniform", "low": 2, "high": 5}, stats.uniform(2, 3)),
-        ({"distribution": "normal", **normal}, stats.norm(2, 0.3)),
         (
             {"distribution": "truncated_normal", **normal, "low": 1.9, "high": 3},
             stats.truncnorm((1.9 - 2) / 0.3, (3 - 2) / 0.3, 2, 0.3),

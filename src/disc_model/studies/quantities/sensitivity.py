@@ -28,8 +28,7 @@ SAMPLE_OUTCOMES = ("not_simulated", *variables.OUTCOMES_TO_HORIZON)
 Array = NDArray[np.float64]
 
 # ---- Distributions of uncertain parameters
-EDGE = 1e-10  # fraction of a normal distribution that is cut off, in both tails together
-FARTHEST = 6.47  # standard deviations at which it is cut off, rounded up
+FARTHEST = 6.47  # standard deviations beyond which a normal distribution has 1e-10 of its values
 _FAR = f"low and high must be within {FARTHEST:g} deviations of mean={{0.mean:g}}"
 
 
@@ -43,10 +42,6 @@ class Uniform(Ruled):
 
     _rules: ClassVar[quantity.Rules] = ((lambda d: d.low < d.high, "low={0.low:g} must be < high={0.high:g}"),)
 
-    @property
-    def ends(self) -> tuple[float, float]:
-        return self.low, self.high
-
 
 class TruncatedNormal(Uniform):
     """A normal distribution, restricted to values from `low` to `high`; mean and deviation are those of the whole."""
@@ -58,20 +53,7 @@ class TruncatedNormal(Uniform):
     _rules = (*Uniform._rules, (lambda d: max(d.low - d.mean, d.mean - d.high) <= FARTHEST * d.deviation, _FAR))
 
 
-class Normal(Ruled):
-    """A normal distribution, cut off at 6.47 standard deviations."""
-
-    distribution: Literal["normal"]
-    relative: bool = False
-    mean: Finite
-    deviation: Positive
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        return self.mean - FARTHEST * self.deviation, self.mean + FARTHEST * self.deviation
-
-
-Distribution = Annotated[Uniform | Normal | TruncatedNormal, Field(discriminator="distribution")]
+Distribution = Annotated[Uniform | TruncatedNormal, Field(discriminator="distribution")]
 
 # ---- The quantity
 
@@ -155,7 +137,8 @@ class Sensitivity(Quantity):
         """Rules broken by an end of a distribution at a point; rules between parameters are tested at all corners."""
         p, ends = Parameters(**case), dict[str, list[float]]()
         for name, distribution in self.distributions.items():
-            ends[name] = [(own[name] if distribution.relative else 1.0) * end for end in distribution.ends]
+            scale = own[name] if distribution.relative else 1.0
+            ends[name] = [scale * distribution.low, scale * distribution.high]
         related = [name for name in ends if name in RELATED]
         for side, corner in product((0, 1), product(*(ends[name] for name in related))):
             try:
@@ -217,13 +200,10 @@ def quantile(distribution: Distribution, nominal: float, share: float) -> float:
     """Quantile of a parameter's distribution, which may be relative to the point's own value."""
     from scipy.special import ndtr, ndtri
 
-    scale = nominal if distribution.relative else 1.0
-    low, high = distribution.ends
-    if not isinstance(distribution, Normal | TruncatedNormal):
+    scale, low, high = nominal if distribution.relative else 1.0, distribution.low, distribution.high
+    if not isinstance(distribution, TruncatedNormal):
         return float(scale * (low + share * (high - low)))
-    first, last = EDGE / 2, 1 - EDGE / 2
-    if isinstance(distribution, TruncatedNormal):
-        first, last = (ndtr((end - distribution.mean) / distribution.deviation) for end in (low, high))
+    first, last = (ndtr((end - distribution.mean) / distribution.deviation) for end in (low, high))
     value = distribution.mean + distribution.deviation * float(ndtri(first + share * (last - first)))
     # rounding must not exceed the ends
     return float(scale * min(max(value, low), high))
