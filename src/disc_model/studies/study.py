@@ -112,24 +112,14 @@ StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 # ---- Named cases
 
 
-def _in_part(model: type[pydantic.BaseModel], **others: Any) -> type[Strict]:
-    """What may be said of a model in part: the rest is inherited. The others are types of fields that are models."""
-    fields: dict[str, Any] = {
-        name: (others.get(name, Annotated[field.annotation, *field.metadata, "in part"]) | None, None)
-        for name, field in model.model_fields.items()
-    }
-    return create_model(f"Some{model.__name__.removesuffix('Spec')}", __base__=Strict, __doc__=model.__doc__, **fields)
-
-
 class RecordSpec(Strict):
     """What is recorded of a case. Figures and claims refer to windows by their names."""
 
-    windows: dict[WindowName, Window] = Field({})
+    windows: dict[WindowName, Window | None] = Field({})  # None drops one that is inherited
     poincare: Poincare | None = None
     events: bool | Span = True
 
 
-SomeRecord = _in_part(RecordSpec, windows=dict[WindowName, _in_part(Window) | None])  # type: ignore[misc]
 _ratios: dict[str, Any] = {name: (Positive | None, Field(None, **described(name))) for name in RATIOS}
 _WithRatios = create_model("_WithRatios", __base__=SomeParameters, **_ratios)
 _BY = "quantity by which n_diameters: auto chooses the modes"
@@ -170,7 +160,7 @@ class NamedCase(Strict):
     stop_at: Literal["first_separation"] | None = None
     start: Start = Start()
     ramps: tuple[Ramp, ...] = ()
-    record: Annotated[RecordSpec, BeforeValidator(lambda raw: raw, json_schema_input_type=SomeRecord)] = RecordSpec()
+    record: RecordSpec = RecordSpec()
 
     @cached_property
     def spec(self) -> CaseSpec:
@@ -185,7 +175,9 @@ class NamedCase(Strict):
                 p, truncation = choice.parameters, choice.to_json()
             except DiscModelError as error:  # no number of modes meets the tolerance
                 faults.append(Fault.of(("parameters", "n_diameters"), AUTO, str(error)))
-        spans: dict[tuple[str, ...], Any] = {("windows", name): window for name, window in record.windows.items()}
+        spans: dict[tuple[str, ...], Any] = {
+            ("windows", name): x for name, x in record.windows.items() if x is not None
+        }
         if record.events:
             spans["events",] = Span() if record.events is True else record.events
         for path, span in spans.items():
@@ -259,7 +251,7 @@ class Study(Strict):
         dict[Name, Figure], BeforeValidator(_given_figures, json_schema_input_type=dict[Name, Figure | None])
     ] = Field({})
     tol: Tolerance | None = 1e-10  # of all cases, as `record`
-    record: SomeRecord = SomeRecord()  # type: ignore[valid-type]
+    record: RecordSpec = RecordSpec()
     cases: Annotated[dict[CaseName, NamedCase], Field(min_length=1)] = Field({}, validate_default=False)
     claims: bool = False  # whether the paper's claims and tables are checked against the cases
     quantity: Annotated[str | None, AfterValidator(_known), WithJsonSchema({"enum": quantity_names()})] = None
