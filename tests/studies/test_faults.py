@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import pytest
 import yaml
@@ -19,7 +20,7 @@ from hypothesis import strategies as st
 import disc_model as dm
 from disc_model import cli
 from disc_model.stability.lyapunov import lyapunov_exponents
-from disc_model.studies.study import StudyError, check_owner, closing_lines, parse_study, read_yaml
+from disc_model.studies.study import StudyError, check_owner, closing_lines, parse_study, read_file
 from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[2]
@@ -48,8 +49,9 @@ def test_the_faults_of_a_study_come_in_one_error() -> None:
 
 
 @pytest.mark.parametrize(("text", "words"), FAULTS["texts"])
-def test_text_that_is_no_study_is_located(text: str, words: str) -> None:
-    assert_named(faults_of(lambda: parse_study(read_yaml(text))), words)
+def test_text_that_is_no_study_is_located(text: str, words: str, tmp_path: Path) -> None:
+    (path := tmp_path / "text.yaml").write_text(text, encoding="utf-8")
+    assert_named(faults_of(lambda: parse_study(read_file(path))), words)
 
 
 def p(**changes: Any) -> dm.Parameters:
@@ -162,8 +164,9 @@ def test_a_study_with_any_value_somewhere(data: st.DataObject) -> None:
 
 @given(st.sampled_from(TEXTS), st.integers(0, 2000), st.text(max_size=20), st.integers(0, 20))
 def test_any_text_in_a_study_file(text: str, position: int, inserted: str, removed: int) -> None:
-    with contextlib.suppress(StudyError):
-        parse_study(read_yaml(text[:position] + inserted + text[position + removed :]))
+    changed = text[:position] + inserted + text[position + removed :]
+    with contextlib.suppress(StudyError), patch.object(Path, "read_text", return_value=changed):
+        parse_study(read_file(Path("any.yaml")))
 
 
 @settings(max_examples=settings().max_examples // 5)  # each builds the parser anew

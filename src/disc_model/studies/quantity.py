@@ -99,15 +99,9 @@ _MADE_OF = (
 )
 
 
-def checked_rule(rule: str) -> str:
-    """The text if it is a rule such as ``mu_k <= mu_s`` or ``0.5 < a/b < 0.8``, otherwise raises ValueError."""
-    compiled_rule(rule)
-    return rule
-
-
 @cache
 def compiled_rule(rule: str) -> CodeType:
-    """A rule of comparisons, with floats only: a whole number could repeat a word without end."""
+    """A rule such as ``0.5 < a/b < 0.8``, with floats only: a whole number could repeat a word without end."""
     try:
         tree = ast.parse(rule.strip(), mode="eval")
         nodes = list(ast.walk(tree.body))

@@ -26,7 +26,7 @@ from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeRequest,
 from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
 from disc_model.simulation.case import CaseSpec, Poincare, Ramp, SomeParameters, Span, Start, Window, ramp_faults
 from disc_model.studies.grid import GRID_KEYS, STATIC, BatchSpec, Columns, FigureEntry, GridStudy, described
-from disc_model.studies.quantity import checked_rule, quantity_names, quantity_of
+from disc_model.studies.quantity import compiled_rule, quantity_names, quantity_of
 from disc_model.units import Finite, Positive, Seconds, Strict, Tolerance, must
 
 MODES = {"as_published": "modes scaled as in the published results", "orthonormal": "modes normalised as Eq. (17) says"}
@@ -49,18 +49,12 @@ class StudyError(DiscModelError, ValueError):
 def read_file(path: Path) -> Any:
     """A YAML file's content; raises `StudyError` if it cannot be read or gives a key twice."""
     try:
-        return read_yaml(path.read_text(encoding="utf-8"), str(path))
-    except (OSError, UnicodeDecodeError) as error:
-        raise StudyError(f"cannot be read: {error}", source=str(path)) from None
-
-
-def read_yaml(text: str, source: str = "study") -> Any:
-    """A YAML document; raises `StudyError` if the text is none or gives a key twice."""
-    try:
-        return yaml.load(text, _Loader)
-    except (yaml.YAMLError, ValueError, RecursionError, AttributeError, KeyError, TypeError) as error:
+        return yaml.load(path.read_text(encoding="utf-8"), _Loader)
+    except (OSError, yaml.YAMLError, ValueError, RecursionError, AttributeError, KeyError, TypeError) as error:
         # ValueError and what follows: a value looks like a number or date, or has a tag, that it does not fit
-        raise StudyError(f"is no YAML, or a value does not fit its form or tag: {error}", source=source) from None
+        raise StudyError(
+            f"cannot be read as YAML, whose values must fit their tags: {error}", source=str(path)
+        ) from None
 
 
 class _Loader(yaml.SafeLoader):
@@ -226,12 +220,6 @@ def _several(value: Any) -> Any:
     return value if isinstance(value, list | tuple) else [value]
 
 
-def _known(name: str | None) -> str | None:
-    if name is not None and "status" not in quantity_of(name).COLUMNS:
-        raise ParameterError(Fault.of((), name, "COLUMNS of its class must contain 'status'"))
-    return name
-
-
 def _options(raw: Any, info: pydantic.ValidationInfo) -> Any:
     """The quantity with its options; what is given for an unknown one is checked once it is known."""
     quantity = info.data.get("quantity")
@@ -254,11 +242,15 @@ class Study(Strict):
     record: RecordSpec = RecordSpec()
     cases: Annotated[dict[CaseName, NamedCase], Field(min_length=1)] = Field({}, validate_default=False)
     claims: bool = False  # whether the paper's claims and tables are checked against the cases
-    quantity: Annotated[str | None, AfterValidator(_known), WithJsonSchema({"enum": quantity_names()})] = None
+    quantity: Annotated[
+        str | None,
+        AfterValidator(lambda name: name and quantity_of(name) and name),
+        WithJsonSchema({"enum": quantity_names()}),
+    ] = None
     options: Annotated[Any, PlainValidator(_options), WithJsonSchema({"type": "object"})] = None
     axes: Columns = Columns()
     where: Annotated[
-        tuple[Annotated[str, AfterValidator(checked_rule)], ...],
+        tuple[Annotated[str, AfterValidator(lambda rule: compiled_rule(rule) and rule)], ...],
         BeforeValidator(_several, json_schema_input_type=str | list[str]),
     ] = ()
     zip: Annotated[tuple[Columns, ...], BeforeValidator(_several, json_schema_input_type=Columns | list[Columns])] = ()
