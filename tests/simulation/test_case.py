@@ -67,13 +67,13 @@ def test_a_section_has_one_sample_a_turn():
 
 
 def test_a_text_is_a_case_and_does_not_name_what_is_absent():
-    """Older texts, from before `last` and four fields, are still those of their cases, and address their results."""
+    """Older texts, from before `last` and three fields, are still those of their cases, and address their results."""
     brief = CaseSpec(parameters=P, t_end=1.0, windows=(("w", Window(rate=10, stop=1)),))
-    later = {"start": Start(prerun={"parameters": {"N": 385}, "time": 1}), "truncation": "a", "modes": "b"}
+    later = {"start": Start(prerun={"parameters": {"N": 385}, "time": 1}), "modes": "b"}
     later |= {"ramps": (Ramp(parameter="N", to=100, start=0, end=1),), "poincare": Poincare(theta=2.0)}
     full = CaseSpec(**dict(brief) | later | {"windows": (("w", Window(rate=10, last=1)),)})
     fields = [json.loads(case.canonical) for case in (brief, full)]
-    assert set(fields[1]) - set(fields[0]) == {"start", "truncation", "modes", "ramps"}
+    assert set(fields[1]) - set(fields[0]) == {"start", "modes", "ramps"}
     assert set(fields[1]["windows"][0][1]) - set(fields[0]["windows"][0][1]) == {"last"}
     assert [[*case.sections] for case in (brief, full)] == [["w"], ["w", "poincare"]]
     for case, named in zip((brief, full), fields, strict=True):

@@ -481,7 +481,7 @@ def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
 
     needed = "must be `disc_model.mode_choice.choose_when_run`, as the case leaves its modes to be chosen"
     require((callable(choose) or not spec.modes, "choose", choose, needed))
-    p, truncation = spec.parameters, spec.truncation
+    p, truncation = spec.parameters, ""  # how the number of modes was chosen, as JSON, if it was
     try:
         if spec.modes:
             p, truncation = choose(p, spec.modes)

@@ -317,7 +317,7 @@ class Start(Strict):
 
 # ---- One case ready to be run, and its content address
 
-_LATER = ("start", "truncation", "modes", "ramps")  # fields whose defaults older content addresses do not have
+_LATER = ("start", "modes", "ramps")  # fields whose defaults older content addresses do not have
 
 
 class CaseSpec(Strict):
@@ -332,7 +332,6 @@ class CaseSpec(Strict):
     events: tuple[float, float] | None = None
     audit_every_step: bool = False
     start: Start = Start()
-    truncation: str = ""  # how the number of modes was chosen, as JSON; empty if it was given, or is still to be chosen
     modes: str = ""  # quantity and tolerance by which the run shall choose the number of modes, as JSON, if it shall
     ramps: tuple[Ramp, ...] = ()
 

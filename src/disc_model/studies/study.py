@@ -22,7 +22,7 @@ from disc_model.disc.plausibility import doubts
 from disc_model.display import counted
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kind import NORM, CasePlot, Kind, Plot, kind_of, kinds_in
-from disc_model.mode_choice import CHOSEN_BY, FREQUENCIES, TRUSTED, ModeRequest, by_frequencies, read_asked
+from disc_model.mode_choice import CHOSEN_BY, TRUSTED, ModeRequest, read_asked
 from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
 from disc_model.simulation.case import CaseSpec, Poincare, Ramp, SomeParameters, Span, Start, Window, ramp_faults
 from disc_model.studies.grid import GRID_KEYS, STATIC, BatchSpec, Columns, FigureEntry, GridStudy, described
@@ -160,15 +160,7 @@ class NamedCase(Strict):
     def spec(self) -> CaseSpec:
         """What is simulated; raises `ParameterError` with places inside the case."""
         faults: list[Fault] = []
-        (p, request), record, truncation, modes = self.parameters, self.record, "", ""
-        if request is not None and request.quantity != FREQUENCIES:  # the modes are chosen when the case runs
-            modes = json.dumps(request.model_dump(), sort_keys=True)
-        elif request is not None:
-            try:
-                choice = by_frequencies(p, request.tolerance)
-                p, truncation = choice.parameters, choice.to_json()
-            except DiscModelError as error:  # no number of modes meets the tolerance
-                faults.append(Fault.of(("parameters", "n_diameters"), AUTO, str(error)))
+        (p, request), record = self.parameters, self.record
         spans: dict[tuple[str, ...], Any] = {
             ("windows", name): x for name, x in record.windows.items() if x is not None
         }
@@ -188,7 +180,9 @@ class NamedCase(Strict):
         windows = tuple((name, window) for (_, name), window in spans.items())
         rest = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
         rest |= {"windows": windows, "poincare": record.poincare, "events": events and (events.start, events.stop)}
-        return CaseSpec(parameters=p, truncation=truncation, modes=modes, **rest)
+        # modes that are left to be chosen are chosen when the case runs
+        modes = "" if request is None else json.dumps(request.model_dump(), sort_keys=True)
+        return CaseSpec(parameters=p, modes=modes, **rest)
 
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
