@@ -15,7 +15,7 @@ from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribu
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names, stated_in
 from disc_model.errors import DiscModelError, as_text
 from disc_model.parameters import in_words
-from disc_model.studies.quantity import STATUSES, Quantity, quantity_of
+from disc_model.studies.quantity import Quantity, quantity_of
 from disc_model.studies.run import POINT, coordinates_of, describe, variables_of
 
 JOINED: Any = {"join": "exact", "combine_attrs": "override", "data_vars": "all", "coords": "minimal"}
@@ -31,7 +31,11 @@ def merge_batches(
     """Merge batches; raises `MergeError` if they do not match `grid`, as of `GridStudy.grid`."""
     flat = xr.concat(batches, POINT, compat="equals", **JOINED)
     base = _common(batches)
-    indices = [_indices(flat, dim) for dim in grid]
+    indices = []
+    for dim in grid:  # -1 for a value that the grid does not have
+        known = {tuple(value): i for i, value in enumerate(dim["values"])}
+        columns = (flat[name].values.tolist() for name in dim["names"])
+        indices.append([known.get(value, -1) for value in zip(*columns, strict=True)])
     dims, shape = ["_".join(dim["names"]) for dim in grid], [len(dim["values"]) for dim in grid]
     points, size = {*zip(*indices, strict=True)}, math.prod(shape)
     complete = len(points) == size or "where" in attrs  # a rule leaves points out
@@ -50,19 +54,11 @@ def merge_batches(
     return summarised(merged, quantity_of(merged.attrs["quantity"]).model_validate(stated_in(merged, "options")))
 
 
-def _indices(flat: xr.Dataset, dim: Mapping[str, Any]) -> list[int]:
-    """Index of each point along a dimension; -1 for a value that the grid does not have."""
-    known = {tuple(value): i for i, value in enumerate(dim["values"])}
-    return [known.get(value, -1) for value in zip(*(flat[name].values.tolist() for name in dim["names"]), strict=True)]
-
-
 def failures(study: xr.Dataset) -> Iterator[str]:
-    """One line for each point without a result: its parameters, status and message; errors come first."""
+    """One line for each point without a result, or with a message: its parameters, status and message."""
     status = flag_names(study["status"])
     varied = [name for name in study.coords if set(study[name].dims) <= set(study["status"].dims)]
-    failed = np.isin(status, STATUSES[1:])
-    others = ~failed & (status != EXCLUDED) & ((status != "ok") | (study["message"].values != ""))
-    for index in (*np.argwhere(failed), *np.argwhere(others)):
+    for index in np.argwhere((status != EXCLUDED) & ((status != "ok") | (study["message"].values != ""))):
         point = study.isel(dict(zip(study["status"].dims, index, strict=True)))
         values = {name: point[name].item() for name in varied}
         where = ", ".join(f"{name} = {x if isinstance(x, str) else as_text(x)}" for name, x in values.items())

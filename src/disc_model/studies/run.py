@@ -1,8 +1,6 @@
 """Computation of one batch of a grid study: a quantity at each point, as variables with units."""
 
 import json
-import logging
-import time
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
@@ -21,7 +19,6 @@ from disc_model.simulation.case import Start
 from disc_model.sources import git_commit, source_hash, versions
 from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, quantity_of, tried
 
-log = logging.getLogger(__name__)
 POINT = "point"
 
 
@@ -35,7 +32,6 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
     varied = [in_words(dict(zip(names, point, strict=True))) for point in data["points"]]
     chosen, tiled = data["base"].get("n_diameters") == AUTO, "tile" in data
     parameters = [_made(data, values) for values in varied] if chosen or not tiled else []  # a tile makes its own
-    began = time.process_time()
     if tiled and of is None:
         results = list(_over_tile(quantity, data))
     else:
@@ -43,11 +39,7 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
         starts = {name: Start(**start) for name, start in (stated | data.get("starts", {})).items()}
         points = (_point(*point, starts) for point in zip(parameters, varied, strict=True))
         results = [tried("status", computed.compute_point, point) for point in points]
-    log.info("%d points, %.3f s of processor time", len(varied), time.process_time() - began)
     rows, messages = zip(*results, strict=True)
-    for values, message in zip(varied, messages, strict=True):
-        if message:
-            log.warning("%s: %s", values, message)
     coords_of_quantity = coordinates_of(computed.COORDINATES, quantity)
     variables = variables_of(computed.COLUMNS, coords_of_quantity, rows, {POINT: len(rows)})
     if chosen:
