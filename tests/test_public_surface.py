@@ -51,7 +51,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (dm.sweep, {"function": dm.floquet, "case": P, "N": [9]}, {"workers": "huge", "processes": "True", "named": WRONG}),
     (
         dm.run_study,
-        {"source": {"study": "s", "quantity": "sliding", "base": {"N": 200}, "axes": {"Omega": [20]}}},
+        {"source": {"study": "s", "quantity": "floquet", "base": {"N": 200}, "axes": {"Omega": [20]}}},
         {"source": "text dict", "workers": "huge", "processes": "True"},
     ),
     (dm.plot_modes, {"p": P}, {"ax": "None", "most": "huge"}),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import nullcontext
 from dataclasses import fields, is_dataclass
@@ -54,14 +54,9 @@ def _quantity(name: str, case: Parameters, start: Mapping[str, float] | None = N
     return dataset
 
 
-def _several(values: Any) -> bool:
-    return isinstance(values, Sequence | np.ndarray) and not isinstance(values, str) and np.ndim(values) == 1
-
-
 def _scan(ends: Any, step: Any) -> Any:
     """The range of a scan as an option of a quantity, which says what is wrong with it."""
-    pair = _several(ends) and len(ends) == 2
-    require((pair, "scan", ends, "must be two numbers in rad/s, the lowest and the highest speed"))
+    require((np.shape(ends) == (2,), "scan", ends, "must be two numbers in rad/s, the lowest and the highest speed"))
     return {"start": ends[0], "stop": ends[1], "step": step}
 
 
@@ -148,8 +143,11 @@ def critical_speed(
     >>> speeds["critical_speed"].values
     array([15.1])
     """
-    horizons: Any = horizon if _several(horizon) else (horizon,)
-    options: dict[str, Any] = {"horizons": tuple(horizons), "scan": _scan(scan, step), "precision": precision}
+    options: dict[str, Any] = {
+        "horizons": np.atleast_1d(horizon).tolist(),
+        "scan": _scan(scan, step),
+        "precision": precision,
+    }
     return _quantity("critical_speed", case, **options, early_end=early_end, tol=tol)
 
 
@@ -198,9 +196,8 @@ def basins(  # noqa: PLR0913
     [['quiet', 'quiet', 'quiet'], ['separating', 'separating', 'separating']]
     >>> axes = dm.plot_sweep(found)
     """
-    several = tuple(energies) if _several(energies) else energies
-    options: dict[str, Any] = {"energies": several, "n_starts": n_starts, "horizon": horizon, "seed": seed}
-    more = {"attractor_tol": attractor_tol, "n_bisection_directions": n_bisection_directions, "tol": tol}
+    options: dict[str, Any] = {"energies": np.atleast_1d(energies).tolist(), "n_starts": n_starts, "horizon": horizon}
+    more = {"seed": seed, "attractor_tol": attractor_tol, "n_bisection_directions": n_bisection_directions, "tol": tol}
     return _quantity("basins", case, start, **options, **more)
 
 
@@ -285,11 +282,8 @@ def sweep(
     >>> growth["status"].sel(Omega=10).values.tolist()
     ['ok', 'ok']
     """
-    faults = foreign_case(case, "case") + violations(
-        (callable(function), "function", function, "must be a function, such as disc_model.floquet"),
-        *_rules_of_workers(workers, processes),
-    )
-    raise_faults(faults)
+    rule = "must be a function, such as disc_model.floquet"
+    raise_faults(faults := foreign_case(case, "case") + violations((callable(function), "function", function, rule)))
     numbers = case.numbers.keys() | Parameters.model_fields.keys() | RATIOS.keys()
     arguments = inspect.signature(function).parameters
     takes_all = any(argument.kind is argument.VAR_KEYWORD for argument in arguments.values())
@@ -333,13 +327,12 @@ def _values(name: str, values: Any, faults: list[str]) -> list[Any]:
     return checked
 
 
-def _rules_of_workers(workers: Any, processes: Any) -> Iterator[tuple[object, str, object, str]]:
-    yield is_whole(workers) and workers >= 1, "workers", workers, "must be a whole number >= 1"
-    yield isinstance(processes, bool), "processes", processes, "must be True or False"
-
-
 def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: int, processes: bool) -> list[Any]:
     """The results of the calls, in order; the progress of long ones is shown."""
+    require(
+        (is_whole(workers) and workers >= 1, "workers", workers, "must be a whole number >= 1"),
+        (isinstance(processes, bool), "processes", processes, "must be True or False"),
+    )
     kind = ProcessPoolExecutor if processes else ThreadPoolExecutor
     with nullcontext() if workers == 1 else kind(workers) as pool:
         results = map(call, arguments) if pool is None else pool.map(call, arguments)
@@ -445,8 +438,7 @@ def run_study(
     from disc_model.studies.study import load_study, parse_study  # needs yaml, of the extra `workflow`
 
     named = isinstance(source, str | Path | Mapping)
-    rule = "must be the path of a study file, or a mapping"
-    require((named, "source", source, rule), *_rules_of_workers(workers, processes))
+    require((named, "source", source, "must be the path of a study file, or a mapping"))
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
     study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.grids([folder])

@@ -82,17 +82,11 @@ class _Columns(Strict):
     _unknown: ClassVar[str] = "cannot be an axis"
 
 
-_WORDS = {START: "where the motion starts: names of starts", "disc": "discs: tables of modes, or names of `discs`"}
-
-
 def described(name: str) -> dict[str, Any]:
     """Description and unit of a value in the schema of files."""
-    if name in _WORDS:
-        return {"description": _WORDS[name]}
-    if field := Parameters.model_fields.get(name):
-        return {"description": field.description, "json_schema_extra": field.json_schema_extra}
     stated = attributes(name)
-    return {"description": stated["long_name"], "json_schema_extra": {"unit": stated["units"]}}
+    unit = Parameters.unit(name) if name in Parameters.model_fields else stated.get("units", "")
+    return {"description": stated["long_name"], "json_schema_extra": {"unit": unit}}
 
 
 _columns: dict[str, Any] = {name: (Axis, Field(None, **described(name))) for name in VARIED}
