@@ -16,7 +16,6 @@ from disc_model.stability import attractors
 from disc_model.stability.outcome import OutcomeResult, Segment
 from disc_model.studies import run
 from disc_model.studies.merge import merge_batches
-from disc_model.studies.quantities import critical_speed
 from disc_model.studies.quantity import STATUSES, tried
 from disc_model.studies.run import run_batch
 from tests.stability.toy_map import fold_at, outside, toy
@@ -63,10 +62,10 @@ SCAN = {"start": 12, "stop": 15, "step": 0.5}
 
 @pytest.fixture
 def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
-    def motion(p, options):
+    def motion(p, horizon, **how):
         """Separation never comes below 12.35 rad/s nor from 14.15 to 14.45, sooner at higher speed and load."""
         never = p.Omega < 12.35 or 14.15 < p.Omega < 14.45
-        first, horizon = math.inf if never else 2e5 / p.N - 50 * (p.Omega - 12), options.horizons[-1]
+        first = math.inf if never else 2e5 / p.N - 50 * (p.Omega - 12)
         first_separation = first if first <= horizon else math.nan
         return OutcomeResult(None, simulated=min(first, horizon), first_separation=first_separation)
 
@@ -90,7 +89,7 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         )
         return SimpleNamespace(final_state=state, status=Status.OK, message=""), found
 
-    monkeypatch.setattr(critical_speed, "motion", motion)
+    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", motion)
     for name, fake in (("arrival", arrival), ("simulate", carried_on), ("final_segment", final_segment)):
         monkeypatch.setattr(attractors, name, fake)
 

@@ -68,13 +68,6 @@ class BlocksOf(Strict):
 Axis = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")] | Annotated[BlocksOf, Tag("BlocksOf")], _BY_KIND]
 
 
-def blocks_of(axis: list[Any] | AxisRange | BlocksOf) -> Blocks:
-    """Blocks of the values of an axis."""
-    if isinstance(axis, BlocksOf):
-        return tuple(block for part in axis.blocks for block in blocks_of(part))
-    return ((*axis.values,), *[(*axis.extra,)] * bool(axis.extra)) if isinstance(axis, AxisRange) else (tuple(axis),)
-
-
 VARIED = (*Parameters.model_fields, *RATIOS, START, *PERTURBATIONS)  # what a grid may vary, in this order
 
 
@@ -173,8 +166,10 @@ class GridStudy:
             maps = [plot for plot in self.plots.values() if isinstance(plot, RegionMap)]
             marked = [{plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()]
             return self._texts(_tiles(self.dims, batch, marked))
-        size = batch.size or max(1, round(WORK / self.options.cost()))
-        return self._texts({"points": cut} for cut in _chunks(self.dims, batch.over, size))
+        size, cut = batch.size or max(1, round(WORK / self.options.cost())), batch.over or self.values
+        # a dimension that is not cut is taken as blocks of one value each
+        blocks = [dim.blocks if dim.name in cut else [(value,) for value in dim.values] for dim in self.dims]
+        return self._texts({"points": part} for chosen in product(*blocks) for part in _parts(chosen, size))
 
     @cached_property
     def motions(self) -> dict[str, str]:
@@ -230,9 +225,7 @@ class GridStudy:
 
     @property
     def n_points(self) -> int:
-        if self.where:
-            return sum(1 for _ in self.points_along(self.dims))
-        return math.prod(len(dim.values) for dim in self.dims)
+        return sum(1 for _ in self.points_along(self.dims))
 
     @property
     def attrs(self) -> dict[str, str]:
@@ -270,8 +263,11 @@ class GridStudy:
         """Valid blocks of values by name, converted to floats, whole numbers or words."""
         columns = {}
         for name, axis in given_values(axes).items():
+            blocks: list[list[Any]] = []
+            for part in axis.blocks if isinstance(axis, BlocksOf) else [axis]:
+                blocks += [part.values, part.extra] if isinstance(part, AxisRange) else [part]
             try:
-                columns[name] = tuple(tuple(self._value(name, value) for value in block) for block in blocks_of(axis))
+                columns[name] = tuple(tuple(self._value(name, value) for value in block) for block in blocks)
             except ParameterError as error:
                 faults += [Fault((*path, name), fault.value, fault.rule) for fault in error.faults]
         return columns
@@ -394,14 +390,6 @@ class GridStudy:
 
 
 # ---- Batches
-
-
-def _chunks(dims: Sequence[Dimension], over: Sequence[str] | None, size: int) -> Iterator[list[tuple[Any, ...]]]:
-    """Points of each batch, each with its values along the dimensions."""
-    # an uncut dimension is taken as blocks of one value each
-    blocks = [dim.blocks if over is None or dim.name in over else [(value,) for value in dim.values] for dim in dims]
-    for chosen in product(*blocks):
-        yield from _parts(chosen, size)
 
 
 def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[Any, ...]]]:

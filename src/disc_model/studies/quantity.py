@@ -204,7 +204,7 @@ class Quantity(Ruled):
     scans: ClassVar[tuple[str, ...]] = ()  # parameters that it varies by itself, or the options that name them
     motions: ClassVar[int] = 0  # number of values of each axis for which a motion is stored, fewer if it is expensive
     motion: ClassVar[str] = ""  # description of these motions, which begin at `state_at`
-    tiled: ClassVar[bool] = False  # whether it needs a whole tile of a plane at once
+    tiled: ClassVar[bool] = False  # whether `compute_tile`, as of `Regions`, computes a whole tile of a plane at once
     over: ClassVar[str] = ""  # the required dimension over which a merged study is summarised
     cost: ClassVar[Callable[[Any], float]]  # processor time of a point, s, measured at points of the paper's study
 
@@ -223,10 +223,6 @@ class Quantity(Ruled):
 
     def compute_point(self, point: Point) -> tuple[Row, str]:
         """Values at one point by column, flags as words, and a message. Too short lists are padded, long ones cut."""
-        raise NotImplementedError
-
-    def compute_tile(self, points: Sequence[Sequence[Made]], sampled: Sequence[tuple[int, int]]) -> list[list[Any]]:
-        """Instead of it, rows and messages of a whole tile of a plane, at least at the places `sampled`."""
         raise NotImplementedError
 
     def state_at(self, point: Point) -> State:

@@ -193,7 +193,11 @@ class Tile:
             row |= {"status": result.status, "outcome": result.word, "simulated_time": result.simulated}
             row["first_separation"] = result.first_separation
         if (followed := self.followed[index]) is None:
-            row["cycle"] = _without(start, result)
+            row["cycle"] = "nearby_only" if isinstance(start, NearCycle) else "no_cycle"
+            if result is not None and result.outcome is Outcome.STEADY_SLIDING:
+                row["cycle"] = "steady_sliding"
+            elif isinstance(start, FloquetResult) and start.motion in STABLE_CYCLES:
+                row["cycle"] = start.motion
         else:
             cycle = followed.cycle
             lowest = min(frequency for frequency, _, bound in modes_at_rest(cycle.parameters) if bound)
@@ -232,15 +236,6 @@ def _result_or_error(compute: Callable[[Any], Any], argument: Any) -> Any:
         return argument if isinstance(argument, Exception) else compute(argument)
     except NUMERICAL as error:
         return error
-
-
-def _without(start: NearCycle | FloquetResult, result: OutcomeResult | None) -> str:
-    """The flag of a point whose motion follows no cycle."""
-    if result is not None and result.outcome is Outcome.STEADY_SLIDING:
-        return "steady_sliding"
-    if isinstance(start, NearCycle):
-        return "nearby_only"
-    return start.motion if start.motion in STABLE_CYCLES else "no_cycle"
 
 
 def _middle(indices: Sequence[Index]) -> Index:

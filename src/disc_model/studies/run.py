@@ -56,7 +56,7 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
     return xr.Dataset(variables, coords | coords_of_quantity, attrs)
 
 
-def _over_tile(quantity: Quantity, data: Mapping[str, Any]) -> Iterator[tuple[Row, str]]:
+def _over_tile(quantity: Any, data: Mapping[str, Any]) -> Iterator[tuple[Row, str]]:
     """A tile's points in the text's order, without its margin; one tile for each combination of other parameters."""
     (first, second), (rows, columns) = data["tile"]["names"], data["tile"]["along"]
     tiles: dict[tuple[Any, ...], Sequence[Sequence[tuple[Row, str]]]] = {}

@@ -13,7 +13,6 @@ from pydantic import AfterValidator, Field
 
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.display import computed
-from disc_model.parameters import Parameters
 from disc_model.studies import quantity
 from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, OutcomeResult, Point, Quantity, Range, along
 from disc_model.units import Count, Seconds, Speed, Tolerance, Unit
@@ -71,7 +70,10 @@ class CriticalSpeed(Quantity):
     cost: ClassVar = lambda o: SIMULATED * o.scan.intervals * o.horizons[-1] / 9
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        from disc_model.stability.outcome import find_outcome
+
         p, scan = point.parameters, self.scan
+        how: dict[str, Any] = {"tol": self.tol, "furthest": 0.0, "early": self.early_end}
         motions: dict[int, OutcomeResult] = {}
         known: dict[int, float] = {}
 
@@ -79,8 +81,10 @@ class CriticalSpeed(Quantity):
             return float(f"{scan.start + i * self.precision:.12g}")
 
         def look(i: int) -> None:
+            """Follow the motion from the static start at a speed, up to the longest horizon."""
+            result = find_outcome(p.replace(Omega=speed(i)), self.horizons[-1], **how)
             # return maps would take megabytes each for a disc of many modes
-            result = motions[i] = replace(motion(p.replace(Omega=speed(i)), self), near=None, extrapolated=None)
+            motions[i] = replace(result, near=None, extrapolated=None)
             none = math.isnan(result.first_separation) and result.status == "ok"
             known[i] = math.inf if none else result.first_separation
 
@@ -97,13 +101,6 @@ class CriticalSpeed(Quantity):
         values |= {"simulations": len(motions), "simulated_time": sum(x.simulated for x in motions.values())}
         values |= quantity.listed([_crossings(known, horizon, speed) for horizon in self.horizons])
         return values, "; ".join(f"Omega={speed(i):g}: {result.message}" for i, result in failed.items())
-
-
-def motion(case: Parameters, options: CriticalSpeed) -> OutcomeResult:
-    """The motion from the static start, up to the longest horizon."""
-    from disc_model.stability.outcome import find_outcome
-
-    return find_outcome(case, options.horizons[-1], tol=options.tol, furthest=0.0, early=options.early_end)
 
 
 def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:

@@ -58,6 +58,7 @@ class Regions(Quantity):
         return simulate(p, end, tol=self.tol, initial_state=result.state).raise_for_status().final_state
 
     def compute_tile(self, points: Sequence[Sequence[Made]], sampled: Sequence[tuple[int, int]]) -> list[list[Any]]:
+        """Rows and messages of a tile, of which at least the places `sampled` are computed."""
         from disc_model.studies.refinement import Tile
 
         return Tile(points, sampled, self).rows()
