@@ -287,8 +287,7 @@ def sweep(
     numbers = case.numbers.keys() | Parameters.model_fields.keys() | RATIOS.keys()
     arguments = inspect.signature(function).parameters
     takes_all = any(argument.kind is argument.VAR_KEYWORD for argument in arguments.values())
-    varied = [name for name in named if name in numbers and name not in arguments]
-    axes = {name: _values(name, named[name], faults) for name in varied}
+    axes = {x: _values(x, values, faults) for x, values in named.items() if x in numbers and x not in arguments}
     options = {name: value for name, value in named.items() if name not in axes}
     unknown = [name for name in options if name not in arguments and not takes_all]
     rule = "is no number of the case, and no argument of the function"

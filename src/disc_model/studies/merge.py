@@ -30,7 +30,12 @@ def merge_batches(
 ) -> xr.Dataset:
     """Merge batches; raises `MergeError` if they do not match `grid`, as of `GridStudy.grid`."""
     flat = xr.concat(batches, POINT, compat="equals", **JOINED)
-    base = _common(batches)
+    every = [json.loads(batch.attrs["specification"]) for batch in batches]
+    common = {name: value for name, value in every[0].items() if name not in ("points", "names", "tile")}
+    common["base"] = in_words(common["base"])
+    for key in common.keys() & {"starts", "discs"}:
+        common[key] = {name: definition for each in every for name, definition in sorted(each[key].items())}
+    base = {name: value if isinstance(value, str) else json_attribute(value) for name, value in common.items()}
     indices = []
     for dim in grid:  # -1 for a value that the grid does not have
         known = {tuple(value): i for i, value in enumerate(dim["values"])}
@@ -50,7 +55,7 @@ def merge_batches(
     for dim, along in zip(grid, dims, strict=True):
         for name, values in zip(dim["names"], zip(*dim["values"], strict=True), strict=True):
             coords[name] = (along, np.array(values), describe(name))
-    merged = xr.Dataset(variables, coords, {"Conventions": CONVENTIONS, **attrs, **base})
+    merged = xr.Dataset(variables, coords, {"Conventions": CONVENTIONS, **attrs, **base, **common_provenance(batches)})
     return summarised(merged, quantity_of(merged.attrs["quantity"]).model_validate(stated_in(merged, "options")))
 
 
@@ -74,17 +79,6 @@ def _excluded(variable: xr.DataArray) -> tuple[Any, dict[str, Any]]:
         numbers = np.arange(len(words), dtype=np.int8)
         return numbers[-1], {"flag_meanings": " ".join(words), "flag_values": numbers}
     return math.nan if variable.dtype.kind == "f" else "" if variable.dtype.kind in "OUT" else 0, {}
-
-
-def _common(batches: Sequence[xr.Dataset]) -> dict[str, str]:
-    """Attributes common to all batches (quantity, options, base values, sources), and the commits that made them."""
-    every = [json.loads(batch.attrs["specification"]) for batch in batches]
-    common = {name: value for name, value in every[0].items() if name not in ("points", "names", "tile")}
-    common["base"] = in_words(common["base"])
-    for key in common.keys() & {"starts", "discs"}:
-        common[key] = {name: definition for each in every for name, definition in sorted(each[key].items())}
-    texts = {name: value if isinstance(value, str) else json_attribute(value) for name, value in common.items()}
-    return texts | common_provenance(batches)
 
 
 def summarised(study: xr.Dataset, quantity: Quantity) -> xr.Dataset:

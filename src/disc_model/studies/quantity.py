@@ -52,16 +52,13 @@ class Ruled(Strict):
 
 
 class Range(Ruled):
-    """Evenly spaced values from `start` to `stop`, both included: `count` of them, or one each `step`.
-
-    On a logarithmic scale the ratio of neighbours is constant.
-    """
+    """Evenly spaced values from `start` to `stop`, both included: `count` of them, or one each `step`."""
 
     start: Finite
     stop: Finite
     count: Annotated[Count, Field(ge=2)] | None = None
     step: Positive | None = None
-    scale: Literal["linear", "log"] = "linear"
+    scale: Literal["linear", "log"] = "linear"  # log: the ratio of neighbours is constant
 
     _rules = (
         (lambda r: r.start < r.stop, "start={0.start:g} must be < stop={0.stop:g}"),

@@ -211,23 +211,20 @@ class Tile:
         for i in range(self.shape[0]):
             row = [(i, j) for j in range(self.shape[1])]
             for before, index in (*pairwise(row), *pairwise(row[::-1])):
-                self._carry(known, before, index)
+                start, last, cycles = self.starts[index], self.starts[before], known[index]
+                if not (isinstance(start, NearCycle) and isinstance(last, NearCycle)) or start.x.shape != last.x.shape:
+                    continue
+                size = start.map.deflection  # the unit of points, which varies with the parameters
+                scale = size / last.map.deflection
+                for cycle in known[before]:
+                    if len(cycles) >= 4:  # further ones cost too much
+                        break
+                    if min(np.linalg.norm(scale * cycle - x) for x in cycles) <= 0.02 * size:  # not another one
+                        continue
+                    orbit = newton(start.map, scale * cycle, releases=last.cycle.releases)
+                    if orbit is not None and min(np.linalg.norm(orbit.start - x) for x in cycles) > SAME_POINT * size:
+                        cycles.append(orbit.start)
         return {index: max(0, len(cycles) - 1) for index, cycles in known.items()}
-
-    def _carry(self, known: dict[Index, list[Array]], before: Index, index: Index) -> None:
-        start, last = self.starts[index], self.starts[before]
-        if not (isinstance(start, NearCycle) and isinstance(last, NearCycle)) or start.x.shape != last.x.shape:
-            return
-        size = start.map.deflection  # the unit of points, which varies with the parameters
-        scale = size / last.map.deflection
-        for cycle in known[before]:
-            if len(known[index]) >= 4:  # further ones cost too much
-                return
-            if min(np.linalg.norm(scale * cycle - x) for x in known[index]) <= 0.02 * size:  # not another one
-                continue
-            orbit = newton(start.map, scale * cycle, releases=last.cycle.releases)
-            if orbit is not None and min(np.linalg.norm(orbit.start - x) for x in known[index]) > SAME_POINT * size:
-                known[index].append(orbit.start)
 
 
 def _result_or_error(compute: Callable[[Any], Any], argument: Any) -> Any:

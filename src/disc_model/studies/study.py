@@ -116,7 +116,6 @@ class RecordSpec(Strict):
 
 _ratios: dict[str, Any] = {name: (Positive | None, Field(None, **described(name))) for name in RATIOS}
 _WithRatios = create_model("_WithRatios", __base__=SomeParameters, **_ratios)
-_BY = "quantity by which n_diameters: auto chooses the modes"
 
 
 class GivenParameters(_WithRatios):  # type: ignore[misc, valid-type]
@@ -128,7 +127,9 @@ class GivenParameters(_WithRatios):  # type: ignore[misc, valid-type]
         pydantic.WrapValidator(lambda value, check: value if value == AUTO else check(value)),
         WithJsonSchema({"anyOf": [{"type": "integer", "minimum": -1, "maximum": 60}, {"const": AUTO}]}),
     ] = Field(None, **described("n_diameters"))
-    truncation_quantity: Literal[*CHOSEN_BY] = Field(None, description=_BY)  # type: ignore[valid-type]
+    truncation_quantity: Literal[*CHOSEN_BY] = Field(  # type: ignore[valid-type]
+        None, description="quantity by which n_diameters: auto chooses the modes"
+    )
     truncation_tolerance: Annotated[Finite, Field(ge=TRUSTED)] = Field(  # type: ignore[assignment]
         None, description="relative tolerance of this quantity"
     )
