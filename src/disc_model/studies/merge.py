@@ -15,7 +15,7 @@ from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribu
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names, stated_in
 from disc_model.errors import DiscModelError, as_text
 from disc_model.parameters import in_words
-from disc_model.studies.quantity import Quantity, quantity_of
+from disc_model.studies.quantity import quantity_of
 from disc_model.studies.run import POINT, coordinates_of, describe, variables_of
 
 JOINED: Any = {"join": "exact", "combine_attrs": "override", "data_vars": "all", "coords": "minimal"}
@@ -81,7 +81,7 @@ def _excluded(variable: xr.DataArray) -> tuple[Any, dict[str, Any]]:
     return math.nan if variable.dtype.kind == "f" else "" if variable.dtype.kind in "OUT" else 0, {}
 
 
-def summarised(study: xr.Dataset, quantity: Quantity) -> xr.Dataset:
+def summarised(study: xr.Dataset, quantity: Any) -> xr.Dataset:
     """A merged study with the summary of its quantity, if there is one. Changing a summary recomputes no batch."""
     if not quantity.SUMMARY_COLUMNS:
         return study

@@ -202,7 +202,9 @@ class Quantity(Ruled):
     motions: ClassVar[int] = 0  # number of values of each axis for which a motion is stored, fewer if it is expensive
     motion: ClassVar[str] = ""  # description of these motions, which begin at `state_at`
     tiled: ClassVar[bool] = False  # whether `compute_tile`, as of `Regions`, computes a whole tile of a plane at once
-    over: ClassVar[str] = ""  # the required dimension over which a merged study is summarised
+    # the required dimension over which `summarise`, as of `Campbell`, makes a row of a merged study, in which a rule may
+    # have left out some points, or all
+    over: ClassVar[str] = ""
     cost: ClassVar[Callable[[Any], float]]  # processor time of a point, s, measured at points of the paper's study
 
     @property
@@ -224,10 +226,6 @@ class Quantity(Ruled):
 
     def state_at(self, point: Point) -> State:
         """The state in which the motions of a point begin; raises `DiscModelError` if there is none."""
-        raise NotImplementedError
-
-    def summarise(self, cell: Dataset) -> Row:
-        """The summary by column of a dataset along `over` alone, of which a rule may leave out some points, or all."""
         raise NotImplementedError
 
 
