@@ -202,8 +202,8 @@ class Quantity(Ruled):
     motions: ClassVar[int] = 0  # number of values of each axis for which a motion is stored, fewer if it is expensive
     motion: ClassVar[str] = ""  # description of these motions, which begin at `state_at`
     tiled: ClassVar[bool] = False  # whether `compute_tile`, as of `Regions`, computes a whole tile of a plane at once
-    # the required dimension over which `summarise`, as of `Campbell`, makes a row of a merged study, in which a rule may
-    # have left out some points, or all
+    # the required dimension over which `summarise`, as of `Campbell`, makes a row of a merged study; a rule of the file
+    # may have left out some points, or all
     over: ClassVar[str] = ""
     cost: ClassVar[Callable[[Any], float]]  # processor time of a point, s, measured at points of the paper's study
 
