@@ -16,7 +16,6 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import xarray as xr
 from netCDF4 import Dataset
 from xarray.backends import NetCDF4DataStore
@@ -32,8 +31,8 @@ Tables = dict[str, dict[str, Any]]  # columns of numbers, shape (n,), by the nam
 
 def series_dataset(columns: Mapping[str, Any], along: str) -> xr.Dataset:
     """Dataset of columns of numbers: samples along `time`, or events along `event`, as two may have the same time."""
-    kinds = dict.fromkeys(_flags(columns), np.int8)
-    data = {name: (along, np.asarray(x, kinds.get(name, float)), attributes(name)) for name, x in columns.items()}
+    kinds = {name: SERIES[name].dtype if name in SERIES else float for name in columns}
+    data = {name: (along, np.asarray(x, kinds[name]), attributes(name)) for name, x in columns.items()}
     return xr.Dataset(data).set_coords("time")
 
 
@@ -164,14 +163,6 @@ def save_tables(tables: Tables, described: str, path: str | Path, tree: xr.DataT
             tree[name] = known.assign({key: (along, x) for key, x in table.items() if key not in known})
         tree.attrs["result"] = described
         save(tree, file)
-    elif file.suffix == ".csv":
-        columns = json.dumps({name: [*table] for name, table in tables.items()})
-        frames = []
-        for name, table in tables.items():
-            words = {flag: np.array(meanings)[table[flag].astype(int)] for flag, meanings in _flags(table).items()}
-            frames.append(pd.DataFrame({"table": name, **table, **words}))
-        text = f"# {columns}\n# {described}\n" + pd.concat([each for each in frames if len(each)]).to_csv(index=False)
-        write_atomically(file, lambda name: Path(name).write_text(text, encoding="utf-8"))
     elif file.suffix == ".mat":
         from scipy.io import savemat
 
@@ -183,7 +174,7 @@ def save_tables(tables: Tables, described: str, path: str | Path, tree: xr.DataT
         options: dict[str, Any] = {"appendmat": False, "long_field_names": True, "oned_as": "column"}
         write_atomically(file, lambda name: savemat(name, content, **options))
     else:
-        raise ParameterError(Fault.of(("path",), str(path), "must end in .nc, .csv or .mat"))
+        raise ParameterError(Fault.of(("path",), str(path), "must end in .nc or .mat"))
 
 
 def load_tables(path: str | Path) -> tuple[str, Tables]:
@@ -191,36 +182,21 @@ def load_tables(path: str | Path) -> tuple[str, Tables]:
     file = regular_file(path)
     if not file.exists():
         raise MissingFile(f"{path}: there is no such file")
-    if file.suffix not in (".csv", ".mat"):
+    if file.suffix != ".mat":
         tree, tables = load(file), {}
         for name, node in tree.children.items():
             group = node.to_dataset(inherit=False).variables
             tables[name] = {str(key): np.asarray(group[key], float) for key in sorted(group, key="time".__ne__)}
         return tree.attrs.get("result", ""), tables
+    from scipy.io import loadmat
+
     try:
-        if file.suffix == ".mat":
-            from scipy.io import loadmat
-
-            content = loadmat(file, appendmat=False, simplify_cells=True)
-            named = {name: table for name, table in content.items() if name != "units" and isinstance(table, dict)}
-            flat = {name: {key: np.atleast_1d(x).ravel() for key, x in table.items()} for name, table in named.items()}
-            return content.get("result", ""), flat
-        with file.open(encoding="utf-8") as lines:
-            columns, described = json.loads(next(lines).removeprefix("# ")), next(lines).removeprefix("# ")
-            frame = pd.read_csv(lines, dtype=str)  # since numpy reads numbers to the last bit
-        tables = {}
-        for name, known in columns.items():
-            part = frame[frame["table"] == name].reindex(columns=known)
-            numbers = {flag: pd.Categorical(part[flag], words).codes for flag, words in _flags(known).items()}
-            tables[name] = {key: np.array(numbers.get(key, part[key]), dtype=float) for key in known}
-        return described, tables
-    except Exception as error:  # whatever a damaged file leads a library to
+        content = loadmat(file, appendmat=False, simplify_cells=True)
+    except Exception as error:  # whatever a damaged file leads scipy to
         raise UnreadableFile(f"{path}: cannot be read: {error}") from error
-
-
-def _flags(table: Iterable[Any]) -> dict[str, tuple[str, ...]]:
-    """The words of those columns that are flags."""
-    return {name: SERIES[name].flags for name in table if name in SERIES and SERIES[name].flags}
+    named = {name: table for name, table in content.items() if name != "units" and isinstance(table, dict)}
+    flat = {name: {key: np.atleast_1d(x).ravel() for key, x in table.items()} for name, table in named.items()}
+    return content.get("result", ""), flat
 
 
 # ---- Whole files

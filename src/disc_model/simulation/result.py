@@ -149,8 +149,7 @@ class Result(Summarised, Pictures):
         ----------
         path : its suffix says how. ".nc": netCDF, the tree of `to_tree`, which `disc_model.load` reads as well. ".mat":
             a structure of columns for each window, the events and the final state, and the text ``result``: JSON of
-            the case, what was found, and the words of numbers. ".csv": one table of all of these, after two lines of
-            JSON that begin with #
+            the case, what was found, and the words of numbers
 
         Raises
         ------

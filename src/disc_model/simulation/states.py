@@ -127,7 +127,7 @@ class State(Summarised):
         Raises
         ------
         ParameterError
-            If the file has another suffix than .nc, .csv or .mat.
+            If the file has another suffix than .nc or .mat.
         disc_model.data.dataset.WriteError
             If the folder does not exist, or the disk is full.
         """
