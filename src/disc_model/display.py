@@ -1,11 +1,9 @@
-"""What a session shows: tables of objects in notebooks, their pictures, and the progress of long work."""
+"""What objects show to a reader: their summary, as a table in notebooks too, and their pictures."""
 
 from __future__ import annotations
 
 import math
-import sys
-from collections.abc import Callable, Iterable, Sequence
-from functools import cache
+from collections.abc import Iterable
 from html import escape
 from importlib import import_module
 from typing import Any
@@ -73,21 +71,3 @@ class Drawn:
         'Re κ'
         """
         return draw(self._picture, self, ax=ax)
-
-
-def computed(function: Callable[[Any], Any], values: Sequence[Any], what: str) -> list[Any]:
-    """The results of a function for each of some values, one by one; a terminal shows the progress."""
-    if not sys.stderr.isatty():
-        return [function(value) for value in values]
-    from rich.progress import track
-
-    shown = track(values, f"computing {len(values)} {what}", console=_terminal(), transient=True)
-    return [function(value) for value in shown]
-
-
-@cache
-def _terminal() -> Any:
-    """One console for all bars: what is computed may show one itself, below the first."""
-    from rich.console import Console
-
-    return Console(stderr=True)

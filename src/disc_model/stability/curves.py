@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.spectra import Resonance, nearest_resonance
 from disc_model.data.variables import STABLE_CYCLES
-from disc_model.display import Drawn, computed, counted
+from disc_model.display import Drawn, counted
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
@@ -355,7 +355,8 @@ def critical(
             a, b = (middle, b) if stable(middle) == before else (a, middle)
         return b
 
-    computed(stable, values, f"values of {name}")
+    for x in values:
+        stable(x)
     resolution = math.inf
     for _ in range(ROUNDS):
         gaps = [(a, b, _resonances(cycles[a], cycles[b])) for a, b in pairwise(sorted(cycles))]
@@ -364,9 +365,10 @@ def critical(
         far = sorted(x for x, distance in new.items() if distance > shortest)
         if not far:
             break
-        computed(stable, far, f"further values of {name}")
+        for x in far:
+            stable(x)
     changes = [(a, b) for a, b in pairwise(sorted(cycles)) if stable(a) != stable(b)]
-    crossings = computed(located, changes, f"crossings of {name}")
+    crossings = [located(interval) for interval in changes]
     unstable_above = [stable(a) for a, _ in changes]
     first = [] if stable(values[0]) else [float(ends[0])]
     first += [x for x, grows in zip(crossings, unstable_above, strict=True) if grows]

@@ -19,7 +19,6 @@ import xarray as xr
 from pydantic import create_model
 
 from disc_model.data.variables import SCALARS, Variable, flag_names
-from disc_model.display import computed
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.mode_choice import choose_when_run
 from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
@@ -327,15 +326,14 @@ def _values(name: str, values: Any, faults: list[str]) -> list[Any]:
 
 
 def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: int, processes: bool) -> list[Any]:
-    """The results of the calls, in order; the progress of long ones is shown."""
+    """The results of the calls, in order."""
     require(
         (is_whole(workers) and workers >= 1, "workers", workers, "must be a whole number >= 1"),
         (isinstance(processes, bool), "processes", processes, "must be True or False"),
     )
     kind = ProcessPoolExecutor if processes else ThreadPoolExecutor
     with nullcontext() if workers == 1 else kind(workers) as pool:
-        results = map(call, arguments) if pool is None else pool.map(call, arguments)
-        return computed(lambda _: next(results), arguments, "points")
+        return [*(map(call, arguments) if pool is None else pool.map(call, arguments))]
 
 
 def _row(function: Any, case: Parameters, names: frozenset[str], numbered: tuple[int, Any]) -> dict[str, xr.Variable]:

@@ -13,7 +13,6 @@ from pydantic import Field
 
 from disc_model.analysis.classify import share
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
-from disc_model.display import computed
 from disc_model.simulation.case import Start
 from disc_model.studies import quantity
 from disc_model.studies.quantity import STATUS, Coordinate, OutcomeResult, Point, Quantity, listed
@@ -96,7 +95,7 @@ class AttractorBasins(Start, Quantity):
             """The outcome of a perturbation of any energy in the direction of start i of the j-th energy."""
             return basins.follow(random_perturbation(p, start, energy, (self.seed, j, i)))
 
-        by_start = computed(lambda i: [follow(x, i, j) for j, x in energies], range(self.n_starts), "starts")
+        by_start = [[follow(x, i, j) for j, x in energies] for i in range(self.n_starts)]
         results = list(zip(*by_start, strict=True))
         rows = [reached for row in results for reached in row]
         starts = Counter(reached.attractor for reached in rows if reached.attractor is not None)

@@ -12,7 +12,6 @@ from typing import Annotated, Any, ClassVar
 from pydantic import AfterValidator, Field
 
 from disc_model.data.variables import SCALARS, Variable
-from disc_model.display import computed
 from disc_model.studies import quantity
 from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, OutcomeResult, Point, Quantity, Range, along
 from disc_model.units import Count, Seconds, Speed, Tolerance, Unit
@@ -89,11 +88,13 @@ class CriticalSpeed(Quantity):
             known[i] = math.inf if none else result.first_separation
 
         scanned = [i * round(self.ratio) for i in range(scan.intervals + 1)]
-        computed(look, scanned, "speeds")
+        for i in scanned:
+            look(i)
         for horizon in self.horizons:
             # every interval over which separation within the horizon begins or ends is halved, down to the lattice
             while wide := [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]:
-                computed(look, wide, "further speeds")
+                for i in wide:
+                    look(i)
         failed = {i: result for i, result in motions.items() if result.status != "ok"}
         values: dict[str, Any] = {"status": next((result.status for result in failed.values()), "ok")}
         values["scan_first_separation"] = [motions[i].first_separation for i in scanned]
