@@ -12,7 +12,7 @@ import shlex
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NoReturn, get_args, get_origin
@@ -24,31 +24,19 @@ from rich.table import Column, Table
 
 from disc_model import __version__
 from disc_model.disc.flexibility import residual_flexibility
-from disc_model.disc.given import damping_ratios, disc_table, read_disc
+from disc_model.disc.given import damping_ratios, read_disc
 from disc_model.disc.plate import coupled_natural_frequencies, mode_arrays
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
-from disc_model.mode_choice import CHOSEN_BY, ModeChoice, chosen_modes, read_asked
-from disc_model.parameters import AUTO, Parameters
+from disc_model.parameters import Parameters
 from disc_model.sources import PACKAGE
-from disc_model.units import CYCLE_TOLERANCES, TOLERANCES, Count, CycleTolerance, Seconds, Strict, Tolerance
+from disc_model.units import CYCLE_TOLERANCES, TOLERANCES, CycleTolerance, Seconds, Strict, Tolerance
 
 if TYPE_CHECKING:
     from disc_model.studies.grid import GridStudy
     from disc_model.studies.study import Study
 
 # ---- Options, one for each field of a model
-
-
-class Choice(Strict):
-    """How ``--n-diameters auto`` chooses the modes."""
-
-    truncation_quantity: str | None = Field(None, description=f"what {AUTO} chooses by: {', '.join(CHOSEN_BY)}")
-    truncation_tolerance: str | None = Field(None, description="relative tolerance of this quantity")
-
-
-CASE = Parameters.model_fields | Choice.model_fields
-MORE = {"n_diameters": f", {AUTO}: as many as a tolerance asks for", "disc": ": a table of modes"}  # for descriptions
 
 
 def option_name(field: str) -> str:
@@ -60,8 +48,8 @@ def _option(name: str, field: Any, panel: str, placeholder: str | None = None) -
     """The keyword option of a field of a model, as a text; a placeholder makes a required field optional."""
     types = (field.annotation, *get_args(field.annotation))
     words = [word for kind in types if get_origin(kind) is Literal for word in get_args(kind)]
-    flag, unit = field.annotation is bool, Parameters.unit(name).removeprefix("1")
-    told = field.description + MORE.get(name, "") + f" ({unit})" * bool(unit)
+    unit = Parameters.unit(name).removeprefix("1")
+    told = field.description + ": a table of modes" * (name == "disc") + f" ({unit})" * bool(unit)
     default = field.default if placeholder is None else placeholder
     if field.is_required() and placeholder is None:
         told += r" \[required]"
@@ -69,45 +57,35 @@ def _option(name: str, field: Any, panel: str, placeholder: str | None = None) -
         told += rf" \[default: {f'{default:g}' if isinstance(default, float) else default}]"
     option = typer.Option(
         option_name(name),
-        metavar=None
-        if flag
-        else "|".join(words if words and not isinstance(field.default, float) else ["VALUE", *words]),
+        metavar="|".join(words if words and not isinstance(field.default, float) else ["VALUE", *words]),
         help=told,
         show_default=False,
         rich_help_panel=panel,
     )
-    annotation = Annotated[bool if flag else str | None, option]  # type: ignore[valid-type]
-    default = False if flag else placeholder
-    return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
+    how = inspect.Parameter.KEYWORD_ONLY
+    return inspect.Parameter(name, how, default=placeholder, annotation=Annotated[str | None, option])
 
 
 def command(options: type[Strict], **placeholders: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Give a command the options of a model and of a case: it receives the case, its choice of modes, and the model."""
+    """Give a command the options of a model and of a case: it receives the case and the model."""
     own = [_option(name, field, "Options") for name, field in options.model_fields.items()]
-    own += [_option(name, field, "Case", placeholders.get(name)) for name, field in CASE.items()]
+    own += [_option(name, field, "Case", placeholders.get(name)) for name, field in Parameters.model_fields.items()]
 
     def decorate(function: Callable[..., None]) -> Callable[..., None]:
         @functools.wraps(function)
         def wrapped(**values: Any) -> None:
             texts = {name: value for name, value in values.items() if value is not None}
             model = options(**{name: texts.pop(name) for name in options.model_fields if name in texts})
-            function(*parameters_of(texts), model)
+            if "disc" in texts:
+                texts["disc"] = read_disc(texts["disc"])
+            p = Parameters.model_validate(texts)
+            warn_of_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
+            function(p, model)
 
         wrapped.__signature__ = inspect.Signature(own)  # type: ignore[attr-defined]
         return wrapped
 
     return decorate
-
-
-def parameters_of(values: dict[str, Any]) -> tuple[Parameters, ModeChoice | None]:
-    """Parameters of the given options, and the choice of modes, if any."""
-    table_of_modes = {"disc": read_disc(values["disc"])} if "disc" in values else {}
-    p, request = read_asked(values | table_of_modes)
-    warn_of_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
-    if request is None:
-        return p, None
-    choice = chosen_modes(p, request)
-    return choice.parameters, choice
 
 
 def table(title: str, columns: Mapping[str, Iterable[str]], **options: Any) -> None:
@@ -124,27 +102,19 @@ def print_rows(lines: Iterable[tuple[str, str]]) -> None:
         typer.echo(f"{name:<20}{text}")
 
 
-def model_lines(p: Parameters, choice: ModeChoice | None) -> Iterator[tuple[str, str]]:
-    """The model of a case in words, and the result of ``--n-diameters auto``."""
+def model_line(p: Parameters) -> tuple[str, str]:
+    """The model of a case in words."""
     modes = p.normalization if p.disc is None else f"a disc of {len(p.disc.omega)} modes"
-    yield "model", f"{modes}, {p.contact} contact"
-    yield from choice.summary() if choice else ()
+    return "model", f"{modes}, {p.contact} contact"
 
 
 # ---- Modes and cycles
 
 
-class ModesOptions(Strict):
-    csv: bool = Field(False, description="print the modes as a table that --disc reads, 17 digits")
-
-
-@command(ModesOptions, N="0", Omega="0")
-def modes(p: Parameters, choice: ModeChoice | None, options: ModesOptions) -> None:
+@command(Strict, N="0", Omega="0")
+def modes(p: Parameters, _: Strict) -> None:
     """Print the modes of the disc, its flexibility under the slider, and the coupled frequencies at rest."""
-    if options.csv:
-        typer.echo(disc_table(p), nl=False)
-        return
-    print_rows(model_lines(p, choice))
+    print_rows([model_line(p)])
     arrays = mode_arrays(p)
     columns: dict[str, Iterable[str]] = {
         "circles": map(str, arrays.circles),
@@ -177,24 +147,24 @@ class FloquetOptions(Strict):
 
 
 @command(FloquetOptions)
-def floquet(p: Parameters, choice: ModeChoice | None, options: FloquetOptions) -> None:
+def floquet(p: Parameters, options: FloquetOptions) -> None:
     """Find the stick-slip cycle and its multipliers: whether the quiet motion lasts, without simulating it."""
     from disc_model.data.variables import CycleStatus
     from disc_model.stability.cycle import floquet as cycle_of
 
     cycle = cycle_of(p, tol=options.tol)
-    print_rows([*cycle.summary(), *model_lines(p, choice)])
+    print_rows([*cycle.summary(), model_line(p)])
     if cycle.status is not CycleStatus.OK:
         raise typer.Exit(1)
 
 
 @command(Strict)
-def sliding(p: Parameters, choice: ModeChoice | None, _: Strict) -> None:
+def sliding(p: Parameters, _: Strict) -> None:
     """Print the modes of steady sliding (complex eigenvalues): frequencies, growth rates, damping."""
     from disc_model.stability.sliding import SlidingStatus, sliding_modes, steady_sliding
 
     state = steady_sliding(p)
-    print_rows([*model_lines(p, choice), *state.summary()])
+    print_rows([model_line(p), *state.summary()])
     if state.status is not SlidingStatus.OK:
         raise typer.Exit(1)
     modes = sliding_modes(p, state)
@@ -245,26 +215,23 @@ class RunOptions(Strict):
         description=f"error of event times after a second of motion, s, {TOLERANCES[0]:g} to {TOLERANCES[1]:g}; above "
         "1.25e-7 it is computed and recorded as 1.25e-7 (2e-6 on a compliant contact)",
     )
-    stop_at: Literal["first_separation"] | None = Field(None, description="end early")
     plot: Annotated[Path, AfterValidator(_drawable)] | None = Field(
         None, description="draw contact force and disc displacement"
     )
     save: Annotated[Path, AfterValidator(_writable)] | None = Field(
         None, description="write the result as netCDF, for disc_model.load"
     )
-    max_steps: Annotated[Count, Field(ge=1)] | None = Field(None, description="give up after so many steps")
 
 
 @command(RunOptions)
-def run(p: Parameters, choice: ModeChoice | None, options: RunOptions) -> None:
+def run(p: Parameters, options: RunOptions) -> None:
     """Simulate one case from static equilibrium and print what happened."""
-    from disc_model.simulation.api import Execution, simulate
+    from disc_model.simulation.api import simulate
 
-    limits = Execution(max_steps=options.max_steps)
-    result = simulate(p, options.t_end, tol=options.tol, stop_at=options.stop_at, execution=limits)
+    result = simulate(p, options.t_end, tol=options.tol)
     seconds = result.statistics["wall_time"]
     wall = f"{seconds:.3g} s ({result.final_state.time / max(seconds, 1e-9):.0f} simulated seconds a second)"
-    print_rows([*result.summary(), *model_lines(p, choice), ("wall time", wall), ("key", p.key)])
+    print_rows([*result.summary(), model_line(p), ("wall time", wall), ("key", p.key)])
     if options.save is not None:
         result.save(options.save)
         print_rows([("saved", str(options.save))])

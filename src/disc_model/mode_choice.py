@@ -146,7 +146,7 @@ def count_modes(p: Parameters, size: tuple[int, ...]) -> int:
 
 
 def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | None]:
-    """Parameters of a file or command line, and the request for their modes; their own number is then meaningless."""
+    """Parameters of a file, and the request for their modes; their own number is then meaningless."""
     rest, request = asked_modes(values)
     return Parameters.model_validate(rest if request is None else rest | {"n_circles": 0}), request
 

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     import os
 
 AUTO = "auto"  # value of ``n_diameters`` in a file for which `disc_model.mode_choice` chooses the modes
-CHOOSING = ("truncation_quantity", "truncation_tolerance")  # keys of files and command lines that control this choice
+CHOOSING = ("truncation_quantity", "truncation_tolerance")  # keys of files that control this choice
 RESIDUAL = "residual"  # value of ``contact_compliance`` that stands for the static flexibility of the modes left out
 SURFACE = "surface"  # value of ``friction_offset`` by which friction acts on the disc's surface
 
@@ -63,7 +63,7 @@ _LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc", "frict
 _Distance = Annotated[Real, AfterValidator(must(lambda value: 0 <= value < math.inf, "must be a finite number >= 0"))]
 # Beyond, the start of slip is lost in rounding.
 _DECAY = must(lambda value: value <= 1e12 or value == math.inf, "must be at most 1e12 s/m, or inf")
-# What only study files and the command line accept is refused with the name of the function to use instead.
+# What only files and the command line accept is refused with the name of the function to use instead.
 _CHOSEN = must(lambda value: value != AUTO, "must be a whole number; disc_model.choose_modes finds one")
 _READ = must(
     lambda value: not isinstance(value, str), "must be a Disc: disc_model.Disc.from_csv reads a table of modes"

@@ -11,13 +11,13 @@ import yaml
 
 import disc_model as dm
 from disc_model import mode_choice
-from disc_model.disc.given import disc_table
 from disc_model.disc.plate import mode_arrays, mode_shapes
 from disc_model.simulation.states import engine_case
 from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import merge_batches
 from disc_model.studies.run import run_batch
 from disc_model.studies.study import load_study
+from tests.disc.table import disc_table
 from tests.test_cli import Command
 
 P = dm.Parameters(N=385, Omega=15.1)
@@ -144,10 +144,8 @@ def test_a_study_of_a_plate_by_its_modes_is_that_of_the_plate(
     xr.testing.assert_allclose(table, plate, rtol=1e-9, atol=1e-9)
 
 
-def test_the_command_line_writes_and_reads_tables(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_line_reads_tables(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path, command = tmp_path / "disc.csv", Command(capsys)
-    path.write_text(command.out("modes", "--normalization", "orthonormal", "--csv"))
-    assert dm.Disc.from_csv(path).omega == tuple(mode_arrays(P).omega)
     path.write_text(disc_table(P.replace(damping_ratio=0.00375)))
     shown = command.out("modes", "--disc", str(path))
     assert "a disc of 5 modes" in shown

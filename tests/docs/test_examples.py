@@ -12,8 +12,8 @@ from matplotlib import pyplot
 import disc_model
 from disc_model import Parameters
 from disc_model.disc import plausibility
-from disc_model.disc.given import disc_table
 from disc_model.studies.study import load_study
+from tests.disc.table import disc_table
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted({*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("howto/*.md"), ROOT / "README.md"})

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.disc.flexibility import residual_flexibility
-from disc_model.disc.plate import Array, modal_damping, mode_arrays, modes_of_table, tangential_amplitudes
+from disc_model.disc.plate import Array, modal_damping, mode_arrays, modes_of_table
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import brought
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
@@ -179,20 +178,6 @@ def damping_ratios(p: Parameters) -> Array:
         return np.array(p.disc.damping_ratio)
     with np.errstate(invalid="ignore"):
         return modal_damping(p) / (2 * mode_arrays(p).omega)
-
-
-def disc_table(p: Parameters) -> str:
-    """The modes of a case as a table, with enough digits for `read_disc` to restore each number exactly."""
-    if p.disc is not None:
-        return table_text(p.disc)
-    modes, tangential = mode_arrays(p), tangential_amplitudes(p) if p.friction_offset else np.zeros(0)
-    return table_text(
-        Disc(
-            diameters=modes.diameters.tolist(), circles=modes.circles.tolist(), omega=modes.omega.tolist(),
-            amplitude=modes.psi.tolist(), damping_ratio=damping_ratios(p).tolist(), tangential=tangential.tolist(),
-            static_compliance=residual_flexibility(p).total,
-        )
-    )  # fmt: skip
 
 
 def table_text(disc: Disc) -> str:
