@@ -168,12 +168,11 @@ def called(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 def test_a_study_is_handed_to_snakemake(command: Command, called: list[str], mine: Path) -> None:
     folder = str(mine.parent)
     options = ("--cores", "2", "--unlock", "--directory", folder, "--target", "bench")
-    command.out("study", str(mine), *options, "--figure", "growth", "-n")
+    command.out("study", str(mine), *options, "-n")
     assert called[:3] == [sys.executable, "-m", "snakemake"]
     assert Path(called[called.index("-s") + 1]).is_file()
     assert called[-2:] == ["--configfile", str(mine)]
-    figure = "results/mine/figures/growth.png"
-    assert {"-j2", "--unlock", "bench", figure, "--dry-run", "--directory", folder} <= {*called}
+    assert {"-j2", "--unlock", "bench", "--dry-run", "--directory", folder} <= {*called}
 
 
 def test_a_wrong_study_is_told_before_snakemake_starts(command: Command, called: list[str], mine: Path) -> None:

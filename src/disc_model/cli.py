@@ -27,7 +27,7 @@ from disc_model.disc.flexibility import residual_flexibility
 from disc_model.disc.given import damping_ratios, read_disc
 from disc_model.disc.plate import coupled_natural_frequencies, mode_arrays
 from disc_model.disc.plausibility import warn_of_doubts
-from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
+from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.parameters import Parameters
 from disc_model.sources import PACKAGE
 from disc_model.units import CYCLE_TOLERANCES, TOLERANCES, CycleTolerance, Seconds, Strict, Tolerance
@@ -257,18 +257,14 @@ def study(
     cores: Annotated[int, typer.Option("--cores", "-j", min=1, help="jobs at the same time")] = os.cpu_count() or 1,
     dry_run: Annotated[bool, typer.Option("--dry-run", "-n", help="only check, and list the jobs")] = False,
     directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are written")] = Path(),
-    figure: Annotated[
-        list[str] | None, typer.Option("--figure", metavar="NAME", help="a figure to draw instead of all; repeatable")
-    ] = None,
     target: Annotated[
         list[str] | None, typer.Option("--target", help="a file or rule to make instead of all; repeatable")
     ] = None,
     unlock: Annotated[bool, typer.Option("--unlock", help="only remove the lock that a killed run has left")] = False,
 ) -> None:
     """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
-    chosen, grids, _ = _read(files)
-    targets = [*(target or []), *(_figure_file(name, chosen, grids) for name in figure or [])]
-    options = [*targets, *(DRY if dry_run else ()), f"-j{cores}", "--directory", str(directory)]
+    _read(files)
+    options = [*(target or []), *(DRY if dry_run else ()), f"-j{cores}", "--directory", str(directory)]
     command = _command(files, [*options, *["--unlock"] * unlock])
     os.execv(command[0], command)  # Snakemake takes the place of this process: Ctrl-C and exit codes are its own
 
@@ -361,16 +357,6 @@ def _read(files: Sequence[Path]) -> tuple[Study, dict[str, GridStudy], tuple[str
     chosen = load_study(*files)
     folders = [Path(), *(file.parent for file in files), PACKAGE]
     return chosen, *chosen.grids(folders)
-
-
-def _figure_file(name: str, chosen: Study, grids: dict[str, GridStudy]) -> str:
-    """The file of a figure of a study, or of a grid that it names."""
-    entries = chosen.entries(grids)
-    studies = [study for study, figure in entries if figure == name]
-    if not studies:
-        known = [figure for _, figure in entries]
-        raise ParameterError(Fault.of(("figure",), name, f"no such figure{suggestion(name, known)}"))
-    return f"results/{studies[0]}/figures/{name}.png"
 
 
 # ---- All commands
