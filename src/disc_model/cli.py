@@ -23,7 +23,6 @@ from rich.console import Console
 from rich.table import Column, Table
 
 from disc_model import __version__
-from disc_model.disc.flexibility import residual_flexibility
 from disc_model.disc.given import damping_ratios, read_disc
 from disc_model.disc.plate import coupled_natural_frequencies, mode_arrays
 from disc_model.disc.plausibility import warn_of_doubts
@@ -113,7 +112,7 @@ def model_line(p: Parameters) -> tuple[str, str]:
 
 @command(Strict, N="0", Omega="0")
 def modes(p: Parameters, _: Strict) -> None:
-    """Print the modes of the disc, its flexibility under the slider, and the coupled frequencies at rest."""
+    """Print the modes of the disc, and its frequencies with the slider at rest."""
     print_rows([model_line(p)])
     arrays = mode_arrays(p)
     columns: dict[str, Iterable[str]] = {
@@ -126,15 +125,6 @@ def modes(p: Parameters, _: Strict) -> None:
         "damping ratio": map("{:.3g}".format, damping_ratios(p)),
     }
     table("Modes of the disc", columns, justify="right")
-    if p.disc is None or p.disc.static_compliance is not None:
-        give = residual_flexibility(p)
-        columns = {
-            "all modes (m/N)": [f"{give.total:.7g}"],
-            "remainder (m/N)": [f"{give.remainder:.1e}"],
-            "modes above (m/N)": [f"{give.kept:.7g}"],
-            "residual (m/N)": [f"{give.residual:.7g}"],
-        }
-        table("Static flexibility of the disc under the slider", columns, justify="right")
     at_rest = coupled_natural_frequencies(p)
     columns = {"lambda (rad/s)": map("{:.3f}".format, at_rest), "f (Hz)": map("{:.3f}".format, at_rest / math.tau)}
     table("Disc and slider at rest", columns, justify="right")
