@@ -181,7 +181,7 @@ def test_a_wrong_study_is_told_before_snakemake_starts(command: Command, called:
     code, out, err = command.run("study", str(mine))
     head, *faults = err.splitlines()
     assert (code, out, head) == (2, "", f"error: {mine}: 2 faults")
-    assert [fault.split(":")[0] for fault in faults] == ["  quantity = 'flo'", "  axes.mu"]
+    assert [fault.split(":")[0] for fault in faults] == ["  quantity='flo'", "  axes.mu"]
     assert called == []
 
 

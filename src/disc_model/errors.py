@@ -53,11 +53,6 @@ class Fault(str):
         """The same fault of the whole, of which the part has this path."""
         return Fault((*path, *self.path), self.value, self.rule)
 
-    @property
-    def in_file(self) -> str:
-        """The fault as messages on files show it: ``path = value: rule``."""
-        return f"{'.'.join(self.path) or 'study'}{f' = {self.value}' if self.value else ''}: {self.rule}"
-
 
 class ParameterError(DiscModelError, ValueError):
     """Input that breaks a rule. One error lists every fault, each as ``name=value: rule``.

@@ -193,7 +193,7 @@ def test_results_of_another_study_of_the_same_name_are_kept(tmp_path: Path) -> N
         path.write_text("study: s")
     owner.write_text(str(mine))
     check_owner("s", "results/s", [str(mine), str(other)], owner)  # in other detail
-    with pytest.raises(dm.DiscModelError, match=r"study = 's': is also the name of the study in .*mine.yaml"):
+    with pytest.raises(dm.DiscModelError, match=r"study='s': is also the name of the study in .*mine.yaml"):
         check_owner("s", "results/s", [str(other)], owner)
 
 

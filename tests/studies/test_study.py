@@ -54,9 +54,9 @@ def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:
     entries = study.entries(grids)
     assert entries[CASES["study"], "f"].inputs == {"study": "other"}
     assert list(entries) == [(CASES["study"], "f"), ("other", "growth")]
-    with pytest.raises(StudyError, match=r"figures\.f\.study = 'elsewhere': no such study"):
+    with pytest.raises(StudyError, match=r"figures\.f\.study='elsewhere': no such study"):
         parse_study(CASES | {"figures": {"f": growth | {"study": "elsewhere"}}}).grids([tmp_path])
-    with pytest.raises(StudyError, match=r"figures\.growth\.study = 'small': no such study"):
+    with pytest.raises(StudyError, match=r"figures\.growth\.study='small': no such study"):
         parse_study(CASES | {"figures": GRID["figures"]}).grids()
 
 
@@ -90,7 +90,7 @@ def test_faults_between_studies_are_reported_together(tmp_path: Path) -> None:
     study = parse_study({"study": "all", "studies": ["*.yaml"], "overrides": {"six": {}}})
     found = faults_of(study.grids, [tmp_path])
     for fault in (
-        "three: figures.f.overlays.curves = 'elsewhere': no such study (known: three)",
+        "three: figures.f.overlays.curves='elsewhere': no such study (known: three)",
         "overrides.six: no such study (known: three)",
     ):
         assert fault in found, found

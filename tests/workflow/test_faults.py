@@ -154,7 +154,7 @@ def test_results_of_another_study_of_the_same_name_are_not_overwritten(tmp_path:
     (project.folder / "second.yaml").write_text((project.folder / "first.yaml").read_text().replace("25", "30"))
     second = replace(project, config="second.yaml")
     shown = second.refused("-j1", "-n")
-    assert "study = 'small_growth': is also the name of the study in first.yaml, whose results are in" in shown
+    assert "study='small_growth': is also the name of the study in first.yaml, whose results are in" in shown
     assert "Job stats" not in shown
     (project.folder / "first.yaml").rename(project.folder / "third.yaml")
     assert "Job stats" in second.complete("-n")

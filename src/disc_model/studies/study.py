@@ -35,11 +35,10 @@ MODES = {"as_published": "modes scaled as in the published results", "orthonorma
 
 
 class StudyError(DiscModelError, ValueError):
-    """A study file that breaks rules; lists every fault once, as ``path = value: rule``."""
+    """A study file that breaks rules; lists every fault once, as ``path=value: rule``."""
 
     def __init__(self, *faults: str, source: str = "study") -> None:
-        texts = (fault.in_file if isinstance(fault, Fault) and fault.path else str(fault) for fault in faults)
-        self.faults, self.source = tuple(dict.fromkeys(texts)), source
+        self.faults, self.source = tuple(dict.fromkeys(map(str, faults))), source
         super().__init__("\n  ".join([f"{source}: {counted(len(self.faults), 'fault')}", *self.faults]))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -338,7 +337,7 @@ class Study(Strict):
             figures += ((name, figure, plot) for figure, plot in grids[name].plots.items())
         for owner, figure, plot in figures:
             misfits = (fault.inside(("figures", figure)) for fault in _misfits(plot, owner, grids))
-            faults += (f"{owner}: {fault.in_file}" for fault in misfits)
+            faults += (f"{owner}: {fault}" for fault in misfits)
         if faults:
             raise StudyError(*faults, source="grid studies")
         return grids, requested
@@ -466,7 +465,7 @@ def check_owner(name: str, results: str, files: list[str], owner: Path) -> None:
     exist = all(Path(file).is_file() for file in former)
     if exist and differ and mapping(read_files(*former)).get("study") == name:
         raise DiscModelError(
-            f"study = {name!r}: is also the name of the study in {', '.join(former)}, whose results are in {results}"
+            f"study={name!r}: is also the name of the study in {', '.join(former)}, whose results are in {results}"
             " and would be overwritten; give one of them another name, or another folder with --directory"
         )
 
