@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 import disc_model as dm
 from disc_model import cli
 from disc_model.stability.lyapunov import lyapunov_exponents
-from disc_model.studies.study import StudyError, check_owner, closing_lines, parse_study, read_file
+from disc_model.studies.study import StudyError, closing_lines, parse_study, read_file
 from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[2]
@@ -184,17 +184,7 @@ def test_any_command_line_ends_with_help_or_code_2(arguments: list[str]) -> None
     assert re.search(r"\S", stderr.getvalue()) or ended.value.code == 0
 
 
-# ---- what results a folder holds, and what a run says in the end
-
-
-def test_results_of_another_study_of_the_same_name_are_kept(tmp_path: Path) -> None:
-    mine, other, owner = (tmp_path / name for name in ("mine.yaml", "other.yaml", "owner"))
-    for path in (mine, other):
-        path.write_text("study: s")
-    owner.write_text(str(mine))
-    check_owner("s", "results/s", [str(mine), str(other)], owner)  # in other detail
-    with pytest.raises(dm.DiscModelError, match=r"study='s': is also the name of the study in .*mine.yaml"):
-        check_owner("s", "results/s", [str(other)], owner)
+# ---- what a run says in the end
 
 
 def test_a_run_says_in_the_end_what_has_no_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -62,7 +62,6 @@ try:
     from disc_model.errors import DiscModelError
     from disc_model.sources import source_hash
     from disc_model.studies.study import (
-        check_owner,
         closing_lines,
         read_file,
         study_from_config,

@@ -454,20 +454,7 @@ def _misfits(plot: Plot, owner: str, grids: Mapping[str, GridStudy]) -> list[Fau
     return faults
 
 
-# ---- Whose results a folder holds, and what a finished run says
-
-
-def check_owner(name: str, results: str, files: list[str], owner: Path) -> None:
-    """Raise DiscModelError if other study files of this name, listed by the file `owner`, have made the results."""
-    former = owner.read_text(encoding="utf-8").splitlines() if owner.exists() else files
-    # further files laid over the same ones are the same study in other detail
-    differ = any(file != before for file, before in zip(files, former, strict=False))
-    exist = all(Path(file).is_file() for file in former)
-    if exist and differ and mapping(read_files(*former)).get("study") == name:
-        raise DiscModelError(
-            f"study={name!r}: is also the name of the study in {', '.join(former)}, whose results are in {results}"
-            " and would be overwritten; give one of them another name, or another folder with --directory"
-        )
+# ---- What a finished run says
 
 
 def closing_lines(grids: Mapping[str, GridStudy]) -> Iterator[str]:
