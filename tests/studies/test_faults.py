@@ -79,7 +79,7 @@ ARGUMENTS: list[tuple[Callable[[], object], str]] = [
     (lambda: p(mu_k=0.5), "mu_k=0.5 <= mu_s=0.4"),
     (lambda: p(contact_compliance="soft"), "contact_compliance='soft' 'residual'"),
     (lambda: disc(diameters=[0, 1, 2], omega=[1490.0, 0.0, 1820.0]), "omega.1=0 0.001"),
-    (lambda: disc(amplitude=[0, 0, 0]), "amplitude 0 all modes"),
+    (lambda: disc(amplitude=[0, 0, 0]), "largest amplitude 0"),
     (lambda: disc(radii=[0.1, 0.05], shapes=[[1, 1]] * 3), "radii ascend"),
     (lambda: p(disc=disc(diameters=[0, 1, 2]), friction_offset="surface"), "friction_offset='surface' tangential"),
     (lambda: dm.Window(rate=1, stop=2, last=1), "last=1 stop"),

@@ -31,9 +31,9 @@ def test_a_crossing_is_where_root_finding_says() -> None:
         mode, multiple = int(one["crossing_mode"]) - 1, float(one["crossing_multiple"])
 
         def detuning(speed: float, mode: int = mode, multiple: float = multiple) -> float:
-            there = frequencies(Parameters(Omega=speed, **base))
-            own = there.cycle_frequency if np.isfinite(there.cycle_frequency[mode]) else there.modes.frequency
-            return multiple / there.cycle.period - float(own[mode])
+            cycle, modes, (of_cycle, *_) = frequencies(Parameters(Omega=speed, **base))
+            own = of_cycle if np.isfinite(of_cycle[mode]) else modes.frequency
+            return multiple / cycle.period - float(own[mode])
 
         speed = float(one["crossing_Omega"])
         # the line bends by f_s'' d^2 / 8 between speeds, some 0.05 Hz of a slope of some Hz per rad/s

@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from disc_model.analysis.classify import ANSWER, Settling, settling
+from disc_model.analysis.classify import ANSWER, Motion, Settling, closure, settling
 from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
 from disc_model.errors import require
 from disc_model.simulation.case import Poincare, Start
@@ -89,9 +89,8 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
 
 
 def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
-    from disc_model.analysis.classify import closure
     from disc_model.simulation.api import make_initial_state, simulate
-    from disc_model.stability.attractors import Regularity, arrival, regularity
+    from disc_model.stability.attractors import arrival, regularity
     from disc_model.stability.outcome import shares
     from disc_model.stability.thresholds import FIRST_LEG
 
@@ -118,12 +117,12 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     events = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state).events
     kind = "separation" if (events["kind"] == "separation").any() else "stick_to_slip"
     taken = events[events["kind"] == kind]
-    motion = Regularity(reached.calm or Outcome.UNDECIDED)
+    motion = Motion(reached.calm or Outcome.UNDECIDED)
     if near is not None:
         n = near.cycle.separations or near.cycle.releases
         times = run.events["time"][run.events["kind"] == kind]
         intervals = np.diff(times[times > transient - FIRST_LEG])
-        motion = Regularity(near.kind, n, closure(intervals, n) if n < len(intervals) else math.nan)
+        motion = Motion(near.kind, n, closure(intervals, n) if n < len(intervals) else math.nan)
     elif reached.settled and reached.calm is None:
         motion = regularity(p, state, options.tol)
     shown = taken.iloc[-options.samples :]

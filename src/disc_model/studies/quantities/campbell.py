@@ -75,17 +75,15 @@ class Campbell(Quantity):
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.cycle import frequencies
 
-        campbell = frequencies(point.parameters, tol=self.tol)
-        cycle = campbell.cycle
+        cycle, modes, (frequency, growth_rate, mac) = frequencies(point.parameters, tol=self.tol)
         values: dict[str, Any] = {
             "status": cycle.status.value, "growth_rate": cycle.growth_rate,
             "stick_slip_frequency": cycle.releases / cycle.period if cycle.releases else math.nan,
             "rotation_frequency": point.parameters.Omega / (2 * math.pi),
-            "mode_kind": np.where(campbell.modes.diameters < 0, KINDS.index("slider"), KINDS.index("disc")),
-            "diameters": np.maximum(campbell.modes.diameters, 0), "forward_wave_fraction": campbell.modes.forward,
-            "sliding_frequency": campbell.modes.frequency, "sliding_growth_rate": campbell.modes.growth_rate,
-            "cycle_frequency": campbell.cycle_frequency, "cycle_growth_rate": campbell.cycle_growth_rate,
-            "mac": campbell.mac,
+            "mode_kind": np.where(modes.diameters < 0, KINDS.index("slider"), KINDS.index("disc")),
+            "diameters": np.maximum(modes.diameters, 0), "forward_wave_fraction": modes.forward,
+            "sliding_frequency": modes.frequency, "sliding_growth_rate": modes.growth_rate,
+            "cycle_frequency": frequency, "cycle_growth_rate": growth_rate, "mac": mac,
         }  # fmt: skip
         return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 

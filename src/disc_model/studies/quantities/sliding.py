@@ -54,7 +54,7 @@ class Sliding(Quantity):
             }  # fmt: skip
             for name, column in row.items():
                 columns[name][i, numbers[room]] = column[room]
-            of_value = {"unstable_modes": sliding.unstable_modes, "contact_force": sliding.contact_force}
+            of_value = {"unstable_modes": sliding.growing.size, "contact_force": sliding.contact_force}
             rows.append(of_value | {"largest_growth_rate": sliding.growth_rate})
             if sliding.status is not SlidingStatus.OK:
                 message = message or f"{self.parameter}={values[i]:g}: {sliding.message}"
