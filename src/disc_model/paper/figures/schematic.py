@@ -35,7 +35,16 @@ class Schematic(CasePlot):
     kind: Literal["paper.schematic"] = "paper.schematic"
 
     def draw(self, case: xr.DataTree) -> Figure:
-        return sketch(Parameters.model_validate_json(case.attrs["parameters"]))
+        figure: Figure = mpl.figure.Figure(figsize=(PAGE, 0.97 * PAGE))
+        boxes = ((0.0, 0.5, 1, 0.45), (0.0, 0.0, 0.57, 0.45), (0.57, 0.0, 0.43, 0.45))
+        axes = [figure.add_axes(box) for box in boxes]
+        _side(axes[0])
+        _above(axes[1], Parameters.model_validate_json(case.attrs["parameters"]))
+        _forces(axes[2])
+        for ax in axes:
+            ax.set_aspect("equal")
+            ax.axis("off")
+        return figure
 
 
 class Composite(CasePlot):
@@ -52,30 +61,22 @@ class Composite(CasePlot):
         yield from super().needs()
         yield Need("force", self.case, self.force[0], as_samples)
 
-    def draw(self, case: xr.DataTree, ignored: xr.DataTree) -> Figure:
+    def draw(self, case: xr.DataTree, bilateral: xr.DataTree) -> Figure:
         figure, axes = panels(PAGE, 2.35, 1, 3, width_ratios=(1, 1.15, 1.3))
         model, growth, force = axes
         _small(model)
-        self._growth(growth, case, ignored)
-        self._force(force, case)
-        drawing.letters(axes)
-        return figure
-
-    def _growth(self, ax: Axes, case: xr.DataTree, other: xr.DataTree) -> None:
-        followed, ignored = (drawing.history(each, self.history, self.until) for each in (case, other))
-        drawing.envelope(ax, ignored, "w_point", color=PALE)
-        drawing.envelope(ax, followed, "w_point")
+        followed, ignored = (drawing.history(each, self.history, self.until) for each in (case, bilateral))
+        drawing.envelope(growth, ignored, "w_point", color=PALE)
+        drawing.envelope(growth, followed, "w_point")
         top = 1e3 * float(ignored["w_point_max"].max()) or 1.0
         for share, text, colour in ((1.08, "separation ignored", "0.35"), (-0.05, "with separation", "white")):
-            place = (0.98 * ax.get_xlim()[1], share * top)
-            ax.text(*place, text, ha="right", color=colour, fontsize=7, fontweight="bold")
-        ax.set(xlabel="Time (s)", ylabel="Displacement of the disc (mm)", ylim=(-1.25 * top, 1.25 * top))
-        if (lost := float(case["first_separation"])) <= ax.get_xlim()[1]:
-            ax.axvline(lost, ymax=0.88, color=SEPARATED, linewidth=0.9, linestyle=(0, (4, 2)))
-            drawing.say(ax, "contact\nis lost", (lost, -1.2 * top), (-3, 1), fontsize=7, color=SEPARATED)
-        drawing.show_thickness(ax, case, "y")
-
-    def _force(self, ax: Axes, case: xr.DataTree) -> None:
+            place = (0.98 * growth.get_xlim()[1], share * top)
+            growth.text(*place, text, ha="right", color=colour, fontsize=7, fontweight="bold")
+        growth.set(xlabel="Time (s)", ylabel="Displacement of the disc (mm)", ylim=(-1.25 * top, 1.25 * top))
+        if (lost := float(case["first_separation"])) <= growth.get_xlim()[1]:
+            growth.axvline(lost, ymax=0.88, color=SEPARATED, linewidth=0.9, linestyle=(0, (4, 2)))
+            drawing.say(growth, "contact\nis lost", (lost, -1.2 * top), (-3, 1), fontsize=7, color=SEPARATED)
+        drawing.show_thickness(growth, case, "y")
         name, start = self.force
         part = dataset.samples(case, name).sel(time=slice(start, start + STRETCH))
         if part.sizes["time"] < 2:
@@ -84,13 +85,15 @@ class Composite(CasePlot):
         for word, look in PHASES.items():
             for i, (a, b) in enumerate(drawing.stretches(words == word)):
                 label = "_nolegend_" if i else word
-                ax.axvspan(time[a], time[min(b, time.size - 1)], label=label, linewidth=0, **look)
+                force.axvspan(time[a], time[min(b, time.size - 1)], label=label, linewidth=0, **look)
         # zero, and not drawn, in separation, since no line leads to the force after an impact
-        ax.plot(time, part["P"].where(words != "separation"), color=BLACK, linewidth=1.1)
-        ax.set(xlabel=f"Time after {start:g} s (ms)", ylabel="Contact force (N)", xlim=(0, 1e3 * STRETCH))
-        ax.set_ylim(bottom=0)
-        if ax.patches:
-            drawing.legend_above(ax)
+        force.plot(time, part["P"].where(words != "separation"), color=BLACK, linewidth=1.1)
+        force.set(xlabel=f"Time after {start:g} s (ms)", ylabel="Contact force (N)", xlim=(0, 1e3 * STRETCH))
+        force.set_ylim(bottom=0)
+        if force.patches:
+            drawing.legend_above(force)
+        drawing.letters(axes)
+        return figure
 
 
 def _small(ax: Axes) -> None:
@@ -117,20 +120,6 @@ def _small(ax: Axes) -> None:
     ax.set(xlim=(-2.1, 2.7), ylim=(-0.95, 2.5))
     ax.set_box_aspect(1.05)
     ax.axis("off")
-
-
-def sketch(p: Parameters) -> Figure:
-    """Draw the model with the radii of a case."""
-    figure: Figure = mpl.figure.Figure(figsize=(PAGE, 0.97 * PAGE))
-    boxes = ((0.0, 0.5, 1, 0.45), (0.0, 0.0, 0.57, 0.45), (0.57, 0.0, 0.43, 0.45))
-    axes = [figure.add_axes(box) for box in boxes]
-    _side(axes[0])
-    _above(axes[1], p)
-    _forces(axes[2])
-    for ax in axes:
-        ax.set_aspect("equal")
-        ax.axis("off")
-    return figure
 
 
 def _side(ax: Axes) -> None:
