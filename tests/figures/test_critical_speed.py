@@ -51,8 +51,11 @@ def test_a_line_does_not_jump_to_another_branch() -> None:
 def test_the_panel_beside_shows_where_both_motions_last(chart: Callable[..., Figure], sweep: xr.Dataset) -> None:
     """By multipliers and a sweep, which ends at 13 rad/s; or, once many starts were followed, by what these came to."""
     growth = growth_over([200, 300, 400], np.linspace(12, 15, 7))
-    beside = chart(hysteresis=sweep, cycle=growth).axes[1]
-    (mesh,) = (shown for shown in beside.collections if isinstance(shown, QuadMesh))
+    apart = growth["growth_rate"].copy(data=np.full((3, 7, 1), OUTCOMES_TO_HORIZON.index("separation")))
+    regions = growth.assign(outcome=apart.assign_attrs(flag_meanings=" ".join(OUTCOMES_TO_HORIZON)))
+    figure = chart(hysteresis=sweep, cycle=regions.assign_attrs(options='{"horizon": 900}'))
+    assert "separation within 900 s" in labels(figure)
+    (mesh,) = (shown for shown in figure.axes[1].collections if isinstance(shown, QuadMesh))
     rate = growth["growth_rate"].squeeze().values
     np.testing.assert_array_equal(mesh.get_array() == 1, (rate < 0) & (growth["Omega"].values >= 13))
     classes = {"Omega": [12.0, 13, 14, 15], "attractor_class": ["quiet"]}
@@ -61,9 +64,6 @@ def test_the_panel_beside_shows_where_both_motions_last(chart: Callable[..., Fig
     basins = xr.Dataset(shares, classes, {"base": '{"N": 385}'})
     (bar,) = chart(hysteresis=sweep, basins=basins).axes[1].patches
     assert (bar.get_x(), bar.get_width(), bar.get_y() + bar.get_height() / 2) == (13, 1, 385)
-    apart = growth["growth_rate"].copy(data=np.full((3, 7, 1), OUTCOMES_TO_HORIZON.index("separation")))
-    regions = growth.assign(outcome=apart.assign_attrs(flag_meanings=" ".join(OUTCOMES_TO_HORIZON)))
-    assert "separation within 900 s" in labels(chart(cycle=regions.assign_attrs(options='{"horizon": 900}')))
 
 
 def test_only_the_longest_horizon_is_drawn(speeds: xr.Dataset) -> None:

@@ -110,17 +110,15 @@ class Kind(Strict):
 
 
 class Role(NamedTuple):
-    """An overlay: quantity, or one with the same data; dimensions except `NORM`, if not the figure's; options."""
+    """An overlay: quantity; dimensions except `NORM`, if not the figure's; options."""
 
     quantity: str
     dims: tuple[str, ...] | None = None
     options: Mapping[str, Any] = {}
     required: bool = False
-    instead: str = ""
 
 
 Roles = Mapping[str, Role]  # further studies that a figure can show, by their role
-CYCLE = Role("floquet", ("N", "Omega"), instead="regions")
 CURVES = Role("stability_curves", (), {"x": "Omega", "y": "N"})
 
 

@@ -17,7 +17,7 @@ from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, axis_of, flag_nam
 from disc_model.errors import Fault
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, GREY, ORANGE, PAGE, PAPER, SEPARATED, Artist, Axes, Figure, mpl, panels
-from disc_model.figures.kind import CURVES, CYCLE, Plot, Role, Roles, Values
+from disc_model.figures.kind import CURVES, Plot, Role, Roles, Values
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Strict, Units
 
@@ -435,9 +435,8 @@ def _set_scales(axes: Sequence[Axes], study: xr.Dataset, names: Mapping[str, str
 
 
 # ---- Onset and end of separation over speed and preload
-BASINS = Role("basins", ("Omega",))
+CYCLE, BASINS = Role("regions", ("N", "Omega")), Role("basins", ("Omega",))
 ONSET, END = SEPARATED, drawing.BLUE  # speeds at which separation begins, and at which it ends
-STABLE = OUTCOME_LOOKS["quiet"]._replace(label="stable stick-slip cycle\n(white: none)")
 CONTACT = OUTCOME_LOOKS["growing"]._replace(label="oscillations grow, or another\ncycle is reached, in contact")
 ONSETS: dict[str, Any] = {"c": "white", "marker": "o", "ms": 2.4, "mec": BLACK, "mew": 0.5, "zorder": 1.9}
 """Look of onsets, seen on any area by their black edges, below the curves."""
@@ -469,11 +468,10 @@ class CriticalSpeed(Plot):
         handles: list[Artist] = [] if cycle is None else _behind(axes[0], cycle)
         if "curves" in overlays:
             curves = curves_of(overlays["curves"])
-            if cycle is not None:
-                curves = parts_of(curves, cycle)
-            if cycle is not None and "outcome" in cycle:  # what passes no cell with separation has no name
+            if cycle is not None:  # what passes no cell with separation has no name
                 apart = cycle["outcome"].copy(data=flag_names(cycle["outcome"]) == "separation")
-                curves = [x if passes(x, apart).any() else x._replace(label="") for x in curves]
+                parts = parts_of(curves, cycle)
+                curves = [x if passes(x, apart).any() else x._replace(label="") for x in parts]
             handles += draw_curves(axes[0], curves)
         horizon = float(study["horizon"].max())
         _onsets(axes[0], study, horizon, label=f"separation begins, within {horizon:g} s", **ONSETS)
@@ -528,14 +526,12 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
 
 
 def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
-    """Draw outcomes of the static start, or at least where the cycle is stable; returns entries of a legend."""
-    words, looks = np.where(cycle["growth_rate"].values < 0, "quiet", ""), {"quiet": STABLE}
-    if "outcome" in cycle:
-        words = flag_names(cycle["outcome"])
-        words = np.where(words == "other_cycle", "growing", words)
-        horizon = stated_in(cycle, "options")["horizon"]
-        apart = OUTCOME_LOOKS["separation"]._replace(label=f"separation within {horizon:g} s")
-        looks = OUTCOME_LOOKS | {"growing": CONTACT, "separation": apart}
+    """Draw outcomes of the static start; returns entries of a legend."""
+    words = flag_names(cycle["outcome"])
+    words = np.where(words == "other_cycle", "growing", words)
+    horizon = stated_in(cycle, "options")["horizon"]
+    apart = OUTCOME_LOOKS["separation"]._replace(label=f"separation within {horizon:g} s")
+    looks = OUTCOME_LOOKS | {"growing": CONTACT, "separation": apart}
     fill(ax, edges_of(cycle["growth_rate"]), words, looks)
     return patches(looks, words)
 

@@ -441,11 +441,11 @@ def _misfits(plot: Plot, owner: str, grids: Mapping[str, GridStudy]) -> list[Fau
     faults = [] if plot.study in ("", owner) else [*study.faults_of(plot)]
     for role in plot.overlays.keys() & plot.roles.keys():
         wanted, other = plot.roles[role], grids[plot.overlays[role]]
-        quantities, needs = (wanted.quantity, wanted.instead), {*(plot.dims if wanted.dims is None else wanted.dims)}
+        needs = {*(plot.dims if wanted.dims is None else wanted.dims)}
         norms, same = ({str(x) for (x,) in grid.values.get(NORM, [(grid.base.get(NORM),)])} for grid in (study, other))
         options = {name: getattr(other.options, name, None) for name in wanted.options}
         rules = {
-            f"must be a study of the quantity {wanted.quantity}": other.quantity not in quantities,
+            f"must be a study of the quantity {wanted.quantity}": other.quantity != wanted.quantity,
             f"must have the options {wanted.options}": options != wanted.options,
             f"must vary {', '.join(sorted(needs)) or 'nothing'} beside {NORM}": other.values.keys() - {NORM} != needs,
             f"must be computed for the same {NORM}": not norms <= same,
