@@ -517,10 +517,8 @@ def branches(speeds: Sequence[Array], ends: Sequence[Iterable[float]]) -> list[t
 def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
     """Draw onsets of separation, joined along their branches."""
     loads, speeds, ends = study["N"].values, speeds_of(study, horizon), speeds_of(study, horizon, "ends")
-    # a greater change with the load, in rad/s per N, leads to another range of speeds
-    links = [(i, a, b) for i, a, b in branches(speeds, ends) if abs(a - b) < 0.2 * (loads[i + 1] - loads[i])]
     gap = (np.nan, np.nan)
-    points = [point for i, a, b in links for point in ((a, loads[i]), (b, loads[i + 1]), gap)]
+    points = [point for i, a, b in branches(speeds, ends) for point in ((a, loads[i]), (b, loads[i + 1]), gap)]
     points += [at for load, row in zip(loads, speeds, strict=True) for speed in row for at in ((speed, load), gap)]
     ax.plot(*np.reshape(points, (-1, 2)).T, path_effects=drawing.halo(1.3, BLACK), **look)
 

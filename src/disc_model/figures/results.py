@@ -388,7 +388,12 @@ def plot_sweep(
     title = drawing.what_case({name: value for name, value in case.items() if name not in shown} | fixed)
     with canvas(ax, 1.3 * COLUMN, 2.9, title=title) as [axes]:
         if named in SHARES and not log:
-            handles = _draw_shares(axes, study[named], across)
+            (label, along), handles = drawing.along(study[across]), patches(LOOKS, outcomes_in(study[named]))
+            places = np.arange(along.size) if across == "energy" else along  # equally far apart, as one may be 0
+            draw_shares(axes, study[named], outcomes_in(study[named]), places)
+            if across == "energy":
+                axes.set_xticks(places, [f"{energy:g}" for energy in along])
+            axes.set(xlabel=label, ylabel=drawing.label_of(study[named])[0], xmargin=0.04)
         elif len(dims) == 1 or len(possible) == 1:
             general.draw_lines(axes, study, named, across, log)
             handles = axes.get_legend_handles_labels()[0]
@@ -400,14 +405,3 @@ def plot_sweep(
         if handles:
             axes.figure.legend(handles=handles, loc="outside lower right", ncols=3)
     return axes
-
-
-def _draw_shares(axes: Axes, shares: xr.DataArray, across: str) -> Sequence[Any]:
-    """Draw shares of outcomes as bars, equally far apart for energies, which may be 0; returns entries of a legend."""
-    (label, along), classes = drawing.along(shares[across]), outcomes_in(shares)
-    places = np.arange(along.size) if across == "energy" else along
-    draw_shares(axes, shares, classes, places)
-    if across == "energy":
-        axes.set_xticks(places, [f"{energy:g}" for energy in along])
-    axes.set(xlabel=label, ylabel=drawing.label_of(shares)[0], xmargin=0.04)
-    return patches(LOOKS, classes)
