@@ -9,7 +9,6 @@ import inspect
 import math
 import os
 import shlex
-import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -254,8 +253,11 @@ def study(
 ) -> None:
     """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
     _read(files)
+    _require_snakemake()
+    snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
     options = [*(target or []), *(DRY if dry_run else ()), f"-j{cores}", "--directory", str(directory)]
-    command = _command(files, [*options, *["--unlock"] * unlock])
+    options += [*["--unlock"] * unlock, "--configfile", *(str(file.resolve()) for file in files)]
+    command = [sys.executable, "-m", "snakemake", "-s", str(snakefile), *options]
     os.execv(command[0], command)  # Snakemake takes the place of this process: Ctrl-C and exit codes are its own
 
 
@@ -284,22 +286,6 @@ def list_(
         table(f"{what} of {chosen.name}", columns, overflow="fold")
     else:
         typer.echo(f"{chosen.name} has no {what}")
-
-
-def status(
-    files: Files, directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are")] = Path()
-) -> None:
-    """List what of a study's results is missing or out of date, according to Snakemake."""
-    _read(files)
-    done = subprocess.run(
-        _command(files, ["--summary", "--directory", str(directory)]), capture_output=True, text=True, check=False
-    )
-    if done.returncode:
-        raise DiscModelError(f"Snakemake failed: {done.stderr.strip()}")
-    head, *lines = [line.split("\t") for line in done.stdout.splitlines() if "\t" in line]
-    rows = [dict(zip(head, line, strict=False)) for line in lines]
-    outdated = [f"{row['output_file']}: {row['status']}" for row in rows if row["plan"] != "no update"]
-    typer.echo("\n".join([*outdated, f"{len(outdated)} of {len(rows)} files are missing or out of date"]))
 
 
 def init(
@@ -332,14 +318,6 @@ def _require_snakemake() -> None:
         raise ModuleNotFoundError(name="snakemake")
 
 
-def _command(files: Sequence[Path], options: Sequence[str]) -> list[str]:
-    """The Snakemake command that computes a study."""
-    _require_snakemake()
-    snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
-    named = ["--configfile", *(str(file.resolve()) for file in files)]
-    return [sys.executable, "-m", "snakemake", "-s", str(snakefile), *options, *named]
-
-
 def _read(files: Sequence[Path]) -> tuple[Study, dict[str, GridStudy], tuple[str, ...]]:
     """The study of the files, checked with all files that it names, all grids, and the names of those asked for."""
     from disc_model.studies.study import load_study
@@ -356,7 +334,7 @@ INTERRUPTED = 130  # typer's exit code after Ctrl-C
 app = typer.Typer(
     pretty_exceptions_enable=False, help="Friction-induced vibration of an elastic disc and a moving slider."
 )
-for function in (run, floquet, sliding, modes, study, list_, status, init, compile_):
+for function in (run, floquet, sliding, modes, study, list_, init, compile_):
     app.command(function.__name__.rstrip("_"))(function)
 
 
