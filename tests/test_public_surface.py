@@ -66,7 +66,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (DISC.to_csv, {}, {"path": "text"}),
     (dm.Disc.from_csv, {}, {"path": "text"}),
     (RUN.animate, {"window": "all", "frames": 2}, {"window": "None", "path": "None", "frames": "huge", "fps": "huge"}),
-    (run, {}, {"progress": "None True", "max_steps": "None huge", "audit_every_step": "True"}),
+    (run, {}, {"progress": "None", "max_steps": "None huge", "audit_every_step": "True"}),
     (
         start,
         {},

@@ -28,7 +28,7 @@ from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.parameters import Parameters
 from disc_model.sources import PACKAGE
-from disc_model.units import CYCLE_TOLERANCES, TOLERANCES, CycleTolerance, Seconds, Strict, Tolerance
+from disc_model.units import TOLERANCES, Seconds, Strict, Tolerance
 
 if TYPE_CHECKING:
     from disc_model.studies.grid import GridStudy
@@ -129,19 +129,13 @@ def modes(p: Parameters, _: Strict) -> None:
     table("Disc and slider at rest", columns, justify="right")
 
 
-class FloquetOptions(Strict):
-    tol: CycleTolerance = Field(
-        1e-12, description=f"tolerance of the cycle, {CYCLE_TOLERANCES[0]:g} to {CYCLE_TOLERANCES[1]:g}"
-    )
-
-
-@command(FloquetOptions)
-def floquet(p: Parameters, options: FloquetOptions) -> None:
+@command(Strict)
+def floquet(p: Parameters, _: Strict) -> None:
     """Find the stick-slip cycle and its multipliers: whether the quiet motion lasts, without simulating it."""
     from disc_model.data.variables import CycleStatus
     from disc_model.stability.cycle import floquet as cycle_of
 
-    cycle = cycle_of(p, tol=options.tol)
+    cycle = cycle_of(p)
     print_rows([*cycle.summary(), model_line(p)])
     if cycle.status is not CycleStatus.OK:
         raise typer.Exit(1)
@@ -253,7 +247,8 @@ def study(
 ) -> None:
     """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
     _read(files)
-    _require_snakemake()
+    if find_spec("snakemake") is None:
+        raise ModuleNotFoundError(name="snakemake")
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
     options = [*(target or []), *(DRY if dry_run else ()), f"-j{cores}", "--directory", str(directory)]
     options += [*["--unlock"] * unlock, "--configfile", *(str(file.resolve()) for file in files)]
@@ -292,7 +287,6 @@ def init(
     directory: Annotated[Path, typer.Argument(metavar="DIR", help="folder to lay out; made if it is not there")],
 ) -> None:
     """Lay out a folder for a study of your own: a study file to change, and a Snakefile for it."""
-    _require_snakemake()
     workflow = PACKAGE / "workflow"
     schema = (workflow / "schemas" / "study.schema.json").resolve().as_uri()
     sources = ("template/my_study.yaml", "template/Snakefile", "profiles/default/config.yaml")
@@ -311,11 +305,6 @@ def init(
 
 
 # ---- Parts
-
-
-def _require_snakemake() -> None:
-    if find_spec("snakemake") is None:
-        raise ModuleNotFoundError(name="snakemake")
 
 
 def _read(files: Sequence[Path]) -> tuple[Study, dict[str, GridStudy], tuple[str, ...]]:

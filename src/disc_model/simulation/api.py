@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from pydantic import Field, PlainValidator
+from pydantic import Field
 
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, dense_output, event_loop, layout, transitions
@@ -27,7 +27,7 @@ from disc_model.simulation.case import CaseSpec, Poincare, Ramp, Start, Windows,
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import Array, State
 from disc_model.sources import git_commit, source_hash, versions
-from disc_model.units import TOLERANCES, Count, Strict, content_key, in_si, is_number, limits_faults, must, number
+from disc_model.units import TOLERANCES, Count, Strict, content_key, in_si, is_number, limits_faults, number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -44,9 +44,6 @@ _EXITS = (  # in the order of `Status`
 _STATUS = dict(zip(_EXITS, Status, strict=True))
 
 
-_SHOWS = must(lambda x: x is None or isinstance(x, bool) or callable(x), "must be a function of the time, or False")
-
-
 class Execution(Strict):
     """How a run is carried out. No setting changes the motion, but a run ends early after `max_steps`.
 
@@ -54,7 +51,7 @@ class Execution(Strict):
     ----------
     audit_every_step : whether to audit both energy balances on every step instead of every 256th
         (the run takes about ten times as long)
-    progress : function that is called repeatedly with the time reached; False hides that kernels are compiled
+    progress : function that is called repeatedly with the time reached
     max_steps : largest number of steps; None sets a generous limit from the highest frequency
 
     Examples
@@ -66,7 +63,7 @@ class Execution(Strict):
     """
 
     audit_every_step: bool = False
-    progress: Annotated[Callable[[float], object] | bool | None, PlainValidator(_SHOWS)] = None
+    progress: Callable[[float], object] | None = None
     max_steps: Annotated[Count, Field(ge=1)] | None = None
 
 
@@ -153,7 +150,7 @@ def simulate(  # noqa: PLR0913
         raise_faults([*ramp_faults(p, ramps, poincare=any(isinstance(x, Poincare) for x in windows.values()))])
     run = _Run(p, end, float(tol), initial_state, windows, events, stop_at, ramps, execution)
     code = run.advance()
-    tell = execution.progress if callable(execution.progress) else lambda _: None
+    tell = execution.progress or (lambda _: None)
     while code == transitions.PAUSED:
         tell(run.time)
         code = run.advance()
@@ -265,7 +262,7 @@ class _Run:
             self.model = layout.on_ramp(self.model, piece.begin, piece.angle, **rates)
         kind = tuple(flag for flag in self.model if type(flag) is tuple)  # they determine the types of all arguments
         if kind not in _ENGINES:
-            with compiling(self.execution.progress is not False):
+            with compiling():
                 _ENGINES[kind] = compiled_for(event_loop.run, self._arguments())
         self.engine = _ENGINES[kind]
 
