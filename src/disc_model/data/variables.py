@@ -5,7 +5,7 @@ import json
 import math
 import re
 import tomllib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple, get_args
@@ -183,11 +183,6 @@ def axis_of(name: str, where: str = "") -> tuple[str, float]:
 def stated_in(study: Any, what: str) -> dict[str, Any]:
     """The "base" or the "options" that the dataset of a grid study states."""
     return json.loads(study.attrs[what])
-
-
-def angles_text(angles: Iterable[float]) -> str:
-    """Different angles: "0.5 and 1 rad"."""
-    return " and ".join(f"{angle:g}" for angle in sorted({*angles})) + " rad"
 
 
 def values_text(values: Mapping[str, Any], units: Mapping[str, tuple[str, float]] = MappingProxyType({})) -> str:

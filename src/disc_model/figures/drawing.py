@@ -215,8 +215,9 @@ def coordinate_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
 
 def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
     """Axis label of a sampled variable, with the angle of the disc's fixed point, factor to its unit, and colour."""
-    angles = variables.angles_text(float(window.attrs["theta"]) for window in windows if "theta" in window.attrs)
-    label, factor = axis_of(name, rf", $\theta$ = {angles}" if name.startswith("w_point") else "")
+    angles = sorted({float(window.attrs["theta"]) for window in windows if "theta" in window.attrs})
+    at = rf", $\theta$ = {' and '.join(f'{angle:g}' for angle in angles)} rad"
+    label, factor = axis_of(name, at if name.startswith("w_point") else "")
     return label, factor, FORCE if name == "P" else DISC if name.partition("_")[0] == "w" else SLIDER
 
 

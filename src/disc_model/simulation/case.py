@@ -51,18 +51,10 @@ class Span(Interval):
         return {name: value for name, value in handler(self).items() if name != "last" or value is not None}
 
     def resolved(self, start: float, t_end: float) -> Self:
-        """The same span with absolute times, for a run from ``start`` to ``t_end``.
-
-        Raises
-        ------
-        ParameterError
-            if it has no stop time and begins at the end of the run or later
-        """
+        """The same span with absolute times, for a run from ``start`` to ``t_end``. Raises `ParameterError` if it has
+        no stop time and begins at the end of the run or later."""
         first, stop = self.ends(start, t_end)
-        if (first, stop) == (self.start, self.stop):
-            return self
-        require((first < t_end, "start", first, f"must be < t_end={as_text(t_end)}"))
-        return self.replace(start=first, stop=stop, last=None)
+        return self if (first, stop) == (self.start, self.stop) else self.replace(start=first, stop=stop, last=None)
 
     def ends(self, start: float, t_end: float) -> tuple[float, float]:
         """Absolute times of its ends, s, for a run from ``start`` to ``t_end``, even if they are not within the run."""
