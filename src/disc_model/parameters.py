@@ -60,6 +60,7 @@ IDENTITIES = {own: word for word, own in CONTACTS.items()}
 _LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc", "friction_offset", "friction_decay")
 
 
+_ORDER = (("mu_k", "<=", operator.le, "mu_s"), ("a", "<", operator.lt, "r_0"), ("r_0", "<=", operator.le, "b"))
 _Distance = Annotated[Real, AfterValidator(must(lambda value: 0 <= value < math.inf, "must be a finite number >= 0"))]
 # Beyond, the start of slip is lost in rounding.
 _DECAY = must(lambda value: value <= 1e12 or value == math.inf, "must be at most 1e12 s/m, or inf")
@@ -461,7 +462,8 @@ class Parameters(Strict):
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        """Check the rules between parameters, what a disc excludes, and that the plate has one damping."""
+        """Check the rules between parameters, what a disc excludes, and that the plate has one damping. A rule on a
+        parameter that is absent, as in `SomeParameters`, does not count."""
         values, fields = dict(self), type(self).model_fields
         if self.disc is not None and self.friction_offset == SURFACE and not self.disc.tangential:
             need = "must be a number for a disc whose table has no column tangential_per_sqrt_kg"
@@ -471,7 +473,18 @@ class Parameters(Strict):
             unused, rule = ["D_star"] * (self.damping_ratio is not None), "where damping_ratio is given"
         changed = [name for name in sorted(unused) if values[name] not in (fields[name].default, AUTO)]
         faults = [Fault.of((name,), values[name], f"must be left out {rule}") for name in changed]
-        raise_faults([*cross_faults(values), *faults])
+        # a disc that is given by its modes has other radii than the plate
+        for low, sign, holds, high in _ORDER if self.disc is None else _ORDER[:1]:
+            lower, upper = values[low], values[high]
+            if lower is not None and upper is not None and not holds(lower, upper):
+                faults.append(Fault.of((low,), lower, f"must be {sign} {high}={as_text(upper)}"))
+        E, h, nu = self.E, self.h, self.nu
+        if E is not None and h is not None and nu is not None:
+            rigidity = E * (h * h * h) / 12 / (1 - nu**2)  # unlike a power, a product overflows to inf
+            if not 0 < rigidity < math.inf:
+                rule = f"must give a finite, positive E h^3/12/(1-nu^2), not {as_text(rigidity)}"
+                faults.append(Fault.of(("h",), h, rule))
+        raise_faults(faults)
         return self
 
     def replace(self, **changes: Any) -> Self:
@@ -598,23 +611,3 @@ def case_of(values: Mapping[str, Any], discs: Mapping[str, Any]) -> dict[str, An
 def foreign_case(p: object, name: str = "p") -> list[str]:
     """Faults of an argument that must be `Parameters`."""
     return [] if isinstance(p, Parameters) else [Fault.of((name,), p, "must be Parameters")]
-
-
-_ORDER = (("mu_k", "<=", operator.le, "mu_s"), ("a", "<", operator.lt, "r_0"), ("r_0", "<=", operator.le, "b"))
-
-
-def cross_faults(values: Mapping[str, Any]) -> list[Fault]:
-    """Faults by rules between parameters that are numbers; a rule on one that is absent, or None, does not count."""
-    faults = []
-    # a disc that is given by its modes has other radii than the plate
-    for low, sign, holds, high in _ORDER if values.get("disc") is None else _ORDER[:1]:
-        lower, upper = values.get(low), values.get(high)
-        if lower is not None and upper is not None and not holds(lower, upper):
-            faults.append(Fault.of((low,), lower, f"must be {sign} {high}={as_text(upper)}"))
-    E, h, nu = (values.get(name) for name in ("E", "h", "nu"))
-    if E is not None and h is not None and nu is not None and E > 0 and h > 0 and abs(nu) < 1:
-        rigidity = E * (h * h * h) / 12 / (1 - nu**2)  # unlike a power, a product overflows to inf
-        if not 0 < rigidity < math.inf:
-            rule = f"must give a finite, positive E h^3/12/(1-nu^2), not {as_text(rigidity)}"
-            faults.append(Fault.of(("h",), h, rule))
-    return faults

@@ -99,9 +99,8 @@ def whole(value: Any) -> Any:
 
 def is_number(value: object) -> bool:
     """Whether a value is a number within the range of floats; a text or a bool is not."""
-    if isinstance(
-        value, bool | float
-    ):  # the usual types first: the test for the abstract one takes several times as long
+    # the usual types first: the test for the abstract one takes several times as long
+    if isinstance(value, bool | float):
         return isinstance(value, float)
     return isinstance(value, numbers.Real) and -LIMIT < value < LIMIT  # type: ignore[operator]
 
