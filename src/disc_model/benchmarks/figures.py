@@ -150,7 +150,23 @@ def prices(dataset: xr.Dataset) -> Figure:
     figure, [ax] = panels(PAGE, 0.9 + 0.4 * len(lines))
     colors = ScalarMappable(LogNorm(1e-3, 1e3), colormaps["YlGnBu"])
     for (line, name), part in answered.groupby(["line", "answer"], sort=False):
-        _price(ax, part, names.index(str(name)), lines.index(line), colors)
+        column, row = names.index(str(name)), lines.index(line)
+        wrong = (part["verdict"] == WRONG).sum()
+        face: Any = "#F4F4F4"
+        texts = [("wrong", 6.5, _RED) if wrong else ("no answer", 6.5, GREY)]
+        for _, best in part[part["verdict"] == RIGHT].nsmallest(1, "seconds").iterrows():
+            seconds = best["seconds"]
+            face, ink = colors.to_rgba(seconds), "white" if seconds > 3.0 else BLACK
+            price = f"{1e3 * seconds:.2g} ms" if seconds < 0.1 else f"{seconds:.{'2g' if seconds < 100.0 else '0f'}} s"
+            setting = f"{best['setting']:.0e}".replace("e-0", "e-").replace("e+00", "")
+            phrase = SETTINGS[best["varies"]][1].format(setting)
+            texts = [(price, 6.5, ink), (phrase, 6.0, ink)]
+            texts += [(f"wrong at {wrong}", 6.0, _RED)] if wrong else []
+        ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=face, edgecolor="white", linewidth=1.5))
+        for i, (text, size, ink) in enumerate(texts):
+            height = row + 0.3 * (i - 0.5 * (len(texts) - 1))
+            halo = _HALO if ink == _RED else None
+            ax.text(column, height, text, ha="center", va="center", fontsize=size, color=ink, path_effects=halo)
     ax.set_xticks(range(len(names)), [HEADS[name] for name in names], fontsize=7)
     ax.set_yticks(range(len(lines)), labels, fontsize=7)
     ax.set(xlim=(-0.5, len(names) - 0.5), ylim=(len(lines) - 0.5, -0.5))
@@ -158,25 +174,6 @@ def prices(dataset: xr.Dataset) -> Figure:
     ax.spines[:].set_visible(False)
     figure.colorbar(colors, ax=ax, shrink=0.7, pad=0.01, label="Time on one core (s)")
     return figure
-
-
-def _price(ax: Axes, part: pd.DataFrame, column: int, row: int, colors: ScalarMappable) -> None:
-    wrong = (part["verdict"] == WRONG).sum()
-    face: Any = "#F4F4F4"
-    texts = [("wrong", 6.5, _RED) if wrong else ("no answer", 6.5, GREY)]
-    for _, best in part[part["verdict"] == RIGHT].nsmallest(1, "seconds").iterrows():
-        seconds = best["seconds"]
-        face, ink = colors.to_rgba(seconds), "white" if seconds > 3.0 else BLACK
-        price = f"{1e3 * seconds:.2g} ms" if seconds < 0.1 else f"{seconds:.{'2g' if seconds < 100.0 else '0f'}} s"
-        setting = f"{best['setting']:.0e}".replace("e-0", "e-").replace("e+00", "")
-        phrase = SETTINGS[best["varies"]][1].format(setting)
-        texts = [(price, 6.5, ink), (phrase, 6.0, ink)]
-        texts += [(f"wrong at {wrong}", 6.0, _RED)] if wrong else []
-    ax.add_patch(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=face, edgecolor="white", linewidth=1.5))
-    for line, (text, size, ink) in enumerate(texts):
-        height = row + 0.3 * (line - 0.5 * (len(texts) - 1))
-        halo = _HALO if ink == _RED else None
-        ax.text(column, height, text, ha="center", va="center", fontsize=size, color=ink, path_effects=halo)
 
 
 # ---- How cost grows
