@@ -62,7 +62,7 @@ def first_separation() -> dict[str, Any]:
 
 def after_separation() -> dict[str, dict[str, Any]]:
     """Rate and period by heyoka; the range by two methods of short steps."""
-    start = answers.start_of("settled")
+    start = answers.read_state(answers.stored("answers")["starts"]["settled"])
     watched = Problem(answers.SETTLED, start, start.time + answers.SETTLED_SPAN, watched=True)
     steps = [METHODS[name].solve(watched, setting).heights for name, setting in (("RK4", 2e-5), ("RK4", 1e-5))]
     coarse, fine = (high - low for low, high in steps)

@@ -81,11 +81,6 @@ def reference(name: str) -> SimpleNamespace:
     return SimpleNamespace(**stored("answers")["references"][name])
 
 
-def start_of(name: str) -> State:
-    """State of the motion ``settled`` or ``growing``, from the engine at its tightest tolerance."""
-    return read_state(stored("answers")["starts"][name])
-
-
 # ---- Replies of a method that integrates, by the name of the answer, from the events that it finds within a budget (s)
 Solve = Callable[[Problem, float], MethodResult]
 Replies = dict[str, Reply]
@@ -115,7 +110,7 @@ def first_separation(
 
 def after_separation(solve: Solve, budget: float, p: Parameters = SETTLED, start: State | None = None) -> Replies:
     """Separations per second, the disc's range and the period in releases, long after contact was first lost."""
-    start = start_of("settled") if start is None else start
+    start = start or read_state(stored("answers")["starts"]["settled"])
     problem = Problem(p, start, start.time + SETTLED_SPAN, watched=True)
     result = solve(problem, budget)
     seconds = result.seconds
@@ -159,7 +154,7 @@ def onset(solve: Solve, budget: float, within: float = ONSET_WITHIN) -> Replies:
 
 def growth_rate(solve: Solve, budget: float) -> Replies:
     """Rate at which a deviation from the cycle grows, from the stretches between releases."""
-    start = start_of("growing")
+    start = read_state(stored("answers")["starts"]["growing"])
     result, seconds = _timed(solve, Problem(GROWING, start, start.time + GROWING_SPAN), budget)
     rate = growth(_times(result, "stick_to_slip")) if result.outcome is RunStatus.FINISHED else math.nan
     return {"growth_rate": reply_of(rate, seconds, "no oscillation that grows or dies out steadily", result)}
