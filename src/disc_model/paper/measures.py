@@ -18,6 +18,9 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import EVENT_KINDS, PHASES, STATUSES, flag_names, stated_in, values_text
 from disc_model.display import counted
 from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.stability.cycle import floquet
+from disc_model.stability.sliding import steady_sliding
 
 Array = NDArray[np.float64]
 SEPARATION = PHASES.index("separation")
@@ -379,22 +382,16 @@ def rate_text(rate: float, unit: str = "", without: str = "no cycle") -> str:
 @cache
 def growth_of(p: Parameters) -> float:
     """Largest growth rate of small disturbances of the stick-slip cycle near the static start, 1/s; nan without one."""
-    from disc_model.stability.cycle import floquet
-
     return floquet(p).growth_rate
 
 
 @cache
 def sliding_growth(p: Parameters) -> float:
     """Largest growth rate of small disturbances of steady sliding, 1/s; nan without an equilibrium."""
-    from disc_model.stability.sliding import steady_sliding
-
     return steady_sliding(p).growth_rate
 
 
 @cache
 def separates_within(p: Parameters, until: float) -> bool:
     """Whether the static start separates before a time in s, in a simulation of its own."""
-    from disc_model.simulation.api import simulate
-
     return math.isfinite(simulate(p, until, stop_at="first_separation").raise_for_status().first_separation)

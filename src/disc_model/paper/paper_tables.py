@@ -1,10 +1,8 @@
 """Tables 1 and 2 of the paper beside ours; periods under other tolerances and modes; impacts with more modes."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -17,9 +15,8 @@ from disc_model.data.variables import Outcome
 from disc_model.paper import TABLE_CASES
 from disc_model.paper.measures import CaseView, place
 from disc_model.parameters import Parameters
-
-if TYPE_CHECKING:
-    from disc_model.simulation.states import State
+from disc_model.simulation.api import simulate
+from disc_model.simulation.states import State
 
 TEXTS: dict[str, Any] = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
 TABLE_1: dict[str, float] = TEXTS["table_1"]  # base values of the paper, SI units
@@ -75,8 +72,6 @@ SETTLE = 150.0  # time to settle before it after a small change of the speed, s
 
 def motion_to(p: Parameters, t_end: float, tol: float = 1e-10, start: State | None = None) -> tuple[Motion, State]:
     """Class of a motion by its releases in the last `RECORD` s before t_end, undecided if few; and the state there."""
-    from disc_model.simulation.api import simulate  # most tables do without
-
     run = simulate(p, t_end, tol=tol, initial_state=start)
     times = run.events.loc[run.events["kind"] == "stick_to_slip", "time"].to_numpy()
     intervals = np.diff(times[times > t_end - RECORD])

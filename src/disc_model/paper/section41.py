@@ -19,6 +19,8 @@ from disc_model.paper.measures import Absent, Array, CaseView, extent, facts, or
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded, read_texts
 from disc_model.paper.section2 import BASE, moving_load_speed
 from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Window
 
 
 def force_grows_to_zero(case: CaseView, *, factor: float) -> Answer:
@@ -257,9 +259,6 @@ def _waves(angle: Array, most: int) -> Array:
 
 def course(p: Parameters, until: float, widest: float = math.inf) -> list[Powers]:
     """Powers at `STAGES` times of the motion from the static start, up to a time in s or beyond a width in m."""
-    from disc_model.simulation.api import simulate
-    from disc_model.simulation.case import Window
-
     theta = 2 * np.pi * np.arange(2 * p.n_diameters + 1) / (2 * p.n_diameters + 1)
     state, courses = None, []
     for begin, end in pairwise(np.linspace(0.0, until, STAGES + 1).tolist()):
