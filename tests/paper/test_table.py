@@ -92,8 +92,7 @@ def test_the_table_has_every_row_once_and_says_what_it_lacks() -> None:
 def test_a_case_that_starts_elsewhere_is_not_the_papers() -> None:
     elsewhere = labelled("F11", start='{"perturbation": {"f": 1.0}}')
     row = Row(id="x", check=lambda _: Answer(True, ""), place="", cases={"F11": 0})
-    reason = "case F11 does not begin with the static start in this study."
-    assert row.judge({"F11": elsewhere}).here == reason
+    assert row.judge({"F11": elsewhere}).here == "case F11 has another start in this study."
     assert row.judge({"F11": labelled("F11")}).verdict == TRUE
 
 

@@ -83,14 +83,14 @@ class Row(BaseModel):
 
     def judge(self, cases: Mapping[str, CaseView]) -> Answer:
         """Judge it by these cases and grid studies; evidence that is missing or does not decide is named."""
-        if self.check is None:
-            return Answer(self.verdict, self.here, self.note)
         try:
-            return self._judge(self.check, cases)
+            return self._judge(cases)
         except Missing as missing:
             return Answer(FALSE if isinstance(missing, Absent) else NOT_COMPUTED, f"{missing}.")
 
-    def _judge(self, check: Callable[..., Answer], cases: Mapping[str, CaseView]) -> Answer:
+    def _judge(self, cases: Mapping[str, CaseView]) -> Answer:
+        if self.check is None:
+            return Answer(self.verdict, self.here, self.note)
         needed = {name: _needed(cases, name, until) for name, until in self.cases.items()}
         if self.every:
             needed = {name: case for name, case in cases.items() if not case.is_grid}
@@ -106,7 +106,7 @@ class Row(BaseModel):
                 raise Missing(f"case {case.name} has not settled in {case['time_reached']:g} s: {settling}")
         studies = [cases[name].node.to_dataset() for name in self.scans]
         beside = [cases[name].node.to_dataset() if name in cases else None for name in self.beside]
-        answer = check(*needed.values(), *studies, *beside, **self.given)
+        answer = self.check(*needed.values(), *studies, *beside, **self.given)
         which = "The motion has" if len(steady) == 1 else "All motions judged here have"
         place, stated = next((case.place for case in needed.values()), ""), facts(studies[0]) if studies else {}
         texts = (self.here, self.note) if not answer.here or not self.here else ("", "")  # nothing fills them
@@ -140,10 +140,10 @@ def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
     if p != expected:
         differ = [key for key in Parameters.model_fields if getattr(p, key) != getattr(expected, key)]
         raise Missing(f"case {name} has another {', '.join(differ)} in this study")
-    start = _start_of(paper.get("start", {}))
-    if _start_of(json.loads(case.node.attrs.get("start", "{}"))) != start:
-        words = start if isinstance(start, str) else f"last state of {start}"
-        raise Missing(f"case {name} does not begin with the {words} in this study")
+    starts = (json.loads(case.node.attrs.get("start", "{}")), paper.get("start", {}))
+    ours, its = ([(start.get("prerun") or {}).get("parameters"), start.get("perturbation") or {}] for start in starts)
+    if ours != its:
+        raise Missing(f"case {name} has another start in this study")
     if case.status == "ok" and case["time_reached"] < until:
         raise Missing(f"case {name} ends at {case['time_reached']:g} s, {until:g} s are needed")
     return case
@@ -153,11 +153,3 @@ def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
 def parameters_of(name: str, normalization: str) -> Parameters:
     """Those of a case of the paper, with the study's normalisation."""
     return Parameters(**paper_cases()[name]["parameters"], normalization=normalization)
-
-
-def _start_of(start: Mapping[str, Any]) -> str | Mapping[str, float]:
-    """Parameters of the motion after whose end a case begins, or another start in words."""
-    if not any(start.values()):
-        return "static start"
-    prepared: Mapping[str, float] = (start.get("prerun") or {}).get("parameters", {})
-    return "perturbed start" if start.get("perturbation") else prepared
