@@ -12,8 +12,8 @@ from disc_model import Parameters, residual_flexibility
 from disc_model.data.variables import STATUSES
 from disc_model.paper import SURVIVAL_GRIDS
 from disc_model.paper.measures import CaseView
-from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer
-from disc_model.paper.survival import CHANGED, CONCLUSIONS, MODELS, evidence_of, judge_models, page_of
+from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, judge
+from disc_model.paper.survival import CHANGED, CONCLUSIONS, MODELS, by_model, evidence_of, page_of
 from disc_model.studies.study import load_study
 from tests.analysis.test_classify import logistic
 from tests.paper.evidence import grid, kept_events
@@ -202,7 +202,7 @@ def test_each_model_is_judged_by_its_own_data() -> None:
         root = node.to_dataset().assign_attrs(parameters=p.canonical_json)
         groups = {"/": root, "/events": node["events"].to_dataset()}
         nodes[f"case{share}{force}{give}{bends}"] = xr.DataTree.from_dict(groups)
-    table = judge_models({name: CaseView(name, node) for name, node in nodes.items()})
+    table = judge(CONCLUSIONS, by_model({name: CaseView(name, node) for name, node in nodes.items()}))
     rows = page_of(table)[2].set_index("Conclusion").drop(columns="True if")
     verdicts = dict(zip(BY_TITLE, rows.to_numpy().tolist(), strict=True))
     assert verdicts["Onset"] == [TRUE, TRUE, FALSE, NOT_COMPUTED, TRUE]

@@ -4,12 +4,13 @@ from disc_model.data.dataset import load_cases
 from disc_model.data.texts import write_page
 from disc_model.errors import script
 from disc_model.paper.measures import views
-from disc_model.paper.survival import TEXTS, evidence_of, judge_models, page_of
+from disc_model.paper.model import judge
+from disc_model.paper.survival import CONCLUSIONS, TEXTS, by_model, evidence_of, page_of
 
 
 @script
 def main(csv: str, md: str, html: str, *inputs: str) -> None:
-    table = judge_models(views(load_cases(inputs)))
+    table = judge(CONCLUSIONS, by_model(views(load_cases(inputs))))
     table.to_csv(csv, index=False)
     page = page_of(table)
     write_page(md, TEXTS["title"], page)

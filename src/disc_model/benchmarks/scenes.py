@@ -120,10 +120,3 @@ def event_time_error(answer: Answer, result: MethodResult, t_end: float) -> floa
     if late and max(late) > 2.0 * float(largest):
         return math.nan
     return float(max([largest, *late]))
-
-
-def describe(name: str) -> dict[str, Any]:
-    """Description of a scene for a dataset's attributes."""
-    case, right = problem(name), answer(name)
-    counts = {"events": len(right.kinds), "separations": right.kinds.count("separation")}
-    return {"parameters": case.parameters.canonical_json, "span": case.span, "reference_error": right.error} | counts

@@ -76,7 +76,12 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.
             "whole_call": _whole_call() if (scene, solver, value) == (JUDGED[0], "series", DEFAULT) else math.nan,
         }  # fmt: skip
 
-    described: dict[str, Any] = {f"scene_{name}": json_attribute(scenes.describe(name)) for name in settings}
+    described: dict[str, Any] = {}
+    for name in settings:
+        case, right = scenes.problem(name), scenes.answer(name)
+        about = {"parameters": case.parameters.canonical_json, "span": case.span, "reference_error": right.error}
+        about |= {"events": len(right.kinds), "separations": right.kinds.count("separation")}
+        described[f"scene_{name}"] = json_attribute(about)
     dataset = run(
         "work_precision", points, measure, ["scene", "solver", "point"], rounds=rounds, flags={"verdict": Verdict},
         title="Speed against accuracy", Conventions="CF-1.11", **described,

@@ -15,7 +15,7 @@ from disc_model.data.variables import Outcome, flag_names, stated_in
 from disc_model.display import counted
 from disc_model.paper import measures
 from disc_model.paper.measures import STRETCH, STRETCHES, Array, CaseView, pairs, rate_text, sound
-from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, Answer, judge, read_texts, rows_of
+from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, Answer, read_texts, rows_of
 from disc_model.paper.section2 import moving_load_speed
 from disc_model.paper.section41 import lowest_speeds
 
@@ -198,10 +198,6 @@ def _all_cases(holds: Sequence[bool | None]) -> bool | str:
 
 CONCLUSIONS = rows_of("paper/survival.yaml", globals())
 TEXTS: dict[str, str] = read_texts("paper/pages.yaml")["survival"]
-
-
-def judge_models(cases: Mapping[str, CaseView]) -> pd.DataFrame:
-    return judge(CONCLUSIONS, by_model(cases))
 
 
 def page_of(table: pd.DataFrame) -> Section:
