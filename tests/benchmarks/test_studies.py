@@ -2,7 +2,6 @@
 
 import json
 import math
-from functools import lru_cache
 
 import numpy as np
 import pytest
@@ -196,8 +195,6 @@ def test_errors_of_models_are_against_the_richest_and_those_of_methods_against_t
 def test_maps_of_steps_and_of_tolerances(monkeypatch: pytest.MonkeyPatch, tmp_path) -> None:
     """Of 20 ms of stick-slip and 10 ms of separations."""
     monkeypatch.setattr(work_precision, "SPANS", {"stick_slip": 0.02, "separating": 1e-2})
-    for name in ("short_problem", "engine_answer"):
-        monkeypatch.setattr(work_precision, name, lru_cache(getattr(work_precision, name).__wrapped__))
     steps = work_precision.failure_map("RK4", "separating", (1, 2), (1e-3, 2e-5))
     assert steps["modes"].values.tolist() == [3, 5]
     assert steps["step_limit"].values == pytest.approx(2 * math.sqrt(2) / steps["omega_max"].values)

@@ -5,7 +5,7 @@ import time as clock
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -152,17 +152,25 @@ def failure_map(
 ) -> xr.Dataset:
     """Verdicts on a method on a short span of a scene along (diameters, value), and facts that explain them."""
     judged = METHODS[method].economical()
+    cases: dict[int, tuple[Problem, Answer]] = {}
+    for count in diameters:
+        p = Parameters(N=385.0, Omega=15.1, n_diameters=count)
+        start = scenes.MOTIONS[scene][1](p)
+        problem = Problem(p, start, start.time + SPANS[scene])
+        right = METHODS["series"].solve(problem, REFERENCE_TOL)
+        cases[count] = problem, Answer(right.times.astype(np.longdouble), right.kinds, right.final, REFERENCE_TOL)
 
     def measure(diameters: int, value: float) -> Iterator[Row]:
-        problem = short_problem(scene, diameters)
+        problem, right = cases[diameters]
         result = judged.solve(problem, value, judged.map_budget)
-        errors = scenes.errors(problem, engine_answer(scene, diameters), result)
+        errors = scenes.errors(problem, right, result)
         yield {"verdict": errors.verdict, "event_error": errors.event_time, "longest_step": result.longest_step}
 
     def facts(diameters: int) -> Iterator[Row]:
-        p = short_problem(scene, diameters).parameters
+        problem, right = cases[diameters]
+        p = problem.parameters
         top = float(mode_arrays(p).omega.max())
-        gaps = np.diff(engine_answer(scene, diameters).times.astype(float))  # which a step must not exceed
+        gaps = np.diff(right.times.astype(float))  # which a step must not exceed
         shortest, stiff = float(gaps[gaps > 0].min()), p.mu_s * p.N / (p.m * p.r_0 * top)
         limits = {"step_limit": STABILITY_LIMIT / top, "shortest_phase": shortest, "stiff_epsilon": stiff}
         yield {"modes": real_modes(diameters, 0), "omega_max": top} | limits
@@ -183,18 +191,3 @@ def with_facts(method: Method, study: xr.Dataset, facts: Callable[..., Iterator[
     study["diameters"].attrs = {"units": "1", "long_name": "highest nodal diameter"}
     study["value"].attrs = {"long_name": f"setting: {method.setting}"}
     return study.assign_attrs(method=method.name, label=method.label, setting=method.setting)
-
-
-@lru_cache(maxsize=64)
-def short_problem(scene: str, diameters: int) -> Problem:
-    """The scene's motion with modes up to ``diameters`` for the span of the maps."""
-    p = Parameters(N=385.0, Omega=15.1, n_diameters=diameters)
-    start = scenes.MOTIONS[scene][1](p)
-    return Problem(p, start, start.time + SPANS[scene])
-
-
-@lru_cache(maxsize=64)
-def engine_answer(scene: str, diameters: int) -> Answer:
-    """The series engine's answer to `short_problem`, at the tightest tolerance."""
-    result = METHODS["series"].solve(short_problem(scene, diameters), REFERENCE_TOL)
-    return Answer(result.times.astype(np.longdouble), result.kinds, result.final, error=REFERENCE_TOL)
