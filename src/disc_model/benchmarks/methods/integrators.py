@@ -1,14 +1,7 @@
 """The contract of methods, and all of them: the engine, fixed-step Runge-Kutta, scipy's integrators, heyoka and CVODE.
 
 A method is a function ``(problem, value, budget, *arguments)`` that advances a `Problem`, with its one setting equal to
-``value``, for at most about ``budget`` seconds, and returns a `MethodResult`, also if it failed on the way. scipy's
-integrators are restarted at every event, or run once through a regularised model without events, one stiff ODE:
-
-    friction  mu(f) = tanh(f/eps) (mu_k + dmu exp(-(f/(30 eps))^2)),  dmu such that the maximum is mu_s
-    contact   P = max(0, K (w - u) + C (w' - u')),  with C from the critical damping of slider against disc
-
-``eps`` (rad/s) is the setting, and K is `PENALTY`/eps. Stick is a creep abs(f) < 3 eps. The model error is about
-eps^(2/3), since stick ends by slow passage through the maximum of the law, a fold; the stiffness grows with 1/eps.
+``value``, for at most about ``budget`` seconds, and returns a `MethodResult`, also if it failed on the way.
 """
 
 from __future__ import annotations
@@ -232,13 +225,14 @@ def _event(function: Callable[[float, Array], float], direction: int, *, last: b
 
 
 # ---- The regularised model
-PENALTY = 1e7  # N/m times rad/s: K eps
+PENALTY = 1e7  # N/m times rad/s: K eps; the damping C is critical for the slider against the disc
 CREEP = 3.0  # abs(f)/eps below which the slider counts as sticking
 RTOL = 1e-8
 
 
 def solve_regularised(problem: Problem, value: float, budget: float, algorithm: str) -> MethodResult:
-    """An algorithm of scipy on the regularised model; ``value`` is eps."""
+    """An algorithm of scipy on a model without events, one stiff ODE, `kernels.smooth_rate`; ``value`` is eps (rad/s).
+    Its error is about eps^(2/3), since stick ends by slow passage through the maximum of the law of friction, a fold."""
     meter, p, start = Meter(problem, budget), problem.parameters, problem.start
     physics, stiffness = meter.physics, PENALTY / value
     damping = 2.0 * math.sqrt(stiffness / (1.0 / p.m + physics.compliance))

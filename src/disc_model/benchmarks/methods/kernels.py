@@ -180,7 +180,7 @@ STRIBECK = 30.0  # f/eps at which static friction has fallen to kinetic
 
 @_kernel
 def smooth_friction(c, law, f):
-    """Coefficient of friction with the sign of f; ``law`` is (eps, dmu, K, C), see `integrators`."""
+    """Coefficient of friction with the sign of f; ``law`` is (eps, dmu, K, C), with dmu for a maximum of mu_s."""
     x = f / law[0]
     return math.tanh(x) * (c[_MUK] + law[1] * math.exp(-min((x / STRIBECK) ** 2, 700.0)))
 
