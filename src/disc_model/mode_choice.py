@@ -16,7 +16,7 @@ from pydantic import Field, model_validator
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
-from disc_model.display import Summarised, draw
+from disc_model.display import draw
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, require
 from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters
 from disc_model.units import Finite, Strict
@@ -37,7 +37,7 @@ BAND = 2.0  # upper end of the band of compared frequencies, relative to the low
 
 
 @dataclass(frozen=True)
-class ModeChoice(Summarised):
+class ModeChoice:
     """The smallest model that meets a tolerance, and the basis of the choice.
 
     Attributes
@@ -57,12 +57,6 @@ class ModeChoice(Summarised):
     rich: tuple[int, ...]
     quantity: str = FREQUENCIES
     values: Mapping[tuple[int, ...], float] = field(default_factory=dict)
-
-    def _summary(self) -> Iterator[tuple[str, object]]:
-        p, name = self.parameters, self.quantity.replace("_", " ")
-        of_plate = f"n_diameters = {p.n_diameters}, n_circles = {p.n_circles}"
-        size = of_plate if p.disc is None else f"the first {len(p.disc.omega)} of the table"
-        yield "modes chosen", f"{size} ({name}: error {self.error:.2g}, {self.tolerance:g} asked for)"
 
     def plot(self, *, ax: Any = None) -> Any:
         """Draw the modes that were chosen; returns and raises as `disc_model.plot_modes`.

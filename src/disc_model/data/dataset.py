@@ -60,15 +60,7 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
 
 
 def save(tree: xr.DataTree, path: str | Path) -> None:
-    """Write a tree as compressed netCDF 4, atomically: after a failure `path` is unchanged.
-
-    Raises
-    ------
-    ParameterError
-        If the argument is not a tree, or the name is not allowed for a file.
-    disc_model.data.dataset.WriteError
-        If the file cannot be written, for example because the disk is full.
-    """
+    """Write a tree as compressed netCDF 4, atomically; raises `ParameterError` for what is no tree, or `WriteError`."""
     require((isinstance(tree, xr.DataTree), "tree", tree, "must be an xarray.DataTree"))
     write_atomically(regular_file(path), lambda name: _write(tree, name))
 

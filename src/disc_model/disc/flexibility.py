@@ -8,7 +8,6 @@ For l >= 2 a harmonic is that of the unbounded plate, r_0^2 / (4 D l (l^2 - 1)),
 functions r^l, r^(l+2), r^-l, r^(2-l), each scaled to 1 at the edge where it is largest.  Lengths are in outer radii.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -16,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.disc.plate import Array, mode_arrays
-from disc_model.display import Summarised, number_text
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 
@@ -26,7 +24,7 @@ MODAL_SUM = (60, 20)  # diameters and circles of the sum that stands for all mod
 
 
 @dataclass(frozen=True)
-class Flexibility(Summarised):
+class Flexibility:
     """Static flexibility of the disc's point under the slider, m/N.
 
     total : flexibility of all modes
@@ -42,9 +40,6 @@ class Flexibility(Summarised):
     def residual(self) -> float:
         """Flexibility of the modes left out, total - kept, m/N."""
         return self.total - self.kept
-
-    def _summary(self) -> Iterator[tuple[str, object]]:
-        yield from ((name, number_text(getattr(self, name), "m/N", 7)) for name in (*self.__annotations__, "residual"))
 
 
 def residual_flexibility(p: Parameters) -> Flexibility:

@@ -7,7 +7,7 @@ import dataclasses
 import json
 import math
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from pathlib import Path
@@ -20,7 +20,6 @@ from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import modal_damping, mode_arrays, mode_shapes, radial_range, tangential_amplitudes
 from disc_model.disc.plausibility import warn_of_doubts
-from disc_model.display import Summarised
 from disc_model.engine import layout
 from disc_model.engine.series import Series, build_series
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
@@ -32,17 +31,16 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 MODAL = ("a", "b", "alpha", "beta")
-PLAIN = {"time": "s", "time_low": "s", "psi": "rad", "f": "rad/s", "u": "m", "u_velocity": "m/s"}
-"""Names of the variables of a state with one value a mode, and units of its scalars."""
+"""Names of the variables of a state with one value a mode."""
+PLAIN = ("time", "time_low", "psi", "f", "u", "u_velocity")  # names of its scalars, and their places in the engine's
 _PLACES = dict(
     zip(PLAIN, (layout.TIME, layout.TIME_LOW, layout.PSI, layout.F, layout.U, layout.U_VELOCITY), strict=True)
 )
-"""Indices of these scalars in the engine's state."""
 SAME_HEIGHT = 1e-9  # relative to the disc's deflection: far above rounding, far below any intended difference
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class State(Summarised):
+class State:
     """State of the system in the slider's frame.
 
     Attributes
@@ -100,7 +98,7 @@ class State(Summarised):
         implied |= {} if changes.keys() <= {"time", "time_low"} else {"case_key": ""}
         known = [each.name for each in dataclasses.fields(self)]
         require(*((x in known, x, value, f"is not of a state{suggestion(x, known)}") for x, value in changes.items()))
-        require(*((is_finite(changes[name]), name, changes[name], "must be finite") for name in PLAIN.keys() & changes))
+        require(*((is_finite(x), name, x, "must be finite") for name, x in changes.items() if name in PLAIN))
         return dataclasses.replace(self, **implied | changes)
 
     def __repr__(self) -> str:
@@ -108,11 +106,6 @@ class State(Summarised):
             f"State(time={self.time:.9g} s, {self.phase}, psi={self.psi:.6g} rad, f={self.f:.6g} rad/s, "
             f"u={self.u:.6g} m, u_velocity={self.u_velocity:.6g} m/s, {len(self.a)} modes)"
         )
-
-    def _summary(self) -> Iterator[tuple[str, object]]:
-        yield "phase", self.phase
-        yield from ((name, f"{getattr(self, name):.9g} {unit}") for name, unit in PLAIN.items() if name != "time_low")
-        yield "modes", len(self.a)
 
     @property
     def parts(self) -> tuple[dict[str, Any], dict[str, Array]]:
