@@ -16,7 +16,6 @@ from pydantic import Field, model_validator
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
-from disc_model.display import draw
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, require
 from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters
 from disc_model.units import Finite, Strict
@@ -57,17 +56,6 @@ class ModeChoice:
     rich: tuple[int, ...]
     quantity: str = FREQUENCIES
     values: Mapping[tuple[int, ...], float] = field(default_factory=dict)
-
-    def plot(self, *, ax: Any = None) -> Any:
-        """Draw the modes that were chosen; returns and raises as `disc_model.plot_modes`.
-
-        Examples
-        --------
-        >>> import disc_model as dm
-        >>> len(dm.choose_modes(dm.Parameters(N=385, Omega=15), 0.05).plot())
-        4
-        """
-        return draw("plot_modes", self.parameters, self.modes, ax=ax)
 
     def to_json(self) -> str:
         """The choice as JSON text, for an attribute of a dataset."""

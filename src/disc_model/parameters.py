@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_a
 import pydantic
 from pydantic import AfterValidator, BeforeValidator, Field, field_validator, model_validator
 
-from disc_model.display import draw, html_table
+from disc_model.display import html_table
 from disc_model.errors import Fault, as_text, raise_faults
 from disc_model.units import (
     UNITS,
@@ -292,27 +292,6 @@ class Disc(Strict):
         mesh = section if size is None else given.section(section, size)
         material = {"E": E, "nu": nu, "rho": rho, "damping_ratio": damping_ratio}
         return given.disc_of_section(mesh, material, clamped, slider, highest_Hz)
-
-    def plot(self, *, r_0: float | None = None, most: int = 15, ax: Any = None) -> Any:
-        """Draw the shapes of the modes with their nodal lines and frequencies; needs shapes at two radii or more.
-
-        Parameters
-        ----------
-        r_0 : m, radius at which the slider is drawn; it is not if this is not given
-        most : number of modes that are drawn, by ascending frequency
-        ax : axes to draw on, one for each mode
-
-        Returns
-        -------
-        array of Axes
-
-        Raises
-        ------
-        ParameterError
-            If no shapes are known, or an argument breaks a rule.
-        """
-        p = Parameters(N=0, Omega=0, disc=self, r_0=DEFAULTS["r_0"] if r_0 is None else r_0)
-        return draw("draw_modes", p, most, r_0 is not None, ax=ax)
 
     def __repr__(self) -> str:
         low, high = (end(self.omega) / math.tau for end in (min, max))

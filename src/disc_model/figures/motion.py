@@ -409,7 +409,7 @@ def draw_circle(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> N
     ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
 
 
-def draw_modes(axes: Sequence[Axes], p: Parameters, slider: bool) -> None:
+def draw_modes(axes: Sequence[Axes], p: Parameters) -> None:
     """Draw the shape of each mode from above, its nodal lines in black, and its frequency, by ascending frequency."""
     modes = mode_arrays(p)
     r, theta, x, y = _plane(p)
@@ -421,8 +421,7 @@ def draw_modes(axes: Sequence[Axes], p: Parameters, slider: bool) -> None:
         _draw_plane(ax, p, values, mpl.colors.Normalize(-1.6 * largest, 1.6 * largest))
         if values[inside].min() < 0 < values[inside].max():
             ax.contour(x[inside], y[inside], values[inside], levels=[0.0], colors=BLACK, linewidths=0.9)
-        if slider:
-            ax.plot(1e3 * p.r_0, 0, "o", ms=3.5, mfc=drawing.SLIDER, mec=BLACK, mew=0.5)
+        ax.plot(1e3 * p.r_0, 0, "o", ms=3.5, mfc=drawing.SLIDER, mec=BLACK, mew=0.5)
         ax.set_title(f"({modes.diameters[i]}, {modes.circles[i]})  {modes.omega[i] / (2 * np.pi):.0f} Hz", loc="center")
 
 

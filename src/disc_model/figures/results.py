@@ -303,11 +303,6 @@ def plot_modes(p: Parameters, most: int = 15, ax: Any = None) -> np.ndarray:
     >>> dm.plot_modes(dm.Parameters(N=385, Omega=15.1)).size
     5
     """
-    return draw_modes(p, most, True, ax=ax)
-
-
-def draw_modes(p: Parameters, most: int, slider: bool, ax: Any = None) -> np.ndarray:
-    """As `plot_modes`, with or without the slider."""
     counts = (is_whole(most) and most >= 1, "most", most, "must be a whole number >= 1")
     raise_faults(foreign_case(p) + violations(counts))
     drawable = p.n_diameters >= 0 or p.disc is not None
@@ -319,10 +314,9 @@ def draw_modes(p: Parameters, most: int, slider: bool, ax: Any = None) -> np.nda
     with canvas(ax, 1.45 * columns + 0.1, 1.65 * rows + 0.3, rows, columns) as axes:
         for spare in axes[count:]:
             spare.set_axis_off()
-        motion.draw_modes(axes[:count], p, slider)
+        motion.draw_modes(axes[:count], p)
         if ax is None:
-            what = "slider and nodal lines" if slider else "nodal lines"
-            axes[0].figure.suptitle(f"Modes (nodal diameters, nodal circles), {what}", fontsize=8)
+            axes[0].figure.suptitle("Modes (nodal diameters, nodal circles), slider and nodal lines", fontsize=8)
     return np.array(axes)
 
 
