@@ -113,7 +113,7 @@ def test_everything_public_is_in_the_reference_and_shows_its_use():
             assert {"Parameters", "Returns", "Raises", "Examples"} <= {*sections}, name
     drawing = [member for name in RETURNED for member in vars(resolve_name(f"disc_model.{name}")).values()]
     drawing = [member for member in drawing if getattr(member, "__name__", "").startswith(("plot", "animate"))]
-    assert len(drawing) == 8
+    assert len(drawing) == 7
     for word in (">>> ", "Returns|returns", "Raises|raises"):
         assert not [member.__qualname__ for member in drawing if not re.search(word, member.__doc__)], word
 
