@@ -300,8 +300,6 @@ class CurvePlot(General):
             ax.label_outer()
         if self.limits is not None:
             axes[0].set_ylim(self.limits)
-            if axes[0].get_yscale() == "linear":  # longer labels that come with the layout would not find room
-                axes[0].locator_params(axis="y", steps=[1, 2, 5, 10])
         drawing.letters(axes, [fill(name, 26) for name, _ in parts], pad=20 if self.panels == "each" else None)
         for ax in axes:
             handles, labels = ax.get_legend_handles_labels()
