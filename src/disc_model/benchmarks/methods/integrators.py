@@ -232,7 +232,7 @@ RTOL = 1e-8
 
 def solve_regularised(problem: Problem, value: float, budget: float, algorithm: str) -> MethodResult:
     """An algorithm of scipy on a model without events, one stiff ODE, `kernels.smooth_rate`; ``value`` is eps (rad/s).
-    Its error is about eps^(2/3), since stick ends by slow passage through the maximum of the law of friction, a fold."""
+    Its error is about eps^(2/3): stick ends by slow passage through a fold, the maximum of the law of friction."""
     meter, p, start = Meter(problem, budget), problem.parameters, problem.start
     physics, stiffness = meter.physics, PENALTY / value
     damping = 2.0 * math.sqrt(stiffness / (1.0 / p.m + physics.compliance))

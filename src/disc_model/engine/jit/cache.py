@@ -42,10 +42,10 @@ def hash_of(*of: object) -> str:
 class _Listener(event.Listener):
     """Says once in a process that kernels are compiled."""
 
-    listening, said = 0, False
+    said = False
 
     def on_start(self, event: Any) -> None:
-        if self.listening and not self.said:
+        if not self.said:
             print("compiling kernels, once: 10 to 20 s for each kind", file=sys.stderr, flush=True)
             self.said = True
 
@@ -57,14 +57,10 @@ LISTENER = _Listener()
 
 
 @contextmanager
-def compiling(report: bool = True) -> Iterator[None]:
+def compiling() -> Iterator[None]:
     """Say so if the block compiles kernels; also usable as a decorator."""
-    LISTENER.listening += report
-    try:
-        with event.install_listener("numba:compile", LISTENER):
-            yield
-    finally:
-        LISTENER.listening -= report
+    with event.install_listener("numba:compile", LISTENER):
+        yield
 
 
 @contextmanager
