@@ -201,7 +201,7 @@ def lowest_position(case: CaseView, *, share: float) -> Answer:
     swings = int(np.sum((np.diff(height)[1:] > 0) & (np.diff(height)[:-1] <= 0)))
     counts = (starts.size, swings)
     holds = part <= share and above <= share
-    return Answer(holds, counts=counts, span=extent(time), part=part, speed=speed)
+    return Answer(holds, counts=counts, span=extent(time), part=part, above=above, speed=speed)
 
 
 def seen_in_section(case: CaseView, *, share: float) -> Answer:
