@@ -29,7 +29,7 @@ CERTAIN = 0.02
 LINGERS = 1e-3  # largest change over a period of a motion that stays near an unstable cycle: on a torus it would move
 LARGEST_PERIOD = 8  # releases in a period of cycles that are sought from the section alone, to limit the time
 RISE = 1.5  # factor between changes of periods that shows growth: rounding and beats with decaying modes cause less
-# s, settled in contact, until a motion is left: of 186 on a finer grid, 2 separated by 1000 s, and after 200 s 5 would have
+# s, settled in contact, until a motion is left: 2 of 186 on a finer grid separated later, by 1000 s; with 200 s, 5 do
 STEADY_FOR = 360.0
 
 # ---- Attractors of many motions of a case
