@@ -2,12 +2,13 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from disc_model import Parameters, simulate
-from disc_model.stability.cycle import bifurcation_type
+from disc_model.stability.cycle import bifurcation_type, cycle_of
 from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Flight, ReturnMap, newton
 from tests.contact_laws import COMPILES, LAWS
 from tests.engine.test_variational import differences
@@ -143,6 +144,14 @@ def test_the_derivative_by_E_of_a_plate_with_a_damping_ratio() -> None:
 def test_a_multiplier_tells_the_bifurcation() -> None:
     kinds = [bifurcation_type(mu) for mu in (1.1 + 0j, -1.1 + 0j, 0.8 + 0.8j)]
     assert kinds == ["fold", "period_doubling", "neimark_sacker"]
+
+
+@pytest.mark.parametrize(("multiplier", "rate"), [(0.0, -math.inf), (-2.0, math.log(2))])
+def test_the_leading_multiplier_gives_the_growth_rate(multiplier, rate) -> None:
+    """A return map without slope forgets its start at once."""
+    map_ = ReturnMap(P)
+    flight = replace(map_.evaluate(map_.static), jacobian=multiplier * np.eye(map_.size))
+    assert cycle_of(map_, flight).growth_rate * flight.period == pytest.approx(rate)  # rounding is 1e-15
 
 
 OTHER_LAWS = {name: LAWS[name] for name in ("compliant", "normal")} | {"residual": {"contact_compliance": "residual"}}

@@ -251,7 +251,7 @@ def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
     """The result for a cycle that Newton's method has found to the tolerance."""
     values = multipliers(flight.jacobian)
     leading = complex(values[0])
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         exponents = np.asarray(np.log(values) / flight.period, dtype=complex)
     named = zip(flight.counts[:-1], ("release", "backward release", "slip reversal", "separation"), strict=True)
     events = ", ".join(counted(count, name) for count, name in named if count)
