@@ -156,5 +156,8 @@ def test_results_of_another_study_of_the_same_name_are_not_overwritten(tmp_path:
     shown = second.refused("-j1", "-n")
     assert "study='small_growth': is also the name of the study in first.yaml, whose results are in" in shown
     assert "Job stats" not in shown
+    (project.folder / "detail.yaml").write_text("title: in other detail")
+    both = replace(project, config=None).complete("-n", "--configfile", "first.yaml", "detail.yaml")
+    assert "is also the name" not in both
     (project.folder / "first.yaml").rename(project.folder / "third.yaml")
     assert "Job stats" in second.complete("-n")

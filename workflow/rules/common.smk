@@ -63,7 +63,9 @@ try:
     from disc_model.sources import source_hash
     from disc_model.studies.study import (
         closing_lines,
+        mapping,
         read_file,
+        read_files,
         study_from_config,
     )
 

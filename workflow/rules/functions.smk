@@ -75,6 +75,24 @@ def measured_of(part):
     return made_of("measure", "benchmarks.methods", f"benchmarks.{source}")
 
 
+def check_owner(files, owner):
+    """Raise WorkflowError if other study files of this name, listed by the file `owner`, have made the results."""
+    former = owner.read_text(encoding="utf-8").splitlines() if owner.exists() else files
+    # further files laid over the same ones are the same study in other detail
+    differ = any(file != before for file, before in zip(files, former))
+    if not differ or not all(Path(file).is_file() for file in former):
+        return
+    try:
+        same = mapping(read_files(*former)).get("study") == STUDY.name
+    except DiscModelError as error:
+        raise WorkflowError(str(error)) from None
+    if same:
+        raise WorkflowError(
+            f"study={STUDY.name!r}: is also the name of the study in {', '.join(former)}, whose results are in"
+            f" {RESULTS} and would be overwritten; give one of them another name, or another folder with --directory"
+        )
+
+
 def concerns_the_study(record):
     """Whether a message of Snakemake is no routine of single jobs, and no exception beside a failed job's log."""
     of_jobs = {"job_info", "shellcmd", "job_started", "job_finished", "group_info"}
