@@ -125,7 +125,7 @@ def set_times(paths: list[Path], days: float) -> None:
 # ---- bad study files
 
 
-FAULTS = [f"{SMALL}: 2 faults", "cases.X.parameters.N = -5: must be >= 0", "cases.X.t_end = 0: must be > 0"]
+FAULTS = [f"{SMALL}: 2 faults", "cases.X.parameters.N=-5: must be >= 0", "cases.X.t_end=0: must be > 0"]
 
 
 @pytest.mark.parametrize(
