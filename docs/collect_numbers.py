@@ -1,8 +1,9 @@
 """Numbers in sentences of README, docs and captions that come from results: `make numbers`.
 
-``docs/statements.yaml`` holds the sentences, each with an expression in the place of a number. The values of the
-expressions are stored as ``docs/numbers.json``, so that tests can compare the pages with them where there are no
-results. An expression is made of the methods of `Sources`. This script evaluates all of them and corrects the pages.
+``docs/statements.yaml`` holds the sentences, each with an expression in the place of a number. The
+values of the expressions are stored as ``docs/numbers.json``, so that tests can compare the pages
+with them where there are no results. An expression is made of the methods of `Sources`. This script
+evaluates all of them and corrects the pages.
 """
 
 from __future__ import annotations
@@ -33,7 +34,21 @@ STATEMENTS = yaml.safe_load((ROOT / "docs" / "statements.yaml").read_text(encodi
 PAGES = ["README.md", "docs/**/*.md", "config/**/*.yaml"]
 """Texts in which statements are looked for."""
 NUMBER = r"[-+]?\d+(?:,\d{3})*(?:\.\d+)?(?:e[-+]?\d+)?"
-COUNTS = ["none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"]
+COUNTS = [
+    "none",
+    "one",
+    "two",
+    "three",
+    "four",
+    "five",
+    "six",
+    "seven",
+    "eight",
+    "nine",
+    "ten",
+    "eleven",
+    "twelve",
+]
 NOISE = 1e-6
 """Relative difference to which results of two processors agree (docs/accuracy.md), but for what `tolerances` of
 statements.yaml names: there a last bit decides."""
@@ -48,17 +63,21 @@ def shown(value: Value, spec: str) -> str:
     """A value as a page shows it; ``w`` as `spec` stands for a count in words, ``s`` for text."""
     if isinstance(value, str):
         return value
-    return COUNTS[round(value)] if spec == "w" else format(value, spec or ".0f").replace("e-0", "e-")
+    return (
+        COUNTS[round(value)] if spec == "w" else format(value, spec or ".0f").replace("e-0", "e-")
+    )
 
 
 def agrees(text: str, value: Value, spec: str) -> bool:
-    """Whether `text` shows the value; where noise decides how the last digit is rounded, both ways are right."""
+    """Whether `text` shows the value; where noise decides how the last digit is rounded, both ways
+    are right."""
     values = [value] if isinstance(value, str) else [value * (1 - NOISE), value * (1 + NOISE)]
     return text.lower() in {shown(one, spec).lower() for one in values}
 
 
 def reproduced(expression: str, text: str, value: Value, spec: str) -> bool:
-    """Whether a value that was computed anew is that of `text`, as far as another processor gives it."""
+    """Whether a value that was computed anew is that of `text`, as far as another processor gives
+    it."""
     if agrees(text, value, spec):
         return True
     for tolerance in STATEMENTS["tolerances"]:
@@ -66,7 +85,9 @@ def reproduced(expression: str, text: str, value: Value, spec: str) -> bool:
             relative, absolute = tolerance.get("relative", 0.0), tolerance.get("absolute", 0.0)
             words, numbers = zip(*(_parts(one) for one in (text, shown(value, spec))), strict=True)
             first, second = numbers
-            return words[0] == words[1] and np.allclose(first, second, rtol=relative, atol=absolute * (1 + 1e-9))
+            return words[0] == words[1] and np.allclose(
+                first, second, rtol=relative, atol=absolute * (1 + 1e-9)
+            )
     return False
 
 
@@ -77,7 +98,8 @@ def _parts(text: str) -> tuple[list[str], list[float]]:
 
 
 class Statement(NamedTuple):
-    """A sentence: expressions and formats of its numbers, and the pattern that finds it on a page, links or not."""
+    """A sentence: expressions and formats of its numbers, and the pattern that finds it on a page,
+    links or not."""
 
     text: str
     page: str
@@ -89,7 +111,11 @@ class Statement(NamedTuple):
         link, fields, pattern = r"(?:\]\([^)]*\))?", [], ""
         for literal, expression, spec, _ in Formatter().parse(text):
             for token in re.findall(r"\s+|\w+|[^\s\w]", literal):
-                pattern += rf"{link}\s+\[?" if token.isspace() else link * (not token[0].isalnum()) + re.escape(token)
+                pattern += (
+                    rf"{link}\s+\[?"
+                    if token.isspace()
+                    else link * (not token[0].isalnum()) + re.escape(token)
+                )
             if expression is not None:
                 fields.append((expression, spec or ""))
                 pattern += r"([^|\n]*?)" if spec == "s" else rf"({NUMBER}|\w+)"
@@ -104,19 +130,27 @@ def statements() -> list[Statement]:
         each = entry.get("each", {})
         for row in zip(*each.values(), strict=True) if each else [()]:
             names = entry.get("with", {}) | dict(zip(each, row, strict=True))
-            found.append(Statement.parse(Template(entry["text"]).substitute(names), entry.get("page", "")))
+            found.append(
+                Statement.parse(Template(entry["text"]).substitute(names), entry.get("page", ""))
+            )
     return found
 
 
 @cache
 def pages() -> dict[str, str]:
     """Texts in which statements are looked for, by path."""
-    paths = [path for pattern in PAGES for path in sorted(ROOT.glob(pattern)) if "_build" not in path.parts]
+    paths = [
+        path
+        for pattern in PAGES
+        for path in sorted(ROOT.glob(pattern))
+        if "_build" not in path.parts
+    ]
     return {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in paths}
 
 
 class Fault(NamedTuple):
-    """A number of a page that is not that of a statement: where it stands, and what has to stand there."""
+    """A number of a page that is not that of a statement: where it stands, and what has to stand
+    there."""
 
     page: str
     match: re.Match[str]
@@ -124,7 +158,9 @@ class Fault(NamedTuple):
     number: str
 
 
-def faults(statement: Statement, texts: dict[str, str], values: dict[str, Value]) -> tuple[int, list[Fault]]:
+def faults(
+    statement: Statement, texts: dict[str, str], values: dict[str, Value]
+) -> tuple[int, list[Fault]]:
     """How often texts say a statement, and what is wrong in them."""
     matches = [
         (page, match)
@@ -152,7 +188,9 @@ def corrected(texts: dict[str, str], values: dict[str, Value]) -> dict[str, str]
 
 def stored() -> dict[str, Value]:
     """Values of the expressions."""
-    values: dict[str, Value] = json.loads((ROOT / "docs" / "numbers.json").read_text(encoding="utf-8"))
+    values: dict[str, Value] = json.loads(
+        (ROOT / "docs" / "numbers.json").read_text(encoding="utf-8")
+    )
     return values
 
 
@@ -161,14 +199,18 @@ def stored() -> dict[str, Value]:
 
 
 class Sources:
-    """What expressions are made of: results below a folder, pages that are written from results, and the package."""
+    """What expressions are made of: results below a folder, pages that are written from results,
+    and the package."""
 
     def __init__(self, results: Path) -> None:
         self.results = results
 
     def value(self, expression: str) -> Value:
         """Value of an expression; raises `MissingFile` if it needs results that are not there."""
-        known = {name: getattr(self, name) for name in dir(self) if name[0] != "_"} | {"np": np, "dm": dm}
+        known = {name: getattr(self, name) for name in dir(self) if name[0] != "_"} | {
+            "np": np,
+            "dm": dm,
+        }
         value = eval(expression, known)
         return value if isinstance(value, str) else float(f"{float(value):.9g}")
 
@@ -193,7 +235,8 @@ class Sources:
         return sum(row.print_error == print_error for row in ROWS)
 
     def evidence(self, claim: str, unit: str = "") -> list[float]:
-        """Numbers in the evidence on a statement, in the order of the text; with a unit, those that it follows."""
+        """Numbers in the evidence on a statement, in the order of the text; with a unit, those that
+        it follows."""
         row = _table(self.results / "paper" / "claims.csv").set_index("id").loc[claim]
         found = re.findall(rf"{NUMBER}(?= {unit})", f"{row['here']} {row['notes']}")
         return [_numbers(number)[0] for number in found] if unit else _numbers(str(row["here"]))
@@ -213,11 +256,16 @@ class Sources:
 
     def separating_cells(self, normalization: str) -> int:
         """Points of the map over speed and preload at which the static start separates."""
-        return int((flag_names(self.grid("map_N")["outcome"].sel(normalization=normalization)) == "separation").sum())
+        return int(
+            (
+                flag_names(self.grid("map_N")["outcome"].sel(normalization=normalization))
+                == "separation"
+            ).sum()
+        )
 
     def quiet_cycle(self) -> tuple[float, float, float]:
-        """Least speed of the stable quiet cycle at 385 N, its fold, and twice its frequency there, Hz; it has the
-        least range at 14 rad/s."""
+        """Least speed of the stable quiet cycle at 385 N, its fold, and twice its frequency there,
+        Hz; it has the least range at 14 rad/s."""
         grid = self.grid("branches")
         speed, stable = grid["value"].values, grid["growth_rate"].values < 0
         ranges = np.where(stable & (abs(speed - 14) < 0.2), grid["range"].values, np.inf)
@@ -225,19 +273,28 @@ class Sources:
         unstable = np.flatnonzero(~stable[branch])
         ends = unstable[unstable < point].max() + 1, unstable[unstable > point].min() - 1
         fold = np.nanargmax(speed[branch])
-        return min(speed[branch, ends]), speed[branch, fold], 2 / grid["period"].values[branch, fold]
+        return (
+            min(speed[branch, ends]),
+            speed[branch, fold],
+            2 / grid["period"].values[branch, fold],
+        )
 
     def least_separating_speed(self) -> float:
         """Least speed with a stable cycle that separates at 385 N."""
         grid = self.grid("branches")
-        return float(grid["value"].where((grid["growth_rate"] < 0) & (grid["separations"] > 0)).min())
+        return float(
+            grid["value"].where((grid["growth_rate"] < 0) & (grid["separations"] > 0)).min()
+        )
 
     def compared(self, normalization: str, word: str = "") -> int:
-        """Number of points where steady sliding and the motion are compared; with a key of `AGREEMENTS`."""
+        """Number of points where steady sliding and the motion are compared; with a key of
+        `AGREEMENTS`."""
         from disc_model.figures.over_parameter import agreement, common_points
 
         studies = (self.grid("map_c_p"), self.grid("sliding").rename(value="c_p"))
-        moved, slid = (each.sel(normalization=normalization).transpose("N", "c_p", ...) for each in studies)
+        moved, slid = (
+            each.sel(normalization=normalization).transpose("N", "c_p", ...) for each in studies
+        )
         plane, linear = common_points(moved, slid, ("N", "c_p"))
         words = agreement(linear["largest_growth_rate"].values, flag_names(plane["outcome"]))
         return int((words == word).sum()) if word else words.size
@@ -246,9 +303,15 @@ class Sources:
         return float(self.grid("critical_speed")["critical_speed"].sel(N=N, horizon=horizon))
 
     def lowest_speeds(self) -> np.ndarray:
-        """Lowest speeds of the map with separation, at the preloads that have some, with either scale of the modes."""
+        """Lowest speeds of the map with separation, at the preloads that have some, with either
+        scale of the modes."""
         outcome = self.grid("map_N")["outcome"]
-        lowest = outcome["Omega"].where(outcome.copy(data=flag_names(outcome) == "separation")).min("Omega").values
+        lowest = (
+            outcome["Omega"]
+            .where(outcome.copy(data=flag_names(outcome) == "separation"))
+            .min("Omega")
+            .values
+        )
         return lowest[np.isfinite(lowest)]
 
     def brake(self, disc: str, N: float, Omega: float, contact: str = "unilateral") -> float:
@@ -266,7 +329,8 @@ class Sources:
         return abs(powers(80, contact)[part]) / 1e3
 
     def brake_mode(self, Omega: float) -> float:
-        """Frequency of the mode of steady sliding that grows fastest on the brake-like disc at 8 kN, Hz."""
+        """Frequency of the mode of steady sliding that grows fastest on the brake-like disc at 8
+        kN, Hz."""
         rows = self.grid("brake_convergence").sel(disc="11 modes", contact_compliance=0)
         row = rows.isel(value=int(np.abs(rows["value"].values - Omega).argmin()))
         return float(row["frequency"].values[np.nanargmax(row["mode_growth_rate"].values)])
@@ -277,7 +341,9 @@ class Sources:
 
     def orthonormal_speed(self, N: float) -> float:
         """The same with friction in the middle plane."""
-        return float(self.grid("critical_speed_orthonormal")["critical_speed"].sel(N=N, horizon=500))
+        return float(
+            self.grid("critical_speed_orthonormal")["critical_speed"].sel(N=N, horizon=500)
+        )
 
     def critical_energy(self, Omega: float) -> float:
         return float(self.grid("basins")["critical_energy"].sel(Omega=Omega))
@@ -296,7 +362,9 @@ class Sources:
     def chance(self, study: str, N: float, event: str) -> str:
         """A probability with its interval."""
         point = self.uncertain(study, N)
-        value, low, high = (float(point[f"probability_{event}{end}"]) for end in ("", "_low", "_high"))
+        value, low, high = (
+            float(point[f"probability_{event}{end}"]) for end in ("", "_low", "_high")
+        )
         return f"{value:.2f} ({low:.2f} to {high:.2f})"
 
     def thirds(self, study: str, N: float, parameter: str) -> np.ndarray:
@@ -306,11 +374,17 @@ class Sources:
         return probabilities(self.uncertain(study, N), parameter)[:, 0]
 
     def most_changing(self, study: str, N: float) -> str:
-        """The largest changes of the probability of instability, from the lowest third to the highest, if resolved."""
+        """The largest changes of the probability of instability, from the lowest third to the
+        highest, if resolved."""
         names = map(str, self.uncertain(study, N)["parameter"].values)
         changes = {name: float(np.diff(self.thirds(study, N, name)[[0, -1]])[0]) for name in names}
         largest = sorted(changes, key=lambda name: -abs(changes[name]))[:3]
-        return ", ".join(f"{name} {changes[name]:+.2f}" for name in largest if abs(changes[name]) >= 0.15) or "none"
+        return (
+            ", ".join(
+                f"{name} {changes[name]:+.2f}" for name in largest if abs(changes[name]) >= 0.15
+            )
+            or "none"
+        )
 
     # ---- results of `make survival` and of `make orthonormal`, and pages
 
@@ -336,20 +410,25 @@ class Sources:
         return int(((table["id"] == conclusion) & (table["verdict"] == verdict)).sum())
 
     def ranges(self, model: str, paradox: bool = True) -> np.ndarray:
-        """Ranges of the disc's displacement with separation and in bilateral contact, mm, shape (cases, 2); with or
-        without cases in which bilateral contact ends in Painlevé's paradox."""
-        pairs, notes = (self._found("Smaller vibration", model, column) for column in ("here", "notes"))
+        """Ranges of the disc's displacement with separation and in bilateral contact, mm, shape
+        (cases, 2); with or without cases in which bilateral contact ends in Painlevé's paradox."""
+        pairs, notes = (
+            self._found("Smaller vibration", model, column) for column in ("here", "notes")
+        )
         rows = re.findall(r"([\d.]+) against ([\d.]+) mm at (\d+ N, [\d.]+ rad/s)", pairs)
-        return np.array([row[:2] for row in rows if paradox or f"{row[2]} after" not in notes], dtype=float)
+        return np.array(
+            [row[:2] for row in rows if paradox or f"{row[2]} after" not in notes], dtype=float
+        )
 
     def energy(self) -> np.ndarray:
-        """Energies in mJ per period, shape (cases, 4): supplied with separation and without it, taken by damping and by
-        impacts."""
+        """Energies in mJ per period, shape (cases, 4): supplied with separation and without it,
+        taken by damping and by impacts."""
         numbers = self.evidence("F10e", "mJ")
         return np.hstack([np.reshape(numbers[:6], (3, 2)), np.reshape(numbers[9:], (3, 2))])
 
     def ratios(self) -> np.ndarray:
-        """How many times smaller they are with separation, under all models, where bilateral contact goes on."""
+        """How many times smaller they are with separation, under all models, where bilateral
+        contact goes on."""
         ranges = np.concatenate([self.ranges(model, paradox=False) for model in MODELS])
         return ranges[:, 1] / ranges[:, 0]
 
@@ -359,8 +438,16 @@ class Sources:
 
     def accuracy(self) -> np.ndarray:
         """Errors of event times divided by the default tolerance, by case."""
-        text = (ROOT / "docs" / "accuracy.md").read_text(encoding="utf-8").partition("\n## Event times\n")[2]
-        rows = [line.split("|") for line in text.partition("\n## ")[0].splitlines() if line.startswith("|")][2:]
+        text = (
+            (ROOT / "docs" / "accuracy.md")
+            .read_text(encoding="utf-8")
+            .partition("\n## Event times\n")[2]
+        )
+        rows = [
+            line.split("|")
+            for line in text.partition("\n## ")[0].splitlines()
+            if line.startswith("|")
+        ][2:]
         return np.array([float(row[4]) for row in rows])
 
     # ---- the package
@@ -390,9 +477,11 @@ class Sources:
         return dm.steady_sliding(_parameters(**case)).growth_rate
 
     def stiffening(self, thicknesses: float) -> float:
-        """Static stiffness of the lowest mode without nodal diameters at a deflection, over that of linear theory.
+        """Static stiffness of the lowest mode without nodal diameters at a deflection, over that of
+        linear theory.
 
-        One mode by von Karman's equations, its radial displacement by polynomials, clamped inside and free outside.
+        One mode by von Karman's equations, its radial displacement by polynomials, clamped inside
+        and free outside.
         """
         p = _parameters(N=385, normalization="orthonormal")
         modes, (x, weights) = mode_arrays(p), np.polynomial.legendre.leggauss(60)
@@ -410,7 +499,9 @@ class Sources:
         free = np.linalg.solve(matrix, -np.einsum("k,ab,ak,bki->i", area, law, bent, strains))
         strain = strains @ free + bent
         energy = np.einsum("k,ab,ak,bk->", area, law, strain, strain) / 2
-        return float(1 + 4 * energy * (p.h * thicknesses) ** 2 * modes.psi[0] ** 2 / modes.omega[0] ** 2)
+        return float(
+            1 + 4 * energy * (p.h * thicknesses) ** 2 * modes.psi[0] ** 2 / modes.omega[0] ** 2
+        )
 
     def stick_slip_frequency(self) -> float:
         return 1 / dm.floquet(_parameters(N=385, Omega=15)).period
@@ -440,14 +531,19 @@ def _row(page: str, heading: str, start: str) -> list[str]:
 
 
 def _numbers(text: str) -> list[float]:
-    return [float(number.replace(",", "")) for number in re.findall(rf"(?<![A-Za-z\d]){NUMBER}", text)]
+    return [
+        float(number.replace(",", "")) for number in re.findall(rf"(?<![A-Za-z\d]){NUMBER}", text)
+    ]
 
 
 @script
 def main(results: str = "results") -> None:
-    """Evaluate all expressions, and correct the pages; what needs results that are not there stays as it was."""
+    """Evaluate all expressions, and correct the pages; what needs results that are not there stays
+    as it was."""
     sources, old, values = Sources(ROOT / results), stored(), {}
-    for expression in sorted({expression for statement in statements() for expression, _ in statement.fields}):
+    for expression in sorted(
+        {expression for statement in statements() for expression, _ in statement.fields}
+    ):
         try:
             values[expression] = sources.value(expression)
         except MissingFile:

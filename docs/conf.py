@@ -27,7 +27,9 @@ root_doc = "index"
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 3
 nb_execution_mode = "force"  # a change of the package changes what cells print
-nb_execution_timeout = 600  # kernels may have to be compiled first, on a machine that does other things too
+nb_execution_timeout = (
+    600  # kernels may have to be compiled first, on a machine that does other things too
+)
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True
 
@@ -45,7 +47,9 @@ html_title = f"disc_model {release}"
 html_show_sphinx = False
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
-_PROJECT = tomllib.loads(Path(__file__).parents[1].joinpath("pyproject.toml").read_text(encoding="utf-8"))["project"]
+_PROJECT = tomllib.loads(
+    Path(__file__).parents[1].joinpath("pyproject.toml").read_text(encoding="utf-8")
+)["project"]
 html_baseurl = _PROJECT["urls"]["Documentation"]
 html_theme_options = {
     "navigation_with_keys": True,
@@ -65,17 +69,24 @@ def short_signature(app, what, name, thing, options, signature, returns):
     """Of a pydantic model: names and defaults; its rules stand in the list of parameters."""
     if what == "class" and issubclass(thing, BaseModel):
         fields = thing.model_fields.items()
-        return f"({', '.join(n if f.is_required() else f'{n}={f.default!r}' for n, f in fields)})", returns
+        return (
+            f"({', '.join(n if f.is_required() else f'{n}={f.default!r}' for n, f in fields)})",
+            returns,
+        )
     return None
 
 
 def words_below_names(app, what, name, thing, options, lines):
-    """Docstrings say "name : what it is", where numpydoc expects a type: put the words below the name."""
-    lines[:] = "\n".join(re.sub(r"^(\w[\w, ]*) : (.*)$", r"\1\n    \2", line) for line in lines).split("\n")
+    """Docstrings say "name : what it is", where numpydoc expects a type: put the words below the
+    name."""
+    lines[:] = "\n".join(
+        re.sub(r"^(\w[\w, ]*) : (.*)$", r"\1\n    \2", line) for line in lines
+    ).split("\n")
 
 
 def mark_wide(app, doctree):
-    """Pictures as wide as a page keep a size on a phone at which they can be read, as drawings do."""
+    """Pictures as wide as a page keep a size on a phone at which they can be read, as drawings
+    do."""
     for image in doctree.findall(nodes.image):
         file = Path(app.srcdir, image["uri"])
         if file.suffix == ".png" and file.is_file():
@@ -90,12 +101,18 @@ WIDE = 600
 def copy_mathjax(app, error):
     """Put what pages load of MathJax into the finished site."""
     if error is None and app.builder.format == "html":
-        source = Path(importlib.util.find_spec("sphinx-mathjax-offline").origin).parent / "static" / "mathjax"
+        source = (
+            Path(importlib.util.find_spec("sphinx-mathjax-offline").origin).parent
+            / "static"
+            / "mathjax"
+        )
         target = Path(app.outdir) / "_static" / "mathjax"
         target.mkdir(parents=True, exist_ok=True)
         shutil.copy2(source / "tex-chtml.js", target)
         shutil.copytree(
-            source / "output" / "chtml" / "fonts", target / "output" / "chtml" / "fonts", dirs_exist_ok=True
+            source / "output" / "chtml" / "fonts",
+            target / "output" / "chtml" / "fonts",
+            dirs_exist_ok=True,
         )
 
 

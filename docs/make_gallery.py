@@ -20,7 +20,10 @@ from disc_model.studies.study import load_study
 
 SHOWN = (
     "composite",
-    *(f"fig{n}" for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1")),
+    *(
+        f"fig{n}"
+        for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1")
+    ),
 )
 OF_GRIDS = (
     "branches",
@@ -74,10 +77,15 @@ def write_film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
     """
     whole, window = motion_of(case), samples(case, "around0")
     part = slice(None, None, max(1, whole.time.size // frames))
-    arrays = {name: getattr(whole, name)[..., part] for name in ("time", "amplitudes", "slider", "u", "phase")}
+    arrays = {
+        name: getattr(whole, name)[..., part]
+        for name in ("time", "amplitudes", "slider", "u", "phase")
+    }
     with styled():
         figure = Figure(figsize=(6.4, 2.7))
-        animation = film(figure, whole._replace(**arrays), window["time"].values, window["P"].values)
+        animation = film(
+            figure, whole._replace(**arrays), window["time"].values, window["P"].values
+        )
         path.parent.mkdir(parents=True, exist_ok=True)
         animation.save(path, writer=PillowWriter(fps=12), dpi=100)
 
@@ -85,7 +93,10 @@ def write_film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
 def page_of(shown: list[tuple[str, str]]) -> str:
     """The page: small pictures with their titles, each a link to the picture itself."""
     lines = ["# Gallery", "", "From `make reproduce`, `make bench` and `make survival`.", ""]
-    cells = [f"[![{Path(name).stem}](gallery/{name})](gallery/{name})<br>{title}" for name, title in shown]
+    cells = [
+        f"[![{Path(name).stem}](gallery/{name})](gallery/{name})<br>{title}"
+        for name, title in shown
+    ]
     cells += [""] * (-len(shown) % COLUMNS)
     rows = ["| " + " | ".join(cells[i : i + COLUMNS]) + " |" for i in range(0, len(cells), COLUMNS)]
     return "\n".join([*lines, "| " * COLUMNS + "|", "| --- " * COLUMNS + "|", *rows, ""])
@@ -94,17 +105,27 @@ def page_of(shown: list[tuple[str, str]]) -> str:
 @script
 def main() -> None:
     results, docs = Path("results"), Path("docs")
-    axes: Any = dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot()  # the first picture of README
+    axes: Any = dm.simulate(
+        dm.Parameters(N=385, Omega=15.1), 60
+    ).plot()  # the first picture of README
     axes.flat[0].figure.savefig(docs / "gallery" / "first_run.png", dpi=120)
-    first_study = (docs / "studies.md").read_text(encoding="utf-8").split("```yaml\n")[1].split("```")[0]
+    first_study = (
+        (docs / "studies.md").read_text(encoding="utf-8").split("```yaml\n")[1].split("```")[0]
+    )
     axes = dm.plot_sweep(dm.run_study(yaml.safe_load(first_study)))
     axes.figure.savefig(docs / "gallery" / "my_growth.png", dpi=120)
     studies = [load_study(path) for path in ("config/paper.yaml", "config/survival.yaml")]
-    entries = {name: (study, entry) for one in studies for (study, name), entry in one.entries(one.grids()[0]).items()}
+    entries = {
+        name: (study, entry)
+        for one in studies
+        for (study, name), entry in one.entries(one.grids()[0]).items()
+    }
     shown: list[tuple[str, str]] = []  # picture and title
     for name in SHOWN:
         _, entry = entries[name]
-        small = shrink(results / "paper" / "figures" / f"{name}.png", docs / "gallery" / f"{name}.png")
+        small = shrink(
+            results / "paper" / "figures" / f"{name}.png", docs / "gallery" / f"{name}.png"
+        )
         shown.append((small.name, " ".join(entry.title.split())))
     (case,) = load_cases([results / "paper" / "cases" / "F02.nc"]).values()
     write_film(case, docs / "gallery" / "film.webp")
@@ -112,7 +133,10 @@ def main() -> None:
     texts = {name: (entries[name][0], entries[name][1].plot.caption) for name in OF_GRIDS}
     texts |= {name: ("bench", text) for name, text in OF_BENCHMARK.items()}
     for name, (study, text) in texts.items():
-        source, small = results / study / "figures" / f"{name}.png", docs / "gallery" / f"{name}.png"
+        source, small = (
+            results / study / "figures" / f"{name}.png",
+            docs / "gallery" / f"{name}.png",
+        )
         if source.is_file():
             shrink(source, small)
         if small.is_file():

@@ -1,8 +1,9 @@
-"""Write what README and docs say about speed, and their pictures of it, from the datasets of one run of the benchmark.
+"""Write what README and docs say about speed, and their pictures of it, from the datasets of one
+run of the benchmark.
 
-The numbers of the run are stored as ``docs/benchmark.json``. All passages are written from this file, by
-``benchmark_passages.jinja``, so that one run refreshes every number, and a test detects outdated pages. What was not
-measured is left as it was.
+The numbers of the run are stored as ``docs/benchmark.json``. All passages are written from this
+file, by ``benchmark_passages.jinja``, so that one run refreshes every number, and a test detects
+outdated pages. What was not measured is left as it was.
 """
 
 import json
@@ -42,8 +43,11 @@ Table = dict[str, dict[Any, Any]]
 # Numbers of a run
 
 
-def speed_numbers(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset) -> dict[str, Any]:
-    """Numbers of a run for the pages; ``as_avx2`` is of kernels compiled for a processor with AVX2 only.
+def speed_numbers(
+    work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.Dataset
+) -> dict[str, Any]:
+    """Numbers of a run for the pages; ``as_avx2`` is of kernels compiled for a processor with AVX2
+    only.
 
     Raises
     ------
@@ -61,7 +65,9 @@ def speed_numbers(work_precision: xr.Dataset, as_avx2: xr.Dataset, answers: xr.D
         "versions": json.loads(work_precision.attrs["versions"]),
         "own": _own(points),
         "narrow": _own(narrow),
-        "narrowly": [{"times": times["heyoka"]} for times in headline(narrow).values() if "heyoka" in times],
+        "narrowly": [
+            {"times": times["heyoka"]} for times in headline(narrow).values() if "heyoka" in times
+        ],
         "glue": _glue(points[points["solver"] == "heyoka"]),
         "call": _whole_call(points[points["scene"] == JUDGED[0]]),
         "costs": _costs(points),
@@ -74,16 +80,21 @@ def at_default(points: pd.DataFrame) -> pd.DataFrame:
 
 
 def headline(points: pd.DataFrame) -> dict[str, dict[str, float]]:
-    """Cost of a further second with events correct to `DEFAULT` s, or to the series engine's own error if that is
-    larger, over the cost of the series engine at its default, by scene and method."""
+    """Cost of a further second with events correct to `DEFAULT` s, or to the series engine's own
+    error if that is larger, over the cost of the series engine at its default, by scene and
+    method."""
     ratios: dict[str, dict[str, float]] = {}
     for scene in JUDGED:
         part = points[points["scene"] == scene]
         for _, series in at_default(part).dropna(subset="event_error").iterrows():
             error = max(DEFAULT, series["event_error"])
-            costs = {str(name): cost_at(line, error) for name, line in part.groupby("solver", sort=False)}
+            costs = {
+                str(name): cost_at(line, error) for name, line in part.groupby("solver", sort=False)
+            }
             costs["series"] = series["further"]
-            ratios[scene] = {name: cost / costs["series"] for name, cost in costs.items() if math.isfinite(cost)}
+            ratios[scene] = {
+                name: cost / costs["series"] for name, cost in costs.items() if math.isfinite(cost)
+            }
     return ratios
 
 
@@ -97,7 +108,8 @@ def _own(points: pd.DataFrame) -> Rows:
 
 
 def _whole_call(points: pd.DataFrame) -> Rows:
-    """Milliseconds of a whole call of `simulate` for the first scene's second, and the ratio of heyoka's time to it.
+    """Milliseconds of a whole call of `simulate` for the first scene's second, and the ratio of
+    heyoka's time to it.
 
     heyoka's time is that of its integration alone, at the error of `headline`.
     """
@@ -107,31 +119,53 @@ def _whole_call(points: pd.DataFrame) -> Rows:
 
 
 def _glue(heyoka: pd.DataFrame) -> Rows:
-    """Percentage of heyoka's time spent in Python between its phases, by scene, at the setting nearest to `DEFAULT`."""
+    """Percentage of heyoka's time spent in Python between its phases, by scene, at the setting
+    nearest to `DEFAULT`."""
     known = heyoka[heyoka["glue"].notna() & heyoka["scene"].isin(JUDGED)]
     off = np.abs(np.log(known["event_error"] / DEFAULT))
     nearest = known.loc[off.groupby(known["scene"], sort=False).idxmin()]
-    return [{"letter": LETTERS[p["scene"]], "share": 100.0 * p["glue"]} for p in nearest.to_dict("records")]
+    return [
+        {"letter": LETTERS[p["scene"]], "share": 100.0 * p["glue"]}
+        for p in nearest.to_dict("records")
+    ]
 
 
 def _costs(points: pd.DataFrame) -> Table:
-    """Cost by method, cheapest first: times that of the series engine, and on the almost rigid disc in ms a second."""
-    times = {f"({LETTERS[scene]}), times": pd.Series(found) for scene, found in headline(points).items()}
+    """Cost by method, cheapest first: times that of the series engine, and on the almost rigid disc
+    in ms a second."""
+    times = {
+        f"({LETTERS[scene]}), times": pd.Series(found) for scene, found in headline(points).items()
+    }
     rigid = points[points["scene"] == "rigid"].groupby("solver")
-    stiff = pd.Series({name: 1e3 * cost_at(line, CONVERGED, "cost") for name, line in rigid}, dtype=float)
+    stiff = pd.Series(
+        {name: 1e3 * cost_at(line, CONVERGED, "cost") for name, line in rigid}, dtype=float
+    )
     table = pd.DataFrame({**times, "(d), ms": stiff})
-    table = table.assign(least=table[[*times]].min(axis=1)).sort_values(["least", "(d), ms"]).drop(columns="least")
-    return {METHODS[str(name)].label: line.dropna().to_dict() for name, line in table.iterrows() if line.notna().any()}
+    table = (
+        table.assign(least=table[[*times]].min(axis=1))
+        .sort_values(["least", "(d), ms"])
+        .drop(columns="least")
+    )
+    return {
+        METHODS[str(name)].label: line.dropna().to_dict()
+        for name, line in table.iterrows()
+        if line.notna().any()
+    }
 
 
 def _cycle(found: pd.DataFrame) -> Rows:
     """Least time of a correct growth rate from the cycle itself, ms."""
-    right = found[(found["line"] == "cycle") & (found["answer"] == "growth_rate") & (found["verdict"] == "right")]
+    right = found[
+        (found["line"] == "cycle")
+        & (found["answer"] == "growth_rate")
+        & (found["verdict"] == "right")
+    ]
     return [{"ms": 1e3 * seconds} for seconds in right["seconds"].nsmallest(1)]
 
 
 def scaling_numbers(scaling: xr.Dataset) -> dict[str, dict[str, Rows]]:
-    """Rows of `disc_model.benchmarks.scaling`, with the ms of a point, by what varies and the quantity."""
+    """Rows of `disc_model.benchmarks.scaling`, with the ms of a point, by what varies and the
+    quantity."""
     numbers: dict[str, Any] = {}
     for row in scaling.to_dataframe().to_dict("records"):
         row["ms"] = 1e3 * row["seconds"] / row["points"]
@@ -147,14 +181,19 @@ def passages(speed: Mapping[str, Any]) -> dict[str, str]:
     """Texts from `speed_numbers`, by the names that pages refer to."""
     heads = [*(f"({row['letter']}), times" for row in speed["own"]), "(d), ms"]
     rows = [
-        {"method": label} | {head: _cell(line.get(head)) for head in heads} for label, line in speed["costs"].items()
+        {"method": label} | {head: _cell(line.get(head)) for head in heads}
+        for label, line in speed["costs"].items()
     ]
     frame = pd.DataFrame(rows)
     table = "\n".join(markdown_table(frame.columns, frame.itertuples(index=False)))
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent), undefined=jinja2.StrictUndefined, autoescape=False
+        loader=jinja2.FileSystemLoader(Path(__file__).parent),
+        undefined=jinja2.StrictUndefined,
+        autoescape=False,
     )
-    environment.filters["each"] = lambda rows, text, between=" and ": between.join(text.format(**row) for row in rows)
+    environment.filters["each"] = lambda rows, text, between=" and ": between.join(
+        text.format(**row) for row in rows
+    )
     environment.filters["times"] = lambda number: f"{plain(number)} times" if number else "-"
     template = environment.get_template("benchmark_passages.jinja")
     context = template.new_context({"speed": speed, "costs_table": table})
@@ -182,7 +221,9 @@ def fill(text: str, known: Mapping[str, str]) -> str:
     def passage(match: re.Match[str]) -> str:
         name = match["name"]
         if name not in known:
-            raise DiscModelError(f"no passage of the benchmark is called {name!r}; there are {', '.join(known)}")
+            raise DiscModelError(
+                f"no passage of the benchmark is called {name!r}; there are {', '.join(known)}"
+            )
         return f"<!-- bench {name} -->{known[name]}<!-- end -->"
 
     return re.sub(r"<!-- bench (?P<name>\w+) -->.*?<!-- end -->", passage, text, flags=re.DOTALL)
@@ -200,7 +241,9 @@ def main(bench: str = "results/bench", root: str = "") -> None:
     stored = top / "docs" / "benchmark.json"
     run = json.loads(stored.read_text(encoding="utf-8"))
     if there.keys() == SPEED:
-        run |= speed_numbers(there["work_precision"], there["work_precision_avx2"], there["answers"])
+        run |= speed_numbers(
+            there["work_precision"], there["work_precision_avx2"], there["answers"]
+        )
     if (scaling := folder / "scaling.nc").is_file():
         run["scaling"] = scaling_numbers(load(scaling).to_dataset())
     stored.write_text(json.dumps(run, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -5,19 +5,29 @@ import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
-# The quick suite draws the same values in every clone. `make test-long` searches at random, by a seed that it prints.
+# The quick suite draws the same values in every clone. `make test-long` searches at random, by a
+# seed that it prints.
 settings.register_profile(
-    "quick", max_examples=100, derandomize=True, database=None, deadline=None, suppress_health_check=list(HealthCheck)
+    "quick",
+    max_examples=100,
+    derandomize=True,
+    database=None,
+    deadline=None,
+    suppress_health_check=list(HealthCheck),
 )
-settings.register_profile("long", settings.get_profile("quick"), max_examples=3000, derandomize=False)
+settings.register_profile(
+    "long", settings.get_profile("quick"), max_examples=3000, derandomize=False
+)
 settings.load_profile("quick")
-# Hypothesis also draws constants of the modules that are loaded. A test by itself would draw other values.
+# Hypothesis also draws constants of the modules that are loaded. A test by itself would draw other
+# values.
 providers._get_local_constants = lambda: providers._local_constants
 
 
 @pytest.fixture
 def seed(request: pytest.FixtureRequest) -> int:
-    """Of a random search: that of the command line, or another each time; a test that fails shows it."""
+    """Of a random search: that of the command line, or another each time; a test that fails shows
+    it."""
     found = request.config.getoption("--hypothesis-seed")
     chosen = np.random.SeedSequence().entropy % 2**32 if found is None else int(found)
     print(f"drawn by --hypothesis-seed={chosen}")

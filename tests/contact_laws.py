@@ -1,4 +1,5 @@
-"""The laws of contact beside the paper's, as tests name them; and what of them is left to the long tests."""
+"""The laws of contact beside the paper's, as tests name them; and what of them is left to the long
+tests."""
 
 import math
 from typing import Any
@@ -21,7 +22,10 @@ COUPLE: dict[str, Any] = {"friction_offset": 0.02}
 COUPLED = {f"{name or 'vertical'}_coupled": law | COUPLE for name, law in {"": {}, **LAWS}.items()}
 """Each law with friction above the middle plane."""
 
-FALLING = {f"{name or 'vertical'}_falling": law | {"friction_decay": 2.0} for name, law in {"": {}, **LAWS}.items()}
+FALLING = {
+    f"{name or 'vertical'}_falling": law | {"friction_decay": 2.0}
+    for name, law in {"": {}, **LAWS}.items()
+}
 FALLING["compliant_normal_falling"] |= COUPLE
 FALLING["vertical_coupled_falling"] = FALLING["vertical_falling"] | COUPLE
 """Each law with friction that falls with the speed, two of them with the couple."""
@@ -32,7 +36,8 @@ COMPILES = () if numba.config.DISABLE_JIT else (pytest.mark.slow,)
 
 
 def by_series(p):
-    """A ramp of one unit in the last place of N: on ramps stick is followed by its series, and not in closed form."""
+    """A ramp of one unit in the last place of N: on ramps stick is followed by its series, and not
+    in closed form."""
     return Ramp(parameter="N", to=math.nextafter(p.N, math.inf), start=0.0, end=1e3)
 
 

@@ -13,7 +13,9 @@ Damage = Callable[[Groups], Groups]
 
 def damaged(case: xr.DataTree, damage: Damage) -> xr.DataTree:
     """A copy of a case, changed."""
-    groups = {"": case.to_dataset()} | {str(n): node.to_dataset(inherit=False) for n, node in case.children.items()}
+    groups = {"": case.to_dataset()} | {
+        str(n): node.to_dataset(inherit=False) for n, node in case.children.items()
+    }
     return xr.DataTree.from_dict({f"/{name}": group for name, group in damage(groups).items()})
 
 
@@ -23,13 +25,18 @@ def _failed(groups: Groups) -> Groups:
 
 
 def _without_events(groups: Groups) -> Groups:
-    events = {"events": groups["events"].isel(event=slice(0)).drop_attrs(deep=False)} if "events" in groups else {}
+    events = (
+        {"events": groups["events"].isel(event=slice(0)).drop_attrs(deep=False)}
+        if "events" in groups
+        else {}
+    )
     return groups | events
 
 
 def _cut(size: int) -> Damage:
     return lambda groups: {
-        name: group if name in ("", "events") else group.isel(time=slice(size)) for name, group in groups.items()
+        name: group if name in ("", "events") else group.isel(time=slice(size))
+        for name, group in groups.items()
     }
 
 

@@ -2,8 +2,9 @@
 
     python -m tests.instruction_sets NAME COMMAND ...
 
-runs a command as a processor of that name would.  Four libraries choose their code by the processor: numba, OpenBLAS
-(which has a name of its own for it), numpy's loops and the C library's elementary functions.
+runs a command as a processor of that name would.  Four libraries choose their code by the
+processor: numba, OpenBLAS (which has a name of its own for it), numpy's loops and the C library's
+elementary functions.
 """
 
 import os
@@ -68,8 +69,8 @@ def environment(name: str) -> dict[str, str]:
 def differences(found: Path, expected: Path) -> Iterator[tuple[str, str, float]]:
     """(file, variable, difference) for each variable of all datasets below two folders.
 
-    The difference is relative to the variable's largest absolute value; 0 means equal bits, inf that shapes, integers
-    or the places of nan differ.
+    The difference is relative to the variable's largest absolute value; 0 means equal bits, inf
+    that shapes, integers or the places of nan differ.
     """
     names = sorted(str(path.relative_to(expected)) for path in expected.rglob("*.nc"))
     assert names == sorted(str(path.relative_to(found)) for path in found.rglob("*.nc"))
@@ -79,7 +80,11 @@ def differences(found: Path, expected: Path) -> Iterator[tuple[str, str, float]]
             for group in theirs.groups:
                 for variable, values in theirs[group].to_dataset().variables.items():
                     own = mine[group].to_dataset().variables[variable]
-                    yield name, f"{group}/{variable}".lstrip("/"), _difference(own.values, values.values)
+                    yield (
+                        name,
+                        f"{group}/{variable}".lstrip("/"),
+                        _difference(own.values, values.values),
+                    )
 
 
 def _difference(found: np.ndarray, expected: np.ndarray) -> float:
@@ -92,7 +97,10 @@ def _difference(found: np.ndarray, expected: np.ndarray) -> float:
     known = np.isfinite(expected)
     if not np.array_equal(found[~known], expected[~known], equal_nan=True):
         return np.inf
-    apart, size = np.abs(found - expected)[known].max(initial=0.0), np.abs(expected[known]).max(initial=0.0)
+    apart, size = (
+        np.abs(found - expected)[known].max(initial=0.0),
+        np.abs(expected[known]).max(initial=0.0),
+    )
     return float(apart / size) if size else float("inf" if apart else 0.0)
 
 

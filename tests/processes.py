@@ -11,9 +11,18 @@ ROOT = Path(__file__).parents[1]
 def run(
     *command: object, cwd: Path = ROOT, fails: bool = False, timeout: float = 3600, **variables: str
 ) -> subprocess.CompletedProcess[str]:
-    """Run a program, with these variables of the environment besides; it has to succeed, or to fail."""
+    """Run a program, with these variables of the environment besides; it has to succeed, or to
+    fail."""
     words, environment = [*map(str, command)], os.environ | variables
-    done = subprocess.run(words, cwd=cwd, env=environment, capture_output=True, text=True, check=False, timeout=timeout)
+    done = subprocess.run(
+        words,
+        cwd=cwd,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=timeout,
+    )
     assert (done.returncode != 0) == fails, done.stdout + done.stderr
     return done
 

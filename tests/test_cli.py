@@ -52,13 +52,18 @@ def command(capsys: pytest.CaptureFixture[str]) -> Command:
 
 
 def test_every_option_reaches_the_parameters(command: Command) -> None:
-    """A bad value given to each option comes back in the one message, under the parameter's name."""
+    """A bad value given to each option comes back in the one message, under the parameter's
+    name."""
     names = Parameters.model_fields.keys() - {"disc"}
-    err = command.error("run", *(part for name in names for part in (option_name(name), "bad")), "--t-end", "1")
+    err = command.error(
+        "run", *(part for name in names for part in (option_name(name), "bad")), "--t-end", "1"
+    )
     assert all(f"{name}='bad'" in err for name in names)
 
 
-def test_help_shows_units_defaults_choices_and_the_version(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_help_shows_units_defaults_choices_and_the_version(
+    command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("COLUMNS", "200")
     out = command.out("run", "--help")
     for part in ("(N m s)", "as_published|orthonormal", "unilateral|bilateral"):
@@ -66,14 +71,22 @@ def test_help_shows_units_defaults_choices_and_the_version(command: Command, mon
     assert re.findall(r"╭─ ([\w ]+) ─", out) == ["Options", "Case"]
     out = command.out()
     assert out == command.out("--help")
-    assert all(name in out for name in ("run", "floquet", "modes", "study", "init", "--install-completion"))
+    assert all(
+        name in out for name in ("run", "floquet", "modes", "study", "init", "--install-completion")
+    )
     assert command.out("--version") == f"disc_model {disc_model.__version__}\n"
 
 
 def test_run_agrees_with_simulate(command: Command) -> None:
     code, out, err = command.run("run", *BASE, "--t-end", "0.3", "--k-p", "1.5e4", "--tol", "1e-8")
     assert (code, err) == (0, "")
-    parts = ("status              ok", "first separation    none", "stick_to_slip", "time in slip", "wall time")
+    parts = (
+        "status              ok",
+        "first separation    none",
+        "stick_to_slip",
+        "time in slip",
+        "wall time",
+    )
     assert all(part in out for part in (*parts, "energy residual"))
     result = simulate(Parameters(N=385, Omega=15.1, k_p=1.5e4), 0.3, tol=1e-8)
     assert f"events              {result.statistics['events']}\n" in out
@@ -82,7 +95,11 @@ def test_run_agrees_with_simulate(command: Command) -> None:
 
 def test_module_runs_as_a_program() -> None:
     done = run(sys.executable, "-m", "disc_model", "modes", "--b", "0.05", fails=True)
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", "error: r_0=0.1: must be <= b=0.05\n")
+    assert (done.returncode, done.stdout, done.stderr) == (
+        2,
+        "",
+        "error: r_0=0.1: must be <= b=0.05\n",
+    )
 
 
 @pytest.mark.compiled
@@ -107,7 +124,9 @@ def test_sliding_prints_the_modes_in_the_slider_s_frame(command: Command) -> Non
     assert (code, "The disc is not driven" in out) == (1, True)
 
 
-def test_a_run_is_drawn_and_saved_and_one_that_does_not_end_is_told(command: Command, tmp_path: Path) -> None:
+def test_a_run_is_drawn_and_saved_and_one_that_does_not_end_is_told(
+    command: Command, tmp_path: Path
+) -> None:
     picture, file = str(tmp_path / "run.png"), str(tmp_path / "run.nc")
     out = command.out(*SHORT, "--plot", picture, "--save", file)
     assert f"saved               {file}\nfigure              {picture}\n" in out
@@ -138,7 +157,9 @@ def mine(tmp_path: Path) -> Path:
         ("cases", ("A", "one case", "μ_k = 0.2", "1")),
     ],
 )
-def test_what_a_study_has_is_listed(command: Command, monkeypatch, mine: Path, what: str, parts: tuple) -> None:
+def test_what_a_study_has_is_listed(
+    command: Command, monkeypatch, mine: Path, what: str, parts: tuple
+) -> None:
     monkeypatch.setenv("COLUMNS", "200")
     out = command.out("list", what, str(mine))
     assert all(part in out for part in parts)
@@ -175,7 +196,9 @@ def test_a_study_is_handed_to_snakemake(command: Command, called: list[str], min
     assert {"-j2", "--unlock", "bench", "--dry-run", "--directory", folder} <= {*called}
 
 
-def test_a_wrong_study_is_told_before_snakemake_starts(command: Command, called: list[str], mine: Path) -> None:
+def test_a_wrong_study_is_told_before_snakemake_starts(
+    command: Command, called: list[str], mine: Path
+) -> None:
     """With one fault a line, as Snakemake shows them."""
     mine.write_text(STUDY.replace("mu_k: [0.1, 0.2]", "mu: [1]").replace("floquet", "flo"))
     code, out, err = command.run("study", str(mine))
@@ -186,7 +209,8 @@ def test_a_wrong_study_is_told_before_snakemake_starts(command: Command, called:
 
 
 def test_what_snakemake_says_is_passed_on(monkeypatch: pytest.MonkeyPatch, mine: Path) -> None:
-    """By a program in the place of Snakemake: one of its name in the folder where commands are given."""
+    """By a program in the place of Snakemake: one of its name in the folder where commands are
+    given."""
     monkeypatch.chdir(mine.parent)
     (mine.parent / "snakemake.py").write_text("import sys; sys.exit('no plan')")
     done = run(sys.executable, "-m", "disc_model", "study", mine, cwd=mine.parent, fails=True)

@@ -21,7 +21,8 @@ Measured = Callable[[Callable[[int, int], float]], list[tuple[int, int]]]
 
 @pytest.fixture
 def measured(monkeypatch: pytest.MonkeyPatch) -> Measured:
-    """Puts a function of (diameters, circles) in place of the growth rate; gives the list of what was asked for."""
+    """Puts a function of (diameters, circles) in place of the growth rate; gives the list of what
+    was asked for."""
 
     def put(value: Callable[[int, int], float]) -> list[tuple[int, int]]:
         asked: list[tuple[int, int]] = []
@@ -40,7 +41,11 @@ def test_the_first_model_is_taken_with_which_two_larger_ones_agree(measured: Mea
     asked = measured(lambda d, c: 1.0 + 0.1 / d**2)
     choice = choose_modes(RESIDUAL, 1e-2, quantity="growth")
     # 1 + 0.1/9 against 1 + 0.1/36: 0.8 % apart; two diameters are 1.9 % from four
-    assert (choice.parameters, choice.modes, choice.rich) == (RESIDUAL.replace(n_diameters=3, n_circles=0), 7, (6, 1))
+    assert (choice.parameters, choice.modes, choice.rich) == (
+        RESIDUAL.replace(n_diameters=3, n_circles=0),
+        7,
+        (6, 1),
+    )
     assert choice.error == pytest.approx((0.1 / 9 - 0.1 / 36) / (1 + 0.1 / 36))
     assert len(asked) == len(set(asked))  # nothing is simulated twice
     assert choice == choose_modes(RESIDUAL.replace(n_diameters=12), quantity="growth")
@@ -54,7 +59,9 @@ def one_case(**text: Any) -> CaseSpec:
 
 def test_a_case_is_run_with_the_modes_that_its_quantity_needs(measured: Measured) -> None:
     measured(lambda d, c: 1.0 + 0.1 / d**2)
-    with pytest.raises(DiscModelError, match=r"choose=None: must be `disc_model\.mode_choice\.choose_when_run`"):
+    with pytest.raises(
+        DiscModelError, match=r"choose=None: must be `disc_model\.mode_choice\.choose_when_run`"
+    ):
         run_case(one_case(truncation_quantity="growth"))
     done = run_case(one_case(truncation_quantity="growth"), choose=choose_when_run)
     assert json.loads(done.attrs["parameters"])["n_diameters"] == 3
@@ -75,7 +82,11 @@ def test_residual_flexibility_needs_fewer_modes_for_growth_rate_and_first_separa
     grows = Parameters(N=300, Omega=20, contact_compliance="residual")
     by_growth = choose_modes(grows, 1e-2, quantity="growth")
     assert by_growth.modes <= 9
-    assert all(value == pytest.approx(0.0458, abs=5e-4) for size, value in by_growth.values.items() if size[0] >= 4)
+    assert all(
+        value == pytest.approx(0.0458, abs=5e-4)
+        for size, value in by_growth.values.items()
+        if size[0] >= 4
+    )
     first = choose_modes(RESIDUAL, 2e-3, quantity="first_separation")
     assert first.modes <= 9
     assert first.values[first.rich] == pytest.approx(51.12, abs=0.05)
@@ -87,7 +98,8 @@ def test_residual_flexibility_needs_fewer_modes_for_growth_rate_and_first_separa
 
 
 @pytest.mark.parametrize(
-    ("normalization", "tolerance", "size"), [("as_published", 1e-4, (5, 3)), ("orthonormal", 1e-2, (4, 0))]
+    ("normalization", "tolerance", "size"),
+    [("as_published", 1e-4, (5, 3)), ("orthonormal", 1e-2, (4, 0))],
 )
 def test_choice_meets_the_tolerance_with_the_fewest_modes(normalization, tolerance, size):
     p = P.replace(normalization=normalization)
@@ -104,7 +116,11 @@ def test_choice_meets_the_tolerance_with_the_fewest_modes(normalization, toleran
 @pytest.mark.compiled
 def test_a_case_of_the_workflow_keeps_the_record_of_its_choice() -> None:
     raw = {"study": "s", "base": {"Omega": 15.1}, "cases": {}}
-    raw["cases"]["A"] = {"title": "A", "t_end": 0.01, "parameters": {"N": 385, "n_diameters": "auto"}}
+    raw["cases"]["A"] = {
+        "title": "A",
+        "t_end": 0.01,
+        "parameters": {"N": 385, "n_diameters": "auto"},
+    }
     raw["cases"]["B"] = {"title": "A", "t_end": 0.01, "parameters": {"N": 385, "n_diameters": 3}}
     automatic, given = parse_study(raw).specs.values()
     record = choose_modes(P).to_json()

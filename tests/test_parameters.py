@@ -27,8 +27,18 @@ def test_key_depends_on_values_not_on_spelling() -> None:
 @given(st.sampled_from(sorted(Parameters.model_fields)))
 def test_key_changes_with_every_field(name: str) -> None:
     p = Parameters(N=385, Omega=15.1, c=1, c_p=1, n_circles=0 if name == "disc" else 2)
-    other = {"normalization": "orthonormal", "contact": "bilateral", "n_diameters": 3, "n_circles": 1}
-    other |= {"contact_compliance": 1e-7, "contact_force": "normal", "damping_ratio": 1e-3, "friction_offset": 1e-3}
+    other = {
+        "normalization": "orthonormal",
+        "contact": "bilateral",
+        "n_diameters": 3,
+        "n_circles": 1,
+    }
+    other |= {
+        "contact_compliance": 1e-7,
+        "contact_force": "normal",
+        "damping_ratio": 1e-3,
+        "friction_offset": 1e-3,
+    }
     other["friction_decay"] = 2.0
     other["disc"] = Disc(diameters=[1], omega=[1500.0], amplitude=[2.0])
     assert p.replace(**{name: other.get(name) or getattr(p, name) * 0.999}).key != p.key
@@ -36,9 +46,15 @@ def test_key_changes_with_every_field(name: str) -> None:
 
 def test_laws_of_contact_change_the_key_only_where_they_are_not_the_papers() -> None:
     p = Parameters(N=385, Omega=15.1)
-    assert p.replace(contact_compliance="0", contact_force="vertical").key == p.key == "2309f6c4a836"
+    assert (
+        p.replace(contact_compliance="0", contact_force="vertical").key == p.key == "2309f6c4a836"
+    )
     assert "contact_force" not in p.canonical_json
-    others = [{"contact_compliance": 1e-7}, {"contact_compliance": "residual"}, {"contact_force": "normal"}]
+    others = [
+        {"contact_compliance": 1e-7},
+        {"contact_compliance": "residual"},
+        {"contact_force": "normal"},
+    ]
     cases = [p.replace(**other) for other in others]
     assert len({case.key for case in cases} | {p.key}) == 4
     for case, other in zip(cases, others, strict=True):
@@ -63,11 +79,19 @@ RIGHT = (
 
 @pytest.mark.slow
 def test_a_type_checker_knows_the_parameters(tmp_path: Path) -> None:
-    (tmp_path / "mypy.ini").write_text("[mypy]\nfollow_imports = silent\nignore_missing_imports = true\n")
+    (tmp_path / "mypy.ini").write_text(
+        "[mypy]\nfollow_imports = silent\nignore_missing_imports = true\n"
+    )
     lines = [f"disc_model.Parameters{arguments}" for arguments in (*WRONG, *RIGHT)]
     (tmp_path / "case.py").write_text("\n".join(["import disc_model", *lines]))
-    shown = subprocess.run([sys.executable, "-m", "mypy", "case.py"], cwd=tmp_path, capture_output=True, text=True)
-    assert {int(line.split(":")[1]) for line in shown.stdout.splitlines() if "error:" in line} == {2, 3, 4}
+    shown = subprocess.run(
+        [sys.executable, "-m", "mypy", "case.py"], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert {int(line.split(":")[1]) for line in shown.stdout.splitlines() if "error:" in line} == {
+        2,
+        3,
+        4,
+    }
 
 
 def test_import_is_light() -> None:
@@ -83,8 +107,14 @@ def test_a_ratio_stands_for_its_first_one_and_stays() -> None:
     assert p.replace(mu_s=0.4).mu_k == 0.24
     assert eval(repr(p)) == p
     assert repr(p) == "Parameters(N=1.0, Omega=2.0, mu_s=0.5, mu_k_over_mu_s=0.6)"
-    assert p.replace(mu_s=0.4, mu_k=0.1).replace(mu_s=0.2).mu_k == 0.1, "forgotten once its first one is given"
-    assert p.replace(mu_k_over_mu_s=0.5).mu_k == p.replace(N=3).replace(mu_k_over_mu_s=0.5).mu_k == 0.25
+    assert p.replace(mu_s=0.4, mu_k=0.1).replace(mu_s=0.2).mu_k == 0.1, (
+        "forgotten once its first one is given"
+    )
+    assert (
+        p.replace(mu_k_over_mu_s=0.5).mu_k
+        == p.replace(N=3).replace(mu_k_over_mu_s=0.5).mu_k
+        == 0.25
+    )
     assert Parameters(N=1, Omega=2, b="240 mm", r_0_over_b=0.5).r_0 == 0.12
     assert p.canonical == Parameters(N=1, Omega=2, mu_s=0.5, mu_k=0.3).canonical
     for wrong, rule in (

@@ -14,7 +14,14 @@ from disc_model.data import dataset
 from disc_model.stability.continuation import StepControl
 
 P = dm.Parameters(N=200, Omega=20, n_diameters=1)
-WRONG: dict[str, Any] = {"text": "x", "None": None, "True": True, "nan": math.nan, "negative": -1.5, "huge": 10**400}
+WRONG: dict[str, Any] = {
+    "text": "x",
+    "None": None,
+    "True": True,
+    "nan": math.nan,
+    "negative": -1.5,
+    "huge": 10**400,
+}
 WRONG |= {"matrix": np.eye(2), "dict": {1: 2}, "object": object(), "nothing": []}
 SLIPPING = dm.simulate(P, 2.5e-3).final_state
 RUN = dm.simulate(P, 1e-4, {"all": dm.Window(rate=1e5)})
@@ -36,41 +43,69 @@ run.__signature__ = inspect.signature(dm.Execution)  # type: ignore[attr-defined
 SHAPES = {"p": P, "states": RUN.final_state, "r": 0.1, "theta": 0.0}
 #: Functions, right arguments, and by argument those of `WRONG` that are right as well.
 SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
-    *((function, {}, {}) for function in (dm.plate_modes, dm.coupled_natural_frequencies, dm.residual_flexibility)),
+    *(
+        (function, {}, {})
+        for function in (dm.plate_modes, dm.coupled_natural_frequencies, dm.residual_flexibility)
+    ),
     (dm.steady_sliding, {}, {}),
     (dm.choose_modes, {"case": P}, {"case": "dict", "tolerance": "None"}),
     (
         dm.simulate,
         {"p": P, "t_end": 1.0},
-        dict.fromkeys(("initial_state", "windows", "stop_at", "duration"), "None") | {"events": "True"},
+        dict.fromkeys(("initial_state", "windows", "stop_at", "duration"), "None")
+        | {"events": "True"},
     ),
     (dm.outcome, {"case": P}, {"start": "None", "early_end": "True"}),
     (dm.critical_speed, {"case": P}, {"early_end": "True"}),
     (dm.basins, {"case": P}, {"start": "None", "seed": "huge"}),
     (dm.hysteresis, {"case": P, "scan": (10, 12), "dwell": 5}, {}),
-    (dm.sweep, {"function": dm.floquet, "case": P, "N": [9]}, {"workers": "huge", "processes": "True", "named": WRONG}),
+    (
+        dm.sweep,
+        {"function": dm.floquet, "case": P, "N": [9]},
+        {"workers": "huge", "processes": "True", "named": WRONG},
+    ),
     (
         dm.run_study,
-        {"source": {"study": "s", "quantity": "floquet", "base": {"N": 200}, "axes": {"Omega": [20]}}},
+        {
+            "source": {
+                "study": "s",
+                "quantity": "floquet",
+                "base": {"N": 200},
+                "axes": {"Omega": [20]},
+            }
+        },
         {"source": "text dict", "workers": "huge", "processes": "True"},
     ),
     (dm.plot_modes, {"p": P}, {"ax": "None", "most": "huge"}),
-    (dm.plot_sweep, {"study": GRID}, {"ax": "None", "log": "True", "variable": "None", "x": "None"}),
+    (
+        dm.plot_sweep,
+        {"study": GRID},
+        {"ax": "None", "log": "True", "variable": "None", "x": "None"},
+    ),
     (RUN.plot, {"windows": "all"}, {"windows": "None", "ax": "None"}),
     (RUN.plot_phase_portrait, {"window": "all"}, {"window": "None", "ax": "None"}),
-    (RUN.plot_spectrum, {"window": "all", "highest": 2e4}, {"window": "None", "ax": "None", "highest": "huge"}),
+    (
+        RUN.plot_spectrum,
+        {"window": "all", "highest": 2e4},
+        {"window": "None", "ax": "None", "highest": "huge"},
+    ),
     (RUN.plot_poincare, {}, {"ax": "None"}),
     *((found.plot, {}, {"ax": "None"}) for found in (dm.floquet(P), dm.steady_sliding(P))),
     (dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot, {}, {"ax": "None"}),
     (RUN.__getitem__, {}, {}),
     (DISC.to_csv, {}, {"path": "text"}),
     (dm.Disc.from_csv, {}, {"path": "text"}),
-    (RUN.animate, {"window": "all", "frames": 2}, {"window": "None", "path": "None", "frames": "huge", "fps": "huge"}),
+    (
+        RUN.animate,
+        {"window": "all", "frames": 2},
+        {"window": "None", "path": "None", "frames": "huge", "fps": "huge"},
+    ),
     (run, {}, {"progress": "None", "max_steps": "None huge", "audit_every_step": "True"}),
     (
         start,
         {},
-        dict.fromkeys(("time", "psi", "u_velocity"), "negative") | {"mode_amplitudes": "None", "case_key": [*WRONG]},
+        dict.fromkeys(("time", "psi", "u_velocity"), "negative")
+        | {"mode_amplitudes": "None", "case_key": [*WRONG]},
     ),
     (dm.snapshots, {"p": P, "times": 1e-4}, {"initial_state": "None", "times": "nothing"}),
     (dm.deflection, SHAPES, {"theta": "negative nothing", "states": "nothing"}),
@@ -79,17 +114,35 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         StepControl,
         {},
-        {"growth": WRONG, "easy": WRONG, "sharpest": WRONG, "scale": "None", "max_points": "huge", "beyond": "True"},
+        {
+            "growth": WRONG,
+            "easy": WRONG,
+            "sharpest": WRONG,
+            "scale": "None",
+            "max_points": "huge",
+            "beyond": "True",
+        },
     ),
     (dm.critical, {"p": P, "name": "N", "bounds": (1, 2), "points": 2}, {"precision": "None huge"}),
     (dm.neutral_curves, PLANE, {"max_points": "huge", "lines": "nothing"}),
-    (dm.lyapunov_exponents, {"p": P, "duration": 0.1}, {"initial_state": "None", "leave_out_trivial": "True"}),
-    (dm.Window, {"rate": 1.0}, {"last": "None", "envelope": "None", "stop": "huge", "theta": "negative"}),
+    (
+        dm.lyapunov_exponents,
+        {"p": P, "duration": 0.1},
+        {"initial_state": "None", "leave_out_trivial": "True"},
+    ),
+    (
+        dm.Window,
+        {"rate": 1.0},
+        {"last": "None", "envelope": "None", "stop": "huge", "theta": "negative"},
+    ),
     (dm.Poincare, {}, {"stop": "huge", "theta": "negative"}),
     (dm.Ramp, {"parameter": "N", "to": 1.0, "start": 0.0, "end": 2.0}, {}),
     (RUN.value_at, {"name": "N", "times": 0.0}, {"times": "negative matrix nothing"}),
     (RUN.save, {}, {}),
-    *((function, {}, {"path": "text"}) for function in (RUN.final_state.save, dm.State.load, dm.load, dm.Result.load)),
+    *(
+        (function, {}, {"path": "text"})
+        for function in (RUN.final_state.save, dm.State.load, dm.load, dm.Result.load)
+    ),
     (dataset.save, {"tree": RUN.to_tree(), "path": "x"}, {"path": "text"}),
 ]
 ARGUMENTS = [

@@ -68,7 +68,14 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
         "deep/laws.py": "import numpy",
         "units.py": "METRE = 1",
     }
-    empty = ("table.toml", "other.toml", "unrelated.py", "deep/__init__.py", "deep/static/page.js", "more/far.json")
+    empty = (
+        "table.toml",
+        "other.toml",
+        "unrelated.py",
+        "deep/__init__.py",
+        "deep/static/page.js",
+        "more/far.json",
+    )
     for name, text in (files | dict.fromkeys(empty, "")).items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(text)
@@ -89,7 +96,9 @@ def test_all_that_is_imported_counts_and_the_data_that_it_reads(package: Path) -
     deep = {"deep/solve.py", "deep/laws.py", "deep/static/page.js", "units.py"}
     late = {"late.py", "late.csv", "table.toml", "more/far.json"}
     assert names == {"run.py"} | deep | late
-    both = {path.relative_to(package).as_posix() for path in source_files("disc_model.run", "warns")}
+    both = {
+        path.relative_to(package).as_posix() for path in source_files("disc_model.run", "warns")
+    }
     assert both == names | {"warns.py", "unrelated.py"}
     assert len(source_files("deep")) == 5
     with pytest.raises(ModuleNotFoundError, match="missing"):
@@ -101,12 +110,22 @@ def test_all_that_is_imported_counts_and_the_data_that_it_reads(package: Path) -
 
 def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
     def of(*entries: str | Path) -> set[str]:
-        return {path.relative_to(PACKAGE).as_posix() for path in source_files(*entries) if path not in entries}
+        return {
+            path.relative_to(PACKAGE).as_posix()
+            for path in source_files(*entries)
+            if path not in entries
+        }
 
     for name in quantity_names():
         batch = of(SCRIPTS / "compute_batch.py", f"studies.quantities.{name}")
         assert {"engine/series.py", "disc/plate.py", f"studies/quantities/{name}.py"} <= batch
-        assert not {path.split("/")[0] for path in batch} & {"figures", "paper", "benchmarks", "cli", "explorer"}
+        assert not {path.split("/")[0] for path in batch} & {
+            "figures",
+            "paper",
+            "benchmarks",
+            "cli",
+            "explorer",
+        }
         assert "studies/study.py" not in batch
         short = ("campbell", "floquet", "lyapunov", "ramps", "sliding", "stability_curves")
         assert ("stability/outcome.py" in batch) == (name not in short)
@@ -114,18 +133,26 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
         assert ("stability/lyapunov.py" in batch) == (name in ("lyapunov", *sweeps))
         # one quantity's code is not another's
         others = {f"studies/quantities/{other}.py" for other in quantity_names()} & batch
-        assert others == {f"studies/quantities/{one}.py" for one in {name, *(["floquet"] * (name == "campbell"))}}
+        assert others == {
+            f"studies/quantities/{one}.py" for one in {name, *(["floquet"] * (name == "campbell"))}
+        }
     case = of(SCRIPTS / "simulate_case.py")
     assert {"engine/event_loop.py", "simulation/states.py"} <= case
     assert not [path for path in case if path.startswith(("stability", "studies"))]
-    assert {"stability/cycle.py", "mode_choice.py"} <= of(SCRIPTS / "simulate_case.py", "mode_choice")
+    assert {"stability/cycle.py", "mode_choice.py"} <= of(
+        SCRIPTS / "simulate_case.py", "mode_choice"
+    )
     assert {"config/paper.yaml", "paper/section41.yaml"} <= of(SCRIPTS / "check_claims.py")
     assert "config/paper.yaml" not in of(SCRIPTS / "draw_figure.py", "paper.figures.runs")
     assert "explorer/static/page.css" in of(SCRIPTS / "build_explorer.py")
-    assert {"benchmarks/methods/kernels.py", "benchmarks/methods/rivals.toml", "benchmarks/data/answers.json"} <= of(
-        SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.answers"
+    assert {
+        "benchmarks/methods/kernels.py",
+        "benchmarks/methods/rivals.toml",
+        "benchmarks/data/answers.json",
+    } <= of(SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.answers")
+    assert "benchmarks/answers.py" not in of(
+        SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.scaling"
     )
-    assert "benchmarks/answers.py" not in of(SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.scaling")
 
 
 def test_what_is_left_aside_is_there_and_scripts_import_from_modules() -> None:

@@ -1,4 +1,5 @@
-"""Draw the powers of docs/findings.md on the brake-like disc: what friction on its surface supplies, and what takes it.
+"""Draw the powers of docs/findings.md on the brake-like disc: what friction on its surface
+supplies, and what takes it.
 
 python docs/drawings/brake_energy.py    writes brake_energy.svg beside this file, after some seconds of simulation
 """
@@ -32,9 +33,11 @@ PARTS = {
 
 @cache
 def powers(Omega: float, contact: str) -> dict[str, float]:
-    """Mean powers at 8 kN from the static start, W, negative where the vibration loses; and others, which are named.
+    """Mean powers at 8 kN from the static start, W, negative where the vibration loses; and others,
+    which are named.
 
-    The impacts' is the rest of the balance of the disc and of the slider's vertical motion (docs/model.md, Energy).
+    The impacts' is the rest of the balance of the disc and of the slider's vertical motion
+    (docs/model.md, Energy).
     """
     disc = dm.Disc.from_csv(ROOT / "config" / "discs" / "brake.csv")
     p = dm.Parameters(
@@ -61,7 +64,11 @@ def powers(Omega: float, contact: str) -> dict[str, float]:
     impacts = (energy[-1] - energy[0]) / (times[P.size - 1] - times[0]) - surface - slope - damping
     named = dict(zip(PARTS, map(float, (surface, slope, damping, impacts)), strict=True))
     drive, heat = p.Omega * p.r_0**2 * np.mean(F), p.mu_k * p.r_0 * np.mean(P * abs(f))
-    return named | {"drive": float(drive), "heat": float(heat), "surface speed": float(run.scalars()["surface_speed"])}
+    return named | {
+        "drive": float(drive),
+        "heat": float(heat),
+        "surface speed": float(run.scalars()["surface_speed"]),
+    }
 
 
 def main() -> None:
@@ -70,13 +77,19 @@ def main() -> None:
         width = 0.8 / len(PARTS)
         for i, (name, colour) in enumerate(PARTS.items()):
             heights = [powers(*case)[name] / 1e3 for case in CASES]
-            ax.bar(np.arange(len(CASES)) + (i - 1.5) * width, heights, width, color=colour, label=name)
+            ax.bar(
+                np.arange(len(CASES)) + (i - 1.5) * width, heights, width, color=colour, label=name
+            )
         ax.axhline(0, color="black", linewidth=0.8)
         words = {"unilateral": "with separation", "bilateral": "bilateral contact"}
-        ax.set_xticks(range(len(CASES)), [f"{Omega} rad/s\n{words[contact]}" for Omega, contact in CASES])
+        ax.set_xticks(
+            range(len(CASES)), [f"{Omega} rad/s\n{words[contact]}" for Omega, contact in CASES]
+        )
         ax.set_ylabel("Power into the vibration (kW)")
         figure.legend(loc="outside right center", frameon=False)
-        figure.savefig(Path(__file__).with_suffix(".svg"), metadata={"Date": None}, facecolor="white")
+        figure.savefig(
+            Path(__file__).with_suffix(".svg"), metadata={"Date": None}, facecolor="white"
+        )
         for case in CASES:
             print(*case, *(f"{name} {value:.4g};" for name, value in powers(*case).items()))
 

@@ -41,27 +41,35 @@ CHARACTERS = 112
 
 def layers() -> list[list[str]]:
     """Names of the parts of each layer, from top to bottom, as `lint-imports` holds them."""
-    contracts = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"][
-        "contracts"
-    ]
+    contracts = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"][
+        "importlinter"
+    ]["contracts"]
     listed = next(contract["layers"] for contract in contracts if contract["type"] == "layers")
     named = [[name.strip() for name in layer.replace(":", "|").split("|")] for layer in listed]
-    return [[name for name in layer if name != "__main__"] for layer in named if layer != ["__main__"]]
+    return [
+        [name for name in layer if name != "__main__"] for layer in named if layer != ["__main__"]
+    ]
 
 
 def modules(folder: Path, prefix: str = "") -> list[str]:
     """The modules of a package, and those of each package within it behind its name."""
-    names = ", ".join(path.stem for path in sorted(folder.glob("*.py")) if not path.stem.startswith("__"))
+    names = ", ".join(
+        path.stem for path in sorted(folder.glob("*.py")) if not path.stem.startswith("__")
+    )
     inner = [path.parent for path in sorted(folder.glob("*/__init__.py"))]
     own = [prefix + names] if names else []
-    return own + [line for part in inner for line in modules(part, f"{prefix.rstrip()}{part.name}/ ")]
+    return own + [
+        line for part in inner for line in modules(part, f"{prefix.rstrip()}{part.name}/ ")
+    ]
 
 
 def box(part: str, width: float) -> list[tuple[str, str]]:
     """The lines of text of a part, each with its class."""
     characters = int(CHARACTERS * width / WIDTH)
     small = [
-        line for text in modules(PACKAGE / part) for line in textwrap.wrap(text, characters, subsequent_indent="  ")
+        line
+        for text in modules(PACKAGE / part)
+        for line in textwrap.wrap(text, characters, subsequent_indent="  ")
     ]
     what = [("what", line) for line in textwrap.wrap(WHAT[part], int(0.86 * characters))]
     return [("name", part), *what, *(("modules", line) for line in small)]
@@ -82,7 +90,9 @@ def draw() -> str:
                 f'fill="{COLOURS[number % 2]}" stroke="#0072B2"/>'
             )
             for i, (kind, text) in enumerate(lines):
-                body.append(f'<text class="{kind}" x="{left + 9:g}" y="{top + 19 + LINE * i}">{escape(text)}</text>')
+                body.append(
+                    f'<text class="{kind}" x="{left + 9:g}" y="{top + 19 + LINE * i}">{escape(text)}</text>'
+                )
             left += width + gap
         top += height + 6
     style = (
@@ -91,7 +101,14 @@ def draw() -> str:
     )
     head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {top + MARGIN - 6}" width="{WIDTH}">'
     return "\n".join(
-        [head, f"<style>{style}</style>", '<rect width="100%" height="100%" fill="white"/>', *body, "</svg>", ""]
+        [
+            head,
+            f"<style>{style}</style>",
+            '<rect width="100%" height="100%" fill="white"/>',
+            *body,
+            "</svg>",
+            "",
+        ]
     )
 
 

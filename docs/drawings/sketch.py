@@ -12,13 +12,20 @@ import matplotlib.pyplot as plt
 from disc_model import Parameters
 from disc_model.paper.figures.schematic import sketch
 
-FONT = {"font.size": 11, "mathtext.fontset": "cm", "svg.hashsalt": "sketch", "font.family": "DejaVu Sans"}
+FONT = {
+    "font.size": 11,
+    "mathtext.fontset": "cm",
+    "svg.hashsalt": "sketch",
+    "font.family": "DejaVu Sans",
+}
 
 
 def main():
     with plt.rc_context(FONT):
         figure = sketch(Parameters(N=200, Omega=20))
-        figure.savefig(Path(__file__).with_suffix(".svg"), metadata={"Date": None}, facecolor="white")
+        figure.savefig(
+            Path(__file__).with_suffix(".svg"), metadata={"Date": None}, facecolor="white"
+        )
 
 
 if __name__ == "__main__":

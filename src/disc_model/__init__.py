@@ -1,11 +1,12 @@
-"""Friction-induced vibration of an elastic disc and a moving slider with separation and reattachment.
+"""Friction-induced vibration of an elastic disc and a moving slider with separation and
+reattachment.
 
     >>> import disc_model
     >>> result = disc_model.simulate(disc_model.Parameters(N=385, Omega=15.1), 60)
     >>> result.first_separation
 
-Names are imported at their first use, so that `import disc_model` is fast and numba is loaded only for
-simulations.
+Names are imported at their first use, so that `import disc_model` is fast and numba is loaded only
+for simulations.
 """
 
 from __future__ import annotations
@@ -69,7 +70,14 @@ if TYPE_CHECKING:
     from disc_model.stability.cycle import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
-    from disc_model.studies.functions import basins, critical_speed, hysteresis, outcome, run_study, sweep
+    from disc_model.studies.functions import (
+        basins,
+        critical_speed,
+        hysteresis,
+        outcome,
+        run_study,
+        sweep,
+    )
 
 
 def __getattr__(name: str) -> Any:

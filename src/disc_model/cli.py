@@ -1,5 +1,6 @@
-"""Command line ``disc-model``. Invalid input gives exit code 2, a simulation that ends early 1. Options of commands on
-one case are made from the fields of pydantic models, which get the texts, so that the same rules and messages apply.
+"""Command line ``disc-model``. Invalid input gives exit code 2, a simulation that ends early 1.
+Options of commands on one case are made from the fields of pydantic models, which get the texts, so
+that the same rules and messages apply.
 """
 
 from __future__ import annotations
@@ -43,7 +44,8 @@ def option_name(field: str) -> str:
 
 
 def _option(name: str, field: Any, panel: str, placeholder: str | None = None) -> inspect.Parameter:
-    """The keyword option of a field of a model, as a text; a placeholder makes a required field optional."""
+    """The keyword option of a field of a model, as a text; a placeholder makes a required field
+    optional."""
     types = (field.annotation, *get_args(field.annotation))
     words = [word for kind in types if get_origin(kind) is Literal for word in get_args(kind)]
     unit = Parameters.unit(name).removeprefix("1")
@@ -55,25 +57,36 @@ def _option(name: str, field: Any, panel: str, placeholder: str | None = None) -
         told += rf" \[default: {f'{default:g}' if isinstance(default, float) else default}]"
     option = typer.Option(
         option_name(name),
-        metavar="|".join(words if words and not isinstance(field.default, float) else ["VALUE", *words]),
+        metavar="|".join(
+            words if words and not isinstance(field.default, float) else ["VALUE", *words]
+        ),
         help=told,
         show_default=False,
         rich_help_panel=panel,
     )
     how = inspect.Parameter.KEYWORD_ONLY
-    return inspect.Parameter(name, how, default=placeholder, annotation=Annotated[str | None, option])
+    return inspect.Parameter(
+        name, how, default=placeholder, annotation=Annotated[str | None, option]
+    )
 
 
-def command(options: type[Strict], **placeholders: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+def command(
+    options: type[Strict], **placeholders: str
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Give a command the options of a model and of a case: it receives the case and the model."""
     own = [_option(name, field, "Options") for name, field in options.model_fields.items()]
-    own += [_option(name, field, "Case", placeholders.get(name)) for name, field in Parameters.model_fields.items()]
+    own += [
+        _option(name, field, "Case", placeholders.get(name))
+        for name, field in Parameters.model_fields.items()
+    ]
 
     def decorate(function: Callable[..., None]) -> Callable[..., None]:
         @functools.wraps(function)
         def wrapped(**values: Any) -> None:
             texts = {name: value for name, value in values.items() if value is not None}
-            model = options(**{name: texts.pop(name) for name in options.model_fields if name in texts})
+            model = options(
+                **{name: texts.pop(name) for name in options.model_fields if name in texts}
+            )
             if "disc" in texts:
                 texts["disc"] = read_disc(texts["disc"])
             p = Parameters.model_validate(texts)
@@ -125,13 +138,17 @@ def modes(p: Parameters, _: Strict) -> None:
     }
     table("Modes of the disc", columns, justify="right")
     at_rest = coupled_natural_frequencies(p)
-    columns = {"lambda (rad/s)": map("{:.3f}".format, at_rest), "f (Hz)": map("{:.3f}".format, at_rest / math.tau)}
+    columns = {
+        "lambda (rad/s)": map("{:.3f}".format, at_rest),
+        "f (Hz)": map("{:.3f}".format, at_rest / math.tau),
+    }
     table("Disc and slider at rest", columns, justify="right")
 
 
 @command(Strict)
 def floquet(p: Parameters, _: Strict) -> None:
-    """Find the stick-slip cycle and its multipliers: whether the quiet motion lasts, without simulating it."""
+    """Find the stick-slip cycle and its multipliers: whether the quiet motion lasts, without
+    simulating it."""
     from disc_model.data.variables import CycleStatus
     from disc_model.stability.cycle import floquet as cycle_of
 
@@ -143,7 +160,8 @@ def floquet(p: Parameters, _: Strict) -> None:
 
 @command(Strict)
 def sliding(p: Parameters, _: Strict) -> None:
-    """Print the modes of steady sliding (complex eigenvalues): frequencies, growth rates, damping."""
+    """Print the modes of steady sliding (complex eigenvalues): frequencies, growth rates,
+    damping."""
     from disc_model.stability.sliding import SlidingStatus, sliding_modes, steady_sliding
 
     state = steady_sliding(p)
@@ -156,7 +174,9 @@ def sliding(p: Parameters, _: Strict) -> None:
         "growth (1/s)": map("{:.6g}".format, modes.growth_rate),
         "damping ratio": map("{:.3g}".format, modes.damping_ratio),
         "nodal diameters": ["in the plane" if l < 0 else f"{l}" for l in modes.diameters],
-        "forward wave": [f"{x:.2f}" if l > 0 else "" for x, l in zip(modes.forward, modes.diameters, strict=True)],
+        "forward wave": [
+            f"{x:.2f}" if l > 0 else "" for x, l in zip(modes.forward, modes.diameters, strict=True)
+        ],
     }
     table("Modes in the slider's frame", columns, justify="right")
 
@@ -231,33 +251,57 @@ def run(p: Parameters, options: RunOptions) -> None:
 
 # ---- Studies
 
-DRY = ("--dry-run", "--quiet", "rules", "host", "reason")  # how many jobs of each kind, without their files
+DRY = (
+    "--dry-run",
+    "--quiet",
+    "rules",
+    "host",
+    "reason",
+)  # how many jobs of each kind, without their files
 Files = Annotated[list[Path], typer.Argument(help="study files, later ones laid over earlier ones")]
 
 
 def study(
     files: Files,
-    cores: Annotated[int, typer.Option("--cores", "-j", min=1, help="jobs at the same time")] = os.cpu_count() or 1,
-    dry_run: Annotated[bool, typer.Option("--dry-run", "-n", help="only check, and list the jobs")] = False,
-    directory: Annotated[Path, typer.Option("--directory", "-d", help="where results are written")] = Path(),
+    cores: Annotated[
+        int, typer.Option("--cores", "-j", min=1, help="jobs at the same time")
+    ] = os.cpu_count() or 1,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", "-n", help="only check, and list the jobs")
+    ] = False,
+    directory: Annotated[
+        Path, typer.Option("--directory", "-d", help="where results are written")
+    ] = Path(),
     target: Annotated[
-        list[str] | None, typer.Option("--target", help="a file or rule to make instead of all; repeatable")
+        list[str] | None,
+        typer.Option("--target", help="a file or rule to make instead of all; repeatable"),
     ] = None,
-    unlock: Annotated[bool, typer.Option("--unlock", help="only remove the lock that a killed run has left")] = False,
+    unlock: Annotated[
+        bool, typer.Option("--unlock", help="only remove the lock that a killed run has left")
+    ] = False,
 ) -> None:
     """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
     _read(files)
     if find_spec("snakemake") is None:
         raise ModuleNotFoundError(name="snakemake")
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
-    options = [*(target or []), *(DRY if dry_run else ()), f"-j{cores}", "--directory", str(directory)]
+    options = [
+        *(target or []),
+        *(DRY if dry_run else ()),
+        f"-j{cores}",
+        "--directory",
+        str(directory),
+    ]
     options += [*["--unlock"] * unlock, "--configfile", *(str(file.resolve()) for file in files)]
     command = [sys.executable, "-m", "snakemake", "-s", str(snakefile), *options]
-    os.execv(command[0], command)  # Snakemake takes the place of this process: Ctrl-C and exit codes are its own
+    os.execv(
+        command[0], command
+    )  # Snakemake takes the place of this process: Ctrl-C and exit codes are its own
 
 
 def list_(
-    what: Annotated[Literal["studies", "figures", "cases"], typer.Argument(help="what to list")], files: Files
+    what: Annotated[Literal["studies", "figures", "cases"], typer.Argument(help="what to list")],
+    files: Files,
 ) -> None:
     """List the grid studies, figures or cases of a study."""
     from disc_model.data.variables import values_text
@@ -267,15 +311,24 @@ def list_(
     if what == "studies":
         heads = ["study", "quantity", "dimensions", "points", "title"]
         listed = [grids[name] for name in requested]
-        rows = [(x.name, x.quantity, " x ".join(x.values), str(x.n_points), x.title) for x in listed]
+        rows = [
+            (x.name, x.quantity, " x ".join(x.values), str(x.n_points), x.title) for x in listed
+        ]
     elif what == "cases":
         heads = ["case", "title", "parameters", "t_end (s)"]
         texts = {name: values_text(dict(spec.parameters)) for name, spec in chosen.specs.items()}
         labels = chosen.labels
-        rows = [(name, labels[name]["title"], texts[name], f"{case.t_end:g}") for name, case in chosen.cases.items()]
+        rows = [
+            (name, labels[name]["title"], texts[name], f"{case.t_end:g}")
+            for name, case in chosen.cases.items()
+        ]
     else:
         heads, entries = ["figure", "kind", "title"], chosen.entries(grids).items()
-        rows = [(name, x.plot.kind, x.title) for (study, name), x in entries if study in (chosen.name, *requested)]
+        rows = [
+            (name, x.plot.kind, x.title)
+            for (study, name), x in entries
+            if study in (chosen.name, *requested)
+        ]
     if rows:
         columns = dict(zip(heads, zip(*rows, strict=True), strict=True))
         table(f"{what} of {chosen.name}", columns, overflow="fold")
@@ -284,7 +337,9 @@ def list_(
 
 
 def init(
-    directory: Annotated[Path, typer.Argument(metavar="DIR", help="folder to lay out; made if it is not there")],
+    directory: Annotated[
+        Path, typer.Argument(metavar="DIR", help="folder to lay out; made if it is not there")
+    ],
 ) -> None:
     """Lay out a folder for a study of your own: a study file to change, and a Snakefile for it."""
     workflow = PACKAGE / "workflow"
@@ -293,13 +348,17 @@ def init(
     texts = {name.removeprefix("template/"): (workflow / name).read_text() for name in sources}
     texts["my_study.yaml"] = texts["my_study.yaml"].replace("SCHEMA", schema)
     if existing := [name for name in texts if (directory / name).exists()]:
-        raise ParameterError(Fault(("DIR",), repr(str(directory)), f"must not hold {', '.join(existing)} yet"))
+        raise ParameterError(
+            Fault(("DIR",), repr(str(directory)), f"must not hold {', '.join(existing)} yet")
+        )
     try:
         for name, text in texts.items():
             (directory / name).parent.mkdir(parents=True, exist_ok=True)
             (directory / name).write_text(text, encoding="utf-8")
     except OSError as error:
-        raise ParameterError(Fault(("DIR",), repr(str(directory)), f"cannot be written ({error.strerror})")) from None
+        raise ParameterError(
+            Fault(("DIR",), repr(str(directory)), f"cannot be written ({error.strerror})")
+        ) from None
     typer.echo(f"{directory}: {', '.join(texts)}")
     typer.echo(f"next: cd {shlex.quote(str(directory))} && disc-model study my_study.yaml")
 
@@ -308,7 +367,8 @@ def init(
 
 
 def _read(files: Sequence[Path]) -> tuple[Study, dict[str, GridStudy], tuple[str, ...]]:
-    """The study of the files, checked with all files that it names, all grids, and the names of those asked for."""
+    """The study of the files, checked with all files that it names, all grids, and the names of
+    those asked for."""
     from disc_model.studies.study import load_study
 
     chosen = load_study(*files)
@@ -321,7 +381,8 @@ def _read(files: Sequence[Path]) -> tuple[Study, dict[str, GridStudy], tuple[str
 INTERRUPTED = 130  # typer's exit code after Ctrl-C
 
 app = typer.Typer(
-    pretty_exceptions_enable=False, help="Friction-induced vibration of an elastic disc and a moving slider."
+    pretty_exceptions_enable=False,
+    help="Friction-induced vibration of an elastic disc and a moving slider.",
 )
 for function in (run, floquet, sliding, modes, study, list_, init, compile_):
     app.command(function.__name__.rstrip("_"))(function)
@@ -336,7 +397,10 @@ def _show_version(wanted: bool) -> None:
 @app.callback()
 def _all(
     version: Annotated[
-        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="show the version and exit")
+        bool,
+        typer.Option(
+            "--version", callback=_show_version, is_eager=True, help="show the version and exit"
+        ),
     ] = False,
 ) -> None: ...
 
@@ -350,7 +414,12 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     except DiscModelError as error:
         code, message = 2, str(error)
     except ModuleNotFoundError as error:
-        if error.name not in ("matplotlib", "cmcrameri", "yaml", "snakemake"):  # which only the extra `workflow` brings
+        if error.name not in (
+            "matplotlib",
+            "cmcrameri",
+            "yaml",
+            "snakemake",
+        ):  # which only the extra `workflow` brings
             raise
         code = 2
         message = f"there is no module {error.name}: pip install 'disc_model[workflow]' brings all that studies need"

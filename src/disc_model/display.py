@@ -45,11 +45,14 @@ def brought(module: str, extra: str) -> Any:
     try:
         return import_module(module)
     except ModuleNotFoundError:
-        raise ModuleNotFoundError(f"there is no module {module}: pip install 'disc_model[{extra}]'") from None
+        raise ModuleNotFoundError(
+            f"there is no module {module}: pip install 'disc_model[{extra}]'"
+        ) from None
 
 
 def draw(picture: str, *inputs: Any, **options: Any) -> Any:
-    """Draw by a function of `disc_model.figures.results`, imported by its name, so that no result depends on it."""
+    """Draw by a function of `disc_model.figures.results`, imported by its name, so that no result
+    depends on it."""
     brought("matplotlib", "plot")
     return getattr(import_module("disc_model.figures.results"), picture)(*inputs, **options)
 
@@ -60,9 +63,11 @@ class Drawn:
     _picture: str
 
     def plot(self, *, ax: Any = None) -> Any:
-        """Draw the picture that the class describes, on axes of matplotlib or in a new figure; returns the axes.
+        """Draw the picture that the class describes, on axes of matplotlib or in a new figure;
+        returns the axes.
 
-        Raises `ParameterError` if `ax` is no axes, or there is nothing to draw, and `CycleError` without a cycle.
+        Raises `ParameterError` if `ax` is no axes, or there is nothing to draw, and `CycleError`
+        without a cycle.
 
         Examples
         --------

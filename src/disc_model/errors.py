@@ -18,7 +18,8 @@ class DiscModelError(Exception):
 
 
 def script(main: Callable[..., None]) -> Callable[..., None]:
-    """Call a script's main function, unless it is only imported; own errors and Ctrl-C end it without a traceback."""
+    """Call a script's main function, unless it is only imported; own errors and Ctrl-C end it
+    without a traceback."""
     if main.__module__ == "__main__":
         logging.basicConfig(level=logging.INFO, format="%(name)s: %(message)s")
         try:
@@ -29,7 +30,8 @@ def script(main: Callable[..., None]) -> Callable[..., None]:
 
 
 class Fault(str):
-    """A fault of one value, as ``path=value: rule``; of the whole input without a path; a value "" is not shown."""
+    """A fault of one value, as ``path=value: rule``; of the whole input without a path; a value ""
+    is not shown."""
 
     path: tuple[str, ...]
     value: str
@@ -64,7 +66,9 @@ class ParameterError(DiscModelError, ValueError):
     """
 
     def __init__(self, *faults: str) -> None:
-        self.faults = tuple(fault if isinstance(fault, Fault) else Fault((), "", fault) for fault in faults)
+        self.faults = tuple(
+            fault if isinstance(fault, Fault) else Fault((), "", fault) for fault in faults
+        )
         super().__init__("; ".join(faults))
 
     def __reduce__(self) -> tuple[type[ParameterError], tuple[str, ...]]:
@@ -78,8 +82,13 @@ def raise_faults(faults: Collection[str]) -> None:
 
 
 def violations(*rules: tuple[object, str, object, str]) -> list[str]:
-    """Faults of those rules ``(holds, name, value, rule)`` that do not hold; dots in a name join a path."""
-    return [Fault.of(tuple(name.split(".")), value, rule) for holds, name, value, rule in rules if not holds]
+    """Faults of those rules ``(holds, name, value, rule)`` that do not hold; dots in a name join a
+    path."""
+    return [
+        Fault.of(tuple(name.split(".")), value, rule)
+        for holds, name, value, rule in rules
+        if not holds
+    ]
 
 
 def require(*rules: tuple[object, str, object, str]) -> None:
@@ -96,7 +105,8 @@ class SimulationError(DiscModelError):
 
 
 class PainleveParadox(SimulationError):
-    """The slip denominator 1 + m S2 + sgn(f) mu_k B/r_0 reached 0, beyond which there is no solution, or two."""
+    """The slip denominator 1 + m S2 + sgn(f) mu_k B/r_0 reached 0, beyond which there is no
+    solution, or two."""
 
 
 class StepLimit(SimulationError):
@@ -115,18 +125,27 @@ class NonFinite(SimulationError):
 
 
 def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Iterator[Fault]:
-    """The faults that pydantic found in an input. Where a name is unknown, the model's ``_word`` is the word for names,
-    and its ``_unknown`` replaces the rule."""
+    """The faults that pydantic found in an input. Where a name is unknown, the model's ``_word`` is
+    the word for names, and its ``_unknown`` replaces the rule."""
     for item in error.errors(include_url=False):
-        path, kind, value, context = _path(item, raw), item["type"], item["input"], item.get("ctx", {})
-        if isinstance(reason := context.get("error"), ParameterError):  # raised by a part that is a model of its own
+        path, kind, value, context = (
+            _path(item, raw),
+            item["type"],
+            item["input"],
+            item.get("ctx", {}),
+        )
+        if isinstance(
+            reason := context.get("error"), ParameterError
+        ):  # raised by a part that is a model of its own
             yield from (fault.inside(path) for fault in reason.faults)
         elif kind == "missing":
             yield Fault(path, "", "is required")
         elif kind == "extra_forbidden":
             word, rule = (getattr(model, name, "") for name in ("_word", "_unknown"))
             more = suggestion(path[-1], [*model.model_fields], all_of_them=not (word or rule))
-            yield Fault(path, "" if rule else as_text(value), (rule or f"unknown {word or 'key'}") + more)
+            yield Fault(
+                path, "" if rule else as_text(value), (rule or f"unknown {word or 'key'}") + more
+            )
         else:
             told = re.sub("^[A-Z][a-z]+ should", "must", item["msg"].removeprefix("Value error, "))
             yield Fault.of(path, value, _RULES[kind].format(**context) if kind in _RULES else told)
@@ -137,12 +156,15 @@ _RULES = {  # by pydantic's kind of fault, whose context fills the braces; other
     "greater_than": "must be > {gt:g}",
     "less_than": "must be < {lt:g}",
     "less_than_equal": "must be <= {le:g}",
-    **dict.fromkeys(("dict_type", "mapping_type", "model_type", "model_attributes_type"), "must be a mapping"),
+    **dict.fromkeys(
+        ("dict_type", "mapping_type", "model_type", "model_attributes_type"), "must be a mapping"
+    ),
 }
 
 
 def as_text(value: Any) -> str:
-    """The text of a value in messages: shortened; a float without a final ".0" and without noise of rounding."""
+    """The text of a value in messages: shortened; a float without a final ".0" and without noise of
+    rounding."""
     if isinstance(value, float):
         return repr(float(f"{value:.15g}")).removesuffix(".0")
     text = repr(value)
@@ -150,19 +172,29 @@ def as_text(value: Any) -> str:
 
 
 def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -> str:
-    """Text with the most similar known name and the known names; with `all_of_them` false, only one of the two."""
+    """Text with the most similar known name and the known names; with `all_of_them` false, only one
+    of the two."""
     folded = {field.lower(): field for field in known}
-    begin = [field for field in folded if len(str(name)) > 1 and field.startswith(str(name).lower())]
+    begin = [
+        field for field in folded if len(str(name)) > 1 and field.startswith(str(name).lower())
+    ]
     close = begin or difflib.get_close_matches(str(name).lower(), folded, n=1, cutoff=0.6)
     meant = f", did you mean {folded[close[0]]}?" if close else ""
     return meant + (f" (known: {', '.join(known)})" if known and (all_of_them or not close) else "")
 
 
 def _path(item: Any, raw: Any) -> tuple[str, ...]:
-    """Path of a fault in the input: the steps of pydantic's path that the input has, so not a union's branches."""
+    """Path of a fault in the input: the steps of pydantic's path that the input has, so not a
+    union's branches."""
     path, part = list[str](), raw
     for step in item["loc"]:
-        if step in (part if isinstance(part, Mapping) else range(len(part)) if isinstance(part, list | tuple) else ()):
+        if step in (
+            part
+            if isinstance(part, Mapping)
+            else range(len(part))
+            if isinstance(part, list | tuple)
+            else ()
+        ):
             path.append(str(step))
             part = part[step]
     return (*path, str(item["loc"][-1])) if item["type"] == "missing" else tuple(path)
@@ -195,10 +227,22 @@ class Status(StatusBase):
 
     OK = "ok", "The simulation reached t_end."
     STOPPED = "stopped", "The simulation stopped where stop_at asked it to."
-    STEP_LIMIT = "step_limit", "The allowed number of steps was used up: raise max_steps, or shorten t_end."
-    PARADOX = "paradox", "Painleve's paradox: rigid friction on this slope has no solution, or two; lower mu_k or N."
-    STALLED = "stalled", "Switches follow each other without the clock moving: tighten tol, or perturb initial_state."
-    NON_FINITE = "non_finite", "The state overflowed: check the parameters' magnitudes; tighten tol if they are meant."
+    STEP_LIMIT = (
+        "step_limit",
+        "The allowed number of steps was used up: raise max_steps, or shorten t_end.",
+    )
+    PARADOX = (
+        "paradox",
+        "Painleve's paradox: rigid friction on this slope has no solution, or two; lower mu_k or N.",
+    )
+    STALLED = (
+        "stalled",
+        "Switches follow each other without the clock moving: tighten tol, or perturb initial_state.",
+    )
+    NON_FINITE = (
+        "non_finite",
+        "The state overflowed: check the parameters' magnitudes; tighten tol if they are meant.",
+    )
 
     @property
     def complete(self) -> bool:

@@ -1,5 +1,6 @@
-"""How many modes a case needs: `choose_modes`, and requests for it in study files and on the command line.
-By a quantity of the motion it is the first model with which two larger ones agree; a table is its own last candidate.
+"""How many modes a case needs: `choose_modes`, and requests for it in study files and on the
+command line. By a quantity of the motion it is the first model with which two larger ones agree; a
+table is its own last candidate.
 """
 
 from __future__ import annotations
@@ -24,10 +25,12 @@ FREQUENCIES = "frequencies"  # the quantity by which modes are chosen by default
 # quantities by which modes may be chosen, and their default relative tolerances
 CHOSEN_BY = {FREQUENCIES: 1e-3, "growth": 1e-2, "first_separation": 1e-2}
 RICH = (20, 6)  # diameters and circles of the reference model for frequencies
-# Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5 as published, 2e-4
-# orthonormal, against 30 diameters and 8 circles), and growth rates and times depend on the frequencies.
+# Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5
+# as published, 2e-4 orthonormal, against 30 diameters and 8 circles), and growth rates and times
+# depend on the frequencies.
 TRUSTED = 1e-4
-# diameters and circles of the candidates by a quantity of the motion: the last is compared with 99 modes
+# diameters and circles of the candidates by a quantity of the motion: the last is compared with 99
+# modes
 CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
 GIVEN_UP = (4, 0)  # the search ends here if no model so far, of up to 34 modes, has the quantity
 HORIZON = 600.0  # s, simulated at most until the first separation
@@ -59,7 +62,10 @@ class ModeChoice:
 
     def to_json(self) -> str:
         """The choice as JSON text, for an attribute of a dataset."""
-        p, record = self.parameters, {name: getattr(self, name) for name in ("tolerance", "error", "modes")}
+        p, record = (
+            self.parameters,
+            {name: getattr(self, name) for name in ("tolerance", "error", "modes")},
+        )
         if p.disc is None:
             record |= {"n_diameters": p.n_diameters, "n_circles": p.n_circles}
         else:
@@ -67,13 +73,17 @@ class ModeChoice:
         if self.quantity == FREQUENCIES:
             record["band"] = BAND
         else:
-            values = {",".join(map(str, size)): x if math.isfinite(x) else None for size, x in self.values.items()}
+            values = {
+                ",".join(map(str, size)): x if math.isfinite(x) else None
+                for size, x in self.values.items()
+            }
             record |= {"quantity": self.quantity, "values": values}
         return json.dumps(record | {"compared_with": list(self.rich)}, sort_keys=True)
 
 
 class ModeRequest(Strict):
-    """Quantity and tolerance for the choice of the number of modes; `CHOSEN_BY` has the default tolerances."""
+    """Quantity and tolerance for the choice of the number of modes; `CHOSEN_BY` has the default
+    tolerances."""
 
     quantity: Literal[*CHOSEN_BY] = FREQUENCIES  # type: ignore[valid-type]
     tolerance: Annotated[Finite, Field(ge=TRUSTED)] = CHOSEN_BY[FREQUENCIES]
@@ -81,7 +91,9 @@ class ModeRequest(Strict):
     @model_validator(mode="before")
     @classmethod
     def _with_tolerance(cls, values: dict[str, Any]) -> dict[str, Any]:
-        return {"tolerance": CHOSEN_BY.get(str(values.get("quantity")), CHOSEN_BY[FREQUENCIES])} | values
+        return {
+            "tolerance": CHOSEN_BY.get(str(values.get("quantity")), CHOSEN_BY[FREQUENCIES])
+        } | values
 
     @property
     def given(self) -> dict[str, Any]:
@@ -102,21 +114,35 @@ def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
     modes, right = mode_arrays(p), coupled_frequencies(p, contact_compliance(p))
     top = BAND * float(modes.omega.min())
     for size in sizes:
-        of_size = slice(*size) if p.disc is not None else (modes.diameters <= size[0]) & (modes.circles <= size[1])
+        of_size = (
+            slice(*size)
+            if p.disc is not None
+            else (modes.diameters <= size[0]) & (modes.circles <= size[1])
+        )
         chosen = resized(p, size)
         error = _worst(coupled_frequencies(p, contact_compliance(chosen), of_size), right, top)
         if error <= tolerance:
-            return ModeChoice(chosen, tolerance, error, count_modes(p, size), RICH if p.disc is None else sizes[-1])
-    raise DiscModelError(f"tolerance={tolerance:g}: no model up to {RICH} (diameters, circles) meets it; enlarge it")
+            return ModeChoice(
+                chosen,
+                tolerance,
+                error,
+                count_modes(p, size),
+                RICH if p.disc is None else sizes[-1],
+            )
+    raise DiscModelError(
+        f"tolerance={tolerance:g}: no model up to {RICH} (diameters, circles) meets it; enlarge it"
+    )
 
 
 def counts(disc: Disc) -> range:
-    """Possible numbers of first modes of a table: at least one of these modes must move under the slider."""
+    """Possible numbers of first modes of a table: at least one of these modes must move under the
+    slider."""
     return range(1 + next(i for i, each in enumerate(disc.amplitude) if each), len(disc.omega) + 1)
 
 
 def resized(p: Parameters, size: tuple[int, ...]) -> Parameters:
-    """The case with the modes of a size: up to these diameters and circles, or so many first modes of its table."""
+    """The case with the modes of a size: up to these diameters and circles, or so many first modes
+    of its table."""
     if p.disc is not None:
         return p.replace(disc=p.disc.first(*size))
     return p.replace(n_diameters=size[0], n_circles=size[1])
@@ -124,11 +150,16 @@ def resized(p: Parameters, size: tuple[int, ...]) -> Parameters:
 
 def count_modes(p: Parameters, size: tuple[int, ...]) -> int:
     """Number of real modes of `resized`: pairs count as two."""
-    return real_modes(*size) if p.disc is None else size[0] + sum(l > 0 for l in p.disc.diameters[: size[0]])
+    return (
+        real_modes(*size)
+        if p.disc is None
+        else size[0] + sum(l > 0 for l in p.disc.diameters[: size[0]])
+    )
 
 
 def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | None]:
-    """Parameters of a file, and the request for their modes; their own number is then meaningless."""
+    """Parameters of a file, and the request for their modes; their own number is then
+    meaningless."""
     rest, request = asked_modes(values)
     return Parameters.model_validate(rest if request is None else rest | {"n_circles": 0}), request
 
@@ -145,12 +176,15 @@ def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], ModeRequest 
     try:
         return rest, ModeRequest(**stated)
     except ParameterError as error:
-        faults = (Fault((_PREFIX + fault.path[0],), fault.value, fault.rule) for fault in error.faults)
+        faults = (
+            Fault((_PREFIX + fault.path[0],), fault.value, fault.rule) for fault in error.faults
+        )
         raise ParameterError(*faults) from None
 
 
 def frequency_error(p: Parameters, rich: Parameters) -> float:
-    """Largest relative error, against `rich`, of the coupled frequencies up to `BAND` times the disc's lowest one."""
+    """Largest relative error, against `rich`, of the coupled frequencies up to `BAND` times the
+    disc's lowest one."""
     mine, right = (coupled_frequencies(case, contact_compliance(case)) for case in (p, rich))
     return _worst(mine, right, BAND * float(mode_arrays(rich).omega.min()))
 
@@ -169,7 +203,10 @@ def real_modes(diameters: int, circles: int) -> int:
 
 
 def choose_modes(
-    case: Parameters | Mapping[str, Any], tolerance: float | None = None, *, quantity: str = FREQUENCIES
+    case: Parameters | Mapping[str, Any],
+    tolerance: float | None = None,
+    *,
+    quantity: str = FREQUENCIES,
 ) -> ModeChoice:
     """Find the fewest real-valued modes with which a quantity's error is within ``tolerance``.
 
@@ -201,7 +238,9 @@ def choose_modes(
     >>> dm.choose_modes({"N": 385, "Omega": 15.1}, 1e-3).parameters.n_diameters
     3
     """
-    request = ModeRequest(quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance}))
+    request = ModeRequest(
+        quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance})
+    )
     known = isinstance(case, Parameters | Mapping)
     require((known, "case", case, "must be Parameters, or a mapping of names to values"))
     if not isinstance(case, Parameters):
@@ -211,7 +250,8 @@ def choose_modes(
 
 
 def choose_when_run(p: Parameters, request: str) -> tuple[Parameters, str]:
-    """A case with the modes that the text `CaseSpec.modes` asks for, and how they were chosen, as JSON."""
+    """A case with the modes that the text `CaseSpec.modes` asks for, and how they were chosen, as
+    JSON."""
     choice = chosen_modes(p, ModeRequest(**json.loads(request)))
     return choice.parameters, choice.to_json()
 
@@ -223,20 +263,29 @@ def chosen_modes(p: Parameters, request: ModeRequest) -> ModeChoice:
     values: dict[tuple[int, ...], float] = {}
     for group in _compared(p):
         size, *others = group
-        values |= {each: MEASURES[request.quantity](resized(p, each)) for each in group if each not in values}
+        values |= {
+            each: MEASURES[request.quantity](resized(p, each))
+            for each in group
+            if each not in values
+        }
         if (p.disc is not None or size == GIVEN_UP) and all(map(math.isnan, values.values())):
-            raise DiscModelError(f"n_diameters: undecided: no {request.quantity} to choose by with {_listed(p, group)}")
+            raise DiscModelError(
+                f"n_diameters: undecided: no {request.quantity} to choose by with {_listed(p, group)}"
+            )
         change = max(_change(values[size], values[other]) for other in others or group)
         if change <= request.tolerance:
             count, chosen = count_modes(p, size), resized(p, size)
-            return ModeChoice(chosen, request.tolerance, change, count, group[-1], request.quantity, values)
+            return ModeChoice(
+                chosen, request.tolerance, change, count, group[-1], request.quantity, values
+            )
     changes = f"changes by {change:.2g} of itself among {_listed(p, group)}, more than {request.tolerance:g}"
     advice = "give the number of modes, a larger tolerance, or contact_compliance='residual'"
     raise DiscModelError(f"n_diameters: undecided: {request.quantity} still {changes}; {advice}")
 
 
 def _compared(p: Parameters) -> Iterator[tuple[tuple[int, ...], ...]]:
-    """Candidates, each with the larger models for comparison: of a table, twice as many modes, and all of them."""
+    """Candidates, each with the larger models for comparison: of a table, twice as many modes, and
+    all of them."""
     if p.disc is None:
         yield from (((l, c), (2 * l, c), (2 * l, c + 1)) for l, c in CANDIDATES)
         return
@@ -248,10 +297,15 @@ def _compared(p: Parameters) -> Iterator[tuple[tuple[int, ...], ...]]:
 
 
 def _change(mine: float, other: float) -> float:
-    """Change relative to the larger model; infinite if the quantity is missing in one model or in both."""
+    """Change relative to the larger model; infinite if the quantity is missing in one model or in
+    both."""
     if mine == other:
         return 0.0
-    return abs(mine / other - 1.0) if math.isfinite(mine) and math.isfinite(other) and other else math.inf
+    return (
+        abs(mine / other - 1.0)
+        if math.isfinite(mine) and math.isfinite(other) and other
+        else math.inf
+    )
 
 
 def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:
@@ -276,4 +330,7 @@ def first_separation(p: Parameters) -> float:
     return result.raise_for_status().first_separation
 
 
-MEASURES: dict[str, Callable[[Parameters], float]] = {"growth": growth, "first_separation": first_separation}
+MEASURES: dict[str, Callable[[Parameters], float]] = {
+    "growth": growth,
+    "first_separation": first_separation,
+}

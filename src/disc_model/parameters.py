@@ -42,37 +42,79 @@ CHOOSING = ("truncation_quantity", "truncation_tolerance")  # keys of files that
 RESIDUAL = "residual"  # value of ``contact_compliance`` that stands for the static flexibility of the modes left out
 SURFACE = "surface"  # value of ``friction_offset`` by which friction acts on the disc's surface
 
-RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")  # parameters in rules that relate several
+RELATED = (
+    "mu_s",
+    "mu_k",
+    "a",
+    "b",
+    "r_0",
+    "E",
+    "h",
+    "nu",
+    "disc",
+)  # parameters in rules that relate several
 # parameters of the plate, which have no meaning for a disc that is given by its modes
 PLATE = ("D_star", "E", "a", "b", "h", "nu", "rho", "n_diameters", "n_circles", "normalization")
 RATIOS = {  # of two parameters, which may stand for the first one
     f"{upper}_over_{lower}": (upper, lower)
-    for upper, lower in (("mu_k", "mu_s"), ("k_p", "k"), ("c_p", "c"), ("a", "b"), ("r_0", "b"), ("h", "b"))
+    for upper, lower in (
+        ("mu_k", "mu_s"),
+        ("k_p", "k"),
+        ("c_p", "c"),
+        ("a", "b"),
+        ("r_0", "b"),
+        ("h", "b"),
+    )
 }
 MOST_MODES = 1000  # largest number of modes in the table of a disc
-FREQUENCIES = (1e-3, 1e7)  # limits of natural frequencies, rad/s; above them a cycle would take minutes to compute
-AMPLITUDES = (1e-6, 1e6)  # limits of the largest modal amplitude, kg^-1/2: the modal mass is 1e-12 to 1e12 kg
+FREQUENCIES = (
+    1e-3,
+    1e7,
+)  # limits of natural frequencies, rad/s; above them a cycle would take minutes to compute
+AMPLITUDES = (
+    1e-6,
+    1e6,
+)  # limits of the largest modal amplitude, kg^-1/2: the modal mass is 1e-12 to 1e12 kg
 
-# words by which texts that identify cases and batches know the kinds of contact, and the field's own
+# words by which texts that identify cases and batches know the kinds of contact, and the field's
+# own
 CONTACTS = {"separable": "unilateral", "bonded": "bilateral"}
 IDENTITIES = {own: word for word, own in CONTACTS.items()}
 # added later: their defaults are left out of the canonical form, so that older hashes stay valid
-_LATER = ("contact_compliance", "contact_force", "damping_ratio", "disc", "friction_offset", "friction_decay")
+_LATER = (
+    "contact_compliance",
+    "contact_force",
+    "damping_ratio",
+    "disc",
+    "friction_offset",
+    "friction_decay",
+)
 
 
-_ORDER = (("mu_k", "<=", operator.le, "mu_s"), ("a", "<", operator.lt, "r_0"), ("r_0", "<=", operator.le, "b"))
-_Distance = Annotated[Real, AfterValidator(must(lambda value: 0 <= value < math.inf, "must be a finite number >= 0"))]
+_ORDER = (
+    ("mu_k", "<=", operator.le, "mu_s"),
+    ("a", "<", operator.lt, "r_0"),
+    ("r_0", "<=", operator.le, "b"),
+)
+_Distance = Annotated[
+    Real, AfterValidator(must(lambda value: 0 <= value < math.inf, "must be a finite number >= 0"))
+]
 # Beyond, the start of slip is lost in rounding.
 _DECAY = must(lambda value: value <= 1e12 or value == math.inf, "must be at most 1e12 s/m, or inf")
-# What only files and the command line accept is refused with the name of the function to use instead.
-_CHOSEN = must(lambda value: value != AUTO, "must be a whole number; disc_model.choose_modes finds one")
+# What only files and the command line accept is refused with the name of the function to use
+# instead.
+_CHOSEN = must(
+    lambda value: value != AUTO, "must be a whole number; disc_model.choose_modes finds one"
+)
 _READ = must(
-    lambda value: not isinstance(value, str), "must be a Disc: disc_model.Disc.from_csv reads a table of modes"
+    lambda value: not isinstance(value, str),
+    "must be a Disc: disc_model.Disc.from_csv reads a table of modes",
 )
 
 
 def _field(default: Any, unit: str, description: str, **rules: Any) -> Any:
-    """A field with a unit, "" for a choice; `rules` are pydantic's keywords such as `ge`, `gt`, `lt` and `le`."""
+    """A field with a unit, "" for a choice; `rules` are pydantic's keywords such as `ge`, `gt`,
+    `lt` and `le`."""
     return Field(default, description=description, json_schema_extra={"unit": unit}, **rules)
 
 
@@ -83,8 +125,8 @@ Column = Iterable[float | str]  # numbers of the modes of a table
 class Disc(Strict):
     """An axisymmetric disc given by its modes, from finite elements or a modal test.
 
-    Modes with nodal diameters are pairs (cosine and sine), each given once. `from_csv`, `from_uff` and `from_section`
-    make one.
+    Modes with nodal diameters are pairs (cosine and sine), each given once. `from_csv`, `from_uff`
+    and `from_section` make one.
 
     Parameters
     ----------
@@ -117,14 +159,24 @@ class Disc(Strict):
     diameters: tuple[Annotated[Count, Field(ge=0, le=60)], ...]
     omega: tuple[Annotated[Finite, within(FREQUENCIES)], ...]
     amplitude: tuple[Finite, ...]
-    damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = Field((), validate_default=True)
+    damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = Field(
+        (), validate_default=True
+    )
     circles: tuple[Annotated[Count, Field(ge=0)], ...] = Field((), validate_default=True)
     tangential: tuple[Finite, ...] = ()
     static_compliance: Positive | None = None
     radii: tuple[Positive, ...] = ()
     shapes: tuple[tuple[Finite, ...], ...] = ()
 
-    _columns: ClassVar = ("diameters", "omega", "amplitude", "damping_ratio", "circles", "tangential", "shapes")
+    _columns: ClassVar = (
+        "diameters",
+        "omega",
+        "amplitude",
+        "damping_ratio",
+        "circles",
+        "tangential",
+        "shapes",
+    )
 
     if TYPE_CHECKING:  # for type checkers: any sequence of numbers will do
 
@@ -139,19 +191,29 @@ class Disc(Strict):
         """Check the rules between columns, and refuse modes that are given twice."""
         count, faults = len(self.diameters), list[str]()
         if not 1 <= count <= MOST_MODES:
-            faults.append(Fault(("diameters",), f"{count} modes", f"must be 1 to {MOST_MODES} modes"))
+            faults.append(
+                Fault(("diameters",), f"{count} modes", f"must be 1 to {MOST_MODES} modes")
+            )
         for name in self._columns:
             column = getattr(self, name)
             if len(column) != count and (column or name in ("omega", "amplitude")):
-                faults.append(Fault((name,), f"{len(column)} values", f"must be as many as diameters, {count}"))
+                faults.append(
+                    Fault(
+                        (name,), f"{len(column)} values", f"must be as many as diameters, {count}"
+                    )
+                )
         lengths = {len(self.radii)} if self.radii else set()
         if {*map(len, self.shapes)} != lengths or lengths == {1}:
             rule = "must be two or more, with a value of the shape of every mode at each"
             faults.append(Fault(("radii",), f"{len(self.radii)} radii", rule))
         elif any(a >= b for a, b in pairwise(self.radii)):
             faults.append(Fault.of(("radii",), [*self.radii], "must ascend"))
-        raise_faults(faults or limits_faults("largest amplitude", max(map(abs, self.amplitude)), AMPLITUDES))
-        counted = "circles" not in self.model_fields_set  # by frequency: then modes 5 % apart are no pair
+        raise_faults(
+            faults or limits_faults("largest amplitude", max(map(abs, self.amplitude)), AMPLITUDES)
+        )
+        counted = (
+            "circles" not in self.model_fields_set
+        )  # by frequency: then modes 5 % apart are no pair
         same = self.diameters if counted else [*zip(self.diameters, self.circles, strict=True)]
         for i, j in combinations(range(count), 2):
             apart = abs(self.omega[j] - self.omega[i]) / max(self.omega[i], self.omega[j])
@@ -176,7 +238,10 @@ class Disc(Strict):
         if info.field_name == "damping_ratio":
             return (0.0,) * len(diameters)
         order = sorted(range(len(omega)), key=omega.__getitem__)
-        return tuple(sum(diameters[j] == diameters[i] for j in order[: order.index(i)]) for i in range(len(omega)))
+        return tuple(
+            sum(diameters[j] == diameters[i] for j in order[: order.index(i)])
+            for i in range(len(omega))
+        )
 
     @classmethod
     def from_csv(cls, path: str | os.PathLike[str]) -> Disc:
@@ -204,8 +269,8 @@ class Disc(Strict):
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the table that `from_csv` reads, with enough digits to restore each number exactly.
 
-        Raises `ParameterError` if the path is not that of a file, `disc_model.data.dataset.WriteError` if it cannot be
-        written.
+        Raises `ParameterError` if the path is not that of a file,
+        `disc_model.data.dataset.WriteError` if it cannot be written.
 
         Examples
         --------
@@ -215,13 +280,18 @@ class Disc(Strict):
         >>> dm.Disc.from_csv("disc.csv") == disc
         True
         """
-        dataset, given = (import_module(f"disc_model.{name}") for name in ("data.dataset", "disc.given"))
+        dataset, given = (
+            import_module(f"disc_model.{name}") for name in ("data.dataset", "disc.given")
+        )
         text = given.table_text(self)
-        dataset.write_atomically(dataset.regular_file(path), lambda name: Path(name).write_text(text, encoding="utf-8"))
+        dataset.write_atomically(
+            dataset.regular_file(path), lambda name: Path(name).write_text(text, encoding="utf-8")
+        )
 
     @classmethod
     def from_uff(cls, path: str | os.PathLike[str], r_0: float) -> Disc:
-        """Read mode shapes from a universal file, as modal software writes it (pyuff, extra ``uff``).
+        """Read mode shapes from a universal file, as modal software writes it (pyuff, extra
+        ``uff``).
 
         Parameters
         ----------
@@ -312,7 +382,8 @@ class Disc(Strict):
 
     @property
     def numbers(self) -> dict[str, float]:
-        """Numbers of the modes that may be uncertain, by names such as omega_2_0: two nodal diameters, no circle."""
+        """Numbers of the modes that may be uncertain, by names such as omega_2_0: two nodal
+        diameters, no circle."""
         return {
             f"{column}_{l}_{c}": value
             for column in ("omega", "amplitude", "damping_ratio")
@@ -322,7 +393,9 @@ class Disc(Strict):
     def with_numbers(self, **changes: float) -> Disc:
         """The disc with some of its `numbers` changed."""
         values, n = [*(self.numbers | changes).values()], len(self.omega)
-        return self.replace(omega=values[:n], amplitude=values[n : 2 * n], damping_ratio=values[2 * n : 3 * n])
+        return self.replace(
+            omega=values[:n], amplitude=values[n : 2 * n], damping_ratio=values[2 * n : 3 * n]
+        )
 
     def first(self, count: int) -> Disc:
         """The disc with only the first `count` modes of its table."""
@@ -332,9 +405,10 @@ class Disc(Strict):
 class Parameters(Strict):
     """One case of disc and slider, in SI units. Defaults are the paper's Table 1.
 
-    The radii of the plate must ascend, a < r_0 <= b, and mu_k must not be above mu_s. `disc_model.choose_modes` finds
-    how many modes a tolerance asks for. A ratio may stand for its first one: mu_k_over_mu_s, k_p_over_k, c_p_over_c,
-    a_over_b, r_0_over_b, h_over_b; it stays what it is in changed copies.
+    The radii of the plate must ascend, a < r_0 <= b, and mu_k must not be above mu_s.
+    `disc_model.choose_modes` finds how many modes a tolerance asks for. A ratio may stand for its
+    first one: mu_k_over_mu_s, k_p_over_k, c_p_over_c, a_over_b, r_0_over_b, h_over_b; it stays what
+    it is in changed copies.
 
     Raises
     ------
@@ -384,18 +458,31 @@ class Parameters(Strict):
     contact: Annotated[
         Literal["unilateral", "bilateral"],
         BeforeValidator(lambda word: CONTACTS.get(word, word) if isinstance(word, str) else word),
-    ] = _field("unilateral", "", "whether the slider may leave the disc: bilateral contact holds it, but lets it slide")
+    ] = _field(
+        "unilateral",
+        "",
+        "whether the slider may leave the disc: bilateral contact holds it, but lets it slide",
+    )
     contact_compliance: _Distance | Literal["residual"] = _field(
-        0.0, "m/N", "compliance of the contact, 0 if it is rigid; residual: that of the modes left out"
+        0.0,
+        "m/N",
+        "compliance of the contact, 0 if it is rigid; residual: that of the modes left out",
     )
     contact_force: Literal["vertical", "normal"] = _field(
-        "vertical", "", "direction of the contact force: vertical as in the paper, or normal to the bent disc"
+        "vertical",
+        "",
+        "direction of the contact force: vertical as in the paper, or normal to the bent disc",
     )
     friction_offset: _Distance | Literal["surface"] = _field(
-        0.0, "m", "height above the disc's middle plane at which friction acts; surface: h/2, or by the table of a disc"
+        0.0,
+        "m",
+        "height above the disc's middle plane at which friction acts; surface: h/2, or by the table of a disc",
     )
     friction_decay: Annotated[Real, AfterValidator(_DECAY)] = _field(
-        math.inf, "s/m", "d of friction mu_k + (mu_s - mu_k)/(1 + d v) at slip speed v; inf: mu_k at any speed", ge=0
+        math.inf,
+        "s/m",
+        "d of friction mu_k + (mu_s - mu_k)/(1 + d v) at slip speed v; inf: mu_k at any speed",
+        ge=0,
     )
     damping_ratio: Annotated[Real, Field(ge=0, lt=1, allow_inf_nan=False)] | None = _field(
         None, "1", "damping ratio of every mode of the plate, from 0 to below 1, instead of D_star"
@@ -426,10 +513,14 @@ class Parameters(Strict):
         ratios, faults = {name: data[name] for name in RATIOS if name in data}, list[Fault]()
         for name, value in ratios.items():
             if RATIOS[name][0] in data:
-                faults.append(Fault.of((name,), value, f"must not be given beside {RATIOS[name][0]}"))
+                faults.append(
+                    Fault.of((name,), value, f"must not be given beside {RATIOS[name][0]}")
+                )
             elif not (is_number(value) and 0 <= value < math.inf):
                 faults.append(Fault.of((name,), value, "must be a finite number >= 0"))
-        data = in_si({name: value for name, value in data.items() if name not in ratios}, UNITS, faults, ())
+        data = in_si(
+            {name: value for name, value in data.items() if name not in ratios}, UNITS, faults, ()
+        )
         raise_faults(faults)
         with suppress(ValueError):  # of a wrong value, which the fields report
             lower = {name: number(data[name]) for _, name in RATIOS.values() if name in data}
@@ -441,16 +532,24 @@ class Parameters(Strict):
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        """Check the rules between parameters, what a disc excludes, and that the plate has one damping. A rule on a
-        parameter that is absent, as in `SomeParameters`, does not count."""
+        """Check the rules between parameters, what a disc excludes, and that the plate has one
+        damping. A rule on a parameter that is absent, as in `SomeParameters`, does not count."""
         values, fields = dict(self), type(self).model_fields
         if self.disc is not None and self.friction_offset == SURFACE and not self.disc.tangential:
             need = "must be a number for a disc whose table has no column tangential_per_sqrt_kg"
             raise_faults([Fault.of(("friction_offset",), SURFACE, need)])
-        unused, rule = [*PLATE, "damping_ratio"], "where a disc is given: it is a parameter of the plate"
+        unused, rule = (
+            [*PLATE, "damping_ratio"],
+            "where a disc is given: it is a parameter of the plate",
+        )
         if self.disc is None:
-            unused, rule = ["D_star"] * (self.damping_ratio is not None), "where damping_ratio is given"
-        changed = [name for name in sorted(unused) if values[name] not in (fields[name].default, AUTO)]
+            unused, rule = (
+                ["D_star"] * (self.damping_ratio is not None),
+                "where damping_ratio is given",
+            )
+        changed = [
+            name for name in sorted(unused) if values[name] not in (fields[name].default, AUTO)
+        ]
         faults = [Fault.of((name,), values[name], f"must be left out {rule}") for name in changed]
         # a disc that is given by its modes has other radii than the plate
         for low, sign, holds, high in _ORDER if self.disc is None else _ORDER[:1]:
@@ -459,7 +558,9 @@ class Parameters(Strict):
                 faults.append(Fault.of((low,), lower, f"must be {sign} {high}={as_text(upper)}"))
         E, h, nu = self.E, self.h, self.nu
         if E is not None and h is not None and nu is not None:
-            rigidity = E * (h * h * h) / 12 / (1 - nu**2)  # unlike a power, a product overflows to inf
+            rigidity = (
+                E * (h * h * h) / 12 / (1 - nu**2)
+            )  # unlike a power, a product overflows to inf
             if not 0 < rigidity < math.inf:
                 rule = f"must give a finite, positive E h^3/12/(1-nu^2), not {as_text(rigidity)}"
                 faults.append(Fault.of(("h",), h, rule))
@@ -467,15 +568,20 @@ class Parameters(Strict):
         return self
 
     def replace(self, **changes: Any) -> Self:
-        """Return a copy with some values changed; for a disc given by its modes also its `Disc.numbers`.
+        """Return a copy with some values changed; for a disc given by its modes also its
+        `Disc.numbers`.
 
-        A ratio by which the case was given, such as mu_k_over_mu_s, stays what it is, unless its first one changes.
-        Raises `ParameterError` as the constructor.
+        A ratio by which the case was given, such as mu_k_over_mu_s, stays what it is, unless its
+        first one changes. Raises `ParameterError` as the constructor.
         """
         if self.disc is not None and "disc" not in changes:
-            numbers = {name: changes.pop(name) for name in self.disc.numbers.keys() & changes.keys()}
+            numbers = {
+                name: changes.pop(name) for name in self.disc.numbers.keys() & changes.keys()
+            }
             changes |= {"disc": self.disc.with_numbers(**numbers)} if numbers else {}
-        ratios = {name: value for name, value in self._ratios.items() if RATIOS[name][0] not in changes}
+        ratios = {
+            name: value for name, value in self._ratios.items() if RATIOS[name][0] not in changes
+        }
         ratios |= {name: value for name, value in changes.items() if name in RATIOS}
         follow = {RATIOS[name][0] for name in ratios}
         values = {name: getattr(self, name) for name in self.model_fields_set if name not in follow}
@@ -483,30 +589,59 @@ class Parameters(Strict):
 
     @property
     def numbers(self) -> dict[str, float]:
-        """All numbers of the case that may change continuously, by name: parameters, ratios and `Disc.numbers`."""
-        unused = {"D_star"} if self.damping_ratio is not None else {*PLATE} if self.disc is not None else set()
-        others = {"contact_compliance": 0, "friction_offset": 0, "friction_decay": math.inf}  # of other models
+        """All numbers of the case that may change continuously, by name: parameters, ratios and
+        `Disc.numbers`."""
+        unused = (
+            {"D_star"}
+            if self.damping_ratio is not None
+            else {*PLATE}
+            if self.disc is not None
+            else set()
+        )
+        others = {
+            "contact_compliance": 0,
+            "friction_offset": 0,
+            "friction_decay": math.inf,
+        }  # of other models
         unused |= {name for name, value in others.items() if getattr(self, name) == value}
-        numbers = {name: value for name, value in dict(self).items() if isinstance(value, float) and name not in unused}
-        ratios = {name: numbers[a] / numbers[b] for name, (a, b) in RATIOS.items() if a in numbers and numbers.get(b)}
+        numbers = {
+            name: value
+            for name, value in dict(self).items()
+            if isinstance(value, float) and name not in unused
+        }
+        ratios = {
+            name: numbers[a] / numbers[b]
+            for name, (a, b) in RATIOS.items()
+            if a in numbers and numbers.get(b)
+        }
         return numbers | ratios | ({} if self.disc is None else self.disc.numbers)
 
     @property
     def stated(self) -> dict[str, Any]:
-        """The values by name, with the ratios by which the case was given instead of the numbers that follow them."""
+        """The values by name, with the ratios by which the case was given instead of the numbers
+        that follow them."""
         follow = {RATIOS[name][0] for name in self._ratios}
-        return {name: value for name, value in dict(self).items() if name not in follow} | self._ratios
+        return {
+            name: value for name, value in dict(self).items() if name not in follow
+        } | self._ratios
 
     def __repr_args__(self) -> Iterator[tuple[str, Any]]:
         """What is given, and not as in Table 1."""
-        return ((name, value) for name, value in self.stated.items() if DEFAULTS.get(name, ...) != value)
+        return (
+            (name, value) for name, value in self.stated.items() if DEFAULTS.get(name, ...) != value
+        )
 
     def _repr_html_(self) -> str:
         """The case as a table in a notebook."""
         values = {name: value for name, value in self if value is not None}
-        texts = {name: f"{value:.15g}" if is_number(value) else value for name, value in values.items()}
+        texts = {
+            name: f"{value:.15g}" if is_number(value) else value for name, value in values.items()
+        }
         fields = type(self).model_fields
-        rows = ((x, text, self.unit(x).removeprefix("1"), fields[x].description) for x, text in texts.items())
+        rows = (
+            (x, text, self.unit(x).removeprefix("1"), fields[x].description)
+            for x, text in texts.items()
+        )
         return html_table(("symbol", "value", "unit", "meaning"), rows)
 
     @property
@@ -516,14 +651,18 @@ class Parameters(Strict):
 
     @property
     def canonical(self) -> dict[str, Any]:
-        """The values that identify a case: all, except defaults of parameters that the paper's model does not have."""
+        """The values that identify a case: all, except defaults of parameters that the paper's
+        model does not have."""
         fields = type(self).model_fields
         values = in_words(self.model_dump(), IDENTITIES)
-        return {name: x for name, x in values.items() if name not in _LATER or x != fields[name].default}
+        return {
+            name: x for name, x in values.items() if name not in _LATER or x != fields[name].default
+        }
 
     @property
     def canonical_json(self) -> str:
-        """The values as JSON with sorted keys, equal for equal parameters however they were written."""
+        """The values as JSON with sorted keys, equal for equal parameters however they were
+        written."""
         return canonical_json(self.canonical)
 
     @property
@@ -533,18 +672,24 @@ class Parameters(Strict):
 
     @property
     def key(self) -> str:
-        """Stable content hash: the first 12 hexadecimal digits of the sha256 of `canonical_json`."""
+        """Stable content hash: the first 12 hexadecimal digits of the sha256 of
+        `canonical_json`."""
         return content_key(self.canonical_json)
 
     @classmethod
     def unit(cls, name: str) -> str:
-        """SI unit of a parameter: "1" for a dimensionless one, "" for a choice or an unknown name."""
+        """SI unit of a parameter: "1" for a dimensionless one, "" for a choice or an unknown
+        name."""
         return UNITS.get(name, "")
 
 
 UNITS.update(Parameters._units({}))  # type: ignore[arg-type]
 
-DEFAULTS = {name: field.default for name, field in Parameters.model_fields.items() if not field.is_required()}
+DEFAULTS = {
+    name: field.default
+    for name, field in Parameters.model_fields.items()
+    if not field.is_required()
+}
 
 
 def _documented() -> str:
@@ -552,23 +697,43 @@ def _documented() -> str:
     lines = ["\nParameters\n----------"]
     signs = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
     for name, field in Parameters.model_fields.items():
-        limits = [f"{signs[x]} {getattr(rule, x):g}" for rule in field.metadata for x in signs if hasattr(rule, x)]
+        limits = [
+            f"{signs[x]} {getattr(rule, x):g}"
+            for rule in field.metadata
+            for x in signs
+            if hasattr(rule, x)
+        ]
         words = " or ".join(word for word in get_args(field.annotation) if isinstance(word, str))
-        default = "required" if field.is_required() else f"default {field.default:{'g' * is_number(field.default)}}"
-        phrase = ", ".join(filter(None, [Parameters.unit(name).removeprefix("1"), *limits, words, default]))
+        default = (
+            "required"
+            if field.is_required()
+            else f"default {field.default:{'g' * is_number(field.default)}}"
+        )
+        phrase = ", ".join(
+            filter(None, [Parameters.unit(name).removeprefix("1"), *limits, words, default])
+        )
         lines.append(f"{name} : {field.description} ({phrase})")
-    return inspect.cleandoc(str(Parameters.__doc__)).replace("\nRaises\n", "\n".join([*lines, "\nRaises\n"]))
+    return inspect.cleandoc(str(Parameters.__doc__)).replace(
+        "\nRaises\n", "\n".join([*lines, "\nRaises\n"])
+    )
 
 
 Parameters.__doc__ = _documented()
-_arguments = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY) for name in Parameters.model_fields]
-Parameters.__signature__ = inspect.Signature([x.replace(default=DEFAULTS.get(x.name, x.empty)) for x in _arguments])
+_arguments = [
+    inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY) for name in Parameters.model_fields
+]
+Parameters.__signature__ = inspect.Signature(
+    [x.replace(default=DEFAULTS.get(x.name, x.empty)) for x in _arguments]
+)
 
 
 def in_words(values: Mapping[str, Any], words: Mapping[str, str] = CONTACTS) -> dict[str, Any]:
-    """Values from a text that identifies a case, in the words of the field, as files and readers have them; or, by
-    `IDENTITIES`, those of a case in the words of such a text."""
-    return {name: words.get(value, value) if name == "contact" else value for name, value in values.items()}
+    """Values from a text that identifies a case, in the words of the field, as files and readers
+    have them; or, by `IDENTITIES`, those of a case in the words of such a text."""
+    return {
+        name: words.get(value, value) if name == "contact" else value
+        for name, value in values.items()
+    }
 
 
 def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:
@@ -581,7 +746,8 @@ def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def case_of(values: Mapping[str, Any], discs: Mapping[str, Any]) -> dict[str, Any]:
-    """The values of a point that belong to its case, without starts and samples; a disc's name becomes its table."""
+    """The values of a point that belong to its case, without starts and samples; a disc's name
+    becomes its table."""
     known = (*Parameters.model_fields, *CHOOSING)
     case = {name: value for name, value in with_ratios(values).items() if name in known}
     return case | ({"disc": discs[case["disc"]]} if isinstance(case.get("disc"), str) else {})

@@ -1,9 +1,10 @@
 """The origin of a result: its sources, the commit, and versions of packages.
 
-The sources are all that its entry points import, at any depth, and the data read beside it. An entry point is a module
-or package of `disc_model`, or the script of a job. Quantities and figures, which are loaded by their names, are entry
-points of their own. Deferred imports count, imports for type checkers do not. The data of a module are the files beside
-it with its own name, and what its texts name: files and folders beside it, and paths from the package on.
+The sources are all that its entry points import, at any depth, and the data read beside it. An
+entry point is a module or package of `disc_model`, or the script of a job. Quantities and figures,
+which are loaded by their names, are entry points of their own. Deferred imports count, imports for
+type checkers do not. The data of a module are the files beside it with its own name, and what its
+texts name: files and folders beside it, and paths from the package on.
 """
 
 import ast
@@ -33,8 +34,9 @@ ASIDE = {  # modules that are not followed where they are imported, since they d
 
 @functools.cache
 def source_hash(*entries: str | Path) -> str:
-    """Hash of the sources of a result without comments, docstrings and layout, 16 hexadecimal digits. Entries are names
-    of modules and packages, with or without ``disc_model.``, and paths of scripts and further files."""
+    """Hash of the sources of a result without comments, docstrings and layout, 16 hexadecimal
+    digits. Entries are names of modules and packages, with or without ``disc_model.``, and paths of
+    scripts and further files."""
     digest = hashlib.sha256()
     for path in source_files(*entries):
         # a script is hashed under its bare name, wherever it is installed
@@ -46,7 +48,11 @@ def source_hash(*entries: str | Path) -> str:
 @functools.cache
 def source_files(*entries: str | Path) -> tuple[Path, ...]:
     """The files of entry points and of all that they import, sorted."""
-    waiting = {path for entry in entries for path in ([entry] if isinstance(entry, Path) else _modules(entry))}
+    waiting = {
+        path
+        for entry in entries
+        for path in ([entry] if isinstance(entry, Path) else _modules(entry))
+    }
     aside = {path for name in ASIDE for path in _modules(name)} - waiting
     sources: set[Path] = set()
     while waiting:
@@ -72,19 +78,33 @@ def _used(path: Path) -> frozenset[Path]:
     modules: set[Path] = set()
     for module, name in imports:
         if module.startswith("."):
-            module = resolve_name(module, ".".join(["disc_model", *path.relative_to(PACKAGE).parent.parts]))
+            module = resolve_name(
+                module, ".".join(["disc_model", *path.relative_to(PACKAGE).parent.parts])
+            )
         top, *parts = module.split(".")
         if top == "disc_model":
             base = PACKAGE.joinpath(*parts)
-            choices = (base / f"{name}.py", base / name / "__init__.py", base.with_suffix(".py"), base / "__init__.py")
+            choices = (
+                base / f"{name}.py",
+                base / name / "__init__.py",
+                base.with_suffix(".py"),
+                base / "__init__.py",
+            )
             modules.add(next(choice for choice in choices if choice.is_file()))
             if PACKAGE / "__init__.py" in modules:
                 rule = "must be imported from its own module, so that its sources are known"
                 raise ImportError(f"{name or module}: {rule}")
     named = {(PACKAGE if "/" in text else path.parent) / text for text in texts}
     data = {*named, *path.parent.glob(f"{path.stem}.*")}
-    data |= {file for folder in named if folder.is_dir() and not [*folder.rglob("*.py")] for file in folder.iterdir()}
-    return frozenset(modules | {file for file in data if file.is_file() and file.suffix not in (".py", ".pyc")})
+    data |= {
+        file
+        for folder in named
+        if folder.is_dir() and not [*folder.rglob("*.py")]
+        for file in folder.iterdir()
+    }
+    return frozenset(
+        modules | {file for file in data if file.is_file() and file.suffix not in (".py", ".pyc")}
+    )
 
 
 def code_hash(path: Path) -> str:
@@ -94,13 +114,17 @@ def code_hash(path: Path) -> str:
 
 @functools.cache
 def _read(path: Path) -> tuple[str, list[tuple[str, str]], list[str]]:
-    """What `_parse` finds in a file, which takes 8 ms: kept in a file whose name is the hash of all that decides it."""
+    """What `_parse` finds in a file, which takes 8 ms: kept in a file whose name is the hash of all
+    that decides it."""
     source = path.read_bytes()
     name = hashlib.sha256(b"\0".join((source, sys.version.encode(), _PARSER))).hexdigest()
     cache = cache_folder() / "sources" / name
     try:
         return json.loads(cache.read_text(encoding="utf-8"))
-    except (OSError, ValueError):  # also if another process is writing it: only the whole text is JSON
+    except (
+        OSError,
+        ValueError,
+    ):  # also if another process is writing it: only the whole text is JSON
         known = _parse(ast.parse(source, str(path)))
         with contextlib.suppress(OSError):
             cache.parent.mkdir(parents=True, exist_ok=True)
@@ -112,18 +136,23 @@ _PARSER = Path(__file__).read_bytes()
 
 
 def cache_folder() -> Path:
-    """The folder of what is made once on a machine, kernels too: numba's if it has one, or the user's for caches."""
+    """The folder of what is made once on a machine, kernels too: numba's if it has one, or the
+    user's for caches."""
     return Path(os.environ.get("NUMBA_CACHE_DIR") or platformdirs.user_cache_dir("disc_model"))
 
 
 class _WithoutDocstrings(ast.NodeTransformer):
     def visit_Expr(self, node: ast.Expr) -> ast.Expr | None:
-        return None if isinstance(node.value, ast.Constant) and isinstance(node.value.value, str) else node
+        return (
+            None
+            if isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
+            else node
+        )
 
 
 def _parse(tree: ast.Module) -> tuple[str, list[tuple[str, str]], list[str]]:
-    """Hash of a Python source without comments, docstrings and layout; its imports, each as ``from ..module import
-    name`` has it; and its texts that may name files."""
+    """Hash of a Python source without comments, docstrings and layout; its imports, each as ``from
+    ..module import name`` has it; and its texts that may name files."""
     code = ast.dump(_WithoutDocstrings().visit(tree))
     for node in ast.walk(tree):
         if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
@@ -133,7 +162,9 @@ def _parse(tree: ast.Module) -> tuple[str, list[tuple[str, str]], list[str]]:
         if isinstance(node, ast.Import):
             imports |= {(alias.name, "") for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
-            imports |= {("." * node.level + (node.module or ""), alias.name) for alias in node.names}
+            imports |= {
+                ("." * node.level + (node.module or ""), alias.name) for alias in node.names
+            }
         elif isinstance(node, ast.Constant) and isinstance(node.value, str):
             texts.add(node.value)
     files = [text for text in texts if re.fullmatch(r"\w[\w./-]*", text)]
@@ -158,13 +189,22 @@ def versions(*further: str) -> dict[str, str]:
 
 @functools.cache
 def git_commit(package: Path = PACKAGE) -> str:
-    """Commit of the sources, with ``-dirty`` if they were changed since; "unknown" outside their repository."""
+    """Commit of the sources, with ``-dirty`` if they were changed since; "unknown" outside their
+    repository."""
     # an environment may lie within the repository of another project, which does not list its files
-    commands = ("ls-files --error-unmatch __init__.py", "describe --always --dirty --abbrev=40 --exclude=*")
+    commands = (
+        "ls-files --error-unmatch __init__.py",
+        "describe --always --dirty --abbrev=40 --exclude=*",
+    )
     try:
         for command in commands:
             done = subprocess.run(
-                ["git", *command.split()], cwd=package, capture_output=True, text=True, timeout=20, check=True
+                ["git", *command.split()],
+                cwd=package,
+                capture_output=True,
+                text=True,
+                timeout=20,
+                check=True,
             )
     except (OSError, subprocess.SubprocessError):
         return "unknown"

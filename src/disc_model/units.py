@@ -12,7 +12,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Self, TypeGuard, get_args
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ValidationError,
+    model_validator,
+)
 
 from disc_model.errors import Fault, ParameterError, faults_of, raise_faults
 
@@ -27,18 +35,25 @@ Units = str | Mapping[str, "Units"]  # a unit; or, for values by name, those tha
 
 @dataclass(frozen=True, eq=False)
 class Unit:
-    """The SI unit of numbers, which marks their type; or the field `of` that names the parameter with this unit."""
+    """The SI unit of numbers, which marks their type; or the field `of` that names the parameter
+    with this unit."""
 
     name: Units = ""
     of: str = ""
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        return {**handler(schema), "unit": self.name} if self.name and isinstance(self.name, str) else handler(schema)
+        return (
+            {**handler(schema), "unit": self.name}
+            if self.name and isinstance(self.name, str)
+            else handler(schema)
+        )
 
 
 UNITS: dict[str, str] = {}  # units of parameters by their names, filled by `disc_model.parameters`
 
-_WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?+)\s*((?:1/)?[A-Za-zµΩ°%].*)")
+_WITH_UNIT = re.compile(
+    r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?+)\s*((?:1/)?[A-Za-zµΩ°%].*)"
+)
 _POWER = r"[A-Za-zµΩ°%]+(?:(?:\^|\*\*)-?\d)?"
 _UNIT = re.compile(rf"(?:1/)?{_POWER}(?:(?:\s*[*/]\s*|\s+){_POWER}){{0,5}}\s*")
 """A product of units to small powers; longer expressions could take arbitrarily long to evaluate."""
@@ -53,33 +68,47 @@ def _units() -> Any:
 
 
 def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -> Any:
-    """A value with all texts within it that have a unit, such as ``"150 GPa"``, as numbers in the given unit. They have
-    15 digits, so that equal decimal numbers are equal in any unit. A unit of another kind is a fault at its `path`."""
+    """A value with all texts within it that have a unit, such as ``"150 GPa"``, as numbers in the
+    given unit. They have 15 digits, so that equal decimal numbers are equal in any unit. A unit of
+    another kind is a fault at its `path`."""
     if not unit:
         return value
     if isinstance(value, dict):
         units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
-        return {x: in_si(part, units.get(x, ""), faults, (*path, str(x))) for x, part in value.items()}
+        return {
+            x: in_si(part, units.get(x, ""), faults, (*path, str(x))) for x, part in value.items()
+        }
     if type(value) in (list, tuple):
-        return type(value)(in_si(part, unit, faults, (*path, str(i))) for i, part in enumerate(value))
-    if not (isinstance(unit, str) and isinstance(value, str) and (match := _WITH_UNIT.fullmatch(value))):
+        return type(value)(
+            in_si(part, unit, faults, (*path, str(i))) for i, part in enumerate(value)
+        )
+    if not (
+        isinstance(unit, str) and isinstance(value, str) and (match := _WITH_UNIT.fullmatch(value))
+    ):
         return value
     try:
         if not _UNIT.fullmatch(match[2]):
             raise ValueError("no unit")
         if unit.startswith("rad") and not any(word in match[2] for word in _ANGLES):
             raise ValueError("Hz may mean turns or radians")
-        converted = _units().Quantity(float(match[1]), match[2].replace("^", "**")).to("" if unit == "1" else unit)
+        converted = (
+            _units()
+            .Quantity(float(match[1]), match[2].replace("^", "**"))
+            .to("" if unit == "1" else unit)
+        )
         return float(f"{converted.magnitude:.15g}")
     except Exception:  # exceptions of pint and of Python's tokenizer, which have no common base
-        rule = "must be a number " + ("without a unit" if unit == "1" else f"in {unit}, or with a unit of its kind")
+        rule = "must be a number " + (
+            "without a unit" if unit == "1" else f"in {unit}, or with a unit of its kind"
+        )
         rule += ", such as rpm; Hz may mean turns or radians" * (unit == "rad/s")
         faults.append(Fault.of(path, value, rule))
         return value
 
 
 def number(value: Any) -> Any:
-    """A number, or a text such as ``1e-3`` of YAML, as a float; raises ValueError for all else, also for a bool."""
+    """A number, or a text such as ``1e-3`` of YAML, as a float; raises ValueError for all else,
+    also for a bool."""
     if isinstance(value, bool) or not isinstance(value, str | int | float | numbers.Real):
         raise ValueError("must be a number")
     try:
@@ -139,7 +168,9 @@ def within(limits: tuple[float, float]) -> AfterValidator:
 LIMIT = 2**1024  # above all floats but inf
 Real = Annotated[float, BeforeValidator(number)]
 Finite = Annotated[Real, Field(allow_inf_nan=False)]
-Positive = Annotated[Real, Field(gt=0, allow_inf_nan=False, json_schema_extra={"exclusiveMinimum": 0})]
+Positive = Annotated[
+    Real, Field(gt=0, allow_inf_nan=False, json_schema_extra={"exclusiveMinimum": 0})
+]
 Count = Annotated[int, BeforeValidator(whole)]
 Seconds = Annotated[Positive, Unit("s")]
 Speed = Annotated[Positive, Unit("rad/s")]
@@ -156,7 +187,11 @@ def _marks(model: type[BaseModel]) -> dict[str, Unit]:
     marks = {}
     for name, field in model.model_fields.items():
         extra = field.json_schema_extra
-        parts = [Unit(str(extra["unit"]))] if isinstance(extra, dict) and "unit" in extra else [*field.metadata]
+        parts = (
+            [Unit(str(extra["unit"]))]
+            if isinstance(extra, dict) and "unit" in extra
+            else [*field.metadata]
+        )
         parts.append(field.annotation)
         for part in parts:
             parts += get_args(part)
@@ -166,8 +201,9 @@ def _marks(model: type[BaseModel]) -> dict[str, Unit]:
 
 
 class Strict(BaseModel):
-    """Base of all models of input: immutable, no unknown keys, numbers converted to SI. Its `ParameterError` lists all
-    faults, those of parts too; rules between values are checked where each by itself is right."""
+    """Base of all models of input: immutable, no unknown keys, numbers converted to SI. Its
+    `ParameterError` lists all faults, those of parts too; rules between values are checked where
+    each by itself is right."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -182,7 +218,8 @@ class Strict(BaseModel):
     @model_validator(mode="wrap")
     @classmethod
     def _in_si(cls, data: Any, handler: Any) -> Any:
-        """Refuse names that are not text, on which pydantic would fail, and convert numbers with units."""
+        """Refuse names that are not text, on which pydantic would fail, and convert numbers with
+        units."""
         if isinstance(data, dict):
             rule = "a name must be text, and a number have a decimal point"
             faults = [Fault.of((repr(x),), data[x], rule) for x in data if not isinstance(x, str)]
@@ -195,7 +232,10 @@ class Strict(BaseModel):
         """SI units of the values that have one, by the marks of their types."""
         units = {name: mark.name for name, mark in _marks(cls).items()}
         chosen = {name: mark.of for name, mark in _marks(cls).items() if mark.of}
-        return units | {x: UNITS.get(str(data.get(by, cls.model_fields[by].default)), "") for x, by in chosen.items()}
+        return units | {
+            x: UNITS.get(str(data.get(by, cls.model_fields[by].default)), "")
+            for x, by in chosen.items()
+        }
 
     @classmethod
     def model_validate(cls, obj: Any, **kwargs: Any) -> Self:
@@ -212,7 +252,11 @@ class Strict(BaseModel):
 
 def given_values(model: Strict) -> dict[str, Any]:
     """The values of a model that were given, in the order of its fields."""
-    return {name: getattr(model, name) for name in type(model).model_fields if name in model.model_fields_set}
+    return {
+        name: getattr(model, name)
+        for name in type(model).model_fields
+        if name in model.model_fields_set
+    }
 
 
 # ---- Names by content
@@ -231,6 +275,10 @@ def canonical_json(value: Any) -> str:
             return item + 0.0 if math.isfinite(item) else str(item)
         if isinstance(item, list | tuple):
             return [plain(value) for value in item]
-        return {str(key): plain(value) for key, value in item.items()} if isinstance(item, Mapping) else item
+        return (
+            {str(key): plain(value) for key, value in item.items()}
+            if isinstance(item, Mapping)
+            else item
+        )
 
     return json.dumps(plain(value), sort_keys=True, separators=(",", ":"), allow_nan=False)

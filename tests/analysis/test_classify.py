@@ -1,11 +1,20 @@
-"""Motions are named rightly for signals whose nature is known; whether a record shows that one has settled."""
+"""Motions are named rightly for signals whose nature is known; whether a record shows that one has
+settled."""
 
 import numpy as np
 import pytest
 from scipy import stats
 
 from disc_model.analysis import classify
-from disc_model.analysis.classify import Settled, motion_of, separation_location, settling, share, stages, zero_one
+from disc_model.analysis.classify import (
+    Settled,
+    motion_of,
+    separation_location,
+    settling,
+    share,
+    stages,
+    zero_one,
+)
 from disc_model.data.variables import Outcome
 
 
@@ -41,7 +50,8 @@ def test_a_period_has_to_be_seen_twice() -> None:
 
 @pytest.mark.parametrize("size", [2e-5, 1e-9 * 3])
 def test_the_near_returns_of_a_quasi_periodic_motion_are_no_period(size: float) -> None:
-    """A rotation by (167 + 1e-3) / 1000: after 1000 steps it misses by 6e-3 of its size, to 1e-7 s."""
+    """A rotation by (167 + 1e-3) / 1000: after 1000 steps it misses by 6e-3 of its size, to 1e-7
+    s."""
     alpha = (167 + 1e-3 * np.sqrt(2)) / 1000
     intervals = 7e-3 + size * np.cos(2 * np.pi * alpha * np.arange(8000))
     found = motion_of(intervals)
@@ -72,7 +82,9 @@ GOLDEN = (5**0.5 - 1) / 2
     ],
     ids=["two frequencies", "three frequencies", "logistic", "random"],
 )
-def test_what_does_not_repeat_is_quasi_periodic_or_irregular(varied: np.ndarray, kind: Outcome) -> None:
+def test_what_does_not_repeat_is_quasi_periodic_or_irregular(
+    varied: np.ndarray, kind: Outcome
+) -> None:
     motion = motion_of(0.01 + varied)
     assert (motion.kind, motion.period) == (kind, 0)
 
@@ -108,7 +120,10 @@ def test_where_a_sine_loses_contact(angle: float, share_of_range: float) -> None
 def test_a_share_has_wilsons_interval() -> None:
     z = stats.norm.ppf(0.95)  # two-sided, 0.9
     for k, n in ((9, 40), (1, 3), (0, 7), (7, 7)):
-        centre, half = (k + z**2 / 2) / (n + z**2), z / (n + z**2) * np.sqrt(k * (n - k) / n + z**2 / 4)
+        centre, half = (
+            (k + z**2 / 2) / (n + z**2),
+            z / (n + z**2) * np.sqrt(k * (n - k) / n + z**2 / 4),
+        )
         # the ends at 0 and 1 cancel to roundings here
         expected = pytest.approx((k / n, centre - half, centre + half), rel=1e-12, abs=1e-15)
         assert share(k, n, confidence=0.9) == expected
@@ -137,7 +152,10 @@ NOISE = np.random.default_rng(1).standard_normal(TIME.size)
         (BEAT, Settled.SETTLED),
         (0.3 + 0.0 * TIME, Settled.SETTLED),
         (np.tile([1.0, 2.0], TIME.size // 2), Settled.SETTLED),
-        (1 + 1e-5 * BEAT * np.exp(-TIME / 100), Settled.SETTLED),  # what changes is 1e-5 of the value
+        (
+            1 + 1e-5 * BEAT * np.exp(-TIME / 100),
+            Settled.SETTLED,
+        ),  # what changes is 1e-5 of the value
         (BEAT * np.exp(-5e-4 * TIME), Settled.CHANGING),
         (BEAT * np.exp(5e-4 * TIME), Settled.CHANGING),
         (BEAT + 1e-3 * TIME, Settled.CHANGING),
@@ -151,11 +169,15 @@ def test_what_settled_means(values: np.ndarray, answer: Settled) -> None:
 
 
 def test_a_decay_is_not_seen_in_a_record_that_is_much_shorter() -> None:
-    """At 200 N the motion decays at 0.009/s; two segments of 1.5 s were alike, and it was called steady."""
+    """At 200 N the motion decays at 0.009/s; two segments of 1.5 s were alike, and it was called
+    steady."""
     decay, short = BEAT * np.exp(-0.009 * TIME), TIME < 3
     assert settling(TIME[short], decay[short]).answer is Settled.UNDECIDED
     found = settling(TIME[TIME < 100], decay[TIME < 100])
-    assert (found.answer, found.rate) == (Settled.CHANGING, pytest.approx(-0.006, rel=0.2))  # of the greatest width
+    assert (found.answer, found.rate) == (
+        Settled.CHANGING,
+        pytest.approx(-0.006, rel=0.2),
+    )  # of the greatest width
 
 
 def test_events_that_become_rarer_are_a_change() -> None:
@@ -163,9 +185,14 @@ def test_events_that_become_rarer_are_a_change() -> None:
 
 
 @pytest.mark.parametrize("rate", [-10 * classify.SLOWEST, 10 * classify.SLOWEST])
-def test_changes_are_found_in_irregular_motions_and_their_absence_is_not_taken_for_one(rate: float) -> None:
+def test_changes_are_found_in_irregular_motions_and_their_absence_is_not_taken_for_one(
+    rate: float,
+) -> None:
     rng = np.random.default_rng(1)
-    found = [settling(TIME, rng.standard_normal(TIME.size) * np.exp(rate * TIME)).answer for _ in range(30)]
+    found = [
+        settling(TIME, rng.standard_normal(TIME.size) * np.exp(rate * TIME)).answer
+        for _ in range(30)
+    ]
     assert found.count(Settled.CHANGING) >= 28
     still = [settling(TIME, rng.standard_normal(TIME.size)).answer for _ in range(30)]
     assert still.count(Settled.CHANGING) <= 2
@@ -211,7 +238,9 @@ def around(turns: float, count: int) -> np.ndarray:
     ],
     ids=["none", "period 1", "period 2", "period 5", "closed curve", "cloud"],
 )
-def test_a_section_has_as_many_points_as_its_motion_shows(points: np.ndarray, least: int, most: int) -> None:
+def test_a_section_has_as_many_points_as_its_motion_shows(
+    points: np.ndarray, least: int, most: int
+) -> None:
     assert least <= classify.distinct_points(points) <= most
 
 
@@ -219,6 +248,8 @@ def test_a_decaying_transient_does_not_lie_on_the_curve_on_which_it_ends() -> No
     curve, turns = around(0.618034, 3000), np.arange(3000)
     spiral = (1 + 0.5 * np.exp(-turns / 100))[:, None] * curve
     # 0.5 exp(-t) falls to the tolerance between 0.01 of the curve's width and 0.01 of its radius, two and one
-    assert 100 * np.log(0.5 / 0.02) - 50 < classify.first_settled(spiral) <= 100 * np.log(0.5 / 0.01)
+    assert (
+        100 * np.log(0.5 / 0.02) - 50 < classify.first_settled(spiral) <= 100 * np.log(0.5 / 0.01)
+    )
     assert classify.first_settled(curve) == 0
     assert classify.first_settled(spiral, 2000) == 2000

@@ -8,7 +8,13 @@ from disc_model.analysis import spectra
 RATE = 4000.0
 TIME = 3.0 + np.arange(40_000) / RATE
 F_S, F_DRIVE = 67.63, 2.4032
-KNOWN = {F_DRIVE: 1.0, F_S - F_DRIVE: 3e-2, F_S + F_DRIVE: 2e-2, 2 * F_S - F_DRIVE: 1e-2, 2 * F_S + F_DRIVE: 4e-3}
+KNOWN = {
+    F_DRIVE: 1.0,
+    F_S - F_DRIVE: 3e-2,
+    F_S + F_DRIVE: 2e-2,
+    2 * F_S - F_DRIVE: 1e-2,
+    2 * F_S + F_DRIVE: 4e-3,
+}
 
 
 def signal(parts: dict[float, float]) -> np.ndarray:
@@ -47,10 +53,18 @@ def sine(frequency: float, phase: float = 0.0) -> np.ndarray:
     return np.sin(2 * np.pi * frequency * SHORT + phase)
 
 
-NAMES = {F_DRIVE: "f_Ω", 2 * F_DRIVE: "2 f_Ω", F_S - F_DRIVE: "f_s − f_Ω", F_S + F_DRIVE: "f_s + f_Ω", 3 * F_S: "3 f_s"}
+NAMES = {
+    F_DRIVE: "f_Ω",
+    2 * F_DRIVE: "2 f_Ω",
+    F_S - F_DRIVE: "f_s − f_Ω",
+    F_S + F_DRIVE: "f_s + f_Ω",
+    3 * F_S: "3 f_s",
+}
 
 
-@pytest.mark.parametrize(("frequency", "name"), [*NAMES.items(), (4 * F_S - F_DRIVE, "4 f_s − f_Ω")])
+@pytest.mark.parametrize(
+    ("frequency", "name"), [*NAMES.items(), (4 * F_S - F_DRIVE, "4 f_s − f_Ω")]
+)
 def test_lines_are_named(frequency: float, name: str) -> None:
     found = spectra.identify(frequency + 0.1, F_S, F_DRIVE)
     assert str(found) == name
@@ -59,7 +73,9 @@ def test_lines_are_named(frequency: float, name: str) -> None:
 
 def test_time_frequency_follows_a_chirp() -> None:
     t = TIME - TIME[0]
-    found = spectra.time_frequency(TIME, np.cos(2 * np.pi * (100 * t + 10 * t**2)), window=0.25, hop=0.05)
+    found = spectra.time_frequency(
+        TIME, np.cos(2 * np.pi * (100 * t + 10 * t**2)), window=0.25, hop=0.05
+    )
     ridge = found.frequency[np.argmax(found.power, axis=0)]
     np.testing.assert_allclose(ridge, 100 + 20 * (found.time - TIME[0]), atol=4)
     assert found.time[0] == pytest.approx(TIME[0] + 0.125, abs=0.05)
@@ -76,30 +92,44 @@ def test_coverage_tells_lines_from_noise() -> None:
 SKIRTS = {
     "that dies out": lambda f, rng: sine(f) * np.exp(-rng.uniform(0.2, 3) * SHORT),
     "that begins": lambda f, rng: sine(f) * (rng.uniform(2, 8) < SHORT),
-    "that wanders": lambda f, rng: np.sin(2 * np.pi * f * SHORT + np.cumsum(0.02 * rng.standard_normal(SHORT.size))),
+    "that wanders": lambda f, rng: np.sin(
+        2 * np.pi * f * SHORT + np.cumsum(0.02 * rng.standard_normal(SHORT.size))
+    ),
 }
 
 
 @pytest.mark.parametrize("skirt", SKIRTS)
 def test_what_stands_on_the_skirt_of_a_line_is_no_evidence(skirt: str) -> None:
-    """Half of them passed by less than 1e-3: the level was looked for farther away than the skirt reaches."""
+    """Half of them passed by less than 1e-3: the level was looked for farther away than the skirt
+    reaches."""
     rng = np.random.default_rng(4)
     for _ in range(20):
-        values = SKIRTS[skirt](NEAR - WITHIN - rng.uniform(0.3, 1), rng) + 1e-4 * rng.standard_normal(SHORT.size)
+        values = SKIRTS[skirt](
+            NEAR - WITHIN - rng.uniform(0.3, 1), rng
+        ) + 1e-4 * rng.standard_normal(SHORT.size)
         # of 30,000 lines the least likely had 0.02
-        for line in spectra.lines(SHORT, values, above=NEAR - WITHIN, below=NEAR + WITHIN, floor=0.0):
+        for line in spectra.lines(
+            SHORT, values, above=NEAR - WITHIN, below=NEAR + WITHIN, floor=0.0
+        ):
             assert spectra.chance(SHORT, values, line, WITHIN) > 1e-3
         resolved = values + sine(NEAR)  # what stands on it truly
-        assert spectra.chance(SHORT, resolved, spectra.strongest(SHORT, resolved, NEAR, 0.5), WITHIN) < 1e-9
+        assert (
+            spectra.chance(SHORT, resolved, spectra.strongest(SHORT, resolved, NEAR, 0.5), WITHIN)
+            < 1e-9
+        )
 
 
 def test_a_line_stands_out_or_it_is_noise() -> None:
-    """Amplitudes of 0.02 are ten times the noise of unit variance in a bin, those of 0.002 as large as it."""
+    """Amplitudes of 0.02 are ten times the noise of unit variance in a bin, those of 0.002 as large
+    as it."""
     t = np.arange(40_000) / 4000
     noise = np.random.default_rng(3).standard_normal(t.size)
     loud = spectra.strongest(t, noise + 0.2 * np.sin(2 * np.pi * 100.0 * t), 100.0, 1.0)
     assert spectra.chance(t, noise + 0.2 * np.sin(2 * np.pi * 100.0 * t), loud, 1.0) < 1e-9
-    chances = [spectra.chance(t, noise, spectra.strongest(t, noise, f, 1.0), 1.0) for f in range(100, 400, 5)]
+    chances = [
+        spectra.chance(t, noise, spectra.strongest(t, noise, f, 1.0), 1.0)
+        for f in range(100, 400, 5)
+    ]
     assert min(chances) > 1e-4  # the least of sixty is about 1/60
     assert np.median(chances) > 0.1
     assert spectra.chance(t, np.sin(2 * np.pi * 100.0 * t), spectra.Line(100.0, 1.0), 1.0) == 0.0

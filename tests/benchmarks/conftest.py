@@ -17,7 +17,8 @@ SET_UP = 1e-4
 
 
 class Known:
-    """A method whose error is ``error`` (value) seconds at every event, and which takes ``cost`` (value) seconds.
+    """A method whose error is ``error`` (value) seconds at every event, and which takes ``cost``
+    (value) seconds.
 
     Of these ``glue`` is the share of Python.
     """
@@ -41,7 +42,9 @@ class Known:
         final = right.final.replace(psi=right.final.psi * (1 + off), f=right.final.f * (1 + off))
         work = round(1 / value) if self.setting == "step" else 1000
         seconds = SET_UP + times_longer * (self.cost(value) - SET_UP)
-        return MethodResult(times, kinds, final, seconds, work, self.outcome, glue=self.glue * seconds)
+        return MethodResult(
+            times, kinds, final, seconds, work, self.outcome, glue=self.glue * seconds
+        )
 
 
 @pytest.fixture
@@ -58,7 +61,11 @@ def known(monkeypatch: pytest.MonkeyPatch) -> dict[str, Known]:
 
 
 SETTINGS = {
-    "stick_slip": {"series": (1e-6, 1e-8, 1e-10), "RK4": (4e-4, 2e-4, 1e-4, 2e-5), "Radau": (1e-3,)},
+    "stick_slip": {
+        "series": (1e-6, 1e-8, 1e-10),
+        "RK4": (4e-4, 2e-4, 1e-4, 2e-5),
+        "Radau": (1e-3,),
+    },
     "separating": {"series": (1e-6, 1e-8), "RK4": (2e-4,), "regularised": (1.0, 0.1)},
 }
 
@@ -69,13 +76,16 @@ def dataset(known: dict[str, Known]) -> xr.Dataset:
 
 
 class Late(Method):
-    """Finds the first separation late by its tolerance, and none at a coarse one; the finest takes too long."""
+    """Finds the first separation late by its tolerance, and none at a coarse one; the finest takes
+    too long."""
 
     def solve(self, problem, value, budget=math.inf):
         times = [54.4 + value, 54.9] if 1e-5 < value < 0.5 else []
         outcome = RunStatus.FINISHED if value > 1e-5 else RunStatus.TOO_SLOW
         seconds = 2.0 if value > 1e-3 else 3.0
-        return MethodResult(np.array(times), ("separation",) * len(times), problem.start, seconds, 1, outcome)
+        return MethodResult(
+            np.array(times), ("separation",) * len(times), problem.start, seconds, 1, outcome
+        )
 
 
 @pytest.fixture
@@ -88,12 +98,15 @@ def late(monkeypatch: pytest.MonkeyPatch) -> Method:
 
 @pytest.fixture
 def priced(late: Method, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
-    """Costs of answers: of `Late`, of the cycle itself and of models with other modes, which are all laid down."""
+    """Costs of answers: of `Late`, of the cycle itself and of models with other modes, which are
+    all laid down."""
 
     def ask(model):
         count = model["n_diameters"]
         status = AnswerStatus.FOUND if count else AnswerStatus.NONE
-        return {"first_separation": Reply(51.0 + (8 - count) / 80 if count else math.nan, 0.1, status)}
+        return {
+            "first_separation": Reply(51.0 + (8 - count) / 80 if count else math.nan, 0.1, status)
+        }
 
     def ask_cycle(model, tol):
         onset, none = Reply(15.09 + tol, 1e-4 / tol**0.1, AnswerStatus.FOUND), AnswerStatus.NONE
@@ -103,6 +116,8 @@ def priced(late: Method, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
     monkeypatch.setattr(answers, "ask_cycle", ask_cycle)
     monkeypatch.setattr(answers, "_richest", lambda: ask({"n_diameters": 8}))
     monkeypatch.setattr(answers, "CONTACTS", {"rigid": {}})
-    parts = [answers.answers(late.name, (1.0, 0.3, 1e-2, 1e-4, 1e-6, 1e-7), asked=("first_separation",))]
+    parts = [
+        answers.answers(late.name, (1.0, 0.3, 1e-2, 1e-4, 1e-6, 1e-7), asked=("first_separation",))
+    ]
     parts += [answers.answers("cycle"), answers.answers("models", models=(0, 4, 8))]
     return xr.concat(parts, "row", combine_attrs="override")

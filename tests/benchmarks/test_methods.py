@@ -16,7 +16,9 @@ from tests import needs
 from tests.contact_laws import ALL_LAWS
 from tests.references.printed import MOTIONS, P, Printed, lively
 
-SHORT = [name for name in ("RK4", "RK45", "DOP853", "heyoka", "CVODE") if not METHODS[name].absent()]
+SHORT = [
+    name for name in ("RK4", "RK45", "DOP853", "heyoka", "CVODE") if not METHODS[name].absent()
+]
 EACH_SHORT = pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.compiled] * (name == "CVODE")) for name in SHORT]
 )
@@ -31,7 +33,9 @@ UP = np.sign(Physics(P).shape)
     [
         ("series", "stick_slip", 1e-15, 2e-14),
         ("series", "separating", 1e-15, 2e-14),
-        pytest.param("series", "many_modes", 1e-15, 2e-14, marks=pytest.mark.slow),  # compiles for a minute
+        pytest.param(
+            "series", "many_modes", 1e-15, 2e-14, marks=pytest.mark.slow
+        ),  # compiles for a minute
         ("RK4", "stick_slip", 1e-5, 1e-10),
         ("RK45", "stick_slip", 1e-6, 1e-6),
         ("DOP853", "stick_slip", 1e-8, 1e-8),
@@ -67,7 +71,13 @@ def test_every_method_finds_all_switches(name, scene, value, allowed):
     ("phase", "direction", "span", "p", "lifted"),
     [
         *((*motion, 1e-4, P, 0.0) for motion in MOTIONS),
-        ("separation", 0, 1e-5, P, 0.0),  # shorter than the time for which no reattachment is looked for
+        (
+            "separation",
+            0,
+            1e-5,
+            P,
+            0.0,
+        ),  # shorter than the time for which no reattachment is looked for
         ("slip", 1, 1e-4, P.replace(contact="bilateral"), 0.01),
     ],
 )
@@ -81,16 +91,22 @@ def test_a_short_motion_is_the_printed_one(name, phase, direction, span, p, lift
     end = printed.at(motion.t_end)
     # w rises or falls all the time; the range of RK4 begins a step later
     heights, left_out = np.sort([printed.at(0.0)["w"], end["w"]]), 2e-6 / span
-    np.testing.assert_allclose(result.heights, heights, rtol=0, atol=1.1 * left_out * np.ptp(heights))
+    np.testing.assert_allclose(
+        result.heights, heights, rtol=0, atol=1.1 * left_out * np.ptp(heights)
+    )
     for quantity in ("a", "b", "alpha", "beta", "psi", "f", "u", "u_velocity"):
         size = max(np.max(np.abs(end[quantity])), 1e-12)
-        np.testing.assert_allclose(getattr(result.final, quantity), end[quantity], rtol=0, atol=1e-6 * size)
+        np.testing.assert_allclose(
+            getattr(result.final, quantity), end[quantity], rtol=0, atol=1e-6 * size
+        )
 
 
 @EACH_SHORT
 def test_a_method_gives_up_when_its_time_is_over(name):
     start = lively("slip", 1, P)
-    result = METHODS[name].solve(Problem(P, start, 2e-4), 2e-6 if METHODS[name].setting == "step" else 1e-9, 0.0)
+    result = METHODS[name].solve(
+        Problem(P, start, 2e-4), 2e-6 if METHODS[name].setting == "step" else 1e-9, 0.0
+    )
     assert (result.outcome, result.kinds) == (RunStatus.TOO_SLOW, ())
     assert result.final.time < 2e-4
 
@@ -98,7 +114,9 @@ def test_a_method_gives_up_when_its_time_is_over(name):
 @pytest.mark.parametrize("name", [name for name in SHORT if name != "CVODE"])
 def test_a_state_that_overflows_is_no_answer(name):
     start = lively("slip", 1, P).replace(f=1e160)
-    result = METHODS[name].solve(Problem(P, start, 1e-4), 2e-6 if METHODS[name].setting == "step" else 1e-9, 1.0)
+    result = METHODS[name].solve(
+        Problem(P, start, 1e-4), 2e-6 if METHODS[name].setting == "step" else 1e-9, 1.0
+    )
     assert result.outcome in (RunStatus.NON_FINITE, RunStatus.FAILED)
 
 
@@ -121,5 +139,7 @@ def test_the_regularised_model_is_of_order_two_thirds_in_eps_and_stiff_in_propor
     late = np.array([float(result.times[0] - answer("stick_slip").times[0]) for result in results])
     assert np.polyfit(np.log(eps), np.log(late), 1)[0] == pytest.approx(2 / 3, abs=0.12)
     stuck = Problem(BASE, start, 0.004)  # nothing moves but the drive
-    coarse, fine = (integrators.solve_regularised(stuck, value, np.inf, "RK45").work for value in (0.1, 0.01))
+    coarse, fine = (
+        integrators.solve_regularised(stuck, value, np.inf, "RK45").work for value in (0.1, 0.01)
+    )
     assert fine > 4 * coarse

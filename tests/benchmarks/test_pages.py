@@ -25,8 +25,11 @@ def test_every_number_on_speed_is_of_the_one_stored_run() -> None:
 
 
 def test_what_a_run_on_speed_comes_to(dataset: xr.Dataset, priced: xr.Dataset) -> None:
-    """A quarter of the costs of conftest's RK4 is Python; natively, the engine is given half of its costs."""
-    heyoka = dataset.assign_coords(solver=[{"RK4": "heyoka"}.get(name, name) for name in dataset["solver"].values])
+    """A quarter of the costs of conftest's RK4 is Python; natively, the engine is given half of its
+    costs."""
+    heyoka = dataset.assign_coords(
+        solver=[{"RK4": "heyoka"}.get(name, name) for name in dataset["solver"].values]
+    )
     fast = heyoka.copy(deep=True)
     fast["marginal_cost"].loc[{"solver": "series"}] *= 0.5
     run = pages.speed_numbers(fast, heyoka, priced)
@@ -37,7 +40,9 @@ def test_what_a_run_on_speed_comes_to(dataset: xr.Dataset, priced: xr.Dataset) -
     assert run["glue"] == [{"letter": letter, "share": pytest.approx(25.0)} for letter in "ab"]
     assert run["costs"]["heyoka"]["(a), times"] == pytest.approx(2 * run["narrowly"][0]["times"])
     assert run["cycle"] == []  # conftest's cycle has no growth rate
-    text = "".join(pages.passages(run | {"cycle": [{"ms": 1.23}], "scaling": SPEED["scaling"]}).values())
+    text = "".join(
+        pages.passages(run | {"cycle": [{"ms": 1.23}], "scaling": SPEED["scaling"]}).values()
+    )
     assert "1.2 ms" in text
     assert "| heyoka | 630 | - |" in text
     assert "Of heyoka's time, 25 % for (a) and 25 % for (b) is spent in Python" in text

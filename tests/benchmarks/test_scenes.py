@@ -33,7 +33,13 @@ TASK, RIGHT = problem("stick_slip"), answer("stick_slip")
 
 
 def _result(**changes):
-    right = {"times": RIGHT.times, "kinds": RIGHT.kinds, "final": RIGHT.final, "seconds": 0.1, "work": 1}
+    right = {
+        "times": RIGHT.times,
+        "kinds": RIGHT.kinds,
+        "final": RIGHT.final,
+        "seconds": 0.1,
+        "work": 1,
+    }
     return MethodResult(**(right | {"outcome": RunStatus.FINISHED} | changes))
 
 

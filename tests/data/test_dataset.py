@@ -1,4 +1,5 @@
-"""Results as datasets and files: names, units, flags, round trips, equal bytes; whole, or noticed."""
+"""Results as datasets and files: names, units, flags, round trips, equal bytes; whole, or
+noticed."""
 
 import json
 import os
@@ -25,7 +26,9 @@ def spec_of(p: Parameters = P, events: tuple[float, float] | None = (0.1, T_END)
         ("history", Window(start=0, stop=0.4995, rate=1000, envelope=50)),
         ("zoom", Window(start=0.1, stop=0.2, rate=2000, theta=0.5)),
     )
-    return CaseSpec(parameters=p, t_end=T_END, windows=windows, poincare=Poincare(theta=2.0), events=events)
+    return CaseSpec(
+        parameters=p, t_end=T_END, windows=windows, poincare=Poincare(theta=2.0), events=events
+    )
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +49,9 @@ def test_equal_runs_give_equal_bytes(tmp_path: Path) -> None:
     for name in ("a.nc", "b.nc"):
         case = run_case(spec_of())
         save(case, tmp_path / name)
-        save(merge_cases({"A": case, "B": case}, {"A": {"title": "é"}}), tmp_path / f"merged_{name}")
+        save(
+            merge_cases({"A": case, "B": case}, {"A": {"title": "é"}}), tmp_path / f"merged_{name}"
+        )
     assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
     assert (tmp_path / "merged_a.nc").read_bytes() == (tmp_path / "merged_b.nc").read_bytes()
 
@@ -70,14 +75,19 @@ def test_merged_file_is_a_table_with_a_group_per_case(tree: xr.DataTree, tmp_pat
     table.close()
     merged = load(tmp_path / "cases.nc")
     for name in ("history", "zoom", "poincare"):
-        xr.testing.assert_identical(merged[f"A/{name}"].to_dataset(inherit=False), tree[name].to_dataset(inherit=False))
+        xr.testing.assert_identical(
+            merged[f"A/{name}"].to_dataset(inherit=False), tree[name].to_dataset(inherit=False)
+        )
     assert merged["A"].attrs["parameters"] == tree.attrs["parameters"]
 
 
 def test_a_failed_case_is_a_status_in_the_table(tree: xr.DataTree, tmp_path: Path) -> None:
-    """Its scalars ask for the compliance of which it failed; a disc given by its modes could not be saved."""
+    """Its scalars ask for the compliance of which it failed; a disc given by its modes could not be
+    saved."""
     disc = Disc(diameters=[0], omega=[9000], amplitude=[2], static_compliance=1e-9)
-    failed = run_case(CaseSpec(parameters=P.replace(disc=disc, contact_compliance="residual"), t_end=1.0))
+    failed = run_case(
+        CaseSpec(parameters=P.replace(disc=disc, contact_compliance="residual"), t_end=1.0)
+    )
     assert STATUSES[int(failed["status"])] == failed.attrs["status"] == "failed"
     assert all(np.isnan(failed[name]) for name in ("first_separation", "contact_compliance"))
     save(merge_cases({"A": tree, "B": failed}, {}), tmp_path / "cases.nc")
@@ -85,11 +95,16 @@ def test_a_failed_case_is_a_status_in_the_table(tree: xr.DataTree, tmp_path: Pat
     assert list(flag_names(table["status"])) == ["ok", "failed"]
     assert "static compliance" in str(table["message"].values[1])
     assert list(table["N"].values) == [385, 385]
-    assert [Disc.model_validate_json(text) if text else None for text in table["disc"].values] == [None, disc]
+    assert [Disc.model_validate_json(text) if text else None for text in table["disc"].values] == [
+        None,
+        disc,
+    ]
 
 
 HISTORY = np.sin(np.arange(3000.0))
-TREE = xr.DataTree.from_dict({"/history": xr.Dataset(dict.fromkeys(("P", "history"), ("time", HISTORY)))})
+TREE = xr.DataTree.from_dict(
+    {"/history": xr.Dataset(dict.fromkeys(("P", "history"), ("time", HISTORY)))}
+)
 
 
 @pytest.fixture

@@ -9,10 +9,14 @@ from disc_model.disc.plate import mode_arrays, tangential_amplitudes
 
 
 def disc_table(p: Parameters) -> str:
-    """The modes of a case as a table, with enough digits for `read_disc` to restore each number exactly."""
+    """The modes of a case as a table, with enough digits for `read_disc` to restore each number
+    exactly."""
     if p.disc is not None:
         return table_text(p.disc)
-    modes, tangential = mode_arrays(p), tangential_amplitudes(p) if p.friction_offset else np.zeros(0)
+    modes, tangential = (
+        mode_arrays(p),
+        tangential_amplitudes(p) if p.friction_offset else np.zeros(0),
+    )
     return table_text(
         Disc(
             diameters=modes.diameters.tolist(), circles=modes.circles.tolist(), omega=modes.omega.tolist(),

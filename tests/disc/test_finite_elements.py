@@ -21,13 +21,22 @@ IRON = {"E": P.E, "nu": P.nu, "rho": P.rho}
 
 
 def ring_by_elements(size: float = 0.01, rectangles: Any = RING, **changes: Any) -> dm.Disc:
-    given: dict[str, Any] = {"clamped": lambda x: x[0] < 0.06 + 1e-9, "slider": (0.1, 0.005), "highest_Hz": 3000.0}
+    given: dict[str, Any] = {
+        "clamped": lambda x: x[0] < 0.06 + 1e-9,
+        "slider": (0.1, 0.005),
+        "highest_Hz": 3000.0,
+    }
     return dm.Disc.from_section(rectangles, size=size, **IRON | given | changes)
 
 
 def plate_by_elements(highest_Hz: float) -> dm.Disc:
-    halves, clamped = [(P.a, P.r_0, -P.h / 2, P.h / 2), (P.r_0, P.b, -P.h / 2, P.h / 2)], lambda x: x[0] < P.a + 1e-9
-    return ring_by_elements(P.h, halves, clamped=clamped, slider=(P.r_0, P.h / 2), highest_Hz=highest_Hz)
+    halves, clamped = (
+        [(P.a, P.r_0, -P.h / 2, P.h / 2), (P.r_0, P.b, -P.h / 2, P.h / 2)],
+        lambda x: x[0] < P.a + 1e-9,
+    )
+    return ring_by_elements(
+        P.h, halves, clamped=clamped, slider=(P.r_0, P.h / 2), highest_Hz=highest_Hz
+    )
 
 
 @pytest.mark.slow
@@ -39,7 +48,8 @@ def test_the_static_deflection_of_the_plate_is_confirmed() -> None:
 
 
 def test_the_plate_is_confirmed() -> None:
-    """Three-dimensional elasticity of a thin annulus: Kirchhoff's theory is off by (h / wave length)^2, some 0.3 %."""
+    """Three-dimensional elasticity of a thin annulus: Kirchhoff's theory is off by (h / wave
+    length)^2, some 0.3 %."""
     disc, plate = plate_by_elements(1000), dm.plate_modes(P)
     assert list(disc.diameters) == plate["diameters"].tolist()
     np.testing.assert_allclose(disc.omega, plate["omega"], rtol=5e-3)
@@ -49,15 +59,23 @@ def test_the_plate_is_confirmed() -> None:
 
 
 def test_a_slender_ring_bends_and_twists_as_in_the_textbook() -> None:
-    """Love's ring of square section, here on a thin web; shear, which he leaves out, and the web take up to 4 %."""
+    """Love's ring of square section, here on a thin web; shear, which he leaves out, and the web
+    take up to 4 %."""
     R, h = 0.15, 0.01
-    web, ring = (0.05, R - h / 2, 0.485 * h, 0.515 * h), [(R - h / 2, R, 0, h), (R, R + h / 2, 0, h)]
+    web, ring = (
+        (0.05, R - h / 2, 0.485 * h, 0.515 * h),
+        [(R - h / 2, R, 0, h), (R, R + h / 2, 0, h)],
+    )
     clamped = lambda x: x[0] < 0.05 + 1e-9  # noqa: E731
     disc = ring_by_elements(0.005, [web, *ring], clamped=clamped, slider=(R, h), highest_Hz=1400)
     for n in (2, 3, 4):
         twist = 2 * (1 + P.nu) / (12 * 0.1406)  # E I / (G J)
         omega = np.sqrt(P.E * h**2 / (12 * P.rho * R**4) * n**2 * (n**2 - 1) ** 2 / (n**2 + twist))
-        modes = [(a, w) for l, a, w in zip(disc.diameters, disc.amplitude, disc.omega, strict=True) if l == n]
+        modes = [
+            (a, w)
+            for l, a, w in zip(disc.diameters, disc.amplitude, disc.omega, strict=True)
+            if l == n
+        ]
         assert max(modes) == pytest.approx((1 / np.sqrt(P.rho * h**2 * np.pi * R), omega), rel=0.05)
 
 
@@ -65,9 +83,15 @@ def test_a_slender_ring_bends_and_twists_as_in_the_textbook() -> None:
     ("change", "phrase"),
     [
         ({"slider": (0.0999, 0.005)}, "slider=(0.0999, 0.005): must be a node of the mesh"),
-        ({"E": -1.0, "nu": 0.5, "rho": 0}, "E=-1: must be > 0; nu=0.5: must be < 0.5; rho=0: must be > 0"),
+        (
+            {"E": -1.0, "nu": 0.5, "rho": 0},
+            "E=-1: must be > 0; nu=0.5: must be < 0.5; rho=0: must be > 0",
+        ),
         ({"highest_Hz": 1.0}, "highest_Hz=1: must be above a mode that moves under the slider"),
-        ({"clamped": lambda x: x[0] < 0.05}, "clamped=0: must hold nodes of the section: coordinates are in m"),
+        (
+            {"clamped": lambda x: x[0] < 0.05},
+            "clamped=0: must hold nodes of the section: coordinates are in m",
+        ),
     ],
 )
 def test_what_cannot_be_found_is_said(change: dict[str, Any], phrase: str) -> None:
@@ -94,11 +118,17 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 def test_the_brake_disc_of_the_studies_is_that_of_the_page() -> None:
-    """Its elements are 2.5 mm; with 5 mm frequencies are off by 1 % at most, as the page says, amplitudes by 2 %."""
+    """Its elements are 2.5 mm; with 5 mm frequencies are off by 1 % at most, as the page says,
+    amplitudes by 2 %."""
     wall, flange = (0.067, 0.075, -0.04, 0.012), (0.035, 0.067, -0.04, -0.032)
     drawing = [(0.075, 0.1, 0, 0.012), (0.1, 0.135, 0, 0.012), wall, flange]
     assert all(f"{a:.3f}, {b:.3f}" in PAGE.read_text(encoding="utf-8") for a, b, *_ in drawing)
-    changes = {"E": 110e9, "nu": 0.26, "clamped": lambda x: x[0] < 0.035 + 1e-9, "slider": (0.1, 0.012)}
+    changes = {
+        "E": 110e9,
+        "nu": 0.26,
+        "clamped": lambda x: x[0] < 0.035 + 1e-9,
+        "slider": (0.1, 0.012),
+    }
     disc = ring_by_elements(0.005, drawing, **changes)
     stored = dm.Disc.from_csv(PAGE.parents[1] / "config" / "discs" / "brake.csv")
     count = len(disc.omega)

@@ -1,4 +1,5 @@
-"""Residual flexibility against modal sums and against collocation, which shares neither code nor functions with it."""
+"""Residual flexibility against modal sums and against collocation, which shares neither code nor
+functions with it."""
 
 import numpy as np
 import pytest
@@ -13,19 +14,28 @@ P = Parameters(N=385, Omega=15.1, normalization="orthonormal")
 
 @pytest.mark.parametrize(
     ("diameters", "circles", "known"),
-    [(20, 5, 5.5833e-6), (40, 10, 5.5927e-6), pytest.param(60, 20, 5.5945e-6, marks=pytest.mark.slow)],
+    [
+        (20, 5, 5.5833e-6),
+        (40, 10, 5.5927e-6),
+        pytest.param(60, 20, 5.5945e-6, marks=pytest.mark.slow),
+    ],
 )
-def test_modal_sums_approach_the_total_from_below(diameters: int, circles: int, known: float) -> None:
+def test_modal_sums_approach_the_total_from_below(
+    diameters: int, circles: int, known: float
+) -> None:
     p = P.replace(n_diameters=diameters, n_circles=circles)
     flexibility = residual_flexibility(p)
     modes = plate_modes(p)
     assert flexibility.kept == pytest.approx(known, abs=5.1e-11)
-    assert flexibility.kept == pytest.approx(float(((modes.psi / modes.omega) ** 2).sum()), rel=1e-14)
+    assert flexibility.kept == pytest.approx(
+        float(((modes.psi / modes.omega) ** 2).sum()), rel=1e-14
+    )
     assert 0 < flexibility.residual < 0.003 * flexibility.total
 
 
 def collocated(l: int, inner: float, load: float, nu: float, degree: int = 36) -> float:
-    """Deflection of the harmonic at a unit load by Chebyshev collocation on both sides of it, in units of b^2 / D."""
+    """Deflection of the harmonic at a unit load by Chebyshev collocation on both sides of it, in
+    units of b^2 / D."""
     matrix, right, size = [], [], degree + 1
 
     def derivatives(low: float, high: float, r: np.ndarray) -> np.ndarray:
@@ -33,7 +43,10 @@ def collocated(l: int, inner: float, load: float, nu: float, degree: int = 36) -
         basis, out = np.eye(size), []
         for k in range(5):
             columns = chebyshev.chebder(basis, k) if k else basis
-            out.append(chebyshev.chebval((2 * r - low - high) / (high - low), columns).T * (2 / (high - low)) ** k)
+            out.append(
+                chebyshev.chebval((2 * r - low - high) / (high - low), columns).T
+                * (2 / (high - low)) ** k
+            )
         return np.array(out)
 
     def add(sides: list, value: float) -> None:
@@ -42,14 +55,21 @@ def collocated(l: int, inner: float, load: float, nu: float, degree: int = 36) -
 
     zero = np.zeros(size)
     for i, (low, high) in enumerate(((inner, load), (load, 1.0))):
-        nodes = (low + high) / 2 + (high - low) / 2 * np.cos(np.pi * (np.arange(size - 4) + 0.5) / (size - 4))
+        nodes = (low + high) / 2 + (high - low) / 2 * np.cos(
+            np.pi * (np.arange(size - 4) + 0.5) / (size - 4)
+        )
         d, r = derivatives(low, high, nodes), nodes[:, None]
         plate = d[4] + 2 / r * d[3] - (1 + 2 * l**2) / r**2 * d[2] + (1 + 2 * l**2) / r**3 * d[1]
         plate += (l**4 - 4 * l**2) / r**4 * d[0]
         for row in plate:
             add([row, zero] if i == 0 else [zero, row], 0.0)
-    clamp, free = derivatives(inner, load, np.array([inner]))[:, 0], derivatives(load, 1.0, np.array([1.0]))[:, 0]
-    left, after = (derivatives(*ends, np.array([load]))[:, 0] for ends in ((inner, load), (load, 1.0)))
+    clamp, free = (
+        derivatives(inner, load, np.array([inner]))[:, 0],
+        derivatives(load, 1.0, np.array([1.0]))[:, 0],
+    )
+    left, after = (
+        derivatives(*ends, np.array([load]))[:, 0] for ends in ((inner, load), (load, 1.0))
+    )
     add([clamp[0], zero], 0.0)
     add([clamp[1], zero], 0.0)
     add([zero, free[2] + nu * (free[1] - l**2 * free[0])], 0.0)
@@ -64,7 +84,8 @@ def collocated(l: int, inner: float, load: float, nu: float, degree: int = 36) -
 
 @pytest.mark.parametrize("l", [0, 1, 2, 3, 7, 12])
 @pytest.mark.parametrize(
-    ("inner", "load", "nu"), [(0.044 / 0.12, 0.1 / 0.12, 0.211), (0.2, 0.97, -0.4), (0.6, 0.7, 0.45)]
+    ("inner", "load", "nu"),
+    [(0.044 / 0.12, 0.1 / 0.12, 0.211), (0.2, 0.97, -0.4), (0.6, 0.7, 0.45)],
 )
 def test_harmonics_against_collocation(l: int, inner: float, load: float, nu: float) -> None:
     # fourth derivatives of degree 36: about 36^4 roundings
@@ -78,17 +99,29 @@ def functions(s: float) -> list:
     even = [lambda r: 1.0 + 0 * r, np.log, lambda r: r**2, lambda r: r**2 * np.log(r)]
     odd = [lambda r: r, lambda r: 1 / r, lambda r: r**3, lambda r: r * np.log(r)]
     return [
-        *((lambda r, i=i: module._power(n, r)[:, i] * r ** n[i], lambda r, x=x: r**x) for i, x in enumerate(powers)),
+        *(
+            (lambda r, i=i: module._power(n, r)[:, i] * r ** n[i], lambda r, x=x: r**x)
+            for i, x in enumerate(powers)
+        ),
         *((lambda r, i=i: module._logarithmic(0, r)[:, i], f) for i, f in enumerate(even)),
         *((lambda r, i=i: module._logarithmic(1, r)[:, i], f) for i, f in enumerate(odd)),
-        (lambda r: module._particular(0, s), lambda r: ((r**2 + s**2) * np.log(r / s) - r**2 + s**2) / 4),
-        (lambda r: module._particular(1, s), lambda r: r**3 / (16 * s) - s * r * np.log(r / s) / 4 - s**3 / (16 * r)),
+        (
+            lambda r: module._particular(0, s),
+            lambda r: ((r**2 + s**2) * np.log(r / s) - r**2 + s**2) / 4,
+        ),
+        (
+            lambda r: module._particular(1, s),
+            lambda r: r**3 / (16 * s) - s * r * np.log(r / s) / 4 - s**3 / (16 * r),
+        ),
     ]
 
 
-@pytest.mark.parametrize(("i", "r"), [*((i, r) for i in range(12) for r in (0.4, 1.0)), (12, 1.0), (13, 1.0)])
+@pytest.mark.parametrize(
+    ("i", "r"), [*((i, r) for i in range(12) for r in (0.4, 1.0)), (12, 1.0), (13, 1.0)]
+)
 def test_functions_and_their_derivatives(i: int, r: float) -> None:
-    """All that docstrings say, although the edges do not ask for it all: tilts, higher derivatives at the inner one."""
+    """All that docstrings say, although the edges do not ask for it all: tilts, higher derivatives
+    at the inner one."""
     own, function = functions(s=0.7)[i]
     wanted = chebyshev.Chebyshev.interpolate(function, 16, domain=[r - 0.15, r + 0.15])
     # third derivatives of degree 16: about 16^6 / 0.15^3 roundings
@@ -96,8 +129,11 @@ def test_functions_and_their_derivatives(i: int, r: float) -> None:
 
 
 @pytest.mark.parametrize("r_0", [0.0441, 0.1, 0.119, 0.12])
-def test_the_remainder_bounds_what_more_harmonics_change(r_0: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    """On the very edge higher harmonics differ from the unbounded plate's by a factor: the hardest place."""
+def test_the_remainder_bounds_what_more_harmonics_change(
+    r_0: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On the very edge higher harmonics differ from the unbounded plate's by a factor: the hardest
+    place."""
     monkeypatch.setattr(module, "_point_load", module._point_load.__wrapped__)  # not from the cache
     values = {}
     for last in (256, 8192):
@@ -106,7 +142,9 @@ def test_the_remainder_bounds_what_more_harmonics_change(r_0: float, monkeypatch
     assert abs(values[256].total - values[8192].total) <= values[256].remainder
     found = values[8192]
     assert found.remainder < 1e-6 * found.total
-    if r_0 == 0.1:  # (r_0/b)**512 of an edge's effect is felt here: the harmonic 256 is that of the unbounded plate
+    if (
+        r_0 == 0.1
+    ):  # (r_0/b)**512 of an edge's effect is felt here: the harmonic 256 is that of the unbounded plate
         assert values[256].remainder < 1e-12 * found.total
     # to the last bit: factors of two
     larger = residual_flexibility(P.replace(a=2 * P.a, b=2 * P.b, r_0=2 * r_0))
@@ -125,4 +163,8 @@ def test_residual_flexibility_of_published_modes_falls_as_modes_are_added() -> N
 def test_a_disc_given_by_its_modes_has_the_flexibility_that_its_table_says() -> None:
     disc = Disc(diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 4.0], static_compliance=9e-6)
     found = residual_flexibility(Parameters(N=385, Omega=15.1, disc=disc))
-    assert (found.total, found.kept, found.remainder) == (9e-6, pytest.approx(1e-6 + 4e-6, rel=1e-14), 0)
+    assert (found.total, found.kept, found.remainder) == (
+        9e-6,
+        pytest.approx(1e-6 + 4e-6, rel=1e-14),
+        0,
+    )

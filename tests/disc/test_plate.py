@@ -1,4 +1,5 @@
-"""Disc modes against the paper's numbers and against Rayleigh-Ritz, which shares no code and no method."""
+"""Disc modes against the paper's numbers and against Rayleigh-Ritz, which shares no code and no
+method."""
 
 from pathlib import Path
 
@@ -12,7 +13,13 @@ from numpy.testing import assert_allclose
 from disc_model import Disc, ModeError, Parameters, coupled_natural_frequencies, plate_modes
 from disc_model.disc import plate as plate_module
 from disc_model.disc.flexibility import residual_flexibility
-from disc_model.disc.plate import coupled_frequencies, coupled_shapes, modal_damping, mode_arrays, mode_shapes
+from disc_model.disc.plate import (
+    coupled_frequencies,
+    coupled_shapes,
+    modal_damping,
+    mode_arrays,
+    mode_shapes,
+)
 from tests.references.ritz import ritz_lambdas
 
 P = Parameters(N=385, Omega=15.1)
@@ -23,7 +30,9 @@ EXTREMES = yaml.safe_load(Path(__file__).with_name("plate_extremes.yaml").read_t
 def lambdas(p: Parameters) -> np.ndarray:
     """lambda = beta b of `plate_modes`, (circles, diameters)."""
     omega = plate_modes(p).omega.to_numpy()
-    return ((p.rho * p.h / p.D) ** 0.25 * np.sqrt(omega) * p.b).reshape(p.n_circles + 1, p.n_diameters + 1)
+    return ((p.rho * p.h / p.D) ** 0.25 * np.sqrt(omega) * p.b).reshape(
+        p.n_circles + 1, p.n_diameters + 1
+    )
 
 
 def test_modes_of_the_free_disc_agree_with_the_paper() -> None:
@@ -35,9 +44,12 @@ def test_modes_of_the_free_disc_agree_with_the_paper() -> None:
 
 
 def test_slider_at_rest_agrees_with_the_papers_ten_numbers() -> None:
-    # Section 4.4 prints nine numbers for the slider at rest and repeats the highest of the free disc.
+    # Section 4.4 prints nine numbers for the slider at rest and repeats the highest of the free
+    # disc.
     paper = [850.86, 1492.55, 1516.76, 1814.90, 1823.88, 2758.02, 2774.19, 4360.49, 4383.04]
-    assert [f"{value:.2f}" for value in coupled_natural_frequencies(P)] == [f"{value:.2f}" for value in paper]
+    assert [f"{value:.2f}" for value in coupled_natural_frequencies(P)] == [
+        f"{value:.2f}" for value in paper
+    ]
 
 
 @pytest.mark.parametrize(("p", "lowest"), [(P, 850.864), (ORTHONORMAL, 1178.65)])
@@ -50,7 +62,8 @@ def test_coupled_frequencies_are_the_shifted_ones(p: Parameters, lowest: float) 
 
 @pytest.mark.parametrize("give", [0.0, 2.5e-7])
 def test_coupled_shapes_solve_the_equations_of_motion(give: float) -> None:
-    """In rigid contact u is the disc's; on a compliant one it is a coordinate, and the contact is a spring."""
+    """In rigid contact u is the disc's; on a compliant one it is a coordinate, and the contact is a
+    spring."""
     modes, n = mode_arrays(P), 5
     frequencies, shapes = coupled_shapes(P, give)
     assert_allclose(frequencies[::-1], coupled_frequencies(P, give), rtol=1e-12)
@@ -71,19 +84,28 @@ def test_modal_damping_is_twice_the_share_of_critical_damping_times_the_frequenc
     # 2 xi omega of the lowest mode: 1e-5 N m s over D = 104.66 N m times (1491.927 rad/s)^2
     assert modal_damping(P)[0] == pytest.approx(0.212676, rel=1e-5)
     assert_allclose(modal_damping(P.replace(D_star=0)), 0)
-    given = Disc(diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 2.0], damping_ratio=[1e-3, 0.0])
+    given = Disc(
+        diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 2.0], damping_ratio=[1e-3, 0.0]
+    )
     assert_allclose(modal_damping(P.replace(damping_ratio=1e-3)), 2e-3 * mode_arrays(P).omega)
     assert_allclose(modal_damping(Parameters(N=385, Omega=15.1, disc=given)), [2.0, 0.0])
 
 
 def test_the_surface_moves_along_as_normals_of_the_middle_plane_turn() -> None:
     """By -z/r_0 dw/dtheta; what a table says of the surface replaces that."""
-    given = P.replace(disc=Disc(diameters=[0, 2], omega=[1e3, 2e3], amplitude=[1.0, -3.0], tangential=[0.0, 0.2]))
+    given = P.replace(
+        disc=Disc(diameters=[0, 2], omega=[1e3, 2e3], amplitude=[1.0, -3.0], tangential=[0.0, 0.2])
+    )
     for p, offset, z in ((P, 0.003, 0.003), (P, "surface", P.h / 2), (given, 0.003, 0.003)):
-        slope = mode_arrays(p).psi * np.sin(1e-9 * mode_arrays(p).diameters) / 1e-9  # of w under the slider
+        slope = (
+            mode_arrays(p).psi * np.sin(1e-9 * mode_arrays(p).diameters) / 1e-9
+        )  # of w under the slider
         found = plate_module.tangential_amplitudes(p.replace(friction_offset=offset))
         assert_allclose(found, -z / p.r_0 * slope, rtol=1e-14)
-    assert list(plate_module.tangential_amplitudes(given.replace(friction_offset="surface"))) == [0.0, 0.2]
+    assert list(plate_module.tangential_amplitudes(given.replace(friction_offset="surface"))) == [
+        0.0,
+        0.2,
+    ]
 
 
 @given(st.floats(0.03, 0.97), st.floats(-0.8, 0.49), st.integers(0, 20))
@@ -102,7 +124,8 @@ def test_highest_numbers_of_diameters_and_circles_do_not_overflow() -> None:
 
 
 def shape_on_nodes(p: Parameters, nodes: np.ndarray) -> np.ndarray:
-    """R(r) of every mode at many radii, taken from `plate_modes` by moving the slider, (nodes, modes)."""
+    """R(r) of every mode at many radii, taken from `plate_modes` by moving the slider, (nodes,
+    modes)."""
     scale = np.sqrt(p.rho * p.h * p.b**2)
     modes = [plate_modes(p.replace(r_0=r)) for r in nodes]
     return np.array([m.psi / np.where(m.diameters > 0, np.sqrt(2), 1) for m in modes]) * scale
@@ -111,14 +134,17 @@ def shape_on_nodes(p: Parameters, nodes: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("inner", [0.02, 0.3667, 0.9])
 @pytest.mark.parametrize("nu", [-0.9, 0.211, 0.49])
 def test_orthonormal_modes_are_positive_at_the_free_edge(inner: float, nu: float) -> None:
-    """None vanishes there, or the sign would be rounding: a quarter of the largest deflection is the least."""
+    """None vanishes there, or the sign would be rounding: a quarter of the largest deflection is
+    the least."""
     p = ORTHONORMAL.replace(a=inner * P.b, r_0=P.b, nu=nu, n_diameters=20, n_circles=10)
     shapes = mode_shapes(p, np.linspace(p.a, p.b, 300))
     assert np.all(shapes[:, -1] > 0.25 * np.abs(shapes).max(axis=1))
 
 
 @pytest.mark.parametrize("p", [P, ORTHONORMAL], ids=["published", "orthonormal"])
-def test_modes_do_not_take_the_sign_of_a_null_vector(p: Parameters, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_modes_do_not_take_the_sign_of_a_null_vector(
+    p: Parameters, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """It is another on another processor."""
     expected = mode_arrays(p).psi
     svd = np.linalg.svd
@@ -154,7 +180,9 @@ def test_overflow_of_the_published_normalisation_is_an_error() -> None:
     shapes = plate_module._shapes(0.3, 0.3, 2, 0)
     coefficients = shapes.coefficients.copy()
     coefficients[0, 1] = 0.0
-    broken = plate_module._Shapes(0.3, shapes.l, shapes.lam, coefficients, shapes.exponents, shapes.norm)
+    broken = plate_module._Shapes(
+        0.3, shapes.l, shapes.lam, coefficients, shapes.exponents, shapes.norm
+    )
     with pytest.raises(ModeError, match=r"1 nodal diameters.*orthonormal"):
         broken.at(0.9, orthonormal=False)
     assert np.all(np.isfinite(broken.at(0.9, orthonormal=True)))
@@ -163,7 +191,9 @@ def test_overflow_of_the_published_normalisation_is_an_error() -> None:
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])
 @pytest.mark.parametrize(("changes", "text"), EXTREMES)
-def test_extremes_are_one_clear_error(changes: dict[str, float], text: str, normalization: str) -> None:
+def test_extremes_are_one_clear_error(
+    changes: dict[str, float], text: str, normalization: str
+) -> None:
     p = P.replace(normalization=normalization, **changes)
     with pytest.raises(ModeError, match=text):
         _ = residual_flexibility(p), coupled_natural_frequencies(p)

@@ -19,14 +19,23 @@ def test_each_doubt_is_told_once(monkeypatch: pytest.MonkeyPatch) -> None:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         for h in (0.02, 0.021, 0.022):
-            simulate(Parameters(**BASE, h=h, n_diameters=1, normalization="orthonormal", D_star=0), 1e-3)
-    assert [str(one.message)[:12] for one in caught if one.category is ImplausibleValue] == ["h = 0.02 m i"]
+            simulate(
+                Parameters(**BASE, h=h, n_diameters=1, normalization="orthonormal", D_star=0), 1e-3
+            )
+    assert [str(one.message)[:12] for one in caught if one.category is ImplausibleValue] == [
+        "h = 0.02 m i"
+    ]
 
 
 def test_the_paper_s_radius_and_damping_are_no_defaults_for_another_disc() -> None:
     disc = Disc(diameters=[0], omega=[1e3], amplitude=[4], radii=[0.02, 0.06], shapes=[[0, 4]])
-    for given, text in (({}, "r_0 = 0.1 m is the paper's"), ({"r_0": 0.1}, "r_0 = 0.1 m is not within 0.02 to 0.06 m")):
-        assert plausibility.doubts(Parameters(**BASE, disc=disc, **given))["radius of the slider"].startswith(text)
+    for given, text in (
+        ({}, "r_0 = 0.1 m is the paper's"),
+        ({"r_0": 0.1}, "r_0 = 0.1 m is not within 0.02 to 0.06 m"),
+    ):
+        assert plausibility.doubts(Parameters(**BASE, disc=disc, **given))[
+            "radius of the slider"
+        ].startswith(text)
     assert plausibility.doubts(Parameters(**BASE, disc=disc, r_0=0.06)) == {}
     [text] = plausibility.doubts(Parameters(**BASE, h=0.003, normalization="orthonormal")).values()
     assert text.endswith(": state the damping (D_star or damping_ratio)")
@@ -36,17 +45,39 @@ def test_amplitudes_and_deflections_that_mistakes_in_units_make_are_doubted() ->
     [text] = plausibility.doubts(Parameters(N=160e3, Omega=20)).values()
     assert text.startswith("N = 160000 N bends the disc by 845 mm, 422 times the thickness")
     shaped = {"radii": [0.05, 0.12], "shapes": [[0, 1.4], [0, 9.0]]}  # at 0.1 m, 1 and 6.43
-    for amplitude, words in (([1.0, 400.0], "modal mass of 6.3e-06 kg"), ([1.0, 4.0], "moves by 6.43 kg^-1/2 there")):
-        disc = Disc(diameters=[0, 1], omega=[1e3, 2e3], amplitude=amplitude, **(shaped if amplitude[1] < 5 else {}))
-        assert any(words in text for text in plausibility.doubts(Parameters(**BASE, disc=disc, r_0=0.1)).values())
+    for amplitude, words in (
+        ([1.0, 400.0], "modal mass of 6.3e-06 kg"),
+        ([1.0, 4.0], "moves by 6.43 kg^-1/2 there"),
+    ):
+        disc = Disc(
+            diameters=[0, 1],
+            omega=[1e3, 2e3],
+            amplitude=amplitude,
+            **(shaped if amplitude[1] < 5 else {}),
+        )
+        assert any(
+            words in text
+            for text in plausibility.doubts(Parameters(**BASE, disc=disc, r_0=0.1)).values()
+        )
 
 
 def test_a_study_tells_of_doubts_once() -> None:
     axes = {"h": {"start": 0.001, "stop": 0.02, "count": 20}, "Omega": [10, 20, 30]}
-    raw: dict[str, Any] = {"study": "thick", "quantity": "floquet", "base": BASE_OF_GRID, "axes": axes}
+    raw: dict[str, Any] = {
+        "study": "thick",
+        "quantity": "floquet",
+        "base": BASE_OF_GRID,
+        "axes": axes,
+    }
     [text] = parse_grid(raw).doubts
     assert text.startswith("h = 0.02 m is more than a fifth")
     one = {"title": "one", "t_end": 1}
     cases = {"A": one, "B": one | {"parameters": {"rho": 7.2}}}
-    study = parse_study({"study": "some", "base": BASE | {"normalization": "orthonormal", "D_star": 0}, "cases": cases})
+    study = parse_study(
+        {
+            "study": "some",
+            "base": BASE | {"normalization": "orthonormal", "D_star": 0},
+            "cases": cases,
+        }
+    )
     assert [text.partition(" ")[0] for text in study.doubts] == ["rho"]

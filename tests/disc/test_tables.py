@@ -27,8 +27,14 @@ THREE = {"diameters": [0, 1, 2], "omega": [1490.0, 1515.0, 1820.0], "amplitude":
 def written(path: Path, p: dm.Parameters) -> dm.Parameters:
     """The case with a disc that was read from the table of its own modes."""
     path.write_text(disc_table(p))
-    left = {name: p.canonical[name] for name in ("N", "Omega", "r_0", "contact_force") if name in p.canonical}
-    return dm.Parameters(**left, contact_compliance=p.contact_compliance, disc=dm.Disc.from_csv(path))
+    left = {
+        name: p.canonical[name]
+        for name in ("N", "Omega", "r_0", "contact_force")
+        if name in p.canonical
+    }
+    return dm.Parameters(
+        **left, contact_compliance=p.contact_compliance, disc=dm.Disc.from_csv(path)
+    )
 
 
 def grid_in(folder: Path, text: str) -> GridStudy:
@@ -42,7 +48,9 @@ def grid_in(folder: Path, text: str) -> GridStudy:
 def computed(folder: Path, text: str) -> xr.Dataset:
     """A study of a disc from its file, as the workflow computes it."""
     grid = grid_in(folder, text)
-    return merge_batches([run_batch(batch) for batch in grid.batches.values()], grid.grid, grid.attrs)
+    return merge_batches(
+        [run_batch(batch) for batch in grid.batches.values()], grid.grid, grid.attrs
+    )
 
 
 @pytest.mark.parametrize(
@@ -51,12 +59,19 @@ def computed(folder: Path, text: str) -> xr.Dataset:
         {},
         {"normalization": "orthonormal"},
         # both at once: this law's kernels are those of other quick tests
-        {"normalization": "orthonormal", "contact_compliance": "residual", "contact_force": "normal"},
+        {
+            "normalization": "orthonormal",
+            "contact_compliance": "residual",
+            "contact_force": "normal",
+        },
     ],
     ids=["published", "orthonormal", "residual, normal force"],
 )
-def test_a_plate_given_by_its_modes_moves_as_the_plate(change: dict[str, object], tmp_path: Path) -> None:
-    """Seventeen digits bring every number back; rounding is left to the damping, which comes as a ratio."""
+def test_a_plate_given_by_its_modes_moves_as_the_plate(
+    change: dict[str, object], tmp_path: Path
+) -> None:
+    """Seventeen digits bring every number back; rounding is left to the damping, which comes as a
+    ratio."""
     plate = P.replace(**change)
     table = written(tmp_path / "disc.csv", plate)
     times = [dm.simulate(p, 1.0).events["time"].to_numpy() for p in (plate, table)]
@@ -64,14 +79,21 @@ def test_a_plate_given_by_its_modes_moves_as_the_plate(change: dict[str, object]
     of_plate, of_table = (engine_case(p).model for p in (plate, table))
     np.testing.assert_allclose(of_table.lanes, of_plate.lanes, rtol=1e-15)
     assert (of_table.compliance, of_table.normal) == (of_plate.compliance, of_plate.normal)
-    if not of_plate.normal:  # or kernels compile for seven seconds; multipliers have the disc from these constants
+    if (
+        not of_plate.normal
+    ):  # or kernels compile for seven seconds; multipliers have the disc from these constants
         growth = [dm.floquet(p.replace(Omega=15.0)).growth_rate for p in (plate, table)]
         assert growth[1] == pytest.approx(growth[0], abs=1e-9)
 
 
 def test_shapes_of_a_table_give_the_deflection_of_the_plate(tmp_path: Path) -> None:
-    """Splines through shapes each 4 mm: the error of the fourth order is some 1e-5 of the deflection."""
-    plate, r, theta = P.replace(normalization="orthonormal"), np.linspace(P.a, P.b, 41), np.linspace(0, 6, 13)
+    """Splines through shapes each 4 mm: the error of the fourth order is some 1e-5 of the
+    deflection."""
+    plate, r, theta = (
+        P.replace(normalization="orthonormal"),
+        np.linspace(P.a, P.b, 41),
+        np.linspace(0, 6, 13),
+    )
     given, radii = mode_arrays(plate), np.linspace(P.a, P.b, 20)
     disc = dm.Disc(
         diameters=given.diameters.tolist(), omega=given.omega.tolist(), amplitude=given.psi.tolist(),
@@ -84,13 +106,16 @@ def test_shapes_of_a_table_give_the_deflection_of_the_plate(tmp_path: Path) -> N
     right, found = (dm.deflection(p, state, r, theta) for p in (plate, table))
     np.testing.assert_allclose(found, right, rtol=0, atol=1e-4 * np.abs(right).max())
     under = [dm.deflection(p, state, P.r_0, theta) for p in (plate, table)]
-    np.testing.assert_allclose(under[1], under[0], rtol=1e-12)  # there they are the amplitudes themselves
+    np.testing.assert_allclose(
+        under[1], under[0], rtol=1e-12
+    )  # there they are the amplitudes themselves
     with pytest.raises(dm.ParameterError, match=r"r=0\.13: must be within 0\.044 and 0\.12"):
         dm.deflection(table, state, 0.13, 0.0)
 
 
 def test_a_table_is_read_as_a_spreadsheet_writes_it(tmp_path: Path) -> None:
-    """With a byte order mark, rows without text, and blanks around names; a radius has the digits that it needs."""
+    """With a byte order mark, rows without text, and blanks around names; a radius has the digits
+    that it needs."""
     disc = dm.Disc(**THREE, radii=[0.073, 0.1], shapes=[[1.0, 0.1]] * 3)
     text = disc_table(P.replace(disc=disc))
     assert "shape_at_0.073_m" in text
@@ -106,7 +131,9 @@ def test_faults_of_columns_are_named() -> None:
     with pytest.raises(dm.ParameterError, match="omega=1 values: must be as many as diameters, 2"):
         dm.Disc(diameters=[2, 3], omega=[100], amplitude=[2, 1])
     with pytest.raises(dm.ParameterError, match="diameters=9000 modes: must be 1 to 1000 modes"):
-        dm.Disc(diameters=[2] * 9000, omega=range(100, 9100), amplitude=[1] * 9000)  # circles are not counted before
+        dm.Disc(
+            diameters=[2] * 9000, omega=range(100, 9100), amplitude=[1] * 9000
+        )  # circles are not counted before
 
 
 def test_discs_are_an_axis(tmp_path: Path) -> None:
@@ -117,10 +144,16 @@ def test_discs_are_an_axis(tmp_path: Path) -> None:
     text = "study: own\nquantity: floquet\nbase: {Omega: 15, N: 385}\n"
     study = computed(tmp_path, text + "axes: {disc: [a.csv, b.csv]}\n")
     for name, p in cases.items():
-        assert study["growth_rate"].sel(disc=name) == pytest.approx(dm.floquet(p).growth_rate, abs=1e-9)
-    assert json.loads(study.attrs["discs"])["b.csv"]["omega"] == mode_arrays(cases["b.csv"]).omega.tolist()
+        assert study["growth_rate"].sel(disc=name) == pytest.approx(
+            dm.floquet(p).growth_rate, abs=1e-9
+        )
+    assert (
+        json.loads(study.attrs["discs"])["b.csv"]["omega"]
+        == mode_arrays(cases["b.csv"]).omega.tolist()
+    )
     zipped = computed(
-        tmp_path, text + "discs: {thin: a.csv, thick: b.csv}\nzip: {disc: [thick, thin], r_0: [0.1, 0.11]}\n"
+        tmp_path,
+        text + "discs: {thin: a.csv, thick: b.csv}\nzip: {disc: [thick, thin], r_0: [0.1, 0.11]}\n",
     )
     assert zipped["disc"].values.tolist() == ["thick", "thin"]
     assert zipped["growth_rate"].values[0] == study["growth_rate"].sel(disc="b.csv")
@@ -131,7 +164,11 @@ STUDIES = yaml.safe_load(Path(__file__).with_name("disc_studies.yaml").read_text
 
 @pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])
 @pytest.mark.parametrize(
-    "quantity", ["floquet", *(pytest.param(name, marks=pytest.mark.slow) for name in STUDIES if name != "floquet")]
+    "quantity",
+    [
+        "floquet",
+        *(pytest.param(name, marks=pytest.mark.slow) for name in STUDIES if name != "floquet"),
+    ],
 )
 def test_a_study_of_a_plate_by_its_modes_is_that_of_the_plate(
     quantity: str, normalization: str, tmp_path: Path
@@ -166,6 +203,8 @@ def test_the_first_modes_of_a_table_are_chosen_by_the_motion(
     """Compared with twice as many and with the whole table, which is the last resort."""
     monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: growth(len(p.disc.omega)))
     disc = dm.Disc(diameters=range(8), omega=np.arange(1.0, 9), amplitude=np.ones(8))
-    choice = dm.choose_modes({"N": 385, "Omega": 15.1, "disc": disc, "n_diameters": "auto"}, quantity="growth")
+    choice = dm.choose_modes(
+        {"N": 385, "Omega": 15.1, "disc": disc, "n_diameters": "auto"}, quantity="growth"
+    )
     assert choice.parameters.disc == disc.first(modes)
     assert (choice.modes, choice.rich, choice.error) == (2 * modes - 1, (8,), pytest.approx(error))

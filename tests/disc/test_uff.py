@@ -19,12 +19,19 @@ MASS = 2.5
 
 
 def written(path: Path, **changes: Any) -> Path:
-    """A universal file of the plate, both halves of each pair turned by 0.3 rad, and a mode in the disc's plane."""
+    """A universal file of the plate, both halves of each pair turned by 0.3 rad, and a mode in the
+    disc's plane."""
     import pyuff
 
     file = pyuff.UFF(str(path))
     numbers = np.arange(1, R.size + 1)
-    nodes = {"type": 15, "node_nums": numbers, "x": R * np.cos(ANGLE), "y": R * np.sin(ANGLE), "z": 0 * R}
+    nodes = {
+        "type": 15,
+        "node_nums": numbers,
+        "x": R * np.cos(ANGLE),
+        "y": R * np.sin(ANGLE),
+        "z": 0 * R,
+    }
     plain = dict.fromkeys(("def_cs", "disp_cs", "color"), 0 * numbers)
     file.write_sets(nodes | plain, "overwrite")
     modes, shapes = dm.plate_modes(P), mode_shapes(P, RADII)
@@ -51,12 +58,16 @@ def test_the_modes_of_a_universal_file_are_found(tmp_path: Path) -> None:
     modes = dm.plate_modes(P)
     assert list(disc.diameters) == modes["diameters"].tolist()
     paired = np.where(modes["diameters"] > 0, 1.005, 1.0)
-    np.testing.assert_allclose(disc.omega, modes["omega"] * paired, rtol=1e-5)  # the file has six digits
+    np.testing.assert_allclose(
+        disc.omega, modes["omega"] * paired, rtol=1e-5
+    )  # the file has six digits
     np.testing.assert_allclose(disc.amplitude, np.abs(modes["psi"]), rtol=1e-4)
     np.testing.assert_allclose(disc.damping_ratio, 0.01)
     assert np.allclose(disc.radii, RADII)
     shapes = mode_shapes(P, RADII)
-    np.testing.assert_allclose(disc.shapes, shapes * np.sign(shapes[:, 2:3]), atol=1e-4 * np.abs(shapes).max())
+    np.testing.assert_allclose(
+        disc.shapes, shapes * np.sign(shapes[:, 2:3]), atol=1e-4 * np.abs(shapes).max()
+    )
     again = tmp_path / "disc.csv"
     disc.to_csv(again)
     assert dm.Disc.from_csv(again) == disc
@@ -64,7 +75,9 @@ def test_the_modes_of_a_universal_file_are_found(tmp_path: Path) -> None:
 
 def test_what_a_universal_file_lacks_is_said(tmp_path: Path) -> None:
     path = written(tmp_path / "modes.uff")
-    with pytest.raises(dm.ParameterError, match=r"modes.uff=0: must give coordinates in m of 3 or more nodes"):
+    with pytest.raises(
+        dm.ParameterError, match=r"modes.uff=0: must give coordinates in m of 3 or more nodes"
+    ):
         dm.Disc.from_uff(path, 0.09)
     with pytest.raises(dm.ParameterError, match=r"modal mass=0: must be > 0"):
         dm.Disc.from_uff(written(tmp_path / "none.uff", modal_m=0.0), P.r_0)

@@ -16,7 +16,9 @@ from disc_model.studies.study import load_study
 from tests.disc.table import disc_table
 
 ROOT = Path(__file__).parents[2]
-PAGES = sorted({*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("howto/*.md"), ROOT / "README.md"})
+PAGES = sorted(
+    {*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("howto/*.md"), ROOT / "README.md"}
+)
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.M | re.S)
 WITH_EXAMPLES = [page for page in PAGES if ">>>" in page.read_text(encoding="utf-8")]
 
@@ -31,13 +33,20 @@ def test_examples_print_what_they_say(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "config").symlink_to(ROOT / "config")
     test = doctest.DocTestParser().get_doctest("\n".join(blocks(page)), {}, page.name, str(page), 0)
-    outcome = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE).run(test)
+    outcome = doctest.DocTestRunner(
+        optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
+    ).run(test)
     assert outcome.attempted > 0
     assert outcome.failed == 0
 
 
 #: Classes of what functions return, whose methods draw, and those that others have them from.
-RETURNED = ["mode_choice.ModeChoice", "simulation.pictures.Pictures", "stability.continuation.Branch", "display.Drawn"]
+RETURNED = [
+    "mode_choice.ModeChoice",
+    "simulation.pictures.Pictures",
+    "stability.continuation.Branch",
+    "display.Drawn",
+]
 
 
 @pytest.mark.parametrize("name", [*disc_model.__all__, *RETURNED])
@@ -84,7 +93,9 @@ SAID = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("page", sorted((ROOT / "docs" / "notebooks").glob("*.md")), ids=lambda page: page.stem)
+@pytest.mark.parametrize(
+    "page", sorted((ROOT / "docs" / "notebooks").glob("*.md")), ids=lambda page: page.stem
+)
 def test_notebooks_show_what_they_say(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = page.read_text(encoding="utf-8")
@@ -98,12 +109,20 @@ def test_notebooks_show_what_they_say(page, tmp_path, monkeypatch):
 
 def test_everything_public_is_in_the_reference_and_shows_its_use():
     text = (ROOT / "docs" / "api.md").read_text(encoding="utf-8")
-    assert ".. auto" not in "".join(re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)), "shown as code"
+    assert ".. auto" not in "".join(re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)), (
+        "shown as code"
+    )
     listed = set(re.findall(r"^\.\. auto\w+:: disc_model\.(\w+)$", text, re.M))
     assert listed == set(disc_model.__all__) - {"__version__"}
     values = {name: getattr(disc_model, name) for name in listed}
-    errors = {name for name, value in values.items() if isinstance(value, type) and issubclass(value, Exception)}
-    for name in sorted(listed - errors):  # the table for those who read the page in a repository's browser
+    errors = {
+        name
+        for name, value in values.items()
+        if isinstance(value, type) and issubclass(value, Exception)
+    }
+    for name in sorted(
+        listed - errors
+    ):  # the table for those who read the page in a repository's browser
         paragraph = " ".join((inspect.getdoc(values[name]) or "").split("\n\n")[0].split())
         assert f"| `{name}` | {re.split(r'(?<!Eq[.])(?<=[.]) ', paragraph)[0]} |" in text
     assert not [name for name in listed - errors if ">>> " not in (values[name].__doc__ or "")]
@@ -111,11 +130,19 @@ def test_everything_public_is_in_the_reference_and_shows_its_use():
         if inspect.isfunction(values[name]):
             sections = re.findall(r"^(\w+)\n---", inspect.getdoc(values[name]), re.M)
             assert {"Parameters", "Returns", "Raises", "Examples"} <= {*sections}, name
-    drawing = [member for name in RETURNED for member in vars(resolve_name(f"disc_model.{name}")).values()]
-    drawing = [member for member in drawing if getattr(member, "__name__", "").startswith(("plot", "animate"))]
+    drawing = [
+        member for name in RETURNED for member in vars(resolve_name(f"disc_model.{name}")).values()
+    ]
+    drawing = [
+        member
+        for member in drawing
+        if getattr(member, "__name__", "").startswith(("plot", "animate"))
+    ]
     assert len(drawing) == 7
     for word in (">>> ", "Returns|returns", "Raises|raises"):
-        assert not [member.__qualname__ for member in drawing if not re.search(word, member.__doc__)], word
+        assert not [
+            member.__qualname__ for member in drawing if not re.search(word, member.__doc__)
+        ], word
 
 
 STUDIES = [

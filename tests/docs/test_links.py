@@ -1,4 +1,5 @@
-"""Links between pages lead somewhere; files, layers and names of the package that texts mention exist."""
+"""Links between pages lead somewhere; files, layers and names of the package that texts mention
+exist."""
 
 import pydoc
 import re
@@ -47,15 +48,20 @@ def test_links_lead_somewhere(page):
 
 
 def exists(dotted):
-    """Whether a dotted name is that of a module, or of something in one; a field may have no value."""
+    """Whether a dotted name is that of a module, or of something in one; a field may have no
+    value."""
     owner, _, name = dotted.rpartition(".")
-    return pydoc.locate(dotted) is not None or name in getattr(pydoc.locate(owner), "__annotations__", {})
+    return pydoc.locate(dotted) is not None or name in getattr(
+        pydoc.locate(owner), "__annotations__", {}
+    )
 
 
 def test_names_of_the_package_exist():
     wrong = []
     for path in TEXTS:
-        for dotted in set(re.findall(r"\bdisc_model(?:\.[A-Za-z_]\w*)+", path.read_text(encoding="utf-8"))):
+        for dotted in set(
+            re.findall(r"\bdisc_model(?:\.[A-Za-z_]\w*)+", path.read_text(encoding="utf-8"))
+        ):
             if dotted.split(".")[1] not in NO_MODULES and not exists(dotted):
                 wrong.append(f"{name(path)}: {dotted}")
     assert not wrong
@@ -70,7 +76,8 @@ def test_every_path_exists(path):
 def test_every_layer_is_in_the_picture():
     """In the order in which `lint-imports` holds them; `make drawings` draws it anew."""
     drawn = re.findall(
-        r'class="name"[^>]*>(\w+)<', (ROOT / "docs" / "drawings" / "layers.svg").read_text(encoding="utf-8")
+        r'class="name"[^>]*>(\w+)<',
+        (ROOT / "docs" / "drawings" / "layers.svg").read_text(encoding="utf-8"),
     )
     assert drawn == [part for layer in layers.layers() for part in layer]
     assert drawn == re.findall(r'class="name"[^>]*>(\w+)<', layers.draw())

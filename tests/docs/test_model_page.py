@@ -11,7 +11,8 @@ from disc_model.data.variables import SCALARS, SERIES, attributes
 from disc_model.disc.plate import coupled_frequencies
 
 MODEL, SYMBOLS = (
-    (Path(__file__).parents[2] / "docs" / f"{name}.md").read_text("utf-8") for name in ("model", "glossary")
+    (Path(__file__).parents[2] / "docs" / f"{name}.md").read_text("utf-8")
+    for name in ("model", "glossary")
 )
 POWERS = str.maketrans("⁻¹²³", "-123")
 
@@ -23,7 +24,9 @@ def section(page, title):
 
 @pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])
 def test_attached_frequencies_on_the_page(normalization):
-    row = re.search(rf"^\| `{normalization}` \|(.*)\|$", section(MODEL, "Two normalisations"), re.M)[1]
+    row = re.search(
+        rf"^\| `{normalization}` \|(.*)\|$", section(MODEL, "Two normalisations"), re.M
+    )[1]
     p = Parameters(N=200, Omega=20, normalization=normalization)
     digits = max(len(number.strip().split(".")[1]) for number in row.split(","))
     own, text = coupled_frequencies(p), [float(number) for number in row.split(",")]
@@ -32,9 +35,17 @@ def test_attached_frequencies_on_the_page(normalization):
 
 def symbols():
     """Names in the table of symbols and their units."""
-    rows = [line.strip("|").split("|") for line in section(SYMBOLS, "Symbols").splitlines() if line.startswith("|")]
+    rows = [
+        line.strip("|").split("|")
+        for line in section(SYMBOLS, "Symbols").splitlines()
+        if line.startswith("|")
+    ]
     assert all(len(row) == 4 for row in rows)
-    return {name: row[3].strip().translate(POWERS) for row in rows[2:] for name in re.findall(r"`(\w+)`(?! ¹)", row[1])}
+    return {
+        name: row[3].strip().translate(POWERS)
+        for row in rows[2:]
+        for name in re.findall(r"`(\w+)`(?! ¹)", row[1])
+    }
 
 
 def test_every_variable_is_in_the_table_of_symbols():

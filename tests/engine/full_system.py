@@ -9,7 +9,8 @@ from disc_model.simulation.states import State, engine_case, series_order, write
 
 
 class Full:
-    """The engine with a column for every coordinate: those of the modes, psi, f; u and u' too if asked for.
+    """The engine with a column for every coordinate: those of the modes, psi, f; u and u' too if
+    asked for.
 
     scalars : how many of psi, f, u, u' are coordinates
     """
@@ -19,9 +20,18 @@ class Full:
         self.model = case.model
         width, n0 = len(self.model.mode_amplitude), len(self.model.mode_amplitude0)
         used, single = np.flatnonzero(self.model.shift), np.arange(n0)
-        rows = [used, width + used, 2 * width + single, 2 * width + n0 + single, 2 * (width + n0) + np.arange(scalars)]
+        rows = [
+            used,
+            width + used,
+            2 * width + single,
+            2 * width + n0 + single,
+            2 * (width + n0) + np.arange(scalars),
+        ]
         self.rows = np.concatenate(rows)
-        self.series, self.state = build_series(self.model, self.order), layout.build_state(self.model)
+        self.series, self.state = (
+            build_series(self.model, self.order),
+            layout.build_state(self.model),
+        )
         self.tangent = tangent.build_tangent(self.model, len(self.rows), self.order)
         self.n_rows = tangent.n_rows(self.model)
         write_state(case, start, self.state)
@@ -34,7 +44,9 @@ class Full:
 
     @property
     def columns(self):
-        now = self.tangent.now.reshape(-1, self.n_rows, 8).transpose(1, 0, 2).reshape(self.n_rows, -1)
+        now = (
+            self.tangent.now.reshape(-1, self.n_rows, 8).transpose(1, 0, 2).reshape(self.n_rows, -1)
+        )
         return now[self.rows, : len(self.rows)]
 
     @property

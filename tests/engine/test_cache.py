@@ -37,7 +37,9 @@ print(inner(1.0), outer(1.0))
 pytestmark = pytest.mark.compiled
 
 
-def ask_for_a_kernel(tmp_path: Path, before: str = "", code: str = KERNEL) -> subprocess.CompletedProcess[str]:
+def ask_for_a_kernel(
+    tmp_path: Path, before: str = "", code: str = KERNEL
+) -> subprocess.CompletedProcess[str]:
     """A process that asks for a kernel, and prints 42 and how often it was found in the cache."""
     script = tmp_path / "script.py"
     script.write_text(before + code)
@@ -59,8 +61,11 @@ def test_what_was_written_comes_back_and_any_damage_is_noticed(tmp_path: Path) -
     assert cache.read(path) == list(range(20))
 
 
-def test_what_is_in_the_cache_is_found_again_and_what_is_damaged_or_gone_is_compiled(tmp_path: Path) -> None:
-    """As when one of two kernels was compiled before an interruption: the other's file held a stub, and it crashed."""
+def test_what_is_in_the_cache_is_found_again_and_what_is_damaged_or_gone_is_compiled(
+    tmp_path: Path,
+) -> None:
+    """As when one of two kernels was compiled before an interruption: the other's file held a stub,
+    and it crashed."""
 
     def the(name: str) -> Path:
         (path,) = tmp_path.rglob(name)
@@ -83,7 +88,8 @@ def test_a_folder_that_cannot_be_written_costs_time_not_the_result(tmp_path: Pat
     assert done.stderr.count("compiled kernels cannot be kept there") == 1
 
 
-# ---------------------------------------------------------------- a numba without the parts that this needs
+# ---------------------------------------------------------------- a numba without the parts that
+# this needs
 LACKS = {
     "cache": "import numba.core.dispatcher as d; d.NullCache.load_overload = property()\n",
     "merging": "import sys; sys.modules['disc_model.engine.jit.merging'] = None\n",
@@ -91,13 +97,16 @@ LACKS = {
 
 
 @pytest.mark.parametrize("part", LACKS)
-def test_without_a_part_of_numba_kernels_work_and_it_is_said_once(part: str, tmp_path: Path) -> None:
+def test_without_a_part_of_numba_kernels_work_and_it_is_said_once(
+    part: str, tmp_path: Path
+) -> None:
     done = ask_for_a_kernel(tmp_path, before=LACKS[part])
     assert done.stdout.split()[0] == "42"
     assert done.stderr.count("otherwise than expected") == 1
 
 
-# ---------------------------------------------------------------- two processes that need the same kernel at once
+# ---------------------------------------------------------------- two processes that need the same
+# kernel at once
 
 
 def test_a_process_waits_while_another_compiles_the_same_kernel(
@@ -107,7 +116,10 @@ def test_a_process_waits_while_another_compiles_the_same_kernel(
     monkeypatch.setattr(cache, "folder", lambda: tmp_path)
     with (tmp_path / "taken.lock").open("a") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
-        released, start = threading.Timer(0.2, fcntl.flock, (file, fcntl.LOCK_UN)), time.perf_counter()
+        released, start = (
+            threading.Timer(0.2, fcntl.flock, (file, fcntl.LOCK_UN)),
+            time.perf_counter(),
+        )
         released.start()
         with cache.lock("taken"):
             assert time.perf_counter() - start >= 0.2

@@ -1,4 +1,5 @@
-"""Where the machine and the flights of the return map cannot go on, and that they say so; samples on a switch."""
+"""Where the machine and the flights of the return map cannot go on, and that they say so; samples
+on a switch."""
 
 import math
 
@@ -19,7 +20,8 @@ STEEP = Parameters(N=100, Omega=20, mu_k=50, mu_s=60, k_p=2e7, n_diameters=1)
 
 
 def about_to_slip(denominator: float):
-    """Stick a moment before its release, on a slope that gives the denominator of P in slip this value."""
+    """Stick a moment before its release, on a slope that gives the denominator of P in slip this
+    value."""
     psi = plate_modes(STEEP)["psi"].to_numpy()
     slope = (denominator - 1 - STEEP.m * psi @ psi) * STEEP.r_0 / STEEP.mu_k
     start = simulate(STEEP, 1e-9).final_state
@@ -46,7 +48,8 @@ def test_switches_without_the_clock_moving_end_the_run(monkeypatch: pytest.Monke
     assert result.status.advice.startswith("Switches follow each other")
 
 
-# ------------------------------------------------------------------------------------- flights of the return map
+# ------------------------------------------------------------------------------------- flights of
+# the return map
 P = Parameters(N=200, Omega=20, n_diameters=2, c=0.05, c_p=0.02)
 
 
@@ -59,27 +62,41 @@ def test_flights_say_how_they_end() -> None:
     map_ = ReturnMap(P)
     flight = map_.evaluate(map_.static, releases=2, tangent=False)
     assert (flight.outcome, flight.counts) == (transitions.RETURNED, (2, 0, 0, 0, 2))
-    x = map_.static + 3 * np.max(np.abs(map_.static)) * np.random.default_rng(1).normal(size=map_.size)
+    x = map_.static + 3 * np.max(np.abs(map_.static)) * np.random.default_rng(1).normal(
+        size=map_.size
+    )
     assert outcome(map_, x) == transitions.STOPPED  # it loses contact
     assert outcome(map_, x, may_separate=True) == transitions.RETURNED
     assert outcome(map_, -5 * map_.static) == transitions.OFF_SECTION  # P would be negative
     assert outcome(map_, np.full(map_.size, math.nan)) != transitions.RETURNED
     start = simulate(P, 1e-6).final_state
     with np.errstate(all="ignore"):
-        assert map_.next_release(start.replace(phase="slip", direction=1, f=1e308))[0] == transitions.NON_FINITE
+        assert (
+            map_.next_release(start.replace(phase="slip", direction=1, f=1e308))[0]
+            == transitions.NON_FINITE
+        )
 
 
 def test_without_a_drop_of_friction_only_a_pull_that_outgrows_it_begins_slip() -> None:
-    """A hundredth before the speed of a mode at which both grow alike by the paper's equations, and beyond it."""
+    """A hundredth before the speed of a mode at which both grow alike by the paper's equations, and
+    beyond it."""
     map_ = ReturnMap(P.replace(mu_k=P.mu_s))
-    p, along = map_.parameters, np.linalg.norm(map_.static) * (np.arange(map_.size) == 4)  # alpha of a mode
+    p, along = (
+        map_.parameters,
+        np.linalg.norm(map_.static) * (np.arange(map_.size) == 4),
+    )  # alpha of a mode
 
     def outgrows(speed: float) -> float:
         run = printed.Printed(p, map_.state(map_.static + speed * along))
-        return differences(lambda t: p.r_0 * p.k_p * run.at(t)["psi"] - p.mu_s * run.at(t)["P"], 1e-5)
+        return differences(
+            lambda t: p.r_0 * p.k_p * run.at(t)["psi"] - p.mu_s * run.at(t)["P"], 1e-5
+        )
 
     alike = solved(outgrows)  # P is linear in it
-    beyond = [outcome(map_, map_.static + share * alike * along) == transitions.OFF_SECTION for share in (0.99, 1.01)]
+    beyond = [
+        outcome(map_, map_.static + share * alike * along) == transitions.OFF_SECTION
+        for share in (0.99, 1.01)
+    ]
     assert beyond == [False, True]
 
 
@@ -96,8 +113,11 @@ def test_a_flight_into_a_paradox_has_no_solution() -> None:
 
 @pytest.mark.parametrize(("gap", "known"), [(1e-16, 1), (1e-13, 0)])
 def test_rounding_of_a_gap_is_that_of_the_modes_it_is_made_of(gap: float, known: int) -> None:
-    """By the height alone, a small difference of large shares, a closed gap was taken for open: a run stalled."""
-    case = engine_case(Parameters(N=600, Omega=30, normalization="orthonormal", contact_compliance="residual"))
+    """By the height alone, a small difference of large shares, a closed gap was taken for open: a
+    run stalled."""
+    case = engine_case(
+        Parameters(N=600, Omega=30, normalization="orthonormal", contact_compliance="residual")
+    )
     here = layout.build_state(case.model)
     here.disc[:] = 0.0
     # two modes that lift the disc by 1 cm each, one up, one down
@@ -109,7 +129,8 @@ def test_rounding_of_a_gap_is_that_of_the_modes_it_is_made_of(gap: float, known:
 
 
 def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
-    """Moved by less than rounding moves a switch it still does; moved by more it shows the side after."""
+    """Moved by less than rounding moves a switch it still does; moved by more it shows the side
+    after."""
     p = printed.P.replace(N=100.0)  # it lands, sticks, is released and lets go again
     start = printed.lively("separation", p=p)
     events = simulate(p, 0.02, initial_state=start).events
@@ -122,11 +143,17 @@ def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
             continue
         seen.add(kind)
         offsets = (-1e-10, *(2.0**-52 * t * np.array([-200, -1, 0, 1, 200])), 1e-10)
-        windows = {f"w{offset:+}": Window(start=t + offset, stop=t + offset + 1e-3, rate=999) for offset in offsets}
+        windows = {
+            f"w{offset:+}": Window(start=t + offset, stop=t + offset + 1e-3, rate=999)
+            for offset in offsets
+        }
         samples = simulate(p, t + 2e-3, windows, initial_state=start).samples.values()
         phases = [PHASES[int(sample["phase"][0])] for sample in samples]
         assert phases == [before[i]] * 6 + [after], kind
-        # what is continuous on either side changes by its rate times 1e-10 s: P by less than 1e7 N/s
+        # what is continuous on either side changes by its rate times 1e-10 s: P by less than 1e7
+        # N/s
         forces = [sample["P"][0] for sample in samples]
         np.testing.assert_allclose(forces[1:6], forces[0], rtol=0, atol=1e-3)
-    assert seen == set(EVENT_KINDS) - {"slip_reversal"}, "a kind of switch that changes the phase is missing"
+    assert seen == set(EVENT_KINDS) - {"slip_reversal"}, (
+        "a kind of switch that changes the phase is missing"
+    )

@@ -27,7 +27,8 @@ def from_roots(roots) -> np.ndarray:
     return c if c[0] > 0 else -c
 
 
-# ------------------------------------------------------------------------------------ against an exact count
+# ------------------------------------------------------------------------------------ against an
+# exact count
 ROUNDING = Fraction(2, 10**15)
 """Of the sum of the moduli of all terms: what the module promises."""
 
@@ -71,10 +72,14 @@ def number_of_roots(c: list[Fraction], x: Fraction) -> int:
 
 @st.composite
 def hidden_roots(draw: st.DrawFn) -> tuple[list[float], float]:
-    """A polynomial and the end of a step; roots on halving points, other dyadic places, ends, double, nearly double."""
+    """A polynomial and the end of a step; roots on halving points, other dyadic places, ends,
+    double, nearly double."""
     x_end = Fraction(draw(st.sampled_from([0.5, 1.0, 2.0, 3.25]) | st.floats(0.1, 8)))
     k = draw(st.integers(1, 12))
-    roots = [x_end * draw(st.sampled_from([Fraction(1, 2**k), Fraction(draw(st.integers(0, 2**k)), 2**k)]))]
+    roots = [
+        x_end
+        * draw(st.sampled_from([Fraction(1, 2**k), Fraction(draw(st.integers(0, 2**k)), 2**k)]))
+    ]
     for _ in range(draw(st.integers(0, 3))):
         shift = Fraction(draw(st.sampled_from([0.0, 2.0 ** -draw(st.integers(5, 45))])))
         ends = x_end * draw(st.integers(1, 16)) / 16, x_end * Fraction(draw(st.floats(-2, 2)))
@@ -96,9 +101,15 @@ def hidden_roots(draw: st.DrawFn) -> tuple[list[float], float]:
 @example(([0.0, -1.0, 1.0], 2.0))
 @example(([0.0, 1.0, -1.0], 2.0))
 # an excursion that is over at the end of the step
-@example((from_roots([2.4523032796565007, 4.131641397443826, 6.296469522248217]).tolist(), 4.9046065593130015))
+@example(
+    (
+        from_roots([2.4523032796565007, 4.131641397443826, 6.296469522248217]).tolist(),
+        4.9046065593130015,
+    )
+)
 def test_no_root_is_hidden(drawn: tuple[list[float], float]) -> None:
-    """Roots on halving points were passed over with whole steps: the end of what was searched read as positive."""
+    """Roots on halving points were passed over with whole steps: the end of what was searched read
+    as positive."""
     coefficients, x_end = drawn
     got = first(coefficients, x_end)
     c = [Fraction(a) for a in coefficients]
@@ -142,7 +153,9 @@ def test_known_root_at_the_start_is_divided_out() -> None:
     assert first(gap, 0.4, low=3) == NO_ROOT
 
 
-@pytest.mark.parametrize(("coefficients", "root"), [([-1.0, 3.0], 0.0), ([0.0], NO_ROOT), ([1.0, -1.0], 1.0)])
+@pytest.mark.parametrize(
+    ("coefficients", "root"), [([-1.0, 3.0], 0.0), ([0.0], NO_ROOT), ([1.0, -1.0], 1.0)]
+)
 def test_roots_at_either_end_of_a_step_belong_to_it(coefficients: list[float], root: float) -> None:
     """Negative at the start is a root there; zero throughout is none."""
     assert first(coefficients) == pytest.approx(root, abs=1e-15)

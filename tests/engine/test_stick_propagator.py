@@ -44,7 +44,8 @@ def _lively(model: layout.Model, seed: int = 1) -> layout.EngineState:
 @pytest.mark.parametrize("variant", ALL)
 @pytest.mark.parametrize("x", [pytest.param(x, marks=COMPILES) for x in (0.0, 0.1, 1.7, 4.0)])
 def test_closed_form_is_the_series(variant: str, x: float) -> None:
-    """Both are exact but for rounding: 40 terms, whose largest is 4^4 / 4! = 11 times the sum at x = 4.
+    """Both are exact but for rounding: 40 terms, whose largest is 4^4 / 4! = 11 times the sum at x
+    = 4.
 
     A velocity is rounded as the static deflection is, times the highest frequency.
     """
@@ -58,15 +59,20 @@ def test_closed_form_is_the_series(variant: str, x: float) -> None:
     dense_output.state_at(model, s, ORDER, x, 0.0, taylor)
     size = max(np.abs(taylor.z).max(), np.abs(taylor.y).max(initial=0.0))
     for name, unit in {"e": model.unit, "g": model.unit, "z": 1.0, "y": 1.0}.items():
-        np.testing.assert_allclose(getattr(closed, name), getattr(taylor, name), atol=1e-14 * size / unit, rtol=0)
+        np.testing.assert_allclose(
+            getattr(closed, name), getattr(taylor, name), atol=1e-14 * size / unit, rtol=0
+        )
     assert closed.x[layout.PSI] == pytest.approx(taylor.x[layout.PSI], rel=1e-15)
     if model.compliant:
         assert closed.x[layout.U] == pytest.approx(taylor.x[layout.U], abs=1e-14 * size)
-        assert closed.x[layout.U_VELOCITY] == pytest.approx(taylor.x[layout.U_VELOCITY], abs=1e-14 * size / model.unit)
+        assert closed.x[layout.U_VELOCITY] == pytest.approx(
+            taylor.x[layout.U_VELOCITY], abs=1e-14 * size / model.unit
+        )
 
 
 def excited(model: layout.Model, mode: int, angle: float) -> layout.EngineState:
-    """The static equilibrium with one mode at amplitude one and an angle, as small as the force is linear."""
+    """The static equilibrium with one mode at amplitude one and an angle, as small as the force is
+    linear."""
     state = layout.build_state(model)
     n, length = len(model.modes.gain), len(state.disc)
     leave = model.modes.leave.reshape(2 * n, length)
@@ -79,7 +85,9 @@ def excited(model: layout.Model, mode: int, angle: float) -> layout.EngineState:
 
 @pytest.mark.parametrize("compliance", [0.0, 2.5e-7], ids=["rigid", "compliant"])
 def test_the_gain_of_a_mode_is_its_swing_of_the_contact_force(compliance: float) -> None:
-    p = Parameters(N=300, Omega=5, n_diameters=2, c=20.0, D_star=1e-2, contact_compliance=compliance)
+    p = Parameters(
+        N=300, Omega=5, n_diameters=2, c=20.0, D_star=1e-2, contact_compliance=compliance
+    )
     model = engine_case(p).model
     for mode in np.flatnonzero(model.modes.turn):
         angles = np.linspace(0, 2 * np.pi, 361)
@@ -89,7 +97,11 @@ def test_the_gain_of_a_mode_is_its_swing_of_the_contact_force(compliance: float)
 
 
 @pytest.mark.parametrize(
-    "variant", [pytest.param(name, marks=[pytest.mark.compiled] if name == "more blocks" else []) for name in VARIANTS]
+    "variant",
+    [
+        pytest.param(name, marks=[pytest.mark.compiled] if name == "more blocks" else [])
+        for name in VARIANTS
+    ],
 )
 @pytest.mark.parametrize("seed", range(2))
 def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed: int) -> None:
@@ -106,14 +118,20 @@ def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed:
         lowest = min(lowest, p.mu_s * P - abs(pull))
         swing = max(swing, abs(P - p.N))
     assert lowest > -1e-12 * p.N
-    # the bound adds amplitudes that are never all at their worst together: it may not be idle, though
+    # the bound adds amplitudes that are never all at their worst together: it may not be idle,
+    # though
     bound = p.N - p.r_0 * (p.k_p * state.x[layout.PSI] + p.c_p * p.Omega) / p.mu_s
     assert swing <= bound <= 4.0 * swing
 
 
 @pytest.mark.parametrize(
     "parameters",
-    [{"D_star": 50.0}, {"D_star": 200.0, "n_diameters": 1}, {"n_diameters": 20, "n_circles": 3}, {"k": 1e9}],
+    [
+        {"D_star": 50.0},
+        {"D_star": 200.0, "n_diameters": 1},
+        {"n_diameters": 20, "n_circles": 3},
+        {"k": 1e9},
+    ],
     ids=["near critical damping", "overdamped", "many modes", "faster than the series allows"],
 )
 def test_the_rest_is_left_to_the_series(parameters: dict[str, float]) -> None:
@@ -130,7 +148,8 @@ def test_nothing_is_promised_where_nothing_is_sure() -> None:
 
 
 def test_a_spring_that_pulls_hard_already_leaves_less_time() -> None:
-    """At rest under the preload P stays: stick lasts until the spring, now at 0.9 of the limit, is at all of it."""
+    """At rest under the preload P stays: stick lasts until the spring, now at 0.9 of the limit, is
+    at all of it."""
     p = Parameters(N=385, Omega=15.1)
     limit, unit = p.mu_s * p.N / p.r_0, engine_case(p).model.unit
     # from no pull at all that would take as long as one advance may last
@@ -138,24 +157,35 @@ def test_a_spring_that_pulls_hard_already_leaves_less_time() -> None:
     s, state = build_series(model, ORDER), layout.build_state(model)
     state.x[layout.PSI] = 0.9 * limit / p.k_p
     # 0.1 of it, right to the rounding of forces of which nine tenths cancel
-    assert _propagate(model, s, state, 0.0) == pytest.approx(0.1 * stick_modes.LONGEST_STICK, rel=1e-12)
+    assert _propagate(model, s, state, 0.0) == pytest.approx(
+        0.1 * stick_modes.LONGEST_STICK, rel=1e-12
+    )
 
 
 @pytest.mark.compiled
 @pytest.mark.parametrize("dampers", [{}, {"c": 1.0, "D_star": 1e-3}], ids=str)
 def test_events_samples_and_audit_within_an_advance(dampers: dict[str, float]) -> None:
-    """Slow drive: stick is nearly all of the motion, and what falls into a long advance is as good as of steps."""
+    """Slow drive: stick is nearly all of the motion, and what falls into a long advance is as good
+    as of steps."""
     p = Parameters(N=385, Omega=1.0, **dampers)
-    how = {"windows": {"all": Window(start=0.0, stop=0.3, rate=2000.0)}, "execution": Execution(audit_every_step=True)}
+    how = {
+        "windows": {"all": Window(start=0.0, stop=0.3, rate=2000.0)},
+        "execution": Execution(audit_every_step=True),
+    }
     closed = simulate(p, 0.6, tol=1e-14, **how)
     stepped = simulate(p, 0.6, tol=1e-14, **how, ramps=by_series(p))
     assert closed.statistics["steps"] < stepped.statistics["steps"] / 3
     assert list(closed.events["kind"]) == list(stepped.events["kind"])
-    # rounding of a clock that reads 0.6 s, and of the forces at a release that the slow spring reaches at a flat angle
+    # rounding of a clock that reads 0.6 s, and of the forces at a release that the slow spring
+    # reaches at a flat angle
     np.testing.assert_allclose(closed.events["time"], stepped.events["time"], atol=1e-12, rtol=0)
     for name, values in stepped.samples["all"].items():
         # the series leave 1e-14 of the static deflection at each step, which a small velocity feels
         size = max(np.abs(values).max(), 1e-3 * (name == "u_velocity"))
-        np.testing.assert_allclose(closed.samples["all"][name], values, rtol=0, atol=1e-9 * size, err_msg=name)
+        np.testing.assert_allclose(
+            closed.samples["all"][name], values, rtol=0, atol=1e-9 * size, err_msg=name
+        )
     # the quadrature of a step is good to rounding, so is that of an advance in closed form
-    assert all(closed.statistics[f"energy_residual_{of}"] < 1e-13 for of in ("transverse", "inplane"))
+    assert all(
+        closed.statistics[f"energy_residual_{of}"] < 1e-13 for of in ("transverse", "inplane")
+    )

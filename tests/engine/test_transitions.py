@@ -1,4 +1,5 @@
-"""The impact under the normal force, and how phases begin: laws that compiled runs show only in long tests."""
+"""The impact under the normal force, and how phases begin: laws that compiled runs show only in
+long tests."""
 
 from types import SimpleNamespace
 
@@ -14,17 +15,30 @@ from tests.contact_laws import COMPILES
 
 def test_an_impact_pushes_along_the_normal_of_the_slope_and_leaves_no_gap() -> None:
     model = SimpleNamespace(normal=True, r_0=0.05, inverse_effective_mass=3.0)
-    i = Instant(*[1.0] * 8, psi=0.0, f=4.0, w=0.0, w_velocity=0.7, dw_dtheta=0.02, free=0.0, u=0.0, u_velocity=-0.3)
+    i = Instant(
+        *[1.0] * 8,
+        psi=0.0,
+        f=4.0,
+        w=0.0,
+        w_velocity=0.7,
+        dw_dtheta=0.02,
+        free=0.0,
+        u=0.0,
+        u_velocity=-0.3,
+    )
     i = i._replace(m=0.1)
     p, f = getattr(impact, "py_func", impact)(model, i)
-    # a height of w rises by B per radian: m r_0 (f - f before) is the tangential part of the impulse, -p B / r_0
+    # a height of w rises by B per radian: m r_0 (f - f before) is the tangential part of the
+    # impulse, -p B / r_0
     assert i.m * model.r_0 * (f - i.f) == pytest.approx(-p * i.dw_dtheta / model.r_0, rel=1e-14)
     w_velocity = i.w_velocity - model.inverse_effective_mass * p + i.dw_dtheta * (f - i.f)
     assert i.u_velocity + p / i.m == pytest.approx(w_velocity, rel=1e-14)
 
 
 @pytest.mark.parametrize(("share", "known"), [(1.0, 2), (1.01, 1)])
-def test_the_root_of_f_where_slip_begins_is_double_if_nothing_accelerates_it(share: float, known: int) -> None:
+def test_the_root_of_f_where_slip_begins_is_double_if_nothing_accelerates_it(
+    share: float, known: int
+) -> None:
     p = Parameters(N=200, Omega=10)
     case = engine_case(p)
     state = layout.build_state(case.model)
@@ -35,11 +49,15 @@ def test_the_root_of_f_where_slip_begins_is_double_if_nothing_accelerates_it(sha
 
 
 @pytest.mark.parametrize("psi", [pytest.param(psi, marks=COMPILES) for psi in (0.02, -0.02)])
-def test_a_slider_that_touches_down_without_speed_slips_to_the_side_of_its_spring(psi: float) -> None:
+def test_a_slider_that_touches_down_without_speed_slips_to_the_side_of_its_spring(
+    psi: float,
+) -> None:
     p = Parameters(N=200, Omega=10, n_diameters=1, contact_compliance=1e-7)
     start = static_start(p)
     w = p.N * 1e-7 + start.u  # the slider is N C below the disc at rest
-    falling = start.replace(phase="separation", direction=0, psi=psi, u=w, u_velocity=-0.2, f=0.0, _roots=(0, 0))
+    falling = start.replace(
+        phase="separation", direction=0, psi=psi, u=w, u_velocity=-0.2, f=0.0, _roots=(0, 0)
+    )
     result = simulate(p, 2e-5, initial_state=falling)
     # the contact force is still too small to stop it
     assert list(result.events.kind) == ["reattachment"]

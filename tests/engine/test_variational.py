@@ -1,4 +1,5 @@
-"""Small changes of state and parameters, along a motion and through every kind of switch: against differences."""
+"""Small changes of state and parameters, along a motion and through every kind of switch: against
+differences."""
 
 from collections.abc import Callable
 
@@ -43,8 +44,16 @@ CONTACTS = {
 }  # fmt: skip
 #: Where nothing pulls the reference meets two switches at once; a compliant contact begins without tension.
 NOT_THERE = [
-    *((law, "contact lost in stick") for law in CONTACTS if law.removeprefix("residual_").startswith("normal")),
-    *((law, "impact, left in tension") for law in CONTACTS if "compliant" in law or "residual" in law),
+    *(
+        (law, "contact lost in stick")
+        for law in CONTACTS
+        if law.removeprefix("residual_").startswith("normal")
+    ),
+    *(
+        (law, "impact, left in tension")
+        for law in CONTACTS
+        if "compliant" in law or "residual" in law
+    ),
 ]
 THROUGH = [
     pytest.param(law, switch, marks=COMPILES if law != "vertical" else ())
@@ -59,20 +68,35 @@ def solved(function: Callable[[float], float]) -> float:
     return function(0.0) / (function(0.0) - function(1.0))
 
 
-def about_to(switch: str, law: str, pressed: float | None = None) -> tuple[Parameters, stored.State]:
-    """A case, and a state on a slope of a third that soon meets the switch, with the contact force ``pressed`` (N)."""
+def about_to(
+    switch: str, law: str, pressed: float | None = None
+) -> tuple[Parameters, stored.State]:
+    """A case, and a state on a slope of a third that soon meets the switch, with the contact force
+    ``pressed`` (N)."""
     (phase, direction, _), backwards = SWITCHES[switch], "backwards" in switch
-    # with a circle there are two modes without nodal diameter, each with its own share of an impulse
+    # with a circle there are two modes without nodal diameter, each with its own share of an
+    # impulse
     p = P.replace(n_diameters=1, **CONTACTS[law])
     if switch == "contact lost in stick":
         # it is not friction that ends stick: it holds on the slope, or nothing pulls
-        p = p.replace(**({"mu_s": 4.0} if law.startswith("compliant_normal") else {"k_p": 0.0, "c_p": 0.0}))
+        p = p.replace(
+            **({"mu_s": 4.0} if law.startswith("compliant_normal") else {"k_p": 0.0, "c_p": 0.0})
+        )
     start, q = stored.reference_state(lively(phase, direction, p), p), taylor.problem_of(p)
-    level, flies, thrown = np.array(start.a), phase == "separation", "lost" in switch or "release" in switch
-    start.b, start.alpha = np.array(start.b) * (-60 if backwards else 60), start.alpha + 6 * thrown * q.s / q.S2
+    level, flies, thrown = (
+        np.array(start.a),
+        phase == "separation",
+        "lost" in switch or "release" in switch,
+    )
+    start.b, start.alpha = (
+        np.array(start.b) * (-60 if backwards else 60),
+        start.alpha + 6 * thrown * q.s / q.S2,
+    )
     if direction and not thrown:
         start.f, start.psi = 0.03 * direction, -0.15 if switch == "reversal" else 0.004
-    start.u_velocity = q.s @ (start.alpha + q.l * start.f * start.b) + (0 if q.rigid or flies else thrown)
+    start.u_velocity = q.s @ (start.alpha + q.l * start.f * start.b) + (
+        0 if q.rigid or flies else thrown
+    )
 
     def forces(bent: float) -> tuple[float, float]:
         """R and T (in flight those of slip) where the disc, or the contact, is bent by so much."""
@@ -108,31 +132,52 @@ def moved_to(start: stored.State, y: np.ndarray) -> stored.State:
 
 
 class Disturbances:
-    """Two random disturbances of all coordinates of a start, and two of all parameters, in columns; their sizes."""
+    """Two random disturbances of all coordinates of a start, and two of all parameters, in columns;
+    their sizes."""
 
     def __init__(self, p: Parameters, start: stored.State) -> None:
         self.p, self.start, rng = p, start, np.random.default_rng(2)
-        slow, pair = 1500 / plate_modes(p)["omega"].to_numpy(), plate_modes(p)["diameters"].to_numpy() > 0
-        self.sizes = np.concatenate([[1e-4, 0.3, 1e-6, 0.03], *2 * [1e-5 * slow], np.full(2 * len(slow), 0.03)])
-        turns, free = start.phase != "stick", start.phase == "separation" or p.contact_compliance != 0
+        slow, pair = (
+            1500 / plate_modes(p)["omega"].to_numpy(),
+            plate_modes(p)["diameters"].to_numpy() > 0,
+        )
+        self.sizes = np.concatenate(
+            [[1e-4, 0.3, 1e-6, 0.03], *2 * [1e-5 * slow], np.full(2 * len(slow), 0.03)]
+        )
+        turns, free = (
+            start.phase != "stick",
+            start.phase == "separation" or p.contact_compliance != 0,
+        )
         there = np.concatenate([[True, turns, free, free], pair | True, pair, pair | True, pair])
         self.moved = (self.sizes * there)[:, None] * rng.normal(size=(len(there), 2))
         self.values = np.array([getattr(p, name) for name in PARAMETERS])
         self.changed = self.values[:, None] * rng.normal(size=(len(PARAMETERS), 2))
 
-    def expected(self, function: Callable[[taylor.Problem, stored.State], np.ndarray]) -> np.ndarray:
-        """Derivatives of what follows from a case and a start, by each disturbance: one row each."""
+    def expected(
+        self, function: Callable[[taylor.Problem, stored.State], np.ndarray]
+    ) -> np.ndarray:
+        """Derivatives of what follows from a case and a start, by each disturbance: one row
+        each."""
 
         def changed(change: np.ndarray) -> taylor.Problem:
-            return taylor.problem_of(self.p.replace(**dict(zip(PARAMETERS, self.values + change, strict=True))))
+            return taylor.problem_of(
+                self.p.replace(**dict(zip(PARAMETERS, self.values + change, strict=True)))
+            )
 
         y, q, h = flat(self.start), taylor.problem_of(self.p), np.longdouble(1e-4)
-        found = [differences(lambda h, d=d: function(q, moved_to(self.start, y + h * d)), h) for d in self.moved.T]
-        found += [differences(lambda h, d=d: function(changed(float(h) * d), self.start), h) for d in self.changed.T]
+        found = [
+            differences(lambda h, d=d: function(q, moved_to(self.start, y + h * d)), h)
+            for d in self.moved.T
+        ]
+        found += [
+            differences(lambda h, d=d: function(changed(float(h) * d), self.start), h)
+            for d in self.changed.T
+        ]
         return np.array(found, float)
 
     def run(self) -> Full:
-        """The engine with these columns: in the first block those of the start, in the second those of parameters."""
+        """The engine with these columns: in the first block those of the start, in the second those
+        of parameters."""
         start = moved_to(self.start, flat(self.start))
         run, case = Full(self.p, stored.engine_state(start, self.p)), engine_case(self.p)
         t = run.tangent = tangent.build_tangent(run.model, 16, run.order, 8)
@@ -146,7 +191,10 @@ class Disturbances:
         """The columns, one row each."""
         case, now = engine_case(self.p), run.tangent.now.reshape(2, -1, 8)[:, :, :2]
         found = np.zeros((2, *self.moved.shape))
-        found[:, 4 + case.present], found[:, :4] = self._signs[case.present] * now[:, case.places], now[:, -4:]
+        found[:, 4 + case.present], found[:, :4] = (
+            self._signs[case.present] * now[:, case.places],
+            now[:, -4:],
+        )
         return np.concatenate(found, axis=1).T
 
     @property
@@ -175,7 +223,9 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
     ends |= {"release backwards": tangent.BACK_RELEASES, "impact": None}
     counted = ends.get(switch.removesuffix(", slip backwards"), tangent.SEPARATIONS)
     log = engine.tangent.log
-    assert [i for i in range(tangent.RELEASES, tangent.STICKS + 1) if log[i]] == [counted] * (counted is not None)
+    assert [i for i in range(tangent.RELEASES, tangent.STICKS + 1) if log[i]] == [counted] * (
+        counted is not None
+    )
     assert log[tangent.RELEASES : tangent.STICKS + 1].sum() == (counted is not None)
     first, spent = PHASES.index(SWITCHES[switch][0]), np.zeros(len(PHASES))
     spent[first] = switched = float(run.events[0]["time"])
@@ -193,9 +243,11 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
 @pytest.mark.parametrize("pressed", [5.0, 0.0])
 @pytest.mark.parametrize("switch", [switch for switch in SWITCHES if "lost" in switch])
 def test_when_contact_is_lost(switch: str, pressed: float) -> None:
-    """No motion shows that, because no rate jumps there: the change of what vanishes, the numerator of P.
+    """No motion shows that, because no rate jumps there: the change of what vanishes, the numerator
+    of P.
 
-    What does not vanish where a phase ends at once was past zero already: neighbouring motions end it there, too.
+    What does not vanish where a phase ends at once was past zero already: neighbouring motions end
+    it there, too.
     """
     phase, direction, _ = SWITCHES[switch]
     p, start = about_to(switch, "vertical", pressed)
@@ -203,7 +255,9 @@ def test_when_contact_is_lost(switch: str, pressed: float) -> None:
 
     def numerator(q: taylor.Problem, start: stored.State) -> np.ndarray:
         run = taylor.Reference(q, start)
-        return run.forces(phase, direction)[0] * (1 + q.m * q.S2 + direction * q.mu_k * run.disc()[2] / q.r_0)
+        return run.forces(phase, direction)[0] * (
+            1 + q.m * q.S2 + direction * q.mu_k * run.disc()[2] / q.r_0
+        )
 
     engine = disturbances.run()
     t = engine.tangent

@@ -1,4 +1,5 @@
-"""A trip through the explorer in a real browser, as wide as a screen and as narrow as a telephone."""
+"""A trip through the explorer in a real browser, as wide as a screen and as narrow as a
+telephone."""
 
 from pathlib import Path
 from typing import Any
@@ -49,7 +50,9 @@ class Explorer:
 def test_a_trip_through_the_page(size: tuple[int, int], tmp_path: Path) -> None:
     Image.new("RGB", (1200, 500), "#0072B2").save(tmp_path / "one.png")
     pictures = [Picture("Figures", "one", "A caption.", tmp_path / "one.png")]
-    (tmp_path / "explorer.html").write_text(page("Made up", contents()[::-1], pictures), encoding="utf-8")
+    (tmp_path / "explorer.html").write_text(
+        page("Made up", contents()[::-1], pictures), encoding="utf-8"
+    )
     with browser(tmp_path / "profile") as opened:
         opened.resize(*size)
         for scheme in ("dark", "light"):
@@ -95,7 +98,12 @@ def draws_every_choice(shown: Explorer) -> None:
 def tells_of_points(shown: Explorer) -> None:
     """Values, messages, the case as a call of the package, an address, and a table."""
     study, seen = plane(), set()
-    for label, option in {"Study": "plane", "Across": "Omega", "Up": "N", "Variable": "growth_rate"}.items():
+    for label, option in {
+        "Study": "plane",
+        "Across": "Omega",
+        "Up": "N",
+        "Variable": "growth_rate",
+    }.items():
         shown.choose(label, option)
     for norm in range(2):
         shown.choose("normalization", str(norm))
@@ -123,7 +131,9 @@ def tells_of_points(shown: Explorer) -> None:
     shown.page.run("location.hash = arguments[0]", address)
     shown.page.wait_for(f"{link} === '{address}'")
     assert shown.text("call") == case
-    assert shown.page.run("return csv().split('\\n')[0]") == "Omega (rad s⁻¹),N (N),growth_rate (s⁻¹)"
+    assert (
+        shown.page.run("return csv().split('\\n')[0]") == "Omega (rad s⁻¹),N (N),growth_rate (s⁻¹)"
+    )
     shown.choose("Variable", "outcome")
     red, green, blue = shown.ask("colour", 0, 0)
     assert f"#{red:02x}{green:02x}{blue:02x}" == WORDS["quiet"].lower()

@@ -1,4 +1,5 @@
-"""The explorer's page: what it is told of studies and motions, all in one file, and nothing fetched."""
+"""The explorer's page: what it is told of studies and motions, all in one file, and nothing
+fetched."""
 
 import base64
 import io
@@ -29,13 +30,20 @@ CAPTION = 'A curve of f < 0 & "more"'
 
 
 def flagged(words: str, first: int = 0) -> dict[str, object]:
-    return {"flag_values": np.arange(first, first + len(words.split()), dtype=np.int8), "flag_meanings": words}
+    return {
+        "flag_values": np.arange(first, first + len(words.split()), dtype=np.int8),
+        "flag_meanings": words,
+    }
 
 
 def plane() -> xr.Dataset:
     """Two axes that are numbers and one of words."""
     place, shape = tuple(FAILED.values()), tuple(map(len, AXES.values()))
-    status, outcome, message = np.zeros(shape, np.int8), np.zeros(shape, np.int8), np.full(shape, "", dtype=object)
+    status, outcome, message = (
+        np.zeros(shape, np.int8),
+        np.zeros(shape, np.int8),
+        np.full(shape, "", dtype=object),
+    )
     status[place], outcome[1:, 2:], message[place] = 1, 1, MESSAGE
     growth = np.linspace(-0.2, 0.4, status.size).reshape(shape)
     growth[place] = np.nan
@@ -43,17 +51,28 @@ def plane() -> xr.Dataset:
         "status": ([*AXES], status, flagged("ok failed")),
         "outcome": ([*AXES], outcome - 1, flagged("quiet separation", first=-1)),
         "growth_rate": ([*AXES], growth, {"long_name": "growth rate", "units": "s-1"}),
-        "releases": (["N", "Omega"], np.arange(12).reshape(3, 4), {"long_name": "number of releases", "units": "1"}),
+        "releases": (
+            ["N", "Omega"],
+            np.arange(12).reshape(3, 4),
+            {"long_name": "number of releases", "units": "1"},
+        ),
         "message": ([*AXES], message),
     }
     coords = {name: (name, values, describe(name)) for name, values in AXES.items()}
-    return xr.Dataset(data, coords, {"title": "A plane <b>", "quantity": "outcome", "base": json.dumps({"k": 5e4})})
+    return xr.Dataset(
+        data,
+        coords,
+        {"title": "A plane <b>", "quantity": "outcome", "base": json.dumps({"k": 5e4})},
+    )
 
 
 def line() -> xr.Dataset:
     """A zip, which has no coordinate of its own."""
     data = {"period": ("N_Omega", [0.0148, 0.02, np.nan], {"long_name": "period", "units": "s"})}
-    coords = {"N": ("N_Omega", AXES["N"], describe("N")), "Omega": ("N_Omega", [20.0, 15.1, 12.0], describe("Omega"))}
+    coords = {
+        "N": ("N_Omega", AXES["N"], describe("N")),
+        "Omega": ("N_Omega", [20.0, 15.1, 12.0], describe("Omega")),
+    }
     return xr.Dataset(data, coords, {"title": "A line"})
 
 
@@ -63,30 +82,54 @@ def force(N: float) -> np.ndarray:
 
 
 def motions() -> xr.Dataset:
-    """Histories at three points of the plane, one of which failed; the slider sticks, slips and is apart in turn."""
-    points = [(100.0, 5.0, "as_published"), (385.0, 20.0, "as_published"), (100.0, 5.0, "orthonormal")]
+    """Histories at three points of the plane, one of which failed; the slider sticks, slips and is
+    apart in turn."""
+    points = [
+        (100.0, 5.0, "as_published"),
+        (385.0, 20.0, "as_published"),
+        (100.0, 5.0, "orthonormal"),
+    ]
     phase = np.repeat([1, 2, 3, 1], SAMPLES // 4).astype(np.int8)
-    rows = {"P": np.stack([force(point[0]) for point in points]), "u": np.full((3, SAMPLES), -0.0088, np.float32)}
+    rows = {
+        "P": np.stack([force(point[0]) for point in points]),
+        "u": np.full((3, SAMPLES), -0.0088, np.float32),
+    }
     rows["psi"] = np.tile(np.linspace(0, 0.05, SAMPLES, dtype=np.float32), (3, 1))
-    data = {name: (("point", "sample"), values, Motions.COLUMNS[name].attributes) for name, values in rows.items()}
+    data = {
+        name: (("point", "sample"), values, Motions.COLUMNS[name].attributes)
+        for name, values in rows.items()
+    }
     data |= {
         "status": ("point", np.array([0, 0, 1], np.int8), flagged("ok failed")),
         "length": ("point", [0.03, 0.05, np.nan], {"units": "s"}),
-        "phase": (("point", "sample"), np.tile(phase, (3, 1)), flagged(" ".join(("none", *PHASES)))),
+        "phase": (
+            ("point", "sample"),
+            np.tile(phase, (3, 1)),
+            flagged(" ".join(("none", *PHASES))),
+        ),
     }
     return xr.Dataset(
-        data, {name: ("point", list(values)) for name, values in zip(AXES, zip(*points, strict=True), strict=True)}
+        data,
+        {
+            name: ("point", list(values))
+            for name, values in zip(AXES, zip(*points, strict=True), strict=True)
+        },
     )
 
 
 def contents() -> list[dict[str, Any]]:
     """What the page is told of both studies."""
-    return [contents_of("plane", plane(), motions(), "After the transient."), contents_of("line", line())]
+    return [
+        contents_of("plane", plane(), motions(), "After the transient."),
+        contents_of("line", line()),
+    ]
 
 
 def numbers(stored: dict[str, Any], kind: str) -> np.ndarray:
     size = np.dtype(kind).itemsize
-    planes = np.frombuffer(zlib.decompress(base64.b64decode(stored["data"])), np.uint8).reshape(size, -1)
+    planes = np.frombuffer(zlib.decompress(base64.b64decode(stored["data"])), np.uint8).reshape(
+        size, -1
+    )
     return np.frombuffer(planes.T.tobytes(), kind)
 
 
@@ -100,12 +143,25 @@ def test_numbers_flags_and_messages_come_through() -> None:
         values = study[name].transpose(*variables[name]["dims"])
         found = numbers(variables[name], "<f4").reshape(values.shape)
         np.testing.assert_allclose(found, values, rtol=2.0 ** -(BITS + 1))
-    assert (variables["growth_rate"]["unit"], variables["growth_rate"]["title"]) == ("s-1", "growth rate")
+    assert (variables["growth_rate"]["unit"], variables["growth_rate"]["title"]) == (
+        "s-1",
+        "growth rate",
+    )
     words = np.array(variables["outcome"]["flags"])[numbers(variables["outcome"], "u1")]
-    assert words.tolist() == np.where(study["outcome"].values == 0, "separation", "quiet").ravel().tolist()
-    text = np.array(told["messages"]["words"])[numbers(told["messages"], "<u4")].reshape(study["message"].shape)
+    assert (
+        words.tolist()
+        == np.where(study["outcome"].values == 0, "separation", "quiet").ravel().tolist()
+    )
+    text = np.array(told["messages"]["words"])[numbers(told["messages"], "<u4")].reshape(
+        study["message"].shape
+    )
     assert (text == study["message"].values).all()
-    spring = {"name": "k", "title": "spring of the slider, normal to the disc", "unit": "N m-1", "value": 5e4}
+    spring = {
+        "name": "k",
+        "title": "spring of the slider, normal to the disc",
+        "unit": "N m-1",
+        "value": 5e4,
+    }
     assert told["fixed"] == [spring]
 
 
@@ -122,16 +178,29 @@ class Reader(HTMLParser):
         self.tags.append((tag, dict(attrs)))
 
     def handle_data(self, data):
-        if self.tags and self.tags[-1][0] in ("script", "style") and self.lasttag == self.tags[-1][0]:
+        if (
+            self.tags
+            and self.tags[-1][0] in ("script", "style")
+            and self.lasttag == self.tags[-1][0]
+        ):
             self.code.append(data)
 
 
 def test_all_is_in_the_page_and_stays_in_its_place(tmp_path: Path) -> None:
     """Nothing is fetched; a message ends no script, and a title brings no tag."""
     Image.new("RGB", (PAGE_WIDTH, 500), "#0072B2").save(tmp_path / "fig.png")
-    text = page("A <title>", contents(), [Picture(f"Sec. {i}", "One", CAPTION, tmp_path / "fig.png") for i in (1, 2)])
+    text = page(
+        "A <title>",
+        contents(),
+        [Picture(f"Sec. {i}", "One", CAPTION, tmp_path / "fig.png") for i in (1, 2)],
+    )
     reader = Reader(text)
-    addresses = [value for _, attrs in reader.tags for name, value in attrs.items() if name in ("src", "href")]
+    addresses = [
+        value
+        for _, attrs in reader.tags
+        for name, value in attrs.items()
+        if name in ("src", "href")
+    ]
     assert len(addresses) >= 4
     assert all(re.match(r"data:|#", str(address)) for address in addresses)
     assert not re.search(r"url\(|@import|fetch\(|XMLHttpRequest|https?://", "".join(reader.code))

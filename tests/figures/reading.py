@@ -13,13 +13,20 @@ from disc_model.figures.kind import kind_of
 
 ON_EACH_SCALE = pytest.mark.parametrize(
     ("x", "values", "scale"),
-    [("Omega", [5.0, 10, 20], "linear"), ("D_star", [0, 1e-6, 1e-4], "symlog"), ("m", [0.01, 0.1, 1], "log")],
+    [
+        ("Omega", [5.0, 10, 20], "linear"),
+        ("D_star", [0, 1e-6, 1e-4], "symlog"),
+        ("m", [0.01, 0.1, 1], "log"),
+    ],
 )
 """A parameter that maps show on each, with three values."""
 
 
-def draw(kind: str, study: xr.Dataset, others: Mapping[str, xr.Dataset] | None = None, **phrase: Any) -> Figure:
-    """A figure of a kind, as a file asks for it, with further studies by their roles; fit for print."""
+def draw(
+    kind: str, study: xr.Dataset, others: Mapping[str, xr.Dataset] | None = None, **phrase: Any
+) -> Figure:
+    """A figure of a kind, as a file asks for it, with further studies by their roles; fit for
+    print."""
     shown = {"study": study, **(others or {})}
     inputs = {name: xr.DataTree(dataset) for name, dataset in shown.items()}
     figure = kind_of(kind).model_validate({"kind": kind, **phrase}).render(inputs)
@@ -28,7 +35,8 @@ def draw(kind: str, study: xr.Dataset, others: Mapping[str, xr.Dataset] | None =
 
 
 def assert_fit_for_print(figure: Figure) -> None:
-    """Nothing lies outside the page or over a title, and all axes are named; an empty panel says why."""
+    """Nothing lies outside the page or over a title, and all axes are named; an empty panel says
+    why."""
     figure.draw_without_rendering()
     width, height = figure.get_size_inches()
     page = figure.get_tightbbox()
@@ -36,14 +44,18 @@ def assert_fit_for_print(figure: Figure) -> None:
     assert min(page.x0, page.y0, width - page.x1, height - page.y1) > -margin
     if title := figure.get_suptitle():
         above = figure._suptitle.get_window_extent()
-        assert not [legend for legend in figure.legends if legend.get_window_extent().overlaps(above)], title
+        assert not [
+            legend for legend in figure.legends if legend.get_window_extent().overlaps(above)
+        ], title
     for ax in figure.axes:
         if not ax.axison:
             assert ax.texts or ax.get_label() == "<colorbar>"
         elif ax.has_data() and ax.get_label() != "<colorbar>":
             assert any(one.get_ylabel() for one in (ax, *ax.get_shared_y_axes().get_siblings(ax)))
             assert any(one.get_xlabel() for one in figure.axes)
-    for text in (text for ax in figure.axes for text in (ax.xaxis.label, ax.yaxis.label) if text.get_text()):
+    for text in (
+        text for ax in figure.axes for text in (ax.xaxis.label, ax.yaxis.label) if text.get_text()
+    ):
         assert text.get_fontsize() >= 6
 
 
@@ -51,7 +63,11 @@ def crosses(ax: Axes) -> list[list[float]]:
     """Where points are marked as failed, along the axis."""
     lines = [line for line in ax.lines if line.get_label() == "failed"]
     return [
-        list(line.get_xdata() if line.get_transform() == ax.get_xaxis_transform() else line.get_ydata())
+        list(
+            line.get_xdata()
+            if line.get_transform() == ax.get_xaxis_transform()
+            else line.get_ydata()
+        )
         for line in lines
     ]
 
@@ -59,7 +75,9 @@ def crosses(ax: Axes) -> list[list[float]]:
 def labels(shown: Figure | Axes) -> list[str]:
     """What the legends of a figure, or that of a panel, say."""
     legends = shown.legends if isinstance(shown, Figure) else [shown.get_legend()]
-    texts = [text.get_text() for legend in legends for text in (*legend.get_texts(), legend.get_title())]
+    texts = [
+        text.get_text() for legend in legends for text in (*legend.get_texts(), legend.get_title())
+    ]
     return [text for text in texts if text]
 
 

@@ -1,4 +1,5 @@
-"""Figures of named cases: from data alone, in one style, with units, and where a case holds less."""
+"""Figures of named cases: from data alone, in one style, with units, and where a case holds
+less."""
 
 import functools
 from pathlib import Path
@@ -20,7 +21,10 @@ SPECTRA = {"a": 0.0, "b": 20.0, "c": 53.0, "d": 56.0}  # contact is first lost a
 RECORDED = {
     "history": Window(stop=60, rate=200, envelope=100, theta=0.5),
     "zoom": Window(start=56, stop=56.035, rate=1e5, theta=0.5),
-    **{f"spectrum_{x}": Window(start=at, stop=at + 3, rate=4e3, theta=0.5) for x, at in SPECTRA.items()},
+    **{
+        f"spectrum_{x}": Window(start=at, stop=at + 3, rate=4e3, theta=0.5)
+        for x, at in SPECTRA.items()
+    },
     "orbit": Window(start=59, rate=5e3, theta=0.5),
     **{f"around{j}": Window(start=56, stop=56.035, rate=1e4, theta=0.7 * j) for j in range(9)},
 }
@@ -46,7 +50,9 @@ def said_in(figure: Figure) -> list[str]:
 
 
 @pytest.mark.parametrize("suffix", ["pdf", "png"])
-def test_equal_figures_give_equal_bytes_whatever_the_users_settings(suffix: str, tmp_path: Path) -> None:
+def test_equal_figures_give_equal_bytes_whatever_the_users_settings(
+    suffix: str, tmp_path: Path
+) -> None:
     save(asked("history", window="history"), tmp_path / f"a.{suffix}")
     before = dict(mpl.rcParams)
     with mpl.rc_context({"axes.labelsize": 30, "lines.linewidth": 9}):
@@ -62,8 +68,12 @@ def test_a_history_has_a_panel_for_each_variable() -> None:
     figure = asked("history", window="spectrum_c", variables=["w_point", "psi"], title="Seen")
     assert figure.get_suptitle() == "Seen\nN = 385 N, Ω = 15.1 rad/s"
     top, bottom = figure.axes
-    np.testing.assert_allclose(top.lines[0].get_ydata(), 1e3 * simulated(True)["spectrum_c/w_point"].values)  # mm
-    assert top.get_ylabel() == r"Disc at $r_0$, $\theta$ = 0.5 rad (mm)", "at the angle that was recorded"
+    np.testing.assert_allclose(
+        top.lines[0].get_ydata(), 1e3 * simulated(True)["spectrum_c/w_point"].values
+    )  # mm
+    assert top.get_ylabel() == r"Disc at $r_0$, $\theta$ = 0.5 rad (mm)", (
+        "at the angle that was recorded"
+    )
     assert bottom.get_ylabel() == "Angle ψ (rad)"
     assert "first separation 54.42 s" in said_in(figure)
     ranges = asked("history", window="history", variables=["P", "psi"], until=30)
@@ -72,7 +82,9 @@ def test_a_history_has_a_panel_for_each_variable() -> None:
 
 
 def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:
-    (mesh,) = asked("spectrogram", window="spectrum_a", variable="psi", highest=400).axes[0].collections
+    (mesh,) = (
+        asked("spectrogram", window="spectrum_a", variable="psi", highest=400).axes[0].collections
+    )
     centre = (mesh.get_coordinates()[:-1, 0, 1] + mesh.get_coordinates()[1:, 0, 1]) / 2
     strongest = centre[int(np.argmax(mesh.get_array().sum(axis=1)))]
     assert strongest == pytest.approx(70, abs=2)  # two steps of the transform
@@ -90,5 +102,9 @@ def test_what_a_case_lacks_is_said(kind: str) -> None:
     empty = xr.DataTree(xr.Dataset({"first_separation": np.nan, "time_reached": 0.0}))
     assert any("did not record" in text for text in said_in(asked(kind, empty, **phrase)))
     if kind != "poincare":
-        early = damaged(simulated(True), lambda groups: groups | {"orbit": groups["orbit"].isel(time=slice(0))})
-        assert any("has 0 samples in orbit" in text for text in said_in(asked(kind, early, **phrase)))
+        early = damaged(
+            simulated(True), lambda groups: groups | {"orbit": groups["orbit"].isel(time=slice(0))}
+        )
+        assert any(
+            "has 0 samples in orbit" in text for text in said_in(asked(kind, early, **phrase))
+        )

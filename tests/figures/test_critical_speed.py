@@ -22,12 +22,19 @@ PAPER_POINTS = {"paper": (200, 12.6)}
 
 @pytest.fixture
 def chart(fake_motions: None, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Figure]:
-    """Of known curves, where separation never comes at 100 N, from 14 rad/s on at 200 N, and ends again at 400 N."""
+    """Of known curves, where separation never comes at 100 N, from 14 rad/s on at 200 N, and ends
+    again at 400 N."""
     options = {"horizons": [900], "scan": SCAN | {"step": 0.1}, "precision": 0.1}
-    scanned = computed(quantity="critical_speed", options=options, axes={"N": LOADS, "normalization": ["as_published"]})
+    scanned = computed(
+        quantity="critical_speed",
+        options=options,
+        axes={"N": LOADS, "normalization": ["as_published"]},
+    )
     monkeypatch.setattr(maps, "curves_of", lambda _: [NEUTRAL, FOLD, FOLD])
     curves = xr.Dataset()
-    return lambda **others: draw("critical_speed", scanned, {"curves": curves, **others}, paper_points=PAPER_POINTS)
+    return lambda **others: draw(
+        "critical_speed", scanned, {"curves": curves, **others}, paper_points=PAPER_POINTS
+    )
 
 
 def test_curves_crossings_and_what_the_paper_says_are_named(chart: Callable[..., Figure]) -> None:
@@ -41,26 +48,42 @@ def test_curves_crossings_and_what_the_paper_says_are_named(chart: Callable[...,
 
 def test_a_line_does_not_jump_to_another_branch() -> None:
     """The lowest speeds were joined, across speeds at which all stays quiet."""
-    speeds = [np.array(at) for at in ([17.6], [11.5, 19.5], [12.7, 14.9, 21.3], [13.8, 15.9, 23.1], [])]
+    speeds = [
+        np.array(at) for at in ([17.6], [11.5, 19.5], [12.7, 14.9, 21.3], [13.8, 15.9, 23.1], [])
+    ]
     links = [(0, 17.6, 19.5), (1, 11.5, 12.7), (1, 19.5, 21.3)]
     # 13.8 is as near to 12.7 as to 14.9, which is nearer to 15.9
     assert branches(speeds, 5 * [[]]) == [*links, (2, 12.7, 13.8), (2, 14.9, 15.9), (2, 21.3, 23.1)]
-    assert branches(speeds, [[], [12.9], [13.2, 16.1], [], []]) == [*links, (2, 14.9, 15.9), (2, 21.3, 23.1)]
+    assert branches(speeds, [[], [12.9], [13.2, 16.1], [], []]) == [
+        *links,
+        (2, 14.9, 15.9),
+        (2, 21.3, 23.1),
+    ]
 
 
-def test_the_panel_beside_shows_where_both_motions_last(chart: Callable[..., Figure], sweep: xr.Dataset) -> None:
-    """By multipliers and a sweep, which ends at 13 rad/s; or, once many starts were followed, by what these came to."""
+def test_the_panel_beside_shows_where_both_motions_last(
+    chart: Callable[..., Figure], sweep: xr.Dataset
+) -> None:
+    """By multipliers and a sweep, which ends at 13 rad/s; or, once many starts were followed, by
+    what these came to."""
     growth = growth_over([200, 300, 400], np.linspace(12, 15, 7))
-    apart = growth["growth_rate"].copy(data=np.full((3, 7, 1), OUTCOMES_TO_HORIZON.index("separation")))
+    apart = growth["growth_rate"].copy(
+        data=np.full((3, 7, 1), OUTCOMES_TO_HORIZON.index("separation"))
+    )
     regions = growth.assign(outcome=apart.assign_attrs(flag_meanings=" ".join(OUTCOMES_TO_HORIZON)))
     figure = chart(hysteresis=sweep, cycle=regions.assign_attrs(options='{"horizon": 900}'))
     assert "separation within 900 s" in labels(figure)
     (mesh,) = (shown for shown in figure.axes[1].collections if isinstance(shown, QuadMesh))
     rate = growth["growth_rate"].squeeze().values
-    np.testing.assert_array_equal(mesh.get_array() == 1, (rate < 0) & (growth["Omega"].values >= 13))
+    np.testing.assert_array_equal(
+        mesh.get_array() == 1, (rate < 0) & (growth["Omega"].values >= 13)
+    )
     classes = {"Omega": [12.0, 13, 14, 15], "attractor_class": ["quiet"]}
     quiet = (("Omega", "attractor_class"), [[0.2], [0.1], [0.1], [0.0]])
-    shares = {"basin_fraction_low": quiet, "separating_fraction_low": ("Omega", [0.0, 0.1, 0.2, 0.3])}
+    shares = {
+        "basin_fraction_low": quiet,
+        "separating_fraction_low": ("Omega", [0.0, 0.1, 0.2, 0.3]),
+    }
     basins = xr.Dataset(shares, classes, {"base": '{"N": 385}'})
     (bar,) = chart(hysteresis=sweep, basins=basins).axes[1].patches
     assert (bar.get_x(), bar.get_width(), bar.get_y() + bar.get_height() / 2) == (13, 1, 385)

@@ -17,7 +17,8 @@ from tests.figures.reading import draw, labels, lines
 
 @pytest.fixture
 def study() -> xr.Dataset:
-    """Three variables over friction, damping and normalization: of both signs, of one, and words."""
+    """Three variables over friction, damping and normalization: of both signs, of one, and
+    words."""
     mu_k, c_p = np.array([0.1, 0.2, 0.3]), np.array([0.01, 0.1, 1.0, 10.0])
     both = np.subtract.outer(mu_k, 0.2)[:, None, None] * np.ones((1, 4, 2)) + np.arange(2) * 0.01
     both[0, 0, 0] = np.nan
@@ -26,7 +27,11 @@ def study() -> xr.Dataset:
     lost = np.isnan(both)
     return xr.Dataset(
         {
-            "growth_rate": (dims, both, {"long_name": "growth rate of disturbances", "units": "s-1"}),
+            "growth_rate": (
+                dims,
+                both,
+                {"long_name": "growth rate of disturbances", "units": "s-1"},
+            ),
             "drift": (dims, both, {"long_name": "drift", "units": "m s-1"}),
             "period": (dims, np.abs(both) + 1, {"long_name": "period", "units": "s"}),
             "status": (dims, ((both > 0) | lost).astype(np.int8), words),
@@ -40,8 +45,12 @@ def mapped(study: xr.Dataset, variable: str, **phrase: Any) -> Figure:
 
 
 def test_axes_and_titles_have_the_units_of_the_reader(study: xr.Dataset) -> None:
-    speeds = study.rename(mu_k="Omega", c_p="N").assign_coords(Omega=[10.0, 11.0, 12.0], N=[1e3, 2e3, 3e3, 4e3])
-    speeds = speeds.assign_attrs(base=json.dumps({"E": 7e10, "k": 6e4, "normalization": "orthonormal"}))
+    speeds = study.rename(mu_k="Omega", c_p="N").assign_coords(
+        Omega=[10.0, 11.0, 12.0], N=[1e3, 2e3, 3e3, 4e3]
+    )
+    speeds = speeds.assign_attrs(
+        base=json.dumps({"E": 7e10, "k": 6e4, "normalization": "orthonormal"})
+    )
     plain, other = (
         draw("heat_map", speeds, variable="drift", x="Omega", y="N", **units)
         for units in ({}, {"units": {"Omega": "rpm", "N": "kN", "k": "N/mm"}})
@@ -74,23 +83,40 @@ def test_scales_of_colours_fit_what_is_shown(study: xr.Dataset) -> None:
     assert isinstance(mesh(mapped(study, "period", log=True)).norm, LogNorm)
     figure = mapped(study, "status")
     assert isinstance(mesh(figure).norm, BoundaryNorm)
-    assert [text.get_text() for text in figure.axes[-1].get_yticklabels()] == ["ok", "no cycle found"]
+    assert [text.get_text() for text in figure.axes[-1].get_yticklabels()] == [
+        "ok",
+        "no cycle found",
+    ]
 
 
 def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) -> None:
-    figure = draw("curve", study, variable="growth_rate", x="mu_k", by="c_p", at={"normalization": "as_published"})
+    figure = draw(
+        "curve",
+        study,
+        variable="growth_rate",
+        x="mu_k",
+        by="c_p",
+        at={"normalization": "as_published"},
+    )
     ax = figure.axes[0]
     names = [f"In-plane damper $c_p$ = {value} N s/m" for value in ("0.01", "0.1", "1", "10")]
     assert labels(figure) == names
     assert np.allclose(lines(ax)[names[2]].get_ydata(), [-0.1, 0, 0.1])
     assert [text.get_text() for text in ax.texts] == ["no cycle found"]
     [gone] = [line for line in ax.lines if line.get_ydata()[0] > 1]
-    assert (gone.get_xdata(), gone.get_marker()) == ([0.1], lines(ax)[names[0]].get_marker()), "that has no value there"
+    assert (gone.get_xdata(), gone.get_marker()) == ([0.1], lines(ax)[names[0]].get_marker()), (
+        "that has no value there"
+    )
     assert ax.get_ylabel() == "Growth rate of disturbances\n(1/s)"
     save(figure, tmp_path / "curve.png")
     ends = {"at": {"normalization": "as_published"}, "panels": [[0.1, 10], [1.0, 10]]}
     study["drift"] = study["drift"] + study["c_p"]
     axes = draw("curve", study, variable="drift", x="mu_k", by="c_p", **ends).axes
-    assert [{text.get_text() for text in ax.texts} for ax in axes] == [{names[1], names[3]}, {names[2], names[3]}]
-    axes = draw("curve", study, variable="drift", x="mu_k", by="c_p", **ends | {"panels": "each"}).axes
+    assert [{text.get_text() for text in ax.texts} for ax in axes] == [
+        {names[1], names[3]},
+        {names[2], names[3]},
+    ]
+    axes = draw(
+        "curve", study, variable="drift", x="mu_k", by="c_p", **ends | {"panels": "each"}
+    ).axes
     assert ["= 10" in ax.get_title("left") for ax in axes] == [False, False, False, True]

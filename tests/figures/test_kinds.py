@@ -20,13 +20,21 @@ def test_a_kind_is_drawn_by_a_test(name: str) -> None:
     kind = KINDS[name]
     assert issubclass(kind, CasePlot | Plot)
     if issubclass(kind, Plot) and not issubclass(kind, General):
-        plane = {"x": "N", "y": "Omega"} if "y" in kind.model_fields else {"x": "N"} if "x" in kind.model_fields else {}
+        plane = (
+            {"x": "N", "y": "Omega"}
+            if "y" in kind.model_fields
+            else {"x": "N"}
+            if "x" in kind.model_fields
+            else {}
+        )
         assert {*kind.quantities} <= {*quantity_names()}
         assert {*kind(**plane).dims} <= {*Parameters.model_fields}
     assert any(f'"{name}"' in test.read_text() for test in TESTS)
 
 
-@pytest.mark.parametrize("name", ["chart", "paper.chart", "paper", "", None, ["heat_map"], "kind", "..errors"])
+@pytest.mark.parametrize(
+    "name", ["chart", "paper.chart", "paper", "", None, ["heat_map"], "kind", "..errors"]
+)
 def test_another_name_is_no_kind(name: object) -> None:
     with pytest.raises(ParameterError, match="unknown kind of figure"):
         kind_of(name)

@@ -21,7 +21,11 @@ LOADS, SPEEDS = np.linspace(200, 400, 5), np.linspace(5, 18, 9)
 
 def _hatched(ax: Any) -> list[Any]:
     """Centres of the cells, y and x, below each hatch of a panel."""
-    outlines = [patch.get_path().vertices.reshape(-1, 5, 2)[:, :4] for patch in ax.patches if patch.get_hatch()]
+    outlines = [
+        patch.get_path().vertices.reshape(-1, 5, 2)[:, :4]
+        for patch in ax.patches
+        if patch.get_hatch()
+    ]
     return [corners.mean(axis=1)[:, ::-1] for corners in outlines]
 
 
@@ -29,7 +33,8 @@ def _hatched(ax: Any) -> list[Any]:
 
 
 def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
-    """A plane in which the cycle loses stability at the third value of x, and ends above the second load."""
+    """A plane in which the cycle loses stability at the third value of x, and ends above the second
+    load."""
     dims = ("N", x, "normalization")
     shape = (4, len(values), len(norms))
     growth = np.where(np.arange(len(values)) < 2, -0.1, 0.1)[None, :, None] * np.ones(shape)
@@ -40,7 +45,8 @@ def made_up(x: str, values: list[float], norms: list[str]) -> xr.Dataset:
     codes = {"outcome": np.vectorize(OUTCOMES_TO_HORIZON.index)(outcome)}
     codes |= dict.fromkeys(("cycle", "branch_continues_first", "branch_continues_second"), followed)
     data = {
-        name: (dims, values, {"flag_meanings": " ".join(Regions.COLUMNS[name].flags)}) for name, values in codes.items()
+        name: (dims, values, {"flag_meanings": " ".join(Regions.COLUMNS[name].flags)})
+        for name, values in codes.items()
     }
     data["growth_rate"] = (dims, growth)
     axes = {"N": [100.0, 200, 300, 400], x: values, "normalization": norms}
@@ -52,21 +58,32 @@ def mark(x: float, y: float, paper: str) -> dict[str, Any]:
 
 
 def lengths(ax: Any) -> list[int]:
-    return [len(lines.get_segments()) for lines in ax.collections if isinstance(lines, LineCollection)]
+    return [
+        len(lines.get_segments()) for lines in ax.collections if isinstance(lines, LineCollection)
+    ]
 
 
 @ON_EACH_SCALE
-def test_regions_have_borders_marks_and_what_does_not_fit(x: str, values: list[float], scale: str, tmp_path) -> None:
+def test_regions_have_borders_marks_and_what_does_not_fit(
+    x: str, values: list[float], scale: str, tmp_path
+) -> None:
     marks = {"F2": mark(values[0], 100, "quiet"), "b": mark(values[-1], 400, "separation")}
     figure = draw("region_map", made_up(x, values, NORMS), x=x, y="N", marks=marks, title="All")
     shown, _, growth, _ = figure.axes[:4]
     assert shown.get_xscale() == scale
-    # the cycle's stability changes at two loads between the second and third value; stable ones end at two values
+    # the cycle's stability changes at two loads between the second and third value; stable ones end
+    # at two values
     assert lengths(shown) == lengths(growth) == [2, 2]
     assert {text.get_text() for text in shown.texts} == {"F2", "b"}
     # between two that are alike
     assert len(_hatched(shown)[0]) == 1
-    named = {"quiet", "separation", "undecided", "cycle loses stability", "stable cycle ends (fold)"}
+    named = {
+        "quiet",
+        "separation",
+        "undecided",
+        "cycle loses stability",
+        "stable cycle ends (fold)",
+    }
     named |= {"All", "paper: quiet", "paper: separation", "no cycle found", "unresolved"}
     assert named <= set(labels(figure))
     contradicted = "b: paper: “separation”, static start: undecided."
@@ -75,24 +92,44 @@ def test_regions_have_borders_marks_and_what_does_not_fit(x: str, values: list[f
 
 
 def test_curves_are_shown_in_a_region_map(plane: xr.Dataset) -> None:
-    figure = draw("region_map", made_up("Omega", [5.0, 10, 20], NORMS[:1]), {"curves": plane}, x="Omega", y="N")
+    figure = draw(
+        "region_map",
+        made_up("Omega", [5.0, 10, 20], NORMS[:1]),
+        {"curves": plane},
+        x="Omega",
+        y="N",
+    )
     assert not lengths(figure.axes[0]), "in place of borders of cells"
 
 
-def outcomes(dims: tuple[str, ...], axes: dict[str, Any], codes: np.ndarray, **attrs: str) -> xr.Dataset:
+def outcomes(
+    dims: tuple[str, ...], axes: dict[str, Any], codes: np.ndarray, **attrs: str
+) -> xr.Dataset:
     words = {"flag_meanings": "failed quiet growing separation"}
     return xr.Dataset({"outcome": (dims, codes, words)}, axes, attrs)
 
 
 def test_ranges_late_in_the_motion_are_in_thicknesses() -> None:
     dims = ("Omega", "N", "disc", "contact")
-    axes = {"Omega": [10.0, 20], "N": [8000.0], "disc": ["a", "b"], "contact": ["unilateral", "bilateral"]}
+    axes = {
+        "Omega": [10.0, 20],
+        "N": [8000.0],
+        "disc": ["a", "b"],
+        "contact": ["unilateral", "bilateral"],
+    }
     study = outcomes(dims, axes, np.full((2, 1, 2, 2), 3))
     top = np.full((2, 1, 2, 2), 0.01)
     top[..., 1] = 0.05
-    study = study.assign(u_max=(dims, top), u_min=(dims, -top)).assign_attrs(base='{"disc": "table"}')
-    figure = draw("late_range", study, by="disc", thickness=0.01, not_valid=[{"disc": ["b"], "Omega": [20]}])
+    study = study.assign(u_max=(dims, top), u_min=(dims, -top)).assign_attrs(
+        base='{"disc": "table"}'
+    )
+    figure = draw(
+        "late_range", study, by="disc", thickness=0.01, not_valid=[{"disc": ["b"], "Omega": [20]}]
+    )
     lines = [line for line in figure.axes[0].lines if line.get_linestyle() != "None"]
     assert [line.get_ydata()[0] for line in lines] == pytest.approx([2.0, 10.0])
-    assert [*np.isfinite(figure.axes[1].lines[1].get_ydata())] == [True, False]  # the law is not valid at the second
+    assert [*np.isfinite(figure.axes[1].lines[1].get_ydata())] == [
+        True,
+        False,
+    ]  # the law is not valid at the second
     assert {"8 kN", "with separation", "separates"} <= set(labels(figure))

@@ -22,7 +22,9 @@ __all__ = ["made"]
 
 def test_diagrams_mark_points_that_failed_and_not_those_that_slide() -> None:
     samples, exponents = made_up_samples()
-    axes = draw("bifurcation", with_failed(samples, N=2), {"lyapunov": with_failed(exponents, N=3)}, x="N").axes
+    axes = draw(
+        "bifurcation", with_failed(samples, N=2), {"lyapunov": with_failed(exponents, N=3)}, x="N"
+    ).axes
     assert [crosses(ax) for ax in axes] == [[[2]], [], [[3]]]
     assert axes[0].lines[0].get_xdata().tolist() == [1, 1, 3, 3]
     samples["phase"][{"N": slice(1, None)}] = 0  # not reached
@@ -49,7 +51,12 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
     }
     monkeypatch.setattr(Branches, "compute_point", lambda *_, **__: (values, ""))
     options = {"scan": {"start": 10, "stop": 14, "step": 1}, "dwell": 1, "evaluation_time": 1}
-    study = computed(quantity="branches", options=options, base={"N": 385}, axes={"normalization": ["as_published"]})
+    study = computed(
+        quantity="branches",
+        options=options,
+        base={"N": 385},
+        axes={"normalization": ["as_published"]},
+    )
     figure = draw("branches", study, paper_cases={"F11": 12}, title="t")
     (ax,) = figure.axes
     thick = [line for line in ax.lines if line.get_linewidth() == 2 and len(line.get_xdata())]
@@ -58,7 +65,9 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
         (SEPARATED, [11, 14]),
         (GREY, [12, 13, 14]),  # steady sliding, which the text called thick and was not
     ]
-    arrows = [text for text in ax.texts if isinstance(text, Annotation) and text.arrow_patch is not None]
+    arrows = [
+        text for text in ax.texts if isinstance(text, Annotation) and text.arrow_patch is not None
+    ]
     assert [(arrow.xyann[0], arrow.xy[0]) for arrow in arrows] == [(13, 14), (11, 10)]
 
 
@@ -68,15 +77,21 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
 @pytest.fixture
 def shares(made: None, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
     """All quiet at 12 rad/s, some at 13 and 14, none at 15."""
-    monkeypatch.setattr(Made, "least", lambda _, p, i: {12: 9.0, 13: 0.5, 14: 0.05, 15: -1.0}[p.Omega])
+    monkeypatch.setattr(
+        Made, "least", lambda _, p, i: {12: 9.0, 13: 0.5, 14: 0.05, 15: -1.0}[p.Omega]
+    )
     options = {"energies": [0.01, 0.1, 1], "n_starts": 4}
-    return computed(quantity="basins", options=options, base={"N": 385}, axes={"Omega": [12, 13, 14, 15]})
+    return computed(
+        quantity="basins", options=options, base={"N": 385}, axes={"Omega": [12, 13, 14, 15]}
+    )
 
 
 def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset) -> None:
     figure = draw("basins", shares, x="Omega")
     assert labels(figure) == ["quiet", "separating"]
-    shown = [[bar.get_height() for bar in ax.patches] for ax in figure.axes[:3]]  # quiet, then separating
+    shown = [
+        [bar.get_height() for bar in ax.patches] for ax in figure.axes[:3]
+    ]  # quiet, then separating
     assert shown == [[1, 1, 1, 0, 0, 0, 0, 1], [1, 1, 0, 0, 0, 0, 1, 1], [1, 0, 0, 0, 0, 1, 1, 1]]
     kicks = lines(figure.axes[-1])["by bisection"].get_ydata()
     np.testing.assert_allclose(kicks, [np.nan, 0.5, 0.05, np.nan], rtol=0.06)
@@ -88,7 +103,9 @@ def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset) -> None:
 # ---- ramps
 
 
-def test_onset_and_end_are_drawn_and_what_has_none_is_marked(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_onset_and_end_are_drawn_and_what_has_none_is_marked(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     values = {
         "status": "ok",
         "rate_status": np.array([0, 0, STATUSES.index("stalled")]),
@@ -97,12 +114,22 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(monkeypatch: pytest
         "offset_speed": np.array([9.7, 9.3, np.nan]),
     }
     monkeypatch.setattr(Ramps, "compute_point", lambda *_, **__: (values, ""))
-    options = {"low": 8, "high": 20, "rates": {"start": 0.01, "stop": 1, "count": 3, "scale": "log"}}
-    study = computed(quantity="ramps", options=options, base={"N": 385}, axes={"normalization": ["as_published"]})
+    options = {
+        "low": 8,
+        "high": 20,
+        "rates": {"start": 0.01, "stop": 1, "count": 3, "scale": "log"},
+    }
+    study = computed(
+        quantity="ramps", options=options, base={"N": 385}, axes={"normalization": ["as_published"]}
+    )
     folds = [
         Curve(np.array([15.0, 15.2]), np.array([380.0, 390.0]), "fold"),
         Curve(np.array([12.0, 12.5]), np.array([380.0, 390.0]), "neutral"),
-        Curve(np.array([11.0, 11.2, np.nan, 30.0, 31.0]), np.array([380.0, 390.0, np.nan, 380.0, 390.0]), "fold"),
+        Curve(
+            np.array([11.0, 11.2, np.nan, 30.0, 31.0]),
+            np.array([380.0, 390.0, np.nan, 380.0, 390.0]),
+            "fold",
+        ),
     ]
     monkeypatch.setattr(drawn, "curves_of", lambda _: folds)
     ax = draw("ramps", study, {"curves": xr.Dataset()}, title="t").axes[0]
@@ -111,4 +138,6 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(monkeypatch: pytest
     np.testing.assert_allclose(shown["end, falling ramp"].get_ydata(), [9.7, 9.3, np.nan])
     assert list(shown["none up to the highest speed"].get_xdata()) == [0.1]
     assert list(shown["stable cycle ends (fold)"].get_ydata()) == pytest.approx([15.1, 15.1])
-    assert [text.get_text() for text in ax.texts] == ["15.10"], "the fold of another cycle, at 11 rad/s, was drawn too"
+    assert [text.get_text() for text in ax.texts] == ["15.10"], (
+        "the fold of another cycle, at 11 rad/s, was drawn too"
+    )

@@ -35,7 +35,9 @@ def test_a_run_without_windows_shows_its_range_and_its_last_cycles_with_their_ph
     assert mark.get_xdata()[0] == run().first_separation
     events = run().events
     start, end = close.get_xlim()
-    assert np.isclose(start, events["time"][events["kind"] == "stick_to_slip"].iloc[-5], atol=1e-9), "four cycles"
+    assert np.isclose(
+        start, events["time"][events["kind"] == "stick_to_slip"].iloc[-5], atol=1e-9
+    ), "four cycles"
     assert end == 60
     separations = events["time"][(events["kind"] == "separation") & (events["time"] > start)]
     shades = {shade.get_label(): shade for shade in axes[0, 0].figure.legends[0].legend_handles}
@@ -55,13 +57,21 @@ def test_pictures_are_drawn_on_the_axes_that_are_given() -> None:
     assert axes[0, 1].get_xlim()[1] == pytest.approx(300, abs=0.2)
     run().plot_poincare(ax=axes[1])
     assert figure.get_suptitle() == ""
-    ranges = dm.simulate(P, 0.1, {"all": dm.Window(rate=1e4, envelope=100), "few": dm.Window(last=0.1, rate=100)})
-    with pytest.raises(dm.ParameterError, match="window='few': recorded 11 samples, and a spectrum takes 16"):
+    ranges = dm.simulate(
+        P, 0.1, {"all": dm.Window(rate=1e4, envelope=100), "few": dm.Window(last=0.1, rate=100)}
+    )
+    with pytest.raises(
+        dm.ParameterError, match="window='few': recorded 11 samples, and a spectrum takes 16"
+    ):
         ranges.plot_spectrum("few")
     for draw in (ranges.plot_phase_portrait, ranges.plot_spectrum):
-        with pytest.raises(dm.ParameterError, match="window='all': must hold samples, not their ranges"):
+        with pytest.raises(
+            dm.ParameterError, match="window='all': must hold samples, not their ranges"
+        ):
             draw("all")
-    with pytest.raises(dm.ParameterError, match=r"ax=.*: must be 6 axes of matplotlib, one for each panel"):
+    with pytest.raises(
+        dm.ParameterError, match=r"ax=.*: must be 6 axes of matplotlib, one for each panel"
+    ):
         run().plot(ax=axes[0])
 
 
@@ -110,20 +120,34 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
     np.testing.assert_allclose(ax.collections[0].get_array(), plane["period"])
     assert ax.get_ylabel() == "Speed Ω (rad/s)"
     assert ax.figure.axes[1].get_ylabel() == "Period of the stick-slip cycle (s)"
-    outcomes = plane.assign(outcome=(("Omega", "N"), [["quiet", "quiet"], ["separation", "quiet"], ["quiet", "quiet"]]))
+    outcomes = plane.assign(
+        outcome=(("Omega", "N"), [["quiet", "quiet"], ["separation", "quiet"], ["quiet", "quiet"]])
+    )
     assert labels(dm.plot_sweep(outcomes, "outcome").figure) == ["quiet", "unresolved"]
-    with pytest.raises(dm.ParameterError, match="variable='perod': must be one over the grid, did you mean period"):
+    with pytest.raises(
+        dm.ParameterError, match="variable='perod': must be one over the grid, did you mean period"
+    ):
         dm.plot_sweep(plane, "perod")
-    with pytest.raises(dm.ParameterError, match="variable='period': varies along c, Omega, N: select"):
+    with pytest.raises(
+        dm.ParameterError, match="variable='period': varies along c, Omega, N: select"
+    ):
         dm.plot_sweep(plane.expand_dims(c=[0.0, 0.1]), "period")
-    counted = {"growth_rate": (("branch", "branch_point"), np.ones((2, 3))), "reached": ("sweep_value", [1.0, 2.0])}
-    branches = xr.Dataset(counted, {"branch": [0, 1], "branch_point": [0, 1, 2], "sweep_value": [10.0, 11.0]})
+    counted = {
+        "growth_rate": (("branch", "branch_point"), np.ones((2, 3))),
+        "reached": ("sweep_value", [1.0, 2.0]),
+    }
+    branches = xr.Dataset(
+        counted, {"branch": [0, 1], "branch_point": [0, 1, 2], "sweep_value": [10.0, 11.0]}
+    )
     np.testing.assert_allclose(dm.plot_sweep(branches).lines[0].get_ydata(), [1, 2])
 
 
 def test_shares_of_starts_are_bars_of_the_outcomes_that_occur() -> None:
     sweep = dm.sweep(dm.basins, P, Omega=[14, 15], energies=[1e-4, 0.1], horizon=60)
-    for study, low, high in ((sweep.sel(Omega=14), [1, 0], [0, 1]), (sweep, [0.5, 0.5], [0.5, 0.5])):
+    for study, low, high in (
+        (sweep.sel(Omega=14), [1, 0], [0, 1]),
+        (sweep, [0.5, 0.5], [0.5, 0.5]),
+    ):
         ax = dm.plot_sweep(study)
         assert labels(ax.figure) == ["quiet", "separating"]
         assert [bar.get_height() for bar in ax.patches] == low + high
@@ -131,7 +155,9 @@ def test_shares_of_starts_are_bars_of_the_outcomes_that_occur() -> None:
 
 def test_a_disc_shows_its_modes_and_what_is_not_there_is_said() -> None:
     shapes = [[0.0, 1.0], [0.0, 4.0]]
-    disc = dm.Disc(diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 4.0], radii=[0.05, 0.12], shapes=shapes)
+    disc = dm.Disc(
+        diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 4.0], radii=[0.05, 0.12], shapes=shapes
+    )
     assert repr(disc) == "Disc(2 modes, 159 to 318 Hz)"
     assert "318.31" in disc._repr_html_()
     assert len(dm.plot_modes(P.replace(disc=disc))) == 2

@@ -15,29 +15,50 @@ SCAN = {"start": 0, "stop": 0.4, "count": 5}
 @pytest.fixture(scope="module")
 def over_mu() -> xr.Dataset:
     options = {"parameter": "mu_k", "scan": SCAN}
-    return computed(quantity="sliding", options=options, base={"Omega": 20, **SMALL}, axes={"N": [200]})
+    return computed(
+        quantity="sliding", options=options, base={"Omega": 20, **SMALL}, axes={"N": [200]}
+    )
 
 
-@pytest.mark.parametrize(("kind", "more"), [("sliding_modes", {"highest": 900.0}), ("root_locus", {})])
-def test_modes_are_drawn_along_the_parameter(kind: str, more: dict[str, float], over_mu: xr.Dataset) -> None:
+@pytest.mark.parametrize(
+    ("kind", "more"), [("sliding_modes", {"highest": 900.0}), ("root_locus", {})]
+)
+def test_modes_are_drawn_along_the_parameter(
+    kind: str, more: dict[str, float], over_mu: xr.Dataset
+) -> None:
     figure = kind_of(kind)(kind=kind, **more).render({"study": xr.DataTree(over_mu)})
     assert (figure.axes[0].get_ylim()[1] == 900) == bool(more)
     axes = figure.axes[0] if kind == "root_locus" else figure.axes[1]
     shown = axes.collections if kind == "root_locus" else axes.lines
     assert len(shown) >= 4
-    assert "Kinetic friction $μ_k$" in [label for ax in figure.axes for label in (ax.get_xlabel(), ax.get_ylabel())]
+    assert "Kinetic friction $μ_k$" in [
+        label for ax in figure.axes for label in (ax.get_xlabel(), ax.get_ylabel())
+    ]
 
 
 def test_linear_analysis_beside_the_motion() -> None:
     """Each word of the figure, and what no word describes."""
     rate = np.array([-1.0, -1, -1, 1, 1, 1, 1, np.nan])
-    outcome = np.array(["quiet", "other_cycle", "separation", "at_rest", "growing", "separation", "undecided", "quiet"])
+    outcome = np.array(
+        [
+            "quiet",
+            "other_cycle",
+            "separation",
+            "at_rest",
+            "growing",
+            "separation",
+            "undecided",
+            "quiet",
+        ]
+    )
     assert [*agreement(rate, outcome)] == [*[*AGREEMENTS][:6], "unknown", "unknown"]
 
 
 def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:
     options = {"parameter": "c_p", "scan": SCAN}
-    sliding = computed(quantity="sliding", options=options, base={"Omega": 20, **SMALL}, axes={"N": [200, 400]})
+    sliding = computed(
+        quantity="sliding", options=options, base={"Omega": 20, **SMALL}, axes={"N": [200, 400]}
+    )
     flags = {"flag_meanings": " ".join(OUTCOMES_TO_HORIZON)}
     values = {"N": [200.0, 300, 400], "c_p": np.linspace(0, 0.4, 9)}
     outcome = np.full((3, 9), OUTCOMES_TO_HORIZON.index("separation"))

@@ -1,4 +1,5 @@
-"""The package as others get it: built, installed from the locked versions, and used without the sources."""
+"""The package as others get it: built, installed from the locked versions, and used without the
+sources."""
 
 import json
 import os
@@ -19,7 +20,8 @@ ROOT = Path(__file__).parents[2]
 
 
 def run(*command: str | Path, cwd: Path, **environment: str) -> str:
-    """Output of a command that must succeed, run with nothing in the environment that leads to the sources."""
+    """Output of a command that must succeed, run with nothing in the environment that leads to the
+    sources."""
     clean = ("env", "-u", "PYTHONPATH", "-u", "VIRTUAL_ENV")
     return processes.run(*clean, *command, cwd=cwd, timeout=1800, **environment).stdout
 
@@ -27,7 +29,17 @@ def run(*command: str | Path, cwd: Path, **environment: str) -> str:
 @pytest.fixture(scope="session")
 def index() -> None:
     """A package index that answers."""
-    ask = [sys.executable, "-m", "pip", "install", "--dry-run", "--ignore-installed", "--no-deps", "--quiet", "wheel"]
+    ask = [
+        sys.executable,
+        "-m",
+        "pip",
+        "install",
+        "--dry-run",
+        "--ignore-installed",
+        "--no-deps",
+        "--quiet",
+        "wheel",
+    ]
     if subprocess.run(ask, capture_output=True, check=False, timeout=600).returncode:
         pytest.skip("no package index can be reached")
 
@@ -36,7 +48,9 @@ def index() -> None:
 def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """What a clone would have, as it is now."""
     left_out = shutil.ignore_patterns(".*", "results", "build", "dist", "__pycache__", "*.egg-info")
-    return shutil.copytree(ROOT, tmp_path_factory.mktemp("clone") / "disc_model", symlinks=True, ignore=left_out)
+    return shutil.copytree(
+        ROOT, tmp_path_factory.mktemp("clone") / "disc_model", symlinks=True, ignore=left_out
+    )
 
 
 @pytest.fixture(scope="session")
@@ -50,8 +64,14 @@ def wheel(tree: Path, index: None, tmp_path_factory: pytest.TempPathFactory) -> 
 
 def test_the_wheel_is_the_package_and_nothing_else(wheel: Path, tree: Path) -> None:
     src = tree / "src"
-    folders = os.walk(src / "disc_model", followlinks=True)  # the workflow and its configuration are linked to
-    sources = {Path(folder, name).relative_to(src).as_posix() for folder, _, names in folders for name in names}
+    folders = os.walk(
+        src / "disc_model", followlinks=True
+    )  # the workflow and its configuration are linked to
+    sources = {
+        Path(folder, name).relative_to(src).as_posix()
+        for folder, _, names in folders
+        for name in names
+    }
     files = zipfile.ZipFile(wheel).namelist()
     assert {name for name in files if ".dist-info/" not in name} == sources
 
@@ -74,12 +94,22 @@ class Installed:
 
 @pytest.fixture(scope="module")
 def installed(wheel: Path, tree: Path, tmp_path_factory: pytest.TempPathFactory) -> Installed:
-    """The wheel among the locked versions; the workflow of .github runs all tests for each Python."""
+    """The wheel among the locked versions; the workflow of .github runs all tests for each
+    Python."""
     folder = tmp_path_factory.mktemp("installed")
     run(sys.executable, "-m", "venv", folder / "venv", cwd=folder)
     (work := folder / "work").mkdir()
     made = Installed(folder / "venv" / "bin", work)
-    made.run("python", "-m", "pip", "install", "--require-hashes", "--no-deps", "-r", tree / "requirements.lock")
+    made.run(
+        "python",
+        "-m",
+        "pip",
+        "install",
+        "--require-hashes",
+        "--no-deps",
+        "-r",
+        tree / "requirements.lock",
+    )
     made.run("python", "-m", "pip", "install", "--no-deps", wheel)
     made.run("python", "-m", "pip", "check")
     return made
@@ -101,7 +131,9 @@ print(json.dumps({"status": result.status.value, "steps": int(result.statistics[
 
 def test_it_works_without_the_sources(installed: Installed) -> None:
     """A run, a dataset, and every module with the data it reads."""
-    result = json.loads(installed.run("python", "-I", "-W", "error::SyntaxWarning", "-c", USE).splitlines()[-1])
+    result = json.loads(
+        installed.run("python", "-I", "-W", "error::SyntaxWarning", "-c", USE).splitlines()[-1]
+    )
     assert result["status"] == "ok"
     assert result["steps"] > 0
     assert not [name for name in result["files"] if Path(name).is_relative_to(ROOT)]

@@ -1,4 +1,5 @@
-"""The numerics alone: what a plain installation can do, and that what is written of versions agrees."""
+"""The numerics alone: what a plain installation can do, and that what is written of versions
+agrees."""
 
 import re
 import tomllib
@@ -62,14 +63,17 @@ main(["study", "my.yaml"])
 
 
 def names(lines: list[str]) -> set[str]:
-    """Canonical names of the packages that lines require; comments and options of pip require none."""
+    """Canonical names of the packages that lines require; comments and options of pip require
+    none."""
     texts = (line.split("#")[0].strip() for line in lines)
     wanted = [text for text in texts if text and not text.startswith("-")]
     return {canonicalize_name(Requirement(text).name) for text in wanted} - {"disc-model"}
 
 
 def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
-    missing = sorted(MODULES.get(name, name) for name in names([*EXTRAS["workflow"], *EXTRAS["plot"]]))
+    missing = sorted(
+        MODULES.get(name, name) for name in names([*EXTRAS["workflow"], *EXTRAS["plot"]])
+    )
     done = python(f"MISSING = {missing}\n{HIDDEN}{USE}", tmp_path / "run.nc", fails=True)
     assert done.returncode == 2, done.stdout + done.stderr
     assert "amplitude" in done.stdout
@@ -82,12 +86,18 @@ def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
 def test_there_is_one_version() -> None:
     assert PROJECT["project"]["dynamic"] == ["version"]
     assert PROJECT["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "disc_model.__version__"}
-    cited = re.search(r"^version: (\S+)$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.MULTILINE)
+    cited = re.search(
+        r"^version: (\S+)$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.MULTILINE
+    )
     assert cited
     assert cited[1] == disc_model.__version__
     recipe = (ROOT / "recipe" / "meta.yaml").read_text(encoding="utf-8")
     assert f'{{% set version = "{disc_model.__version__}" %}}' in recipe
     needs = {re.split(r"[<>=]", text)[0].lower() for text in PROJECT["project"]["dependencies"]}
-    assert needs | {"python"} == set(re.findall(r"- (\w+)", recipe.partition("  run:\n")[2].partition("  run_c")[0]))
-    released = re.findall(r"^## \[(\d\S*)\]", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
+    assert needs | {"python"} == set(
+        re.findall(r"- (\w+)", recipe.partition("  run:\n")[2].partition("  run_c")[0])
+    )
+    released = re.findall(
+        r"^## \[(\d\S*)\]", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE
+    )
     assert released[:1] in ([], [disc_model.__version__])

@@ -1,4 +1,5 @@
-"""The library without the paper's part and the benchmark's: both can be deleted, and studies are computed as before."""
+"""The library without the paper's part and the benchmark's: both can be deleted, and studies are
+computed as before."""
 
 import shutil
 import sys
@@ -24,21 +25,41 @@ for module in pkgutil.walk_packages(disc_model.__path__, "disc_model."):
 def clone(tmp_path: Path) -> Path:
     """The sources without both parts."""
     for folder in ("src/disc_model", "workflow", "config"):
-        shutil.copytree(ROOT / folder, tmp_path / folder, symlinks=True, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(
+            ROOT / folder,
+            tmp_path / folder,
+            symlinks=True,
+            ignore=shutil.ignore_patterns("__pycache__"),
+        )
     for part in ("paper", "benchmarks"):
         shutil.rmtree(tmp_path / "src" / "disc_model" / part)
     return tmp_path
 
 
 def test_all_that_remains_can_be_imported(clone: Path) -> None:
-    run(sys.executable, "-c", WITHOUT.format(path=str(clone)), cwd=clone, PYTHONPATH=str(clone / "src"))
+    run(
+        sys.executable,
+        "-c",
+        WITHOUT.format(path=str(clone)),
+        cwd=clone,
+        PYTHONPATH=str(clone / "src"),
+    )
 
 
 @pytest.mark.slow
 @pytest.mark.workflow
 def test_a_study_is_computed(clone: Path) -> None:
     """One that asks for verdicts is refused before anything runs."""
-    command = [sys.executable, "-m", "snakemake", "-s", "workflow/Snakefile", "--configfile", "mine.yaml", "-j2"]
+    command = [
+        sys.executable,
+        "-m",
+        "snakemake",
+        "-s",
+        "workflow/Snakefile",
+        "--configfile",
+        "mine.yaml",
+        "-j2",
+    ]
     (clone / "mine.yaml").write_text(STUDY)
     run(*command, cwd=clone, timeout=900, PYTHONPATH=str(clone / "src"))
     made = {path.name for path in (clone / "results" / "mine").rglob("*.*")}

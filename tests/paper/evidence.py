@@ -1,4 +1,5 @@
-"""Evidence for rows of the ledger: the paper's cases, simulated, changed as stories.yaml says; and made-up grids."""
+"""Evidence for rows of the ledger: the paper's cases, simulated, changed as stories.yaml says; and
+made-up grids."""
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
@@ -39,11 +40,15 @@ def simulated(*names: str, normalization: str = "as_published") -> dict[str, xr.
 def groups_of(name: str) -> Groups:
     """The datasets of a case, by the names of their groups; that of the case itself is ""."""
     node = simulated()[name]
-    return {"": node.to_dataset()} | {str(n): group.to_dataset(inherit=False) for n, group in node.children.items()}
+    return {"": node.to_dataset()} | {
+        str(n): group.to_dataset(inherit=False) for n, group in node.children.items()
+    }
 
 
 def view(name: str, groups: Groups) -> CaseView:
-    return CaseView(name, xr.DataTree.from_dict({f"/{group}": held for group, held in groups.items()}))
+    return CaseView(
+        name, xr.DataTree.from_dict({f"/{group}": held for group, held in groups.items()})
+    )
 
 
 def said_to_be(name: str, story: str | Mapping[str, Any]) -> CaseView:
@@ -77,16 +82,25 @@ def said_to_be(name: str, story: str | Mapping[str, Any]) -> CaseView:
 def _lines(group: xr.Dataset, lines: Sequence[Sequence[float | None]]) -> xr.DataArray:
     t, noise = group["time"], np.random.default_rng(0)
     parts = [
-        size * (noise.standard_normal(t.size) if f is None else np.cos(2 * np.pi * (f + sum(drift) / 2 * t) * t))
+        size
+        * (
+            noise.standard_normal(t.size)
+            if f is None
+            else np.cos(2 * np.pi * (f + sum(drift) / 2 * t) * t)
+        )
         for f, size, *drift in lines
     ]
     return xr.DataArray(sum(parts), {"time": t}, ["time"])
 
 
-def cases(stories: Mapping[str, Any], scans: Mapping[str, xr.Dataset] | None = None) -> dict[str, CaseView]:
+def cases(
+    stories: Mapping[str, Any], scans: Mapping[str, xr.Dataset] | None = None
+) -> dict[str, CaseView]:
     """All cases, those of stories (one name or several) as these have them, and grid studies."""
     found = {name: CaseView(name, node) for name, node in simulated().items()}
-    found |= {name: said_to_be(name, story) for names, story in stories.items() for name in names.split()}
+    found |= {
+        name: said_to_be(name, story) for names, story in stories.items() for name in names.split()
+    }
     return found | {name: CaseView(name, xr.DataTree(scan)) for name, scan in (scans or {}).items()}
 
 
@@ -98,15 +112,32 @@ def kept_events(rows: Iterable[tuple[Any, ...]], start: float, stop: float) -> x
 
 
 WORDS = ("ok", "failed", "quiet", "growing", "separation", "no_cycle", "no_stick_slip")
-WORDS += ("none", "begins", "ends", "neutral", "fold", "no", "yes", "settled", "changing", "simulation", "inferred")
+WORDS += (
+    "none",
+    "begins",
+    "ends",
+    "neutral",
+    "fold",
+    "no",
+    "yes",
+    "settled",
+    "changing",
+    "simulation",
+    "inferred",
+)
 
 
-def grid(axes: Mapping[str, Any], stated: Mapping[str, Any] | None = None, **variables: Any) -> xr.Dataset:
-    """A grid study: each variable along the first axes, as many as it has dimensions, its words as flags.
+def grid(
+    axes: Mapping[str, Any], stated: Mapping[str, Any] | None = None, **variables: Any
+) -> xr.Dataset:
+    """A grid study: each variable along the first axes, as many as it has dimensions, its words as
+    flags.
 
     stated : what it states, as its base and as its options alike
     """
-    found = xr.Dataset(coords=axes, attrs=dict.fromkeys(("base", "options"), json.dumps(stated or {})))
+    found = xr.Dataset(
+        coords=axes, attrs=dict.fromkeys(("base", "options"), json.dumps(stated or {}))
+    )
     for name, given in variables.items():
         values, attrs = np.asarray(given), {}
         if values.dtype.kind == "U":
@@ -115,13 +146,18 @@ def grid(axes: Mapping[str, Any], stated: Mapping[str, Any] | None = None, **var
     return found
 
 
-def scans(windows: Sequence[Sequence[float]] = TEXTS["windows"], **changes: Mapping[str, Any]) -> dict[str, xr.Dataset]:
+def scans(
+    windows: Sequence[Sequence[float]] = TEXTS["windows"], **changes: Mapping[str, Any]
+) -> dict[str, xr.Dataset]:
     """Grid studies as stories.yaml has them, by name, some of them with other values.
 
     windows : rad/s, where separation begins and ends, at three preloads or more
     """
     texts = TEXTS["scans"]
-    found = {x: grid(**texts.get(x, {}) | changes.get(x, {})).assign_attrs(study=x) for x in texts | changes}
+    found = {
+        x: grid(**texts.get(x, {}) | changes.get(x, {})).assign_attrs(study=x)
+        for x in texts | changes
+    }
     speeds, preloads = np.array(windows)[:, None], [50.0, 200.0, 385.0, 500.0, 510.0]
     axes = {"normalization": ["as_published"], "N": preloads[: len(windows)], "horizon": [1000.0]}
     found["critical_speed"] = grid(

@@ -1,4 +1,5 @@
-"""The balance of powers of simulated motions: contact passes on what the slope supplies, and impacts take it."""
+"""The balance of powers of simulated motions: contact passes on what the slope supplies, and
+impacts take it."""
 
 import pytest
 
@@ -15,7 +16,8 @@ SETTLES = Parameters(N=600, Omega=25, c=0.2)
 
 
 def mean(found: tuple[Powers, ...]) -> Powers:
-    """Over the whole time: the two hundred samples of a stage say little of powers that change their sign."""
+    """Over the whole time: the two hundred samples of a stage say little of powers that change
+    their sign."""
     return Powers(*(sum(each) / len(found) for each in zip(*found, strict=True)))
 
 
@@ -25,7 +27,11 @@ def test_while_contact_lasts_what_the_slope_supplies_is_damped_or_gained(p: Para
     # 12,000 samples at random phases of the swing leave half a per cent
     assert whole.impacts == pytest.approx(0, abs=0.01 * whole.supplied)
     assert whole.pulls == 0  # the contact force does not change its sign
-    assert (whole.gained > 0.7 * whole.supplied) if p is GROWS else (whole.gained < 0.05 * whole.supplied)
+    assert (
+        (whole.gained > 0.7 * whole.supplied)
+        if p is GROWS
+        else (whole.gained < 0.05 * whole.supplied)
+    )
 
 
 def test_in_the_end_impacts_take_what_damping_does_not() -> None:
@@ -37,7 +43,9 @@ def test_in_the_end_impacts_take_what_damping_does_not() -> None:
 
 def test_damping_follows_the_square_of_the_width_to_which_a_motion_has_grown() -> None:
     found = course(GROWS, 30.0)
-    small, large = (at_width(found, width).damped - found[0].damped for width in (4e-3, 8e-3))  # less the cycle's own
+    small, large = (
+        at_width(found, width).damped - found[0].damped for width in (4e-3, 8e-3)
+    )  # less the cycle's own
     # interpolated between stages half a second apart
     assert large == pytest.approx(4 * small, rel=0.02)
     with pytest.raises(Absent, match=r"maintained contact comes to 13\.\d mm only"):

@@ -35,7 +35,8 @@ def drawn(name: str, case: xr.DataTree) -> Figure:
 
 
 @pytest.mark.parametrize(
-    ("name", "separates"), [*((name, True) for name in FIGURES), *((name, False) for name in ONE_OF_EACH)]
+    ("name", "separates"),
+    [*((name, True) for name in FIGURES), *((name, False) for name in ONE_OF_EACH)],
 )
 def test_figures_are_fit_for_print(name: str, separates: bool) -> None:
     figure = drawn(name, simulated(separates))
@@ -48,7 +49,8 @@ def test_figures_are_fit_for_print(name: str, separates: bool) -> None:
 @pytest.mark.parametrize("damage", DAMAGES)
 @pytest.mark.parametrize("name", ONE_OF_EACH)
 def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -> None:
-    """A failed case, a window without what a figure needs, a section without points: all ended the figure before."""
+    """A failed case, a window without what a figure needs, a section without points: all ended the
+    figure before."""
     figure = drawn(name, damaged(simulated(True), DAMAGES[damage]))
     figure.draw_without_rendering()
     reasons = [text for text in said_in(figure) if text.startswith("not shown: the case ")]
@@ -74,7 +76,8 @@ def case() -> xr.DataTree:
 
 @pytest.mark.compiled
 def test_the_disc_between_the_angles_is_the_disc(case: xr.DataTree) -> None:
-    """Under the slider, and at an angle that the shape is not made from; to rounding of the displacement itself."""
+    """Under the slider, and at an angle that the shape is not made from; to rounding of the
+    displacement itself."""
     motion = motion_of(case)
     r_0 = np.array([motion.parameters.r_0])
     elsewhere = case["elsewhere"].to_dataset()
@@ -85,16 +88,24 @@ def test_the_disc_between_the_angles_is_the_disc(case: xr.DataTree) -> None:
         assert there == pytest.approx(float(elsewhere["w_point"][i]), abs=1e-12 * size)
 
     p = motion.parameters
-    w = np.abs(motion.deflection(10, np.array([p.a, p.a + 1e-3 * (p.b - p.a), p.b]), np.linspace(0, 6, 7))).max(axis=1)
+    w = np.abs(
+        motion.deflection(10, np.array([p.a, p.a + 1e-3 * (p.b - p.a), p.b]), np.linspace(0, 6, 7))
+    ).max(axis=1)
     assert w[0] < 1e-9 * w[2], "it is clamped inside"
     assert 0 < w[1] < 1e-5 * w[2]  # it leaves its plane with the square of the distance
 
 
 def test_the_figure_on_both_scales_counts_what_vanishes() -> None:
-    """In the maps as told all nine separate with both; then two do with the published scale only."""
+    """In the maps as told all nine separate with both; then two do with the published scale
+    only."""
     plot = STUDY.figures["figB2"]
     changes = {name: {"first_separation": [[[90]], [[np.nan]]]} for name in ("map_m", "map_D_star")}
     for lost, maps in ((0, evidence.scans()), (2, evidence.scans(**changes))):
-        figure = plot.render({"study": xr.DataTree(maps["map_N"]), **{n: xr.DataTree(maps[n]) for n in plot.overlays}})
+        figure = plot.render(
+            {
+                "study": xr.DataTree(maps["map_N"]),
+                **{n: xr.DataTree(maps[n]) for n in plot.overlays},
+            }
+        )
         assert_fit_for_print(figure)
         assert figure.axes[2].get_title(loc="right") == f"{lost} of 9: none by Eq. (17)"

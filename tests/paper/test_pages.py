@@ -18,14 +18,17 @@ F_S, DRIVE = 67.6493, 15.1 / (2 * np.pi)
 
 @pytest.mark.compiled
 def test_table_2_names_the_lines() -> None:
-    """Of the first ten seconds at 385 N and 15.1 rad/s, where the slider is released 67.65 times a second."""
+    """Of the first ten seconds at 385 N and 15.1 rad/s, where the slider is released 67.65 times a
+    second."""
     f13 = evidence.view("F13", evidence.groups_of("F13"))
     table = table_2(f13)
     pairs = [f"{n}f_s {sign} f_Ω" for n in ("", "2 ", "3 ", "4 ") for sign in ("−", "+")]
     assert list(table["ours_is"]) == ["f_Ω", *pairs]
     assert list(table["paper_Hz"]) == list(LISTED)
     expected = [DRIVE] + [n * F_S + side * DRIVE for n in range(1, 5) for side in (-1, 1)]
-    np.testing.assert_allclose(table["ours_Hz"], expected, atol=0.01)  # a tenth of what ten seconds resolve
+    np.testing.assert_allclose(
+        table["ours_Hz"], expected, atol=0.01
+    )  # a tenth of what ten seconds resolve
     # a line off all combinations is not named by the nearest
     groups = dict(evidence.groups_of("F13"))
     window = groups["spectrum_a"]
@@ -41,19 +44,35 @@ def test_table_1_is_what_is_computed_with() -> None:
 
 
 def test_the_ledger_counts_links_and_escapes(tmp_path: Path) -> None:
-    verdicts = dict(zip(("F13", "F15b", "C3s", "eq17"), (TRUE, TRUE, PART, NOT_COMPUTED), strict=True))
+    verdicts = dict(
+        zip(("F13", "F15b", "C3s", "eq17"), (TRUE, TRUE, PART, NOT_COMPUTED), strict=True)
+    )
     here = "1 <2> 3 4 5 6 7"
     rows = [
         {name: f"{name} <b>" for name in COLUMNS}
-        | {"id": row.id, "verdict": verdicts.get(row.id, FALSE), "here": here, "section": row.place[:7], "counts": ""}
+        | {
+            "id": row.id,
+            "verdict": verdicts.get(row.id, FALSE),
+            "here": here,
+            "section": row.place[:7],
+            "counts": "",
+        }
         | {"figures": {"Fig. 1": "figures/fig01.png"}, "data": {}}
         for row in ROWS
     ]
     table = pd.DataFrame([*rows[:-1], rows[-1] | {"counts": "error in print"}])
     found = summary(table)
-    assert found["counts"] == {TRUE: 2, PART: 1, FALSE: len(ROWS) - 5, "ambiguous in the paper": 0, NOT_COMPUTED: 1}
+    assert found["counts"] == {
+        TRUE: 2,
+        PART: 1,
+        FALSE: len(ROWS) - 5,
+        "ambiguous in the paper": 0,
+        NOT_COMPUTED: 1,
+    }
     assert found["errors"] == 1
-    assert [item["id"] for item in found["falls"]] == ["P07", "T2e", "F10e", "F05"], "eq17 is not computed"
+    assert [item["id"] for item in found["falls"]] == ["P07", "T2e", "F10e", "F05"], (
+        "eq17 is not computed"
+    )
     assert [item["id"] for item in found["stands"]] == ["F13", "F15b"], "C3s is true in part"
     assert found["stands"][0]["text"].endswith("separation begins at 1 s, where the paper has 2 s.")
     for file in ("x.html", "x.md"):

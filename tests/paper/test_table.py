@@ -28,16 +28,22 @@ def labelled(name: str, **attrs: str) -> CaseView:
 
 
 def test_rows_quote_say_why_and_show() -> None:
-    """There are few enough to read; each has a quotation of its own, and the pictures that it names are drawn."""
+    """There are few enough to read; each has a quotation of its own, and the pictures that it names
+    are drawn."""
     assert len(ROWS) <= 80
     assert len({row.quote for row in ROWS}) == len({row.id for row in ROWS}) == len(ROWS)
-    drawn = {*STUDY.figures, *(name for grid in STUDY.grids((ROOT,))[0].values() for name in grid.plots)}
+    drawn = {
+        *STUDY.figures,
+        *(name for grid in STUDY.grids((ROOT,))[0].values() for name in grid.plots),
+    }
     for row in ROWS:
         assert len(row.quote.split()) >= 4, row.id
         assert row.matters.endswith("."), row.id
         assert row.judged if row.check else row.verdict in VERDICTS, row.id
         assert {*row.figures} <= drawn, row.id
-        assert not re.search(r"\b[FSTP]\d\d", f"{row.matters} {row.rule} {row.note}"), f"{row.id}: a code of ours"
+        assert not re.search(r"\b[FSTP]\d\d", f"{row.matters} {row.rule} {row.note}"), (
+            f"{row.id}: a code of ours"
+        )
 
 
 @pytest.mark.compiled
@@ -52,13 +58,17 @@ def test_the_table_of_impacts_has_what_follows_them_or_why_not() -> None:
     assert "separation" in table["releases"].iloc[-1]
 
 
-def test_a_period_is_told_with_the_speeds_between_which_it_is_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_period_is_told_with_the_speeds_between_which_it_is_the_same(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     """Known to an eighth: of a motion of period 45 from 0.01 rad/s below to 0.02 above."""
 
     class Case(dict[str, float]):
         parameters = Parameters(N=300, Omega=20)
 
-    def motion_to(p: Parameters, t_end: float, tol: float = 1e-10, start: object = None) -> tuple[object, object]:
+    def motion_to(
+        p: Parameters, t_end: float, tol: float = 1e-10, start: object = None
+    ) -> tuple[object, object]:
         period = 45 * (-0.01 < p.Omega - 20 < 0.02 and p.n_diameters != 8)
         return SimpleNamespace(period=period, kind="irregular"), SimpleNamespace(time=t_end)
 
@@ -66,7 +76,10 @@ def test_a_period_is_told_with_the_speeds_between_which_it_is_the_same(monkeypat
     monkeypatch.setattr(paper_tables, "motion_to", motion_to)
     table = paper_tables.periods(dict.fromkeys(("F02", "F07", "F22"), Case(t_end=100.0)))
     assert table["case"].tolist() == [*["300 N, 20 rad/s"] * 2, "300 N, 20 rad/s, k_p = 20 kN/m"]
-    assert (set(table["one nodal circle"]), set(table["8 nodal diameters"])) == ({"45"}, {"irregular"})
+    assert (set(table["one nodal circle"]), set(table["8 nodal diameters"])) == (
+        {"45"},
+        {"irregular"},
+    )
     assert 0.03 * 7 / 8 < table["width"][0] < 0.03
 
 
@@ -84,7 +97,11 @@ def test_the_table_has_every_row_once_and_says_what_it_lacks() -> None:
     assert table["verdict"][list(expected)].to_dict() == expected
     assert table.loc["F13", "here"].startswith("Contact is lost at 54.42 s")
     assert "frequencies are 850.86, 1492.55, 1516.76, 1814.90, " in table.loc["P04", "here"]
-    for row, reason in (("F04", "F04 is not in this study"), ("F11", "F11 ends at 1 s"), ("F16", "F16 has another N")):
+    for row, reason in (
+        ("F04", "F04 is not in this study"),
+        ("F11", "F11 ends at 1 s"),
+        ("F16", "F16 has another N"),
+    ):
         assert table.loc[row, "verdict"] == NOT_COMPUTED
         assert table.loc[row, "here"].startswith(f"case {reason}")
 
@@ -100,6 +117,11 @@ def test_the_workflow_is_told_of_every_scan_and_every_check_has_a_row() -> None:
     assert sorted(set().union(*(row.scans + row.beside for row in ROWS))) == sorted(SCANS)
     assert {*SURVIVAL_GRIDS} == {name for row in CONCLUSIONS for name in row.scans}
     for modules, rows in ((MODULES, ROWS), ((survival,), CONCLUSIONS)):
-        functions = {one for module in modules for one in vars(module).values() if isinstance(one, FunctionType)}
+        functions = {
+            one
+            for module in modules
+            for one in vars(module).values()
+            if isinstance(one, FunctionType)
+        }
         checks = {one for one in functions if one.__annotations__.get("return") is Answer}
         assert checks == {row.check for row in rows if row.check}

@@ -1,8 +1,10 @@
-"""Motions by a Runge-Kutta method of fixed steps, with the couple of friction; and the consistent law.
+"""Motions by a Runge-Kutta method of fixed steps, with the couple of friction; and the consistent
+law.
 
-By the model's law (docs/model.md) friction turns with the slider's speed f, and in stick f = 0, though the surface
-under the slider moves at v_s = sum t_l beta_l.  By the consistent law the slip speed is r_0 f - v_s, and in stick
-r_0 f = v_s.  Rigid contact, vertical force.  To print what the consistent law changes (a quarter of an hour)::
+By the model's law (docs/model.md) friction turns with the slider's speed f, and in stick f = 0,
+though the surface under the slider moves at v_s = sum t_l beta_l.  By the consistent law the slip
+speed is r_0 f - v_s, and in stick r_0 f = v_s.  Rigid contact, vertical force.  To print what the
+consistent law changes (a quarter of an hour)::
 
     python -m tests.references.fixed_step
 """
@@ -18,14 +20,26 @@ STEP = 1e-5
 
 @njit
 def motion(q, modes, y, side, consistent, out):
-    """Fills rates of a, b, alpha, beta, psi, f, u, u'; returns P, T, the slip speed, v_s, w and w' under the slider.
+    """Fills rates of a, b, alpha, beta, psi, f, u, u'; returns P, T, the slip speed, v_s, w and w'
+    under the slider.
 
-    ``side`` is the sign of the slip speed, 0 in stick and 2 in separation; u and u' count in separation only."""
+    ``side`` is the sign of the slip speed, 0 in stick and 2 in separation; u and u' count in
+    separation only."""
     N, Omega, m, k, c, k_p, c_p, _, mu_k, r_0, u_0 = q
     w2, s, l, d, t = modes
     n = len(s)
     f = y[-3]
-    F, w, v, A, B, S2, T2, drift, surface = k_p * y[-4] + c_p * (Omega - f), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    F, w, v, A, B, S2, T2, drift, surface = (
+        k_p * y[-4] + c_p * (Omega - f),
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+    )
     for i in range(n):
         a, b, alpha, beta, turn = y[i], y[n + i], y[2 * n + i], y[3 * n + i], l[i] * f
         out[i], out[n + i] = alpha + turn * b, beta - turn * a
@@ -33,7 +47,12 @@ def motion(q, modes, y, side, consistent, out):
         out[3 * n + i] = -d[i] * beta - w2[i] * b - turn * alpha
         w, v, B = w + s[i] * a, v + s[i] * out[i], B + l[i] * s[i] * b
         A += s[i] * (out[2 * n + i] + turn * out[n + i])
-        S2, T2, drift, surface = S2 + s[i] ** 2, T2 + t[i] ** 2, drift + t[i] * out[3 * n + i], surface + t[i] * beta
+        S2, T2, drift, surface = (
+            S2 + s[i] ** 2,
+            T2 + t[i] ** 2,
+            drift + t[i] * out[3 * n + i],
+            surface + t[i] * beta,
+        )
     load = N + k * (w - u_0) + c * v + m * A
     P, T, rate = 0.0, 0.0, F / m
     if side == 0:
@@ -45,7 +64,12 @@ def motion(q, modes, y, side, consistent, out):
         P = (load + B * F) / (1 + m * S2 + side * mu_k * B / r_0)
         T = side * mu_k * P
         rate = (F - T / r_0) / m
-    out[-4], out[-3], out[-2], out[-1] = Omega - f, rate, y[-1], -(N + k * (y[-2] - u_0) + c * y[-1]) / m
+    out[-4], out[-3], out[-2], out[-1] = (
+        Omega - f,
+        rate,
+        y[-1],
+        -(N + k * (y[-2] - u_0) + c * y[-1]) / m,
+    )
     for i in range(n):
         out[2 * n + i] -= s[i] * P
         out[3 * n + i] += t[i] * T
@@ -70,7 +94,8 @@ def advance(q, modes, y, side, consistent, bilateral, h):
 
 @njit
 def change(q, modes, y, side, consistent, bilateral):
-    """The next phase at an event, where contact may be lost or slip may end or turn; changes the state."""
+    """The next phase at an event, where contact may be lost or slip may end or turn; changes the
+    state."""
     out, n = np.empty_like(y), len(modes[1])
     P, T, speed, _, w, v = motion(q, modes, y, side, consistent, out)
     if side == 2:  # a plastic impact
@@ -91,9 +116,17 @@ def change(q, modes, y, side, consistent, bilateral):
 
 @njit
 def follow(q, modes, y, t_end, h, consistent, bilateral, stop):
-    """From stick: first separation or nan, range of u in the last second, largest abs(v_s) before the separation; with
-    ``stop`` no further than to the separation."""
-    t, side, low, high, fastest, first, out = 0.0, 0.0, np.inf, -np.inf, 0.0, np.nan, np.empty_like(y)
+    """From stick: first separation or nan, range of u in the last second, largest abs(v_s) before
+    the separation; with ``stop`` no further than to the separation."""
+    t, side, low, high, fastest, first, out = (
+        0.0,
+        0.0,
+        np.inf,
+        -np.inf,
+        0.0,
+        np.nan,
+        np.empty_like(y),
+    )
     while t < t_end:
         before, (y, margin), step = y, advance(q, modes, y, side, consistent, bilateral, h), h
         if margin < 0:
@@ -137,20 +170,35 @@ BRAKE = [(N, Omega) for N in (8000, 16000) for Omega in (20, 40, 60, 80, 120)]
 
 
 def compare_laws():
-    """Prints, for both laws, first separations, ranges of u in the end, and largest abs(v_s)/(r_0 Omega) before."""
+    """Prints, for both laws, first separations, ranges of u in the end, and largest abs(v_s)/(r_0
+    Omega) before."""
     from disc_model import Disc, Parameters
     from tests.references.taylor import problem_of
 
-    brake = {"disc": Disc.from_csv(Path(__file__).parents[2] / "config" / "discs" / "brake.csv"), "r_0": 0.1, "k": 1e6}
+    brake = {
+        "disc": Disc.from_csv(Path(__file__).parents[2] / "config" / "discs" / "brake.csv"),
+        "r_0": 0.1,
+        "k": 1e6,
+    }
     brake |= {"k_p": 1e6, "m": 0.5, "mu_s": 0.45, "mu_k": 0.35}
     for N, Omega in CASES + BRAKE:
-        values, t_end, h = (brake, 40, 4e-6) if (N, Omega) in BRAKE else ({"normalization": "orthonormal"}, 80, STEP)
+        values, t_end, h = (
+            (brake, 40, 4e-6)
+            if (N, Omega) in BRAKE
+            else ({"normalization": "orthonormal"}, 80, STEP)
+        )
         p = Parameters(N=N, Omega=Omega, friction_offset="surface", **values)
         for consistent in (False, True):
             time, width, share = first_separation(problem_of(p), t_end, h, consistent, False, False)
             held = first_separation(problem_of(p), t_end, h, consistent, True)[1]
-            print(f"N={N} Omega={Omega} {'consistent' if consistent else 'model'}: separates at {time:.2f} s,", end=" ")
-            print(f"range {1e3 * width:.3g} mm, bilateral {1e3 * held:.3g} mm, surface before {share:.3f}", flush=True)
+            print(
+                f"N={N} Omega={Omega} {'consistent' if consistent else 'model'}: separates at {time:.2f} s,",
+                end=" ",
+            )
+            print(
+                f"range {1e3 * width:.3g} mm, bilateral {1e3 * held:.3g} mm, surface before {share:.3f}",
+                flush=True,
+            )
 
 
 if __name__ == "__main__":

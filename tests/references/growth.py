@@ -1,15 +1,18 @@
-"""Eigenvalues of steady sliding from the equations as they stand, nothing eliminated by hand; only numpy.
+"""Eigenvalues of steady sliding from the equations as they stand, nothing eliminated by hand; only
+numpy.
 
-The unknowns are the rates of all coordinates and the forces V, R and T; the equations of motion, of contact and of
-friction stand in two matrices, left @ unknowns = right @ coordinates, linear about the state in which the slider rests
-in space.  There the modes rest in the slider's frame too, so that they follow from the forces by one linear system.
+The unknowns are the rates of all coordinates and the forces V, R and T; the equations of motion, of
+contact and of friction stand in two matrices, left @ unknowns = right @ coordinates, linear about
+the state in which the slider rests in space.  There the modes rest in the slider's frame too, so
+that they follow from the forces by one linear system.
 """
 
 import numpy as np
 
 
 def steady_eigenvalues(values, omega, psi, l, damping, tangential):
-    """Eigenvalues (1/s), and V, R, T (N); ``damping`` is 2 xi omega, ``tangential`` the surface's amplitude of modes.
+    """Eigenvalues (1/s), and V, R, T (N); ``damping`` is 2 xi omega, ``tangential`` the surface's
+    amplitude of modes.
 
     values : by the names of `Parameters`; the contact is rigid if ``contact_compliance`` is 0
     """
@@ -25,7 +28,9 @@ def steady_eigenvalues(values, omega, psi, l, damping, tangential):
     n, O, I = len(omega), np.zeros((len(omega),) * 2), np.eye(len(omega))
     turn, spring, damp = np.diag(l * Omega), np.diag(omega**2), np.diag(d)
     # rates of a, b, alpha, beta without forces, at the constant speed Omega
-    modal = np.block([[O, turn, I, O], [-turn, O, O, I], [-spring, O, -damp, turn], [O, -spring, -turn, -damp]])
+    modal = np.block(
+        [[O, turn, I, O], [-turn, O, O, I], [-spring, O, -damp, turn], [O, -spring, -turn, -damp]]
+    )
     zero = np.zeros(n)
     pair = np.repeat([l > 0], 4, axis=0) | np.array([[True], [False], [True], [False]])
     present = np.flatnonzero(pair.ravel())
@@ -37,7 +42,8 @@ def steady_eigenvalues(values, omega, psi, l, damping, tangential):
         rest[present] = np.linalg.solve(modal[np.ix_(present, present)], -load)
         return rest
 
-    # V = N + k (w - C V - u_0) by secants, V being almost linear in itself; friction works on the slope
+    # V = N + k (w - C V - u_0) by secants, V being almost linear in itself; friction works on the
+    # slope
     u_0, V, R = -N * np.sum(psi**2 / omega**2) - C * N, N, N
     for _ in range(20):
         shapes = [(V * step, resting(V * step, mu * R * step)) for step in (1, 1.01)]

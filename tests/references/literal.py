@@ -1,8 +1,10 @@
-"""The paper's Eqs. (18)-(37) written down literally: complex modes, disc's frame, nothing eliminated by hand.
+"""The paper's Eqs. (18)-(37) written down literally: complex modes, disc's frame, nothing
+eliminated by hand.
 
-State: q_l and q_l' for l = -n..n (each complex, conjugate symmetry Eq. (23) not used), phi, phi', and u, u'
-of the slider. The accelerations come from the coupled linear system, assembled as printed and solved
-numerically. Slow and readable on purpose; the one change to the print is the ">=" that belongs into Eq. (24).
+State: q_l and q_l' for l = -n..n (each complex, conjugate symmetry Eq. (23) not used), phi, phi',
+and u, u' of the slider. The accelerations come from the coupled linear system, assembled as printed
+and solved numerically. Slow and readable on purpose; the one change to the print is the ">=" that
+belongs into Eq. (24).
 
 One phase at a time, integrated by scipy's DOP853.
 """
@@ -15,14 +17,18 @@ from disc_model import plate_modes
 
 def signed_diameters(diameters):
     """l of every complex mode (-d and d for d > 0) and the row it comes from."""
-    pairs = [(l, row) for row, d in enumerate(diameters) for l in ((0,) if d == 0 else (-int(d), int(d)))]
+    pairs = [
+        (l, row) for row, d in enumerate(diameters) for l in ((0,) if d == 0 else (-int(d), int(d)))
+    ]
     return np.array([l for l, _ in pairs], int), np.array([row for _, row in pairs], int)
 
 
 class Literal:
-    """A case of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made positive).
+    """A case of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made
+    positive).
 
-    The drive point is at the angle 0 at the local time 0; the preload's u_0 = w_0 is that of the static equilibrium.
+    The drive point is at the angle 0 at the local time 0; the preload's u_0 = w_0 is that of the
+    static equilibrium.
     """
 
     def __init__(self, p):
@@ -50,7 +56,8 @@ class Literal:
         return (shape * q).sum().real, slope.real, (phi_rate * slope + (shape * q_rate).sum()).real
 
     def accelerations(self, t, y, phase):
-        """q'' and phi'', u'' of `phase` ("stick", "slip+", "slip-", "separation") and the contact force P."""
+        """q'' and phi'', u'' of `phase` ("stick", "slip+", "slip-", "separation") and the contact
+        force P."""
         p, l = self.p, self.l
         q, v, phi, rate, u, u_rate = self.unpack(y)
         psi, psi_rate = self.psi(t, phi), p["Omega"] - rate
@@ -65,10 +72,16 @@ class Literal:
         matrix, right = np.zeros((n + 1, n + 1), complex), np.zeros(n + 1, complex)
         # the part of the bracket {m[...] + c(...) + k ...} without q'' and phi''
         known = (
-            e * (p["m"] * (2j * l * rate * v - l**2 * rate**2 * q) + p["c"] * (v + 1j * l * rate * q) + p["k"] * q)
+            e
+            * (
+                p["m"] * (2j * l * rate * v - l**2 * rate**2 * q)
+                + p["c"] * (v + 1j * l * rate * q)
+                + p["k"] * q
+            )
         ).sum()
         preload = p["N"] - p["k"] * self.w_0
-        # Eq. (18) / (21): q'' + test * sum e m (q'' + i s phi'' q) = free - test * (preload + known)
+        # Eq. (18) / (21): q'' + test * sum e m (q'' + i s phi'' q) = free - test * (preload +
+        # known)
         matrix[:n, :n] = np.eye(n) + p["m"] * np.outer(test, e)
         matrix[:n, n] = test * p["m"] * (e * 1j * l * q).sum()
         right[:n] = free - test * (preload + known)
@@ -78,7 +91,9 @@ class Literal:
             friction = p["mu_k"] * (1 if phase == "slip+" else -1)
             matrix[n, :n] = friction * p["m"] * e
             matrix[n, n] = p["r_0"] * p["m"] + friction * p["m"] * (e * 1j * l * q).sum()
-            right[n] = p["r_0"] * (p["c_p"] * psi_rate + p["k_p"] * psi) - friction * (preload + known)
+            right[n] = p["r_0"] * (p["c_p"] * psi_rate + p["k_p"] * psi) - friction * (
+                preload + known
+            )
         solution = np.linalg.solve(matrix, right)
         q_acc, phi_acc = solution[:n], solution[n]
         P = preload + known + p["m"] * (e * (q_acc + 1j * l * phi_acc * q)).sum()
@@ -120,7 +135,9 @@ class Literal:
         moving = (shape * v + rate * 1j * self.l * shape * q).sum()
         below = 1 + m * (shape * conjugate).sum()
         after = y.copy()
-        after[: 4 * len(self.l)].view(complex)[len(self.l) :] = v - m * (moving - u_rate) / below * conjugate
+        after[: 4 * len(self.l)].view(complex)[len(self.l) :] = (
+            v - m * (moving - u_rate) / below * conjugate
+        )
         after[-1] = ((m * u_rate * shape * conjugate).sum() + moving).real / below.real
         return after
 
@@ -131,10 +148,18 @@ def from_slider_frame(state, diameters):
     phi = -float(state.psi)
     l, rows = signed_diameters(diameters)
 
-    def complex_modes(x, y):  # w = sum psi_l (x cos + y sin) l(theta - phi), psi_l = sqrt(2) Psi_l for l >= 1
+    def complex_modes(
+        x, y
+    ):  # w = sum psi_l (x cos + y sin) l(theta - phi), psi_l = sqrt(2) Psi_l for l >= 1
         z = np.where(l == 0, x[rows], (x[rows] - 1j * np.sign(l) * y[rows]) / np.sqrt(2))
         return z * np.exp(-1j * l * phi)
 
     phase = state.phase if state.phase != "slip" else ("slip+" if state.direction > 0 else "slip-")
-    modes = np.concatenate([complex_modes(a, b), complex_modes(alpha, beta)]).astype(complex).view(float)
-    return phase, np.concatenate([modes, [phi, float(state.f), float(state.u), float(state.u_velocity)]])
+    modes = (
+        np.concatenate([complex_modes(a, b), complex_modes(alpha, beta)])
+        .astype(complex)
+        .view(float)
+    )
+    return phase, np.concatenate(
+        [modes, [phi, float(state.f), float(state.u), float(state.u_velocity)]]
+    )

@@ -2,9 +2,10 @@
 
     python -m tests.references.make_answer_references src/disc_model/benchmarks/data/answers.json
 
-Each is found without the engine: by the long-double Taylor reference of tests/references, or by heyoka in double
-precision, and once more at another tolerance; what the two differ by is stored with it.  Where motions start is the
-engine's doing at its tightest tolerance: any state would do there.  The fold of the quiet cycle is the engine's alone.
+Each is found without the engine: by the long-double Taylor reference of tests/references, or by
+heyoka in double precision, and once more at another tolerance; what the two differ by is stored
+with it.  Where motions start is the engine's doing at its tightest tolerance: any state would do
+there.  The fold of the quiet cycle is the engine's alone.
 """
 
 import json
@@ -64,27 +65,43 @@ def after_separation() -> dict[str, dict[str, Any]]:
     """Rate and period by heyoka; the range by two methods of short steps."""
     start = answers.read_state(answers.stored("answers")["starts"]["settled"])
     watched = Problem(answers.SETTLED, start, start.time + answers.SETTLED_SPAN, watched=True)
-    steps = [METHODS[name].solve(watched, setting).heights for name, setting in (("RK4", 2e-5), ("RK4", 1e-5))]
+    steps = [
+        METHODS[name].solve(watched, setting).heights
+        for name, setting in (("RK4", 2e-5), ("RK4", 1e-5))
+    ]
     coarse, fine = (high - low for low, high in steps)
-    return {name: twice(answers.after_separation, name) for name in ("separation_rate", "period")} | {
-        "disc_range": {"value": fine, "error": abs(fine - coarse), "by": "fixed steps of 2e-5 and 1e-5 s (RK4)"}
+    return {
+        name: twice(answers.after_separation, name) for name in ("separation_rate", "period")
+    } | {
+        "disc_range": {
+            "value": fine,
+            "error": abs(fine - coarse),
+            "by": "fixed steps of 2e-5 and 1e-5 s (RK4)",
+        }
     }
 
 
 def region() -> tuple[list[str], dict[str, Any]]:
-    """All cells, and the reference of the share judged wrong; its error: what another tolerance judges otherwise."""
+    """All cells, and the reference of the share judged wrong; its error: what another tolerance
+    judges otherwise."""
     maps = []
     for tol in (TIGHT, TIGHTER):
         solve = by_heyoka(tol)
         maps.append([answers.cell(solve, np.inf, index)[0] for index in range(answers.SIDE**2)])
     rows = np.array(maps[1]).reshape(answers.SIDE, answers.SIDE)
     unlike = float(np.mean(np.array(maps[0]) != np.array(maps[1])))
-    return ["".join("01"[int(x)] for x in row) for row in rows], {"value": 0.0, "error": unlike, "by": HEYOKA}
+    return ["".join("01"[int(x)] for x in row) for row in rows], {
+        "value": 0.0,
+        "error": unlike,
+        "by": HEYOKA,
+    }
 
 
 def fold() -> dict[str, Any]:
     start, way = answers.SEPARATING.replace(Omega=14.8), {"bounds": (14.5, 16.0), "direction": 1}
-    speeds = [float(continue_cycle(start, "Omega", **way, tol=tol).folds[0, 0]) for tol in (1e-12, ENGINE)]
+    speeds = [
+        float(continue_cycle(start, "Omega", **way, tol=tol).folds[0, 0]) for tol in (1e-12, ENGINE)
+    ]
     return {"value": speeds[1], "error": max(abs(speeds[1] - speeds[0]), 1e-12),
             "by": "continuation of the cycle by the engine at tolerances 1e-12 and 1e-14"}  # fmt: skip
 
@@ -109,8 +126,12 @@ def main(output: str) -> None:
     data["references"]["growth_rate"] = twice(answers.growth_rate, "growth_rate")
     keep()
     data["references"]["fold"] = fold()
-    onset = [answers.onset(by_heyoka(tol), np.inf, ONSET_WITHIN)["onset"] for tol in (TIGHT, TIGHTER)]
-    data["references"]["onset"] = entry(onset[1], max(0.5 * (o.high - o.low) for o in onset), HEYOKA)
+    onset = [
+        answers.onset(by_heyoka(tol), np.inf, ONSET_WITHIN)["onset"] for tol in (TIGHT, TIGHTER)
+    ]
+    data["references"]["onset"] = entry(
+        onset[1], max(0.5 * (o.high - o.low) for o in onset), HEYOKA
+    )
     keep()
     data["region"], data["references"]["region"] = region()
     keep()

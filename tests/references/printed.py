@@ -1,7 +1,9 @@
-"""The paper's equations of one phase (tests/references/literal.py) in this package's variables, and where to try them.
+"""The paper's equations of one phase (tests/references/literal.py) in this package's variables, and
+where to try them.
 
-The states are lively: no term of the equations is small, all dampers work, slip goes in both directions, the disc turns
-quickly under the slider.  Runs from there are so short that they need no compilation.
+The states are lively: no term of the equations is small, all dampers work, slip goes in both
+directions, the disc turns quickly under the slider.  Runs from there are so short that they need no
+compilation.
 """
 
 import math
@@ -46,12 +48,15 @@ def lively(phase, direction=0, p=P):
 
 
 class Printed:
-    """The paper's equations of one phase: motion and forces from a `State`, in this package's variables."""
+    """The paper's equations of one phase: motion and forces from a `State`, in this package's
+    variables."""
 
     def __init__(self, p, state):
         self.p, self.literal = p, Literal(p)
         self.sign = np.sign(plate_modes(p)["psi"].to_numpy())
-        self.phase, self.y = from_slider_frame(stored.reference_state(state, p), plate_modes(p)["diameters"])
+        self.phase, self.y = from_slider_frame(
+            stored.reference_state(state, p), plate_modes(p)["diameters"]
+        )
 
     def at(self, t):
         """The state a time ``t`` (s) later, as a dict."""
@@ -71,7 +76,8 @@ class Printed:
         }  # fmt: skip
 
     def _across(self, q, v, phi):
-        """a, b, alpha and beta of every row of `plate_modes`; the inverse of `from_slider_frame`."""
+        """a, b, alpha and beta of every row of `plate_modes`; the inverse of
+        `from_slider_frame`."""
         l = self.literal.l
         turning = np.exp(1j * l * phi) * np.where(l > 0, math.sqrt(2), 1.0)
         along, rates = (self.sign * (z * turning)[l >= 0] for z in (q, v))

@@ -1,4 +1,5 @@
-"""The stored references (parameters, modes, starts, event times) and the way from them to disc_model."""
+"""The stored references (parameters, modes, starts, event times) and the way from them to
+disc_model."""
 
 import json
 from dataclasses import dataclass
@@ -15,7 +16,8 @@ DATA = Path(__file__).parent / "data"
 
 @dataclass
 class State:
-    """Time (s), phase, direction (sign of f in slip, else 0) and the variables of the slider's frame."""
+    """Time (s), phase, direction (sign of f in slip, else 0) and the variables of the slider's
+    frame."""
 
     time: float
     phase: str
@@ -32,7 +34,8 @@ class State:
 
 @cache
 def load(name):
-    """Stored reference `name`, a file of ``data``, as a dict; states as `State`, `time` as floats."""
+    """Stored reference `name`, a file of ``data``, as a dict; states as `State`, `time` as
+    floats."""
 
     def read(found):
         return State(**found) if found.keys() == State.__annotations__.keys() else found
@@ -46,29 +49,43 @@ def times_of(data):
 
 
 def engine_state(state, p):
-    """`State` of the references (all psi positive) as disc_model's (signs as plate_modes has them)."""
+    """`State` of the references (all psi positive) as disc_model's (signs as plate_modes has
+    them)."""
     sign = np.sign(plate_modes(p)["psi"].to_numpy())
-    values = {k: sign * np.array(v, float) if isinstance(v, list) else v for k, v in vars(state).items()}
-    if state.phase != "separation" and p.contact_compliance == 0:  # where the references leave u as it last was
+    values = {
+        k: sign * np.array(v, float) if isinstance(v, list) else v for k, v in vars(state).items()
+    }
+    if (
+        state.phase != "separation" and p.contact_compliance == 0
+    ):  # where the references leave u as it last was
         values["u"] = float(plate_modes(p)["psi"].to_numpy() @ values["a"])
-    return EngineState(**{k: float(v) if isinstance(v, np.floating) else v for k, v in values.items()})
+    return EngineState(
+        **{k: float(v) if isinstance(v, np.floating) else v for k, v in values.items()}
+    )
 
 
 def as_json(state):
     """disc_model's state, as files of references hold it."""
     values = {name: getattr(state, name) for name in State.__annotations__}
-    return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()}
+    return {
+        name: value.tolist() if isinstance(value, np.ndarray) else value
+        for name, value in values.items()
+    }
 
 
 def reference_state(state, p):
     """The other way round."""
     sign = np.sign(plate_modes(p)["psi"].to_numpy())
     modal = {k: [float(x) for x in sign * getattr(state, k)] for k in ("a", "b", "alpha", "beta")}
-    plain = {k: getattr(state, k) for k in ("time", "phase", "direction", "psi", "f", "u", "u_velocity")}
+    plain = {
+        k: getattr(state, k) for k in ("time", "phase", "direction", "psi", "f", "u", "u_velocity")
+    }
     return State(**plain, **modal)
 
 
 def rounded(state):
     """`State` with every number a double."""
-    values = {k: [float(x) for x in v] if isinstance(v, list) else v for k, v in vars(state).items()}
+    values = {
+        k: [float(x) for x in v] if isinstance(v, list) else v for k, v in vars(state).items()
+    }
     return State(**{k: float(v) if isinstance(v, np.floating) else v for k, v in values.items()})

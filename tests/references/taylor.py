@@ -1,12 +1,14 @@
-"""Reference runs of every contact law, in long double: a Taylor integrator with an event search of its own.
+"""Reference runs of every contact law, in long double: a Taylor integrator with an event search of
+its own.
 
-Nothing here is shared with the engine.  The equations stand as in the model's text: rigid contact or a contact of
-compliance ``C`` (m/N), contact force ``vertical`` or ``normal``; quotients are quotients of series.  A switch is looked
-for by exclusion: on an interval of middle m and half width r a polynomial has no root if |p(m)| > sum |p_j(m)| r^j, and
-at most one if the same holds for its derivative; else the interval is halved.  Omega and N may change at constant
-rates, from corner to corner of a course; u_0 stays that of the first N.  The couple of friction on a surface at
-``offset`` (m) from the middle plane is a force ``t T`` on beta, t = -(offset/r_0) l psi (1/sqrt(kg)).
-Friction falls with the speed by ``decay`` (s/m), or at once.
+Nothing here is shared with the engine.  The equations stand as in the model's text: rigid contact
+or a contact of compliance ``C`` (m/N), contact force ``vertical`` or ``normal``; quotients are
+quotients of series.  A switch is looked for by exclusion: on an interval of middle m and half width
+r a polynomial has no root if |p(m)| > sum |p_j(m)| r^j, and at most one if the same holds for its
+derivative; else the interval is halved.  Omega and N may change at constant rates, from corner to
+corner of a course; u_0 stays that of the first N.  The couple of friction on a surface at
+``offset`` (m) from the middle plane is a force ``t T`` on beta, t = -(offset/r_0) l psi
+(1/sqrt(kg)). Friction falls with the speed by ``decay`` (s/m), or at once.
 """
 
 from functools import cache
@@ -30,10 +32,12 @@ COMPLIANCE = 2.656e-7
 
 
 class Problem:
-    """A case's numbers in long double, from values by the names of `Parameters`, its modes and their nodal diameters.
+    """A case's numbers in long double, from values by the names of `Parameters`, its modes and
+    their nodal diameters.
 
-    ``rates`` are those of Omega (rad/s^2) and N (N/s), from the time ``since`` on; ``offset`` is that of the friction
-    surface (m), and ``tangential`` the modes' amplitudes there if they do not follow from it.
+    ``rates`` are those of Omega (rad/s^2) and N (N/s), from the time ``since`` on; ``offset`` is
+    that of the friction surface (m), and ``tangential`` the modes' amplitudes there if they do not
+    follow from it.
     """
 
     since = LONG(0)
@@ -42,16 +46,29 @@ class Problem:
         self.Omega_rate, self.N_rate = LONG(rates[0]), LONG(rates[1])
         for name in ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0"):
             setattr(self, name, LONG(values[name]))
-        self.C, self.normal = LONG(values.get("contact_compliance", 0)), values.get("contact_force") == "normal"
+        self.C, self.normal = (
+            LONG(values.get("contact_compliance", 0)),
+            values.get("contact_force") == "normal",
+        )
         self.decay = LONG(values.get("friction_decay", np.inf))
         self.falls = bool(np.isfinite(self.decay)) and self.mu_s > self.mu_k
         self.rigid, self.bonded = self.C == 0, values.get("contact") in ("bonded", "bilateral")
-        w, self.s, self.l = (np.array([LONG(x) for x in column], LONG) for column in (omega, psi, l))
+        w, self.s, self.l = (
+            np.array([LONG(x) for x in column], LONG) for column in (omega, psi, l)
+        )
         self.w2 = w * w
         D_star, E, h, nu = (LONG(values[name]) for name in ("D_star", "E", "h", "nu"))
         disc = values.get("disc")
-        ratio = values.get("damping_ratio") if disc is None else [LONG(x) for x in disc["damping_ratio"]]
-        self.d = D_star / (E * h**3 / 12 / (1 - nu**2)) * self.w2 if ratio is None else 2 * np.array(ratio, LONG) * w
+        ratio = (
+            values.get("damping_ratio")
+            if disc is None
+            else [LONG(x) for x in disc["damping_ratio"]]
+        )
+        self.d = (
+            D_star / (E * h**3 / 12 / (1 - nu**2)) * self.w2
+            if ratio is None
+            else 2 * np.array(ratio, LONG) * w
+        )
         given = None if tangential is None else np.array([LONG(x) for x in tangential], LONG)
         self.t = -LONG(offset) / self.r_0 * self.l * self.s if given is None else given
         self.S2 = (self.s**2).sum()
@@ -66,16 +83,20 @@ class Problem:
 
 
 def problem_of(p, rates=(0.0, 0.0)):
-    """`Problem` of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made positive)."""
+    """`Problem` of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made
+    positive)."""
     modes, values = plate_modes(p), p.model_dump() | {"contact_compliance": contact_compliance(p)}
     sign = np.sign(modes["psi"].to_numpy())
     offset, tangential = surface_of(p)
     given = None if tangential is None else sign * np.array(tangential)
-    return Problem(values, modes["omega"], sign * modes["psi"], modes["diameters"], rates, offset, given)
+    return Problem(
+        values, modes["omega"], sign * modes["psi"], modes["diameters"], rates, offset, given
+    )
 
 
 def surface_of(p):
-    """Height of friction above the middle plane (m), and amplitudes along the path if the modes' table has them."""
+    """Height of friction above the middle plane (m), and amplitudes along the path if the modes'
+    table has them."""
     if p.friction_offset != "surface":
         return p.friction_offset, None
     return (p.h / 2, None) if p.disc is None else (0.0, p.disc.tangential)
@@ -96,8 +117,9 @@ def product(x, y, k):
 class Step:
     """Series of all quantities about one instant.
 
-    a, b, alpha, beta: (ORDER + 1, n); the others (ORDER + 1,): psi, f, u, v, and in contact V (vertical force on slider
-    and disc), R (normal force), B (slope); V and R are known up to ORDER - 1.
+    a, b, alpha, beta: (ORDER + 1, n); the others (ORDER + 1,): psi, f, u, v, and in contact V
+    (vertical force on slider and disc), R (normal force), B (slope); V and R are known up to ORDER
+    - 1.
     """
 
     def __init__(self, q, phase, direction, state, order=ORDER):
@@ -156,9 +178,12 @@ class Step:
         if self.phase == "separation":
             return
         if self.phase == "slip":
-            # mu is the signed coefficient; its excess over mu_k times 1 + decay r_0 abs(f) is a constant
+            # mu is the signed coefficient; its excess over mu_k times 1 + decay r_0 abs(f) is a
+            # constant
             if q.falls:
-                rest = (q.mu_s - q.mu_k if k == 0 else 0) - q.decay * q.r_0 * s * product(f, self.excess, k)
+                rest = (q.mu_s - q.mu_k if k == 0 else 0) - q.decay * q.r_0 * s * product(
+                    f, self.excess, k
+                )
                 self.excess[k] = rest / (1 + q.decay * q.r_0 * s * f[0])
             self.mu[k] = s * (self.excess[k] + (q.mu_k if k == 0 else 0))
             steep = product(self.mu, self.B, k) / q.r_0
@@ -209,10 +234,19 @@ class Step:
     def length(self, truncation):
         """Step at which the last terms are below ``truncation`` of the motion."""
         q, h = self.q, LONG(np.inf)
-        groups = [(self.alpha, 0), (self.beta, 0), (self.f, abs(q.Omega)), (self.a, 0), (self.b, 0), (self.R, q.N)]
+        groups = [
+            (self.alpha, 0),
+            (self.beta, 0),
+            (self.f, abs(q.Omega)),
+            (self.a, 0),
+            (self.b, 0),
+            (self.R, q.N),
+        ]
         if not q.rigid or self.phase == "separation":
             groups.append((self.v, 0))
-        modal = abs(np.append(self.alpha[0], self.beta[0])).max(initial=0) + (q.N * q.s / np.sqrt(q.w2)).max(initial=0)
+        modal = abs(np.append(self.alpha[0], self.beta[0])).max(initial=0) + (
+            q.N * q.s / np.sqrt(q.w2)
+        ).max(initial=0)
         for x, usual in groups:
             last = len(x) - (2 if x is self.R else 1)
             scale = max(abs(x[0]).max(initial=0), usual)
@@ -248,7 +282,8 @@ def _about(c, m):
 
 
 def first_zero(c, h):
-    """Smallest t in (0, h] where the polynomial falls below zero, or None; it has to be positive just after 0."""
+    """Smallest t in (0, h] where the polynomial falls below zero, or None; it has to be positive
+    just after 0."""
     c = c * h ** np.arange(len(c))
     if c[0] > abs(c[1:]).sum():
         return None
@@ -310,7 +345,9 @@ class Reference:
 
     def state(self):
         modal = [list(x) for x in (self.a, self.b, self.alpha, self.beta)]
-        return State(self.time, self.phase, self.direction, self.psi, self.f, self.u, self.v, *modal)
+        return State(
+            self.time, self.phase, self.direction, self.psi, self.f, self.u, self.v, *modal
+        )
 
     def disc(self):
         """w, w' and the slope under the slider."""
@@ -324,13 +361,17 @@ class Reference:
         return step.R[0], step.T[0]
 
     def sample(self, drive, theta):
-        """The quantities `SAMPLED`, now; ``drive`` : angle of the drive point, ``theta`` : of a point of the disc."""
+        """The quantities `SAMPLED`, now; ``drive`` : angle of the drive point, ``theta`` : of a
+        point of the disc."""
         q, (w, velocity, _), turn = self.q, self.disc(), self.q.l * (theta - drive + self.psi)
         R, _ = self.forces(self.phase, self.direction)
         held = self.phase != "separation" and q.rigid
         u, u_velocity = (w, velocity) if held else (self.u, self.v)
         along, across = q.s * np.cos(turn), q.s * np.sin(turn)
-        point, point_velocity = along @ self.a + across @ self.b, along @ self.alpha + across @ self.beta
+        point, point_velocity = (
+            along @ self.a + across @ self.b,
+            along @ self.alpha + across @ self.beta,
+        )
         turning = q.Omega + q.Omega_rate * (self.time - q.since) - self.f
         return np.array([R, u, u_velocity, w, point, point_velocity, self.psi, turning], float)
 
@@ -352,7 +393,9 @@ class Reference:
         while self.local < end:
             step = Step(self.q, self.phase, self.direction, self.state())
             h = min(step.length(self.truncation), end - self.local)
-            found = [(t, kind) for kind, c in self._switches(step) if (t := first_zero(c, h)) is not None]
+            found = [
+                (t, kind) for kind, c in self._switches(step) if (t := first_zero(c, h)) is not None
+            ]
             t, kind = min(found) if found else (h, None)
             for name, value in step.at(t).items():
                 setattr(self, name, value)
@@ -371,7 +414,9 @@ class Reference:
         if self.phase == "slip":
             ends = [("rest", self.direction * step.f[self.divide["f"] :])]
         else:
-            ends = [("stick_to_slip", self.q.mu_s * step.R[:K] - side * step.T[:K]) for side in (1, -1)]
+            ends = [
+                ("stick_to_slip", self.q.mu_s * step.R[:K] - side * step.T[:K]) for side in (1, -1)
+            ]
             # a compliant contact does not pull, though friction may hold where it would
             R = R if self.q.rigid else step.V[self.divide["R"] : K]
         return ends if self.q.bonded else [("separation", R), *ends]
@@ -381,7 +426,9 @@ class Reference:
         self.phase, self.direction = phase, direction
         self.divide = {"f": 0, "gap": 0, "R": 0} | divide
         P = LONG(0) if phase == "separation" else self.forces(phase, direction)[0]
-        self.events.append({"time": self.time, "kind": kind, "phase": phase, "psi": self.psi, "f": self.f, "P": P})
+        self.events.append(
+            {"time": self.time, "kind": kind, "phase": phase, "psi": self.psi, "f": self.f, "P": P}
+        )
         if P < 0 and self.q.rigid and not self.q.bonded:
             self._separate(2)
 
@@ -393,7 +440,11 @@ class Reference:
                 self._enter("slip_to_stick", "stick", 0)
             else:
                 # f begins at zero; at a release so does its rate where friction does not fall
-                zeros = 2 if kind == "stick_to_slip" and (self.q.falls or self.q.mu_s == self.q.mu_k) else 1
+                zeros = (
+                    2
+                    if kind == "stick_to_slip" and (self.q.falls or self.q.mu_s == self.q.mu_k)
+                    else 1
+                )
                 kind = "slip_reversal" if kind == "rest" else kind
                 self._enter(kind, "slip", 1 if T > 0 else -1, f=zeros)
         elif kind == "separation":
@@ -424,11 +475,14 @@ class Reference:
 
 
 def violent_start(scale):
-    """The stored state C, its distance from equilibrium times ``scale``, the slider 10 micrometres above the disc."""
+    """The stored state C, its distance from equilibrium times ``scale``, the slider 10 micrometres
+    above the disc."""
     given, modes = load("C")["start"], load("C")["modes"]
     s = np.array(modes["psi"])
     rest = -385.0 * s / np.array(modes["omega"]) ** 2
-    a, b, alpha, beta = (scale * np.array(getattr(given, name)) for name in ("a", "b", "alpha", "beta"))
+    a, b, alpha, beta = (
+        scale * np.array(getattr(given, name)) for name in ("a", "b", "alpha", "beta")
+    )
     a, f = a + (1 - scale) * rest, float(given.f)
     velocity = float(s @ alpha + f * (np.arange(len(s)) * s) @ b)
     modal = [x.tolist() for x in (a, b, alpha, beta)]

@@ -17,7 +17,9 @@ def same(a: Result, b: Result) -> None:
         for name in one:
             assert one[name].tobytes() == other[name].tobytes(), name
     for name in {field.name for field in dataclasses.fields(State)} - {"case_key"}:
-        np.testing.assert_array_equal(getattr(a.final_state, name), getattr(b.final_state, name), err_msg=name)
+        np.testing.assert_array_equal(
+            getattr(a.final_state, name), getattr(b.final_state, name), err_msg=name
+        )
     assert (a.status, a.message, a.u_0, a.parameters) == (b.status, b.message, b.u_0, b.parameters)
     np.testing.assert_array_equal(a.first_separation, b.first_separation)
     assert set(a.statistics) == set(b.statistics)

@@ -1,4 +1,5 @@
-"""How simulations end, and what they take; in several threads they share nothing that they change."""
+"""How simulations end, and what they take; in several threads they share nothing that they
+change."""
 
 from concurrent.futures import ThreadPoolExecutor
 
@@ -45,9 +46,13 @@ def test_a_duration_begins_at_the_initial_state():
     first = simulate(P, duration="20 ms")
     same(first, simulate(P, 0.02))
     same(
-        simulate(P, duration=0.01, initial_state=first.final_state), simulate(P, 0.03, initial_state=first.final_state)
+        simulate(P, duration=0.01, initial_state=first.final_state),
+        simulate(P, 0.03, initial_state=first.final_state),
     )
-    for times, rule in (({}, ": is required, or duration"), ({"t_end": 1, "duration": 1}, "=1: must be left out")):
+    for times, rule in (
+        ({}, ": is required, or duration"),
+        ({"t_end": 1, "duration": 1}, "=1: must be left out"),
+    ):
         with pytest.raises(ParameterError, match=f"t_end{rule}"):
             simulate(P, **times)
 
@@ -56,7 +61,8 @@ def test_runs_in_threads_equal_runs_in_turn() -> None:
     def content(result: Result) -> tuple[bytes, str]:
         return result.event_rows.tobytes(), repr(result.final_state)
 
-    # few cases, so that runs in different threads share their constants and reuse each other's workspaces
+    # few cases, so that runs in different threads share their constants and reuse each other's
+    # workspaces
     cases = [Parameters(N=100.0 + 150.0 * (i % 4), Omega=15.1 + i % 3) for i in range(48)]
 
     def run(p: Parameters) -> tuple[bytes, str]:

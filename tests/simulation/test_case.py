@@ -1,4 +1,5 @@
-"""What a simulation keeps: windows, envelopes, samples by the drive; and which records are refused."""
+"""What a simulation keeps: windows, envelopes, samples by the drive; and which records are
+refused."""
 
 import json
 
@@ -29,23 +30,35 @@ def test_envelopes_are_the_extremes_of_the_samples():
     assert turns["time"].tolist() == [0.0]
 
 
-@given(*[st.integers(0, 60)] * 4, st.sampled_from(["stop", "end", "last"]), st.sampled_from([None, 2]))
+@given(
+    *[st.integers(0, 60)] * 4, st.sampled_from(["stop", "end", "last"]), st.sampled_from([None, 2])
+)
 @example(0, 9, 9, 1, "end", None)
 @example(0, 9, 8, 1, "end", 2)
 def test_a_window_has_the_samples_within_it(begin, duration, start, length, until, envelope):
-    """Times are in quarters of the interval between samples, 1/64 s: none is rounded, all digits are shown."""
+    """Times are in quarters of the interval between samples, 1/64 s: none is rounded, all digits
+    are shown."""
     end, stop = begin + duration + 1, start + length + 1
-    times = {"last": {"last": length + 1}, "stop": {"start": start, "stop": stop}}.get(until, {"start": start})
+    times = {"last": {"last": length + 1}, "stop": {"start": start, "stop": stop}}.get(
+        until, {"start": start}
+    )
     window = Window(rate=16, envelope=envelope, **{name: time / 64 for name, time in times.items()})
     if (until == "end" and start >= end) or (until == "stop" and start > end):
-        with pytest.raises(ParameterError, match=rf"^windows\.w\.start={start / 64:.9g}: must be <.*{end / 64:.9g}"):
+        with pytest.raises(
+            ParameterError, match=rf"^windows\.w\.start={start / 64:.9g}: must be <.*{end / 64:.9g}"
+        ):
             resolved_windows({"w": window}, begin / 64, end / 64)
         return
     resolved = resolved_windows({"w": window}, begin / 64, end / 64)["w"]
-    first, last = max(begin, end - length - 1) if until == "last" else start, stop if until == "stop" else end
+    first, last = (
+        max(begin, end - length - 1) if until == "last" else start,
+        stop if until == "stop" else end,
+    )
     assert (resolved.start, resolved.last) == (first / 64, None)
     assert resolved.stop <= last / 64
-    if envelope and until != "stop":  # without the instant of the end, and half an interval before it
+    if (
+        envelope and until != "stop"
+    ):  # without the instant of the end, and half an interval before it
         last = max(end - 2, first)
     assert resolved.count == len(range(first, last + 1, 4))
     assert resolved_windows({"w": resolved}, begin / 64, end / 64)["w"] == resolved
@@ -59,18 +72,26 @@ def test_rounding_loses_no_sample(intervals, rate):
 def test_a_section_has_one_sample_a_turn():
     p, turn = P.replace(Omega=500), 2 * np.pi / 500
     windows = {"turns": Poincare(start=1.5 * turn, stop=4.1 * turn, theta=2.0)}
-    windows |= {f"at {theta:g}": Window(start=2 * turn, rate=1 / turn, theta=theta) for theta in (1.0, 2.0)}
+    windows |= {
+        f"at {theta:g}": Window(start=2 * turn, rate=1 / turn, theta=theta) for theta in (1.0, 2.0)
+    }
     turns, other, same = simulate(p, 4.5 * turn, windows).samples.values()
     np.testing.assert_allclose(turns["time"], turn * np.arange(2, 5), rtol=1e-15)
-    np.testing.assert_allclose(turns["w_point"], same["w_point"], rtol=1e-9)  # times differ by their rounding
+    np.testing.assert_allclose(
+        turns["w_point"], same["w_point"], rtol=1e-9
+    )  # times differ by their rounding
     assert not np.isclose(turns["w_point"], other["w_point"], rtol=1e-2).any()
 
 
 def test_a_text_is_a_case_and_does_not_name_what_is_absent():
-    """Older texts, from before `last` and three fields, are still those of their cases, and address their results."""
+    """Older texts, from before `last` and three fields, are still those of their cases, and address
+    their results."""
     brief = CaseSpec(parameters=P, t_end=1.0, windows=(("w", Window(rate=10, stop=1)),))
     later = {"start": Start(prerun={"parameters": {"N": 385}, "time": 1}), "modes": "b"}
-    later |= {"ramps": (Ramp(parameter="N", to=100, start=0, end=1),), "poincare": Poincare(theta=2.0)}
+    later |= {
+        "ramps": (Ramp(parameter="N", to=100, start=0, end=1),),
+        "poincare": Poincare(theta=2.0),
+    }
     full = CaseSpec(**dict(brief) | later | {"windows": (("w", Window(rate=10, last=1)),)})
     fields = [json.loads(case.canonical) for case in (brief, full)]
     assert set(fields[1]) - set(fields[0]) == {"start", "modes", "ramps"}
@@ -101,13 +122,16 @@ def test_the_sample_at_the_very_end_is_taken(t_end, rate):
 
 
 def test_windows_after_the_run_are_refused_and_those_before_it_stay_empty():
-    windows = {f"from {start}": Window(start=start, stop=start + 0.01, rate=1000) for start in (0.0, 0.03)}
+    windows = {
+        f"from {start}": Window(start=start, stop=start + 0.01, rate=1000) for start in (0.0, 0.03)
+    }
     result = simulate(P, 0.04, windows, tol=1e-9)
     assert [len(samples["time"]) for samples in result.samples.values()] == [11, 11]
     later = simulate(P, 0.05, windows, tol=1e-9, initial_state=result.final_state)
     assert [len(samples["time"]) for samples in later.samples.values()] == [0, 1]
     with pytest.raises(
-        ParameterError, match=r"^windows\.from 0\.03\.start=0\.03: must be <= 0\.02, where the run ends$"
+        ParameterError,
+        match=r"^windows\.from 0\.03\.start=0\.03: must be <= 0\.02, where the run ends$",
     ):
         simulate(P, 0.02, windows)
 
@@ -127,5 +151,8 @@ def test_what_no_memory_holds_is_refused_before_anything_runs(what, monkeypatch)
     monkeypatch.setattr(api, "_memory", lambda: 5e5)
     windows = {f"w{i}": window for i, window in enumerate(GREEDY[what])}
     p = P.replace(Omega=1e300) if what == "sections" else P
-    with pytest.raises(ParameterError, match=rf"^windows\.w{len(windows) - 1}: must fit into memory: .* GB of samples"):
+    with pytest.raises(
+        ParameterError,
+        match=rf"^windows\.w{len(windows) - 1}: must fit into memory: .* GB of samples",
+    ):
         simulate(p, 1.0, windows)

@@ -1,4 +1,5 @@
-"""The whole disc's deflection: against the engine's own samples at one point, and the plate's clamp."""
+"""The whole disc's deflection: against the engine's own samples at one point, and the plate's
+clamp."""
 
 import numpy as np
 import pytest
@@ -20,12 +21,17 @@ def test_it_is_what_the_engine_samples_at_a_point_fixed_to_the_disc(p: Parameter
     assert w.dims == ("time", "r", "theta")
     assert w.attrs["units"] == "m"
     assert np.array_equal(w["time"], times)
-    windows = {str(theta): Window(start=0, stop=0.2, rate=1000, theta=theta) for theta in (0.0, 1.0)}
+    windows = {
+        str(theta): Window(start=0, stop=0.2, rate=1000, theta=theta) for theta in (0.0, 1.0)
+    }
     sampled = simulate(p, 0.2, windows).samples
     for i, samples in enumerate(sampled.values()):
         there = np.searchsorted(samples["time"], times - 1e-9)
-        # pieces of a run and one whole run differ by their truncation error, 1e-10 of the motion a step
-        assert np.allclose(w[:, 0, i], samples["w_point"][there], atol=1e-9 * np.abs(samples["w_point"]).max())
+        # pieces of a run and one whole run differ by their truncation error, 1e-10 of the motion a
+        # step
+        assert np.allclose(
+            w[:, 0, i], samples["w_point"][there], atol=1e-9 * np.abs(samples["w_point"]).max()
+        )
 
 
 def test_the_static_disc_is_lowest_under_the_slider(p: Parameters) -> None:

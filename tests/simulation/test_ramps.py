@@ -48,7 +48,11 @@ def test_pieces_of_overlapping_ramps():
 def test_one_ramp_goes_on_where_another_ends():
     back = Ramp(parameter="Omega", to=50.0, start=0.03, end=0.04)
     found = pieces(P, (back, BRAKE))
-    assert [(piece.begin, piece.Omega) for piece in found[1:]] == [(0.01, 50.0), (0.03, 20.0), (0.04, 50.0)]
+    assert [(piece.begin, piece.Omega) for piece in found[1:]] == [
+        (0.01, 50.0),
+        (0.03, 20.0),
+        (0.04, 50.0),
+    ]
     times = np.array([[0.0, 0.01, 0.02], [0.03, 0.035, 7.0]])
     run = simulate(P, 1e-3, ramps=(BRAKE, back))
     np.testing.assert_allclose(run.value_at("Omega", times), [[50, 50, 35], [20, 35, 50]])
@@ -56,7 +60,8 @@ def test_one_ramp_goes_on_where_another_ends():
 
 # ------------------------------------------------------------------------ what is carried over
 def test_a_run_in_pieces_is_the_whole_run():
-    """Each run continues where the last one ended, in the midst of ramps; the same ramps are said to all."""
+    """Each run continues where the last one ended, in the midst of ramps; the same ramps are said
+    to all."""
     ramps = (BRAKE, RELIEF)
     whole, state, times = simulate(P, 0.06, tol=1e-13, ramps=ramps), None, []
     for end in (0.005, 0.015, 0.025, 0.035, 0.06):
@@ -70,7 +75,10 @@ def test_a_run_in_pieces_is_the_whole_run():
 
 
 def test_samples_events_and_statistics_know_no_pieces():
-    windows = {"all": Window(rate=1e4), "bins": Window(rate=2e3, start=0.015, stop=0.045, envelope=3)}
+    windows = {
+        "all": Window(rate=1e4),
+        "bins": Window(rate=2e3, start=0.015, stop=0.045, envelope=3),
+    }
     result = simulate(P, 0.05, windows, ramps=(BRAKE, RELIEF))
     sample, statistics = result.samples["all"], result.statistics
     np.testing.assert_allclose(sample["time"], np.arange(501) * 1e-4, rtol=0, atol=1e-15)

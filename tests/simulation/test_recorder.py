@@ -17,7 +17,10 @@ WINDOWS = {
     "bins": Window(start=54.45, stop=55.5, rate=1e3, theta=2.0, envelope=7),
 }
 ALL = {"windows": WINDOWS | {"turns": Poincare(start=54.6)}}
-RAMPS = (Ramp(parameter="Omega", to=14.0, start=54.5, end=55.5), Ramp(parameter="N", to=300.0, start=54.9, end=55.2))
+RAMPS = (
+    Ramp(parameter="Omega", to=14.0, start=54.5, end=55.5),
+    Ramp(parameter="N", to=300.0, start=54.9, end=55.2),
+)
 RUNS: dict[str, dict[str, Any]] = {
     "everything": ALL | {"execution": Execution(audit_every_step=True)},
     "nothing recorded": {"events": False},
@@ -34,9 +37,13 @@ def separating() -> State:
 
 @pytest.mark.compiled
 @pytest.mark.parametrize("options", RUNS.values(), ids=RUNS)
-def test_pauses_change_nothing(separating: State, monkeypatch: pytest.MonkeyPatch, options: dict[str, Any]) -> None:
+def test_pauses_change_nothing(
+    separating: State, monkeypatch: pytest.MonkeyPatch, options: dict[str, Any]
+) -> None:
     undisturbed = simulate(P, 55.6, initial_state=separating, **options)
-    monkeypatch.setattr(importlib.import_module("disc_model.simulation.api"), "STEPS_PER_PAUSE", 120)
+    monkeypatch.setattr(
+        importlib.import_module("disc_model.simulation.api"), "STEPS_PER_PAUSE", 120
+    )
     same(simulate(P, 55.6, initial_state=separating, **options), undisturbed)
 
 

@@ -1,4 +1,5 @@
-"""Results and states: constants that runs share, and what is handed on: files, a line of text, another time."""
+"""Results and states: constants that runs share, and what is handed on: files, a line of text,
+another time."""
 
 from pathlib import Path
 
@@ -22,12 +23,18 @@ def test_a_result_stays_what_it_is_in_later_runs() -> None:
         first.final_state.a[0] = 1
 
 
-WINDOWS = {"late": Window(last=0.02, rate=1000), "bins": Window(rate=500, envelope=5), "turns": Poincare()}
+WINDOWS = {
+    "late": Window(last=0.02, rate=1000),
+    "bins": Window(rate=500, envelope=5),
+    "turns": Poincare(),
+}
 
 
 @pytest.mark.parametrize("suffix", [".nc", ".mat"])
 @pytest.mark.parametrize("events", [True, False])
-def test_a_result_survives_its_file_to_the_last_bit(tmp_path: Path, suffix: str, events: bool) -> None:
+def test_a_result_survives_its_file_to_the_last_bit(
+    tmp_path: Path, suffix: str, events: bool
+) -> None:
     ramps = (Ramp(parameter="N", to=190, start=0.01, end=0.02),)
     result, path = simulate(P, 0.05, WINDOWS, events=events, ramps=ramps), tmp_path / f"r{suffix}"
     result.save(path)
@@ -40,7 +47,9 @@ def test_a_result_survives_its_file_to_the_last_bit(tmp_path: Path, suffix: str,
         assert getattr(again, name) == getattr(result, name), name
     for name in WINDOWS:
         assert again[name].identical(result[name])
-    goes_on, went_on = (simulate(P, 0.06, initial_state=run.final_state, ramps=ramps) for run in (again, result))
+    goes_on, went_on = (
+        simulate(P, 0.06, initial_state=run.final_state, ramps=ramps) for run in (again, result)
+    )
     assert np.array_equal(goes_on.final_state.a, went_on.final_state.a)
     path.write_bytes(b"# 1")
     with pytest.raises(UnreadableFile, match="cannot be read"):
@@ -52,7 +61,10 @@ def test_a_result_survives_its_file_to_the_last_bit(tmp_path: Path, suffix: str,
 
 def test_files_of_no_kind_and_names_that_matlab_has_not_are_refused(tmp_path: Path) -> None:
     result = simulate(P, 0.01, {"1 of 2": Window(rate=1000)})
-    for name, rule in (("r", r"path=.* must end in \.nc or"), ("r.mat", "windows.1 of 2: must be a name that")):
+    for name, rule in (
+        ("r", r"path=.* must end in \.nc or"),
+        ("r.mat", "windows.1 of 2: must be a name that"),
+    ):
         with pytest.raises(ParameterError, match=rule):
             result.save(tmp_path / name)
     result.final_state.save(tmp_path / "state.nc")
@@ -78,7 +90,10 @@ def test_a_height_that_contradicts_contact_is_refused() -> None:
     """It used to be passed over in silence: in contact the disc says where the slider is."""
     state = simulate(P, 0.0371).final_state
     assert state.phase != "separation"
-    with pytest.raises(ParameterError, match=r"initial_state.u=.*: must be the disc's displacement under the slider"):
+    with pytest.raises(
+        ParameterError,
+        match=r"initial_state.u=.*: must be the disc's displacement under the slider",
+    ):
         simulate(P, 0.06, initial_state=state.replace(u=state.u + 1e-6))
     # as far as rounding goes it may differ
     assert simulate(P, 0.06, initial_state=state.replace(u=state.u * (1 + 1e-12))).status.complete

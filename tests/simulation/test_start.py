@@ -23,7 +23,13 @@ from tests.studies.conftest import computed
 
 def test_a_preparation_that_fails_is_reported() -> None:
     options = {"prerun": {"parameters": {"mu_k": 0.9}, "time": 1}, "transient": 1}
-    raw = {"study": "b", "quantity": "bifurcation", "base": {"N": 385}, "axes": {"Omega": [15]}, "options": options}
+    raw = {
+        "study": "b",
+        "quantity": "bifurcation",
+        "base": {"N": 385},
+        "axes": {"Omega": [15]},
+        "options": options,
+    }
     found = computed(**raw).isel(Omega=0)
     assert flag_names(found["status"]) == "failed"
     assert "ParameterError" in str(found["message"].item())
@@ -36,9 +42,12 @@ ORTHONORMAL = Parameters(N=800, Omega=30, normalization="orthonormal")
 
 
 def test_a_state_of_other_modes_is_refused(tmp_path: Path) -> None:
-    """On another processor one mode had the other sign, and the state went on as another motion, without a word."""
+    """On another processor one mode had the other sign, and the state went on as another motion,
+    without a word."""
     state = simulate(ORTHONORMAL, 0.1).final_state
-    other = state.replace(mode_amplitudes=np.array([1.0, 1.0, 1.0, -1.0, 1.0]) * state.mode_amplitudes)
+    other = state.replace(
+        mode_amplitudes=np.array([1.0, 1.0, 1.0, -1.0, 1.0]) * state.mode_amplitudes
+    )
     other.save(tmp_path / "state.nc")
     rule = r"mode_amplitudes=array\(.*: must be psi of plate_modes"
     for start in (other, State.load(tmp_path / "state.nc"), other.replace(time=0.0)):
@@ -49,7 +58,9 @@ def test_a_state_of_other_modes_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match=rf"^initial_state\.{rule}"):
         floquet(ORTHONORMAL, guess=other)
     by_hand = state.replace(mode_amplitudes=None)
-    assert simulate(ORTHONORMAL, 0.2, initial_state=by_hand.replace(phase="separation", u=1.0)).status.complete
+    assert simulate(
+        ORTHONORMAL, 0.2, initial_state=by_hand.replace(phase="separation", u=1.0)
+    ).status.complete
 
 
 # ---- at a switch
@@ -81,7 +92,11 @@ def test_a_switch_continued_under_its_own_parameters_keeps_its_bits(
     start = perturb(APART, static_start(APART), u=-0.02)
     whole = simulate(APART, state.time + 0.05, initial_state=start)
     state.save(tmp_path / "state.nc")
-    for given in (state, State.load(tmp_path / "state.nc"), state.replace(time=state.time, time_low=state.time_low)):
+    for given in (
+        state,
+        State.load(tmp_path / "state.nc"),
+        state.replace(time=state.time, time_low=state.time_low),
+    ):
         rest = simulate(APART, state.time + 0.05, initial_state=given)
         expected = whole.event_rows[whole.event_rows[:, 0] > state.time]
         assert len(expected) > 3
@@ -96,8 +111,11 @@ def test_a_switch_continued_under_its_own_parameters_keeps_its_bits(
     ],
     ids=str,
 )  # fmt: skip
-def test_a_switch_continued_under_other_parameters_is_one_of_these(switch: Callable[..., State], change: dict) -> None:
-    """The contact force vanishes under the former ones alone: the slider went into the disc, by up to 0.2 mm."""
+def test_a_switch_continued_under_other_parameters_is_one_of_these(
+    switch: Callable[..., State], change: dict
+) -> None:
+    """The contact force vanishes under the former ones alone: the slider went into the disc, by up
+    to 0.2 mm."""
     p = APART.replace(**change)
     start = transfer_state(p, switch())
     physics = Physics(p)
@@ -118,7 +136,9 @@ def test_a_switch_continued_under_other_parameters_is_one_of_these(switch: Calla
 @pytest.mark.parametrize(
     "change", [{}, {"N": 500.0}, {"N": 300.0}, {"r_0": 0.09}, {"contact_compliance": 2e-6}], ids=str
 )
-def test_a_switch_of_a_compliant_contact_keeps_its_distance(switch: Callable[..., State], change: dict) -> None:
+def test_a_switch_of_a_compliant_contact_keeps_its_distance(
+    switch: Callable[..., State], change: dict
+) -> None:
     p = APART.replace(**(C | change))
     window = Window(start=0, stop=2e-3, rate=1e6)
     run = simulate(p, 2e-3, windows={"w": window}, initial_state=transfer_state(p, switch(**C)))
@@ -157,7 +177,8 @@ def test_a_blow_changes_the_velocity_of_slider_and_disc_alike() -> None:
     assert mode_arrays(P).psi @ hit.alpha == pytest.approx(0.2, rel=1e-12)
     assert hit.u_velocity == pytest.approx(0.2)
     np.testing.assert_array_equal(hit.a, start.a)
-    # what velocities have at one slider they have at once in the simulation: it does not end contact
+    # what velocities have at one slider they have at once in the simulation: it does not end
+    # contact
     assert not len(simulate(P, 1e-6, initial_state=hit).event_rows)
 
 
@@ -165,7 +186,10 @@ def test_a_kick_along_the_disc_makes_the_slider_slip() -> None:
     start = static_start(P)
     assert (start.phase, start.direction) == ("stick", 0)
     forward, backward = perturb(P, start, f=3.0), perturb(P, start, f=-3.0)
-    assert [(s.phase, s.direction, s.f) for s in (forward, backward)] == [("slip", 1, 3.0), ("slip", -1, -3.0)]
+    assert [(s.phase, s.direction, s.f) for s in (forward, backward)] == [
+        ("slip", 1, 3.0),
+        ("slip", -1, -3.0),
+    ]
     stopped = perturb(P, forward, f=-3.0)
     assert (stopped.phase, stopped.direction, stopped.f) == ("stick", 0, 0.0)
     apart = perturb(P, start.replace(phase="separation"), f=3.0)
@@ -176,7 +200,10 @@ def test_a_kick_along_the_disc_makes_the_slider_slip() -> None:
 
 def test_a_state_of_another_case_starts_where_this_ones_disc_is() -> None:
     """The modes weigh otherwise at another radius, so that the height in contact is another."""
-    p, start = Parameters(N=200, Omega=20, r_0=0.09), Start(prerun={"parameters": {"r_0": 0.1}, "time": 0.1})
+    p, start = (
+        Parameters(N=200, Omega=20, r_0=0.09),
+        Start(prerun={"parameters": {"r_0": 0.1}, "time": 0.1}),
+    )
     state = make_initial_state(p, start, 1e-10)
     assert state is not None
     other = simulate(p.replace(r_0=0.1), 0.1).final_state
@@ -190,11 +217,20 @@ def test_a_state_of_another_case_starts_where_this_ones_disc_is() -> None:
     assert simulate(p, 1e-5, initial_state=moved).final_state.phase == "separation"
 
 
-def test_on_a_compliant_contact_the_slider_keeps_its_distance_and_its_velocity_over_the_turning_disc() -> None:
+def test_on_a_compliant_contact_the_slider_keeps_its_distance_and_its_velocity_over_the_turning_disc() -> (
+    None
+):
     p = Parameters(N=200, Omega=20)
     former, rest = mode_arrays(p), static_start(p)
-    moving = {"f": 5.0, "u_velocity": 1.0, "alpha": 0.01 * np.arange(5), "b": 1e-6 * np.sign(former.diameters)}
-    state = rest.replace(phase="slip", direction=1, u=rest.u - 1e-5, mode_amplitudes=former.psi, **moving)
+    moving = {
+        "f": 5.0,
+        "u_velocity": 1.0,
+        "alpha": 0.01 * np.arange(5),
+        "b": 1e-6 * np.sign(former.diameters),
+    }
+    state = rest.replace(
+        phase="slip", direction=1, u=rest.u - 1e-5, mode_amplitudes=former.psi, **moving
+    )
     rise = state.alpha + state.f * former.diameters * state.b
     for compliance, distance in ((0.0, 0.0), (1e-7, -1e-5)):
         case = p.replace(r_0=0.09, contact_compliance=compliance)

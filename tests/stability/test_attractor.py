@@ -15,7 +15,14 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State, static_start
 from disc_model.stability.attractors import Basins, random_perturbation
-from disc_model.stability.outcome import OutcomeResult, Segment, Stage, final_segment, find_outcome, growing
+from disc_model.stability.outcome import (
+    OutcomeResult,
+    Segment,
+    Stage,
+    final_segment,
+    find_outcome,
+    growing,
+)
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
@@ -40,7 +47,11 @@ def test_each_outcome_is_told(which: str) -> None:
     found = find_outcome(Parameters(**values), horizon)
     assert found.outcome is Outcome(outcome)
     assert math.isfinite(found.first_separation) == (outcome == Outcome.SEPARATION)
-    ends = {"separation": {Stage.SEPARATED}, "undecided": {Stage.HORIZON}, "growing": {Stage.HORIZON, Stage.STEADY}}
+    ends = {
+        "separation": {Stage.SEPARATED},
+        "undecided": {Stage.HORIZON},
+        "growing": {Stage.HORIZON, Stage.STEADY},
+    }
     assert found.stage in ends.get(outcome, {Stage.SETTLED})
 
 
@@ -67,13 +78,17 @@ long motion. At the 1304 points of the former coarse maps there was none."""
 @pytest.mark.slow
 @pytest.mark.compiled
 def test_shortcuts_agree_with_brute_force() -> None:
-    """Points spread over four planes: simulated throughout, to a horizon at which all outcomes occur."""
+    """Points spread over four planes: simulated throughout, to a horizon at which all outcomes
+    occur."""
     horizon, points, simulated = 400.0, 0, 0.0
     disagree: list[tuple[dict[str, float], OutcomeResult, float]] = []
     for number, plane in enumerate(PLANES):
         varied = {name: bounds for name, bounds in plane.items() if isinstance(bounds, tuple)}
         for share in qmc.Halton(len(varied), seed=number).random(10):
-            at = {name: a + s * (b - a) for (name, (a, b)), s in zip(varied.items(), share, strict=True)}
+            at = {
+                name: a + s * (b - a)
+                for (name, (a, b)), s in zip(varied.items(), share, strict=True)
+            }
             p = Parameters(**{**plane, **at})
             found = find_outcome(p, horizon)
             whole = find_outcome(p, horizon, early=False)
@@ -107,7 +122,10 @@ def test_a_kick_has_the_energy_asked_for_and_its_direction_hangs_on_its_key_alon
     assert kick_energy(P14, one, start) == pytest.approx(0.3, rel=1e-12)
     # slider and disc go along
     assert one.u == pytest.approx(float(mode_arrays(P14).psi @ one.a), rel=1e-14)
-    again, other = random_perturbation(P14, start, 0.3, (1, 0, 5)), random_perturbation(P14, start, 0.3, (1, 0, 6))
+    again, other = (
+        random_perturbation(P14, start, 0.3, (1, 0, 5)),
+        random_perturbation(P14, start, 0.3, (1, 0, 6)),
+    )
     assert np.array_equal(one.a, again.a)
     assert np.array_equal(one.beta, again.beta)
     assert not np.array_equal(one.a, other.a)
@@ -118,11 +136,14 @@ def test_a_kick_has_the_energy_asked_for_and_its_direction_hangs_on_its_key_alon
 
 @pytest.mark.compiled
 def test_a_periodic_attractor_is_known_by_its_fixed_point() -> None:
-    """The separating motion at 14 rad/s separates once between two releases of stick, again and again."""
+    """The separating motion at 14 rad/s separates once between two releases of stick, again and
+    again."""
     quiet, separating = Basins(P14, 100.0).known
     assert (separating.kind, separating.releases) == (Outcome.SEPARATING, 1)
     # one separation more or less in a leg of five seconds
-    assert separating.period * separating.segment.separation_rate == pytest.approx(1, abs=1 / (5 * 135))
+    assert separating.period * separating.segment.separation_rate == pytest.approx(
+        1, abs=1 / (5 * 135)
+    )
     assert separating.growth_rate < 0
     assert (quiet.kind, quiet.segment.separation_rate) == (Outcome.QUIET, 0)
     assert quiet.growth_rate == pytest.approx(-0.0674, rel=1e-2)
@@ -140,5 +161,10 @@ def test_a_torus_is_an_attractor_once_the_record_shows_that_the_motion_has_settl
 
 def stretch(**changes: float) -> Segment:
     """Of a separating motion, for tests of what is said of one."""
-    shares = {"stick_fraction": 0.25, "slip_fraction": 0.65, "separation_fraction": 0.10, "separation_rate": 135.0}
+    shares = {
+        "stick_fraction": 0.25,
+        "slip_fraction": 0.65,
+        "separation_fraction": 0.10,
+        "separation_rate": 135.0,
+    }
     return Segment(**{"P_min": 0.0, "P_max": 1.0, "u_min": -0.01, "u_max": 0.01} | shares | changes)

@@ -1,4 +1,5 @@
-"""Frequencies of steady sliding against another eigenproblem, those of the cycle against its return map."""
+"""Frequencies of steady sliding against another eigenproblem, those of the cycle against its return
+map."""
 
 import cmath
 import math
@@ -17,7 +18,8 @@ SMALL = Parameters(N=200, Omega=20, n_diameters=1)
 
 @pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])
 def test_at_low_speed_sliding_has_the_frequencies_at_rest(normalization: str) -> None:
-    """Those of the symmetric eigenproblem of Section 4.4, and that of the slider on its spring in the plane."""
+    """Those of the symmetric eigenproblem of Section 4.4, and that of the slider on its spring in
+    the plane."""
     p = Parameters(N=1e-3, Omega=1e-3, D_star=0, mu_s=0, mu_k=0, normalization=normalization)
     _, found, _ = frequencies(p)
     expected = np.append(coupled_natural_frequencies(p), math.sqrt(p.k_p / p.m)) / (2 * math.pi)
@@ -39,12 +41,16 @@ def test_a_light_slider_sees_waves_that_turn_with_and_against_it() -> None:
     }
     there = found.diameters > 0
     sides = np.where(found.forward > 0.5, 1, -1)[there]
-    for l, side, frequency in zip(found.diameters[there], sides, found.frequency[there], strict=True):
+    for l, side, frequency in zip(
+        found.diameters[there], sides, found.frequency[there], strict=True
+    ):
         assert frequency == pytest.approx(expected.pop((int(l), int(side))), abs=1e-4)
     assert list(expected) == [(0, 0)]
 
 
-@pytest.mark.parametrize("p", [SMALL, pytest.param(BASE, marks=pytest.mark.compiled)], ids=["small", "base"])
+@pytest.mark.parametrize(
+    "p", [SMALL, pytest.param(BASE, marks=pytest.mark.compiled)], ids=["small", "base"]
+)
 def test_frequencies_and_growth_rates_are_those_of_the_multipliers(p: Parameters) -> None:
     """exp((g + 2 pi i f) T) is a multiplier of each mode, and its conjugate; none is left."""
     cycle, modes, (frequency, growth_rate, mac) = frequencies(p)
@@ -57,19 +63,27 @@ def test_frequencies_and_growth_rates_are_those_of_the_multipliers(p: Parameters
     assert len(columns) == len(cycle.multipliers)
     assert apart[rows, columns].max() < 1e-9
     assert np.isnan(frequency[~here]).all()
-    # away from resonances the cycle's modes are those of sliding: 0.1 Hz of what is apart by f_s / 2 = 33 Hz
+    # away from resonances the cycle's modes are those of sliding: 0.1 Hz of what is apart by f_s /
+    # 2 = 33 Hz
     np.testing.assert_allclose(frequency[here], modes.frequency[here], atol=0.2)
     assert mac[here].min() > 0.9
 
 
 @pytest.mark.parametrize(("shift", "diameters", "sign"), [(0.0, 1, 0), (1.0, 2, 1), (-1.0, 2, -1)])
 def test_a_multiplier_is_given_the_mode_that_turns_it(shift, diameters, sign):
-    """A mode of frequency f, seen at f + shift l Omega / 2 pi, turns the multiplier by that times the period."""
+    """A mode of frequency f, seen at f + shift l Omega / 2 pi, turns the multiplier by that times
+    the period."""
     period = 0.0148
-    frequency = next(f for f, l, bound in modes_at_rest(BASE) if l == diameters and bound == (shift == 0))
+    frequency = next(
+        f for f, l, bound in modes_at_rest(BASE) if l == diameters and bound == (shift == 0)
+    )
     seen = frequency + shift * diameters * BASE.Omega / (2 * math.pi)
     resonance = nearest_resonance(BASE, period, cmath.exp(2j * math.pi * seen * period), diameters)
-    assert (resonance.frequency, resonance.diameters, resonance.sign) == (pytest.approx(frequency), diameters, sign)
+    assert (resonance.frequency, resonance.diameters, resonance.sign) == (
+        pytest.approx(frequency),
+        diameters,
+        sign,
+    )
     assert resonance.detuning == pytest.approx(resonance.harmonic / period - seen)
     assert resonance.label.startswith(f"{resonance.harmonic:g} f_s = {frequency:.2f} Hz")
     assert resonance.label.endswith(f"{'+' if sign > 0 else '-'} {diameters} Ω/2π") == (sign != 0)

@@ -1,4 +1,5 @@
-"""Continuation on a map that is solved by hand: every point, every fold and every border is known."""
+"""Continuation on a map that is solved by hand: every point, every fold and every border is
+known."""
 
 import numpy as np
 import pytest
@@ -28,13 +29,19 @@ def test_a_branch_goes_both_ways_and_round_its_fold_to_its_bounds():
     upper = branch.points[:, 0] > 1
     assert upper[0]
     assert not upper[-1]
-    for values, x, growth, above in zip(branch.values, branch.points, branch.growth_rate, upper, strict=True):
+    for values, x, growth, above in zip(
+        branch.values, branch.points, branch.growth_rate, upper, strict=True
+    ):
         assert x == pytest.approx(cycle_at(values[0], 300, above), abs=1e-9)
         assert growth == pytest.approx(growth_at(values[0], 300, above), abs=1e-6)
     assert np.all(branch.period == PERIOD)
     assert branch.stick_fraction == pytest.approx(np.full(len(branch), 0.3))
-    # inside the ellipse the rotating pair is the slower one to die out; on the lower branch x_0 grows
-    assert {bifurcation_type(complex(branch.multipliers[i, 0])) for i in (0, -1)} == {"fold", "neimark_sacker"}
+    # inside the ellipse the rotating pair is the slower one to die out; on the lower branch x_0
+    # grows
+    assert {bifurcation_type(complex(branch.multipliers[i, 0])) for i in (0, -1)} == {
+        "fold",
+        "neimark_sacker",
+    }
     assert (branch.diameters[0], branch.diameters[-1]) == (1, 0)
 
 
@@ -57,12 +64,16 @@ def test_where_there_is_no_cycle_the_corrector_is_lost(Omega, why):
 def test_the_neutral_curve_is_the_ellipse():
     curve = continue_border("neutral", P.replace(Omega=13.5), ("Omega", "N"), BOX)
     assert curve.ended == "the curve is closed"
-    assert [outside(*values) for values in curve.values] == pytest.approx(np.zeros(len(curve)), abs=1e-8)
+    assert [outside(*values) for values in curve.values] == pytest.approx(
+        np.zeros(len(curve)), abs=1e-8
+    )
     assert curve.growth_rate == pytest.approx(np.zeros(len(curve)), abs=1e-7)
     span = np.ptp(curve.values, axis=0)
     assert span == pytest.approx([8, 200], rel=0.02)
     # what is not closed is followed in both directions
-    part = continue_border("neutral", P.replace(Omega=13.5), ("Omega", "N"), BOX, steps=BORDER.replace(max_points=4))
+    part = continue_border(
+        "neutral", P.replace(Omega=13.5), ("Omega", "N"), BOX, steps=BORDER.replace(max_points=4)
+    )
     assert len(part) == 7
     assert part.values[3] == pytest.approx(curve.values[0])
     assert (part.values[2] - part.values[3]) @ (part.values[4] - part.values[3]) < 0
@@ -74,9 +85,16 @@ def test_what_cannot_be_followed_is_told(monkeypatch):
 
     monkeypatch.setattr("disc_model.stability.curves.continue_border", lost)
     found = neutral_curves(P, BOX, [225.0, 300.0, 375.0], points=9)
-    assert (len(found), {failure.split()[0] for failure in found.failures}) == (0, {"fold", "neutral"})
-    assert all(" near Omega=" in failure and failure.endswith(": no cycle") for failure in found.failures)
-    assert repr(found).startswith("NeutralCurves(0 curves over Omega from 3 to 18 and N from 150 to 450, ")
+    assert (len(found), {failure.split()[0] for failure in found.failures}) == (
+        0,
+        {"fold", "neutral"},
+    )
+    assert all(
+        " near Omega=" in failure and failure.endswith(": no cycle") for failure in found.failures
+    )
+    assert repr(found).startswith(
+        "NeutralCurves(0 curves over Omega from 3 to 18 and N from 150 to 450, "
+    )
 
 
 def test_all_curves_of_a_plane_are_found_once():

@@ -24,7 +24,8 @@ def test_a_seed_met_on_the_way_to_another_modulus_is_a_cycle_there():
 
 @pytest.mark.compiled
 def test_a_fold_is_followed_across_its_line():
-    """The gradient at the former place leads the corrector astray here, unless each step corrects it."""
+    """The gradient at the former place leads the corrector astray here, unless each step corrects
+    it."""
     bounds = {"Omega": (9.5, 11.0), "N": (350.0, 400.0)}
     found = curves.neutral_curves(Parameters(N=375, Omega=10), bounds, [375.0], points=2)
     assert found.failures == ()
@@ -36,7 +37,16 @@ def test_a_fold_is_followed_across_its_line():
 @pytest.mark.compiled
 def test_a_narrow_tongue_between_two_values_is_seen():
     """From 20.124 to 20.169 rad/s, between the first two of eleven values from 20 to 60."""
-    p = Parameters(N=385, Omega=33, E=70e9, rho=2700, nu=0.33, h=0.004, normalization="orthonormal", mu_k_over_mu_s=0.6)
+    p = Parameters(
+        N=385,
+        Omega=33,
+        E=70e9,
+        rho=2700,
+        nu=0.33,
+        h=0.004,
+        normalization="orthonormal",
+        mu_k_over_mu_s=0.6,
+    )
     found = curves.critical(p, "Omega", (20, 60), points=11, precision=1e-4)
     assert found.value == found.crossings[0] == pytest.approx(20.1239, abs=2e-4)
     assert found.unstable_above.tolist() == [True, False, True]
@@ -52,9 +62,13 @@ def test_bounds_may_have_units_and_those_of_another_kind_are_refused():
     found = curves.critical(p, "Omega", ("142.5 rpm", 15), points=3)
     assert found.values[[0, -1]].tolist() == pytest.approx([142.5 * math.tau / 60, 15])
     assert "has left 14.9226 .. 15" in continue_cycle(p, "Omega", ("142.5 rpm", "15 rad/s")).ended
-    plane = curves.neutral_curves(p, {"Omega": ("142.5 rpm", 15), "h": ("2 mm", "2.1 mm")}, [0.00205], points=2)
+    plane = curves.neutral_curves(
+        p, {"Omega": ("142.5 rpm", 15), "h": ("2 mm", "2.1 mm")}, [0.00205], points=2
+    )
     assert plane.bounds["h"] == pytest.approx((2e-3, 2.1e-3))
-    with pytest.raises(ParameterError, match=r"^bounds=\('5 kg', 15\): must be two ascending finite numbers$"):
+    with pytest.raises(
+        ParameterError, match=r"^bounds=\('5 kg', 15\): must be two ascending finite numbers$"
+    ):
         curves.critical(p, "Omega", ("5 kg", 15))
     with pytest.raises(ParameterError, match=r"^mu_k=0\.24: must be <= mu_s=0\.1$"):
         curves.critical(Parameters(N=385, Omega=14.95), "mu_s", (0.1, 0.9))

@@ -19,7 +19,8 @@ P = Parameters(N=200, Omega=20, n_diameters=1)
 
 @pytest.mark.parametrize("tol", [1e-6, 1e-8])
 def test_a_rough_tolerance_finds_the_cycle(tol: float) -> None:
-    """Flights as rough as the residual asked for scattered too much to reach it: no cycle was found, of any case."""
+    """Flights as rough as the residual asked for scattered too much to reach it: no cycle was
+    found, of any case."""
     found, fine = floquet(P, tol=tol), floquet(P)
     assert found.status is CycleStatus.OK
     assert found.residual <= tol
@@ -34,8 +35,12 @@ CASES = {
     "damped": (DAMPED, COMPILED),
     "soft spring": (Parameters(N=300, Omega=50, k_p=2e3), COMPILED),
     "orthonormal": (Parameters(N=600, Omega=30, normalization="orthonormal"), COMPILED),
-    # its springs together are faster than the stiffest of them: 2e-7 if only the stiffest sets the longest step
-    "springs": (P.replace(N=20, m=0.03, k=5e5, normalization="orthonormal", contact_compliance=3.6e-6), COMPILED),
+    # its springs together are faster than the stiffest of them: 2e-7 if only the stiffest sets the
+    # longest step
+    "springs": (
+        P.replace(N=20, m=0.03, k=5e5, normalization="orthonormal", contact_compliance=3.6e-6),
+        COMPILED,
+    ),
     # half a minute to compile
     "two blocks": (Parameters(N=200, Omega=20, n_diameters=6), (COMPILED, pytest.mark.slow)),
     "axisymmetric": (Parameters(N=200, Omega=20, n_diameters=0), COMPILED),
@@ -43,7 +48,9 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("p", [pytest.param(p, marks=marks, id=name) for name, (p, marks) in CASES.items()])
+@pytest.mark.parametrize(
+    "p", [pytest.param(p, marks=marks, id=name) for name, (p, marks) in CASES.items()]
+)
 def test_multipliers_agree_with_central_differences_of_the_return_map(p):
     result, map_ = floquet(p), ReturnMap(p)
     assert result.status is CycleStatus.OK
@@ -53,7 +60,9 @@ def test_multipliers_agree_with_central_differences_of_the_return_map(p):
     distance = np.min(np.abs(mine[:, None] - reference[None, :]), axis=1)
     assert np.max(distance) < 1e-6
     assert np.max(np.abs(expected - map_.evaluate(x).jacobian)) < 1e-7
-    assert result.growth_rate == pytest.approx(math.log(np.max(np.abs(reference))) / result.period, abs=1e-4)
+    assert result.growth_rate == pytest.approx(
+        math.log(np.max(np.abs(reference))) / result.period, abs=1e-4
+    )
 
 
 def test_the_cycle_is_found_again_from_a_simulation():
@@ -88,11 +97,15 @@ class Logistic:
 
 
 def test_a_cycle_that_is_run_through_twice_is_told_from_one_of_double_period():
-    """Which just beyond the doubling is 5e-4 of its size away from the simple one, to which Newton's method goes."""
+    """Which just beyond the doubling is 5e-4 of its size away from the simple one, to which
+    Newton's method goes."""
     r = 3 + 1e-6
     simple, double = Logistic(r), (r + 1 + math.sqrt((r - 3) * (r + 1))) / (2 * r)
     for x, releases in ((1 - 1 / r + 1e-12, 1), (double, 2)):
-        assert run_through_once(simple, simple.evaluate(np.array([x]), releases=2)).counts.releases == releases
+        assert (
+            run_through_once(simple, simple.evaluate(np.array([x]), releases=2)).counts.releases
+            == releases
+        )
 
 
 def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
@@ -107,7 +120,9 @@ def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
     assert found.kind is Outcome.QUIET
     assert found.cycle.growth_rate == pytest.approx(result.growth_rate, rel=1e-6)
     assert not floquet(P).stable
-    assert not find_cycle_near(ReturnMap(P), ReturnMap(P).point(floquet(P).state), (0.0, 1)).follows_cycle
+    assert not find_cycle_near(
+        ReturnMap(P), ReturnMap(P).point(floquet(P).state), (0.0, 1)
+    ).follows_cycle
     # nor one that leaves it as the multipliers predict, unless that is asked for
     map_ = ReturnMap(P)
     x = map_.point(floquet(P).state)
@@ -147,8 +162,8 @@ def test_without_a_cycle_the_status_says_what_was_found(changes, status):
 @pytest.mark.slow
 @COMPILED
 def test_multipliers_of_random_cases_are_those_of_a_differenced_return_map(seed: int) -> None:
-    """Under all laws of contact. Two steps of differences say how good these are: near a graze only short ones are, and
-    on a stiff contact perhaps none.
+    """Under all laws of contact. Two steps of differences say how good these are: near a graze only
+    short ones are, and on a stiff contact perhaps none.
 
     Where friction does not fall, stick may last for no time, and the map has a corner.
     """
@@ -160,15 +175,21 @@ def test_multipliers_of_random_cases_are_those_of_a_differenced_return_map(seed:
         x = map_.point(found.state)
         size, got = np.linalg.norm(x), map_.evaluate(x, **how).jacobian
         for step in (1e-4, 1e-6, 1e-8):
-            rough, fine = (central_differences(map_, x, h * size, **how) for h in (step, 0.3 * step))
+            rough, fine = (
+                central_differences(map_, x, h * size, **how) for h in (step, 0.3 * step)
+            )
             error, scale = np.abs(rough - fine).max(), max(1.0, np.abs(fine).max())
             if error <= 1e-3 * scale:
                 # rounding of flights, 3e-13, over the step
-                assert np.abs(got - fine).max() <= 1e-11 / step * scale + 10 * error, found.parameters
+                assert np.abs(got - fine).max() <= 1e-11 / step * scale + 10 * error, (
+                    found.parameters
+                )
                 break
         else:
             passed_over += 1
-        assert np.sum(found.multipliers) == pytest.approx(np.trace(got), rel=1e-9, abs=1e-9 * np.abs(got).max())
+        assert np.sum(found.multipliers) == pytest.approx(
+            np.trace(got), rel=1e-9, abs=1e-9 * np.abs(got).max()
+        )
         sure += error < 1e-5
     assert sure > 10
     assert passed_over < 5

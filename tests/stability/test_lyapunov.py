@@ -13,7 +13,8 @@ STICK = Parameters(N=300, Omega=1e-3, n_diameters=0, c=3.0, D_star=2e-4)
 
 
 def test_exponents_of_stick_are_those_of_the_coupled_mode():
-    """Stick is linear: the exponents are 0, of the spring that is wound up, and the decay rate of one coupled mode."""
+    """Stick is linear: the exponents are 0, of the spring that is wound up, and the decay rate of
+    one coupled mode."""
     p = STICK
     omega, psi = (float(plate_modes(p)[name].iloc[0]) for name in ("omega", "psi"))
     decay = (p.D_star / p.D * omega**2 + p.c * psi**2) / (2 * (1 + p.m * psi**2))
@@ -29,26 +30,35 @@ def test_exponents_of_stick_are_those_of_the_coupled_mode():
 
 @pytest.mark.filterwarnings("error")
 def test_exponents_that_do_not_exist_were_zero_and_converged():
-    """In stick f is 0, and u and u' are the disc's: of six coordinates of the state three are left."""
+    """In stick f is 0, and u and u' are the disc's: of six coordinates of the state three are
+    left."""
     found = lyapunov_exponents(STICK, 0.1, count=6, interval=0.005)
     assert np.isfinite(found.exponents[:3]).all()
     assert found.exponents[3:].tolist() == [-np.inf] * 3
     assert not found.converged[3:].any()
     assert np.isnan(found.errors[3:]).all()
     for count, left_out in ((7, False), (6, True)):
-        with pytest.raises(ParameterError, match=f"^count={count}: must be a whole number from 1 to {count - 1}$"):
+        with pytest.raises(
+            ParameterError, match=f"^count={count}: must be a whole number from 1 to {count - 1}$"
+        ):
             lyapunov_exponents(STICK, 0.1, count=count, leave_out_trivial=left_out)
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize(("n_diameters", "c_p", "interval"), [(0, 10.0, 0.01), (4, 10.0, 0.01), (0, 400.0, 0.002)])
-def test_exponents_of_steady_sliding_are_its_eigenvalues(n_diameters: int, c_p: float, interval: float):
-    """Without a switch u, u' of columns stayed as they were, and what remained when the rest died out was they.
-    With a strong damper, steps too long for it gave 284/s."""
+@pytest.mark.parametrize(
+    ("n_diameters", "c_p", "interval"), [(0, 10.0, 0.01), (4, 10.0, 0.01), (0, 400.0, 0.002)]
+)
+def test_exponents_of_steady_sliding_are_its_eigenvalues(
+    n_diameters: int, c_p: float, interval: float
+):
+    """Without a switch u, u' of columns stayed as they were, and what remained when the rest died
+    out was they. With a strong damper, steps too long for it gave 284/s."""
     p = Parameters(N=100, Omega=40, n_diameters=n_diameters, c_p=c_p, D_star=1e-3)
     sliding = steady_sliding(p)
     assert sliding.stable
-    found = lyapunov_exponents(p, 2.0, count=4, interval=interval, initial_state=state_of(p, sliding))
+    found = lyapunov_exponents(
+        p, 2.0, count=4, interval=interval, initial_state=state_of(p, sliding)
+    )
     # either of a pair oscillates, which leaves a fraction of 2 s
     pairs = sliding.eigenvalues.real[:4].reshape(2, 2).sum(axis=1)
     np.testing.assert_allclose(found.exponents.reshape(2, 2).sum(axis=1), pairs, atol=0.05)
@@ -77,8 +87,10 @@ def test_on_a_cycle_they_are_its_exponents_and_zero():
     pair = lyapunov_exponents(p, 10.0, count=3, initial_state=cycle.state)
     # a complex pair has one rate: the two following zero are equal in the mean
     assert np.mean(pair.exponents[1:]) == pytest.approx(np.mean(expected[1:3]), rel=1e-3)
-    # the exponent along the motion can be left out; the multipliers leave the 1 along the orbit out as well
+    # the exponent along the motion can be left out; the multipliers leave the 1 along the orbit out
+    # as well
     found = lyapunov_exponents(p, 10.0, count=2, initial_state=cycle.state, leave_out_trivial=True)
-    # the rate of the motion is what it was after a period; a fraction of one is left over: ln of its range over 10 s
+    # the rate of the motion is what it was after a period; a fraction of one is left over: ln of
+    # its range over 10 s
     assert found.trivial_exponent == pytest.approx(0, abs=0.1)
     assert np.mean(found.exponents) == pytest.approx(np.mean(cycle.exponents.real[:2]), rel=1e-3)

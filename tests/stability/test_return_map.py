@@ -19,11 +19,16 @@ BASE = Parameters(N=200, Omega=20)
 DAMPED = Parameters(N=200, Omega=20, c=0.05, c_p=0.02)
 
 
-def central_differences(map_: ReturnMap, x: np.ndarray, h: float | None = None, **how) -> np.ndarray:
+def central_differences(
+    map_: ReturnMap, x: np.ndarray, h: float | None = None, **how
+) -> np.ndarray:
     """Jacobian of the map by central differences of fourth order."""
     h = 3e-5 * np.linalg.norm(x) if h is None else h
     units = np.eye(map_.size)
-    columns = [differences(lambda s, e=e: map_.evaluate(x + s * e, tangent=False, **how).end, h) for e in units]
+    columns = [
+        differences(lambda s, e=e: map_.evaluate(x + s * e, tangent=False, **how).end, h)
+        for e in units
+    ]
     return np.array(columns).T
 
 
@@ -41,14 +46,21 @@ class Affine:
 
     def __init__(self, A, d, wrong=None, lost_at=()):
         self.A, self.d, self.size = np.asarray(A, float), np.asarray(d, float), len(d)
-        self.deflection, self.tol, self.lost_at, self.calls = math.sqrt(self.size), 1e-12, lost_at, 0
+        self.deflection, self.tol, self.lost_at, self.calls = (
+            math.sqrt(self.size),
+            1e-12,
+            lost_at,
+            0,
+        )
         self.wrong = self.A if wrong is None else np.asarray(wrong, float)
 
     def evaluate(self, x, **how):
         self.calls += 1
         code = RETURNED if self.calls not in self.lost_at else RETURNED + 1
         bent, slope = self.A @ x + self.d + 0.01 * np.sin(x), self.wrong + 0.01 * np.diag(np.cos(x))
-        return Flight(code, 1.0, 0.3, Counts(1, 0, 0, 0, 1), x, bent, slope, np.zeros((self.size, 0)))
+        return Flight(
+            code, 1.0, 0.3, Counts(1, 0, 0, 0, 1), x, bent, slope, np.zeros((self.size, 0))
+        )
 
 
 def test_newton_finds_the_fixed_point():
@@ -64,7 +76,12 @@ def test_newton_finds_the_fixed_point():
     [
         Affine(np.eye(2), [1.0, 2.0]),  # no fixed point nearby, and a singular matrix on the way
         Affine([[0.3, 0.2], [-0.4, 0.1]], [1.0, 2.0], lost_at=(1,)),
-        Affine([[0.3, 0.2], [-0.4, 0.1]], [1.0, 2.0], wrong=[[9.0, 0.0], [0.0, -9.0]], lost_at=range(2, 99)),
+        Affine(
+            [[0.3, 0.2], [-0.4, 0.1]],
+            [1.0, 2.0],
+            wrong=[[9.0, 0.0], [0.0, -9.0]],
+            lost_at=range(2, 99),
+        ),
         Affine([[0.3, 0.2], [-0.4, 0.1]], [np.nan, 2.0]),
     ],
     ids=["singular", "lost at once", "lost on the way", "not finite"],
@@ -89,7 +106,8 @@ def test_the_section_is_where_stick_is_released():
 @pytest.mark.compiled
 @pytest.mark.parametrize("stiff", [{"k": 1e8}, {"k": 1e9, "m": 1.0}])
 def test_columns_of_stiff_springs_took_steps_too_long_for_them(stiff):
-    """At k = 1e9 N/m a stable cycle grew by 0.8/s: steps followed the disc's frequencies and the motion alone."""
+    """At k = 1e9 N/m a stable cycle grew by 0.8/s: steps followed the disc's frequencies and the
+    motion alone."""
     map_ = ReturnMap(P.replace(Omega=5, **stiff))
     (x,) = map_.returns(map_.static, 1)
     jacobian = map_.evaluate(x).jacobian
@@ -105,11 +123,16 @@ def test_the_jacobian_agrees_with_differences_along_a_direction() -> None:
     along = np.linalg.norm(x) * np.cos(np.arange(map_.size))
     expected = differences(lambda s: map_.evaluate(x + s * along, tangent=False).end, 1e-3)
     # 4e-11, whatever the step between 3e-5 and 3e-3
-    assert np.linalg.norm(map_.evaluate(x).jacobian @ along - expected) < 1e-9 * np.linalg.norm(expected)
+    assert np.linalg.norm(map_.evaluate(x).jacobian @ along - expected) < 1e-9 * np.linalg.norm(
+        expected
+    )
 
 
-def check_derivatives(map_: ReturnMap, x: np.ndarray, step: Callable[[str], float], names=PARAMETERS) -> None:
-    """Derivatives of where a flight ends by parameters, against differences of steps relative to their values."""
+def check_derivatives(
+    map_: ReturnMap, x: np.ndarray, step: Callable[[str], float], names=PARAMETERS
+) -> None:
+    """Derivatives of where a flight ends by parameters, against differences of steps relative to
+    their values."""
     p, how = map_.parameters, {"may_separate": True}
     by = ReturnMap(p, parameters=names).evaluate(x, **how).by
     for i, name in enumerate(names):
@@ -151,15 +174,20 @@ def test_the_leading_multiplier_gives_the_growth_rate(multiplier, rate) -> None:
     """A return map without slope forgets its start at once."""
     map_ = ReturnMap(P)
     flight = replace(map_.evaluate(map_.static), jacobian=multiplier * np.eye(map_.size))
-    assert cycle_of(map_, flight).growth_rate * flight.period == pytest.approx(rate)  # rounding is 1e-15
+    assert cycle_of(map_, flight).growth_rate * flight.period == pytest.approx(
+        rate
+    )  # rounding is 1e-15
 
 
-OTHER_LAWS = {name: LAWS[name] for name in ("compliant", "normal")} | {"residual": {"contact_compliance": "residual"}}
+OTHER_LAWS = {name: LAWS[name] for name in ("compliant", "normal")} | {
+    "residual": {"contact_compliance": "residual"}
+}
 
 
 @pytest.mark.parametrize("law", [pytest.param(law, marks=COMPILES) for law in OTHER_LAWS])
 def test_derivatives_by_parameters_under_other_laws_of_contact(law):
-    """E softens the disc and the residual flexibility with it, but not a compliance that is given."""
+    """E softens the disc and the residual flexibility with it, but not a compliance that is
+    given."""
     map_ = ReturnMap(DAMPED.replace(n_diameters=1, **OTHER_LAWS[law]))
     x = map_.static.copy()
     if law == "normal":  # the disc slopes where stick is released

@@ -1,4 +1,5 @@
-"""Cycles that lose contact, with impacts: found, judged and followed, against simulations of the same motions."""
+"""Cycles that lose contact, with impacts: found, judged and followed, against simulations of the
+same motions."""
 
 import math
 
@@ -36,12 +37,16 @@ def releases_of(p: Parameters, start: State, duration: float) -> np.ndarray:
 
 
 # derivatives of a law take a minute to compile, and long cycles minutes to settle
-PARAMS = [pytest.param(name, marks=() if name in ("2 releases", "damper") else pytest.mark.slow) for name in LOCKED]
+PARAMS = [
+    pytest.param(name, marks=() if name in ("2 releases", "damper") else pytest.mark.slow)
+    for name in LOCKED
+]
 
 
 @pytest.fixture(scope="module", params=PARAMS)
 def cycle(request: pytest.FixtureRequest) -> tuple[Parameters, State, FloquetResult, int]:
-    """The case, a settled state of its motion, the cycle found from there, and how often that separates."""
+    """The case, a settled state of its motion, the cycle found from there, and how often that
+    separates."""
     p, time, releases, separations = LOCKED[request.param]
     late = settled(p, time)
     return p, late, floquet(p, guess=late, releases=releases), separations
@@ -53,7 +58,9 @@ def test_the_cycle_closes(cycle) -> None:
     assert found.separations == separations
     assert found.residual < 1e-10
     # followed by the engine alone, no map: modes end where they began
-    end = simulate(p, found.period, initial_state=found.state.replace(time=0.0), tol=1e-12).final_state
+    end = simulate(
+        p, found.period, initial_state=found.state.replace(time=0.0), tol=1e-12
+    ).final_state
     for name in ("a", "b", "alpha", "beta"):
         one, other = getattr(found.state, name), getattr(end, name)
         np.testing.assert_allclose(one, other, rtol=0, atol=1e-9 * np.max(np.abs(one)))
@@ -72,7 +79,9 @@ def test_its_multipliers_are_those_of_differences_of_the_map(cycle) -> None:
     x = map_.point(found.state)
     # a hundred times what keeps the order of switches, and far above the rounding of the flight
     size = 1e-6 * float(np.linalg.norm(map_.static))
-    expected = multipliers(central_differences(map_, x, size, releases=found.releases, may_separate=True))
+    expected = multipliers(
+        central_differences(map_, x, size, releases=found.releases, may_separate=True)
+    )
     apart = np.abs(found.multipliers[:, None] - expected[None, :]).min(axis=1)
     assert apart.max() < 1e-5
     assert found.growth_rate == pytest.approx(math.log(abs(expected[0])) / found.period, abs=1e-4)
@@ -94,7 +103,9 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
     for point, shift, found in ((middle, 0.0, True), (-1, -0.01, True), (-1, 0.01, False)):
         there = p.replace(Omega=float(branch.values[point, 0]) + shift)
         x = branch.points[point]
-        beside = x + 1e-3 * np.linalg.norm(x) * np.random.default_rng(0).normal(size=x.size) / np.sqrt(x.size)
+        beside = x + 1e-3 * np.linalg.norm(x) * np.random.default_rng(0).normal(
+            size=x.size
+        ) / np.sqrt(x.size)
         end_of_it = settled(there, 300.0, ReturnMap(there).state(beside))
         times = releases_of(there, end_of_it, 0.1)
         repeats = np.ptp(times[2:] - times[:-2]) < 1e-9

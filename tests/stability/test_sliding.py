@@ -9,7 +9,13 @@ from disc_model import Disc, Parameters, plate_modes, steady_sliding
 from disc_model.disc.plate import mode_arrays
 from disc_model.engine import transitions
 from disc_model.simulation.states import State
-from disc_model.stability.sliding import SlidingStatus, SteadySliding, follow_modes, sliding_modes, split_rows
+from disc_model.stability.sliding import (
+    SlidingStatus,
+    SteadySliding,
+    follow_modes,
+    sliding_modes,
+    split_rows,
+)
 from tests.contact_laws import ALL_LAWS, COMPILES
 from tests.engine.full_system import Full
 
@@ -19,7 +25,10 @@ P = Parameters(N=200, Omega=20, n_diameters=1)
 def state_of(p: Parameters, sliding: SteadySliding) -> State:
     """The equilibrium as a state."""
     modes = plate_modes(p)
-    w, slope = float(modes["psi"] @ sliding.a), float((modes["diameters"] * modes["psi"]) @ sliding.b)
+    w, slope = (
+        float(modes["psi"] @ sliding.a),
+        float((modes["diameters"] * modes["psi"]) @ sliding.b),
+    )
     mu = p.mu_k + (p.mu_s - p.mu_k) / (1 + p.friction_decay * p.r_0 * p.Omega)
     share = 1 - mu * slope / p.r_0 if p.contact_force == "normal" else 1.0
     height = w - p.contact_compliance * share * sliding.contact_force
@@ -32,7 +41,10 @@ SLIDING = {
     "damped": Parameters(N=300, Omega=50, c_p=0.7, c=0.3),
     "orthonormal": Parameters(N=100, Omega=40, normalization="orthonormal"),
     # two nodal diameters, and damping that counts beside l Omega and omega
-    **{name: P.replace(n_diameters=2, c=0.3, c_p=0.7, D_star=5e-3, **law) for name, law in ALL_LAWS.items()},
+    **{
+        name: P.replace(n_diameters=2, c=0.3, c_p=0.7, D_star=5e-3, **law)
+        for name, law in ALL_LAWS.items()
+    },
 }
 
 
@@ -47,22 +59,33 @@ def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
     """It stays where it is, and its eigenvalues are those of a flight from there."""
     sliding, duration = steady_sliding(p), 1e-3
     assert sliding.status is SlidingStatus.OK
-    name, verdict = "R" if p.contact_force == "normal" else "P", "stable" if sliding.growth_rate < 0 else "not stable"
-    assert sliding.message == f"steady sliding with {name} = {sliding.contact_force:.6g} N, {verdict}"
+    name, verdict = (
+        "R" if p.contact_force == "normal" else "P",
+        "stable" if sliding.growth_rate < 0 else "not stable",
+    )
+    assert (
+        sliding.message == f"steady sliding with {name} = {sliding.contact_force:.6g} N, {verdict}"
+    )
     run = Full(p, state_of(p, sliding), scalars=4 if p.contact_compliance else 2)
     before = run.coordinates
     assert run.fly(duration) == transitions.TIME_OVER
     np.testing.assert_allclose(run.coordinates, before, rtol=0, atol=1e-12 * np.max(np.abs(before)))
     flow = np.linalg.eigvals(run.columns)
     assert len(expected := np.exp(sliding.eigenvalues * duration)) == len(flow)
-    assert np.max(np.min(np.abs(expected[:, None] - flow[None, :]), axis=1)) < 1e-10  # roundings of the flight
+    assert (
+        np.max(np.min(np.abs(expected[:, None] - flow[None, :]), axis=1)) < 1e-10
+    )  # roundings of the flight
     assert sliding.growth_rate == pytest.approx(np.log(np.abs(flow).max()) / duration, abs=1e-6)
 
 
 @pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])
-def test_without_friction_sliding_is_stable_up_to_the_critical_speed_of_the_moving_load(normalization):
+def test_without_friction_sliding_is_stable_up_to_the_critical_speed_of_the_moving_load(
+    normalization,
+):
     """That is where the first mode stands still under the slider: the least omega_l / l."""
-    p = Parameters(N=1, Omega=1, mu_s=0, mu_k=0, contact="bilateral", D_star=0, normalization=normalization)
+    p = Parameters(
+        N=1, Omega=1, mu_s=0, mu_k=0, contact="bilateral", D_star=0, normalization=normalization
+    )
     modes = plate_modes(p).query("diameters > 0")
     critical = float((modes["omega"] / modes["diameters"]).min())
     for share, grows in ((0.5, False), (0.999, False), (1.001, True)):
@@ -86,7 +109,8 @@ LOOSE = {"k_p": 0, "mu_k": 0}
         (BONDED, SlidingStatus.OK),
         # a bond that pulls tilts the disc against the slip
         ({**BONDED, "N": 1e6, "D_star": 2e-4}, SlidingStatus.PARADOX),
-        # the damper alone cannot balance friction at f = Omega, where it does nothing; without friction it need not
+        # the damper alone cannot balance friction at f = Omega, where it does nothing; without
+        # friction it need not
         ({"k_p": 0, "c_p": 0.5}, SlidingStatus.NO_SPRING),
         ({"k_p": 0, "c_p": 0.5, "mu_s": 0, "mu_k": 0}, SlidingStatus.OK),
         # nor can it the slope of the disc
@@ -106,7 +130,8 @@ def test_steady_sliding_says_why_there_is_none(changes, status):
 
 # ------------------------------------------------------------------------ modes
 def test_modes_are_the_eigenvalues_of_steady_sliding():
-    """With what brake engineers read from them: frequency in Hz, damping ratio, number of unstable modes."""
+    """With what brake engineers read from them: frequency in Hz, damping ratio, number of unstable
+    modes."""
     p = Parameters(N=385, Omega=20, normalization="orthonormal")
     sliding, modes = steady_sliding(p), sliding_modes(p)
     values = modes.growth_rate + 2j * math.pi * modes.frequency
@@ -119,7 +144,8 @@ def test_modes_are_the_eigenvalues_of_steady_sliding():
 
 
 def test_a_real_eigenvalue_counts_as_an_unstable_mode():
-    """Divergence under a moving spring: between omega / l and sqrt(omega^2 + k psi^2) / l, docs/verification.md."""
+    """Divergence under a moving spring: between omega / l and sqrt(omega^2 + k psi^2) / l,
+    docs/verification.md."""
     disc = Disc(diameters=[2], omega=[1823.881], amplitude=[2.1491])
     p = Parameters(N=1, Omega=900, mu_s=0, mu_k=0, contact="bilateral", disc=disc)
     counts = [steady_sliding(p.replace(Omega=Omega)).growing.size for Omega in (900, 930, 950)]
@@ -130,18 +156,29 @@ def test_a_real_eigenvalue_counts_as_an_unstable_mode():
 
 
 def test_modes_keep_their_numbers_where_frequencies_cross():
-    """In the slider's frame waves of two diameters against it fall by 2 Omega, and cross those of one, which rise."""
+    """In the slider's frame waves of two diameters against it fall by 2 Omega, and cross those of
+    one, which rise."""
     disc = Disc(diameters=[1, 2], omega=[1000, 1100], amplitude=[1e-3, 1e-3])
     p = Parameters(N=1, Omega=1, mu_s=0, mu_k=0, contact="bilateral", disc=disc)
     speeds = [1.0, 60.0]
     first, last = follow_modes([p.replace(Omega=Omega) for Omega in speeds])
     lines = []
     for one in (first, last):
-        rows = zip(one.numbers, one.modes.diameters, np.round(one.modes.forward), one.modes.frequency, strict=True)
-        lines.append({number: (l, wave if l > 0 else 0, frequency) for number, l, wave, frequency in rows})
+        rows = zip(
+            one.numbers,
+            one.modes.diameters,
+            np.round(one.modes.forward),
+            one.modes.frequency,
+            strict=True,
+        )
+        lines.append(
+            {number: (l, wave if l > 0 else 0, frequency) for number, l, wave, frequency in rows}
+        )
     assert [*lines[0]] == [0, 1, 2, 3, 4]
     assert [*lines[1]] != [*lines[0]]
-    assert {number: line[:2] for number, line in lines[0].items()} == {n: line[:2] for n, line in lines[1].items()}
+    assert {number: line[:2] for number, line in lines[0].items()} == {
+        n: line[:2] for n, line in lines[1].items()
+    }
     for l, wave, frequency in lines[1].values():
         shift = -l * 60.0 * (2 * wave - 1)  # with the slider the wave seems slower
         expected = {-1: math.sqrt(p.k_p / p.m), 1: 1000 + shift, 2: 1100 + shift}[l] / (2 * math.pi)
@@ -161,11 +198,19 @@ def roots_of_energies(p, shapes):
 
 @pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
 def test_modes_are_named_and_compared_by_their_energies():
-    """Where the slider's frequency passes those of the disc most of the energy passes from one to the other."""
-    base = Parameters(N=385, Omega=20, normalization="orthonormal", contact_compliance=1e-7, c_p=0.5)
+    """Where the slider's frequency passes those of the disc most of the energy passes from one to
+    the other."""
+    base = Parameters(
+        N=385, Omega=20, normalization="orthonormal", contact_compliance=1e-7, c_p=0.5
+    )
     l, kinds = mode_arrays(base).diameters, set()
-    heavy = base.replace(N=3e4, m=100.0, k_p=3.468e8)  # here not |f| but its square tells whose motion it is
-    for last in (*(base.replace(k_p=k_p) for k_p in np.geomspace(1.8e5, 3.6e5, 25).tolist()), heavy):
+    heavy = base.replace(
+        N=3e4, m=100.0, k_p=3.468e8
+    )  # here not |f| but its square tells whose motion it is
+    for last in (
+        *(base.replace(k_p=k_p) for k_p in np.geomspace(1.8e5, 3.6e5, 25).tolist()),
+        heavy,
+    ):
         cases = [last.replace(k_p=0.999 * last.k_p), last]
         _, (_, modes, numbers, mac) = found = follow_modes(cases)
         each = [roots_of_energies(p, one.modes.shapes) for p, one in zip(cases, found, strict=True)]
@@ -188,6 +233,7 @@ def test_a_step_that_changes_modes_much_is_halved():
     """Of a slider ten times as light; matched at once, three modes of the disc change places."""
     p = Parameters(N=385, Omega=20, normalization="orthonormal")
     wide, narrow = (
-        follow_modes([p.replace(m=m) for m in np.linspace(0.1, 0.01, count).tolist()])[-1] for count in (2, 120)
+        follow_modes([p.replace(m=m) for m in np.linspace(0.1, 0.01, count).tolist()])[-1]
+        for count in (2, 120)
     )
     np.testing.assert_array_equal(wide.numbers, narrow.numbers)

@@ -1,13 +1,15 @@
-"""A return map that can be solved by hand, in the place of the slider's: folds and neutral curves are known exactly.
+"""A return map that can be solved by hand, in the place of the slider's: folds and neutral curves
+are known exactly.
 
 Coordinates x_0, x_1, x_2; with speed Omega and load N
 
-    x_0 -> x_0 + 0.3 (mu - (x_0 - 1)^2),  mu = (fold(N) - Omega) / 10,  fold(N) = 16 + 0.02 (N - 300)
-    (x_1, x_2) -> exp(0.1 g) (x_1, x_2) turned by 1.2 rad,  g = ((Omega - 10) / 4)^2 + ((N - 300) / 100)^2 - 1
+    x_0 -> x_0 + 0.3 (mu - (x_0 - 1)^2),  mu = (fold(N) - Omega) / 10,  fold(N) = 16 + 0.02 (N -
+    300) (x_1, x_2) -> exp(0.1 g) (x_1, x_2) turned by 1.2 rad,  g = ((Omega - 10) / 4)^2 + ((N -
+    300) / 100)^2 - 1
 
-There are two cycles, x_0 = 1 +- sqrt(mu), up to the speed fold(N), where they meet.  The upper one is stable within the
-ellipse g = 0.  Damper and spring do nothing.  Beyond 30 rad/s the motion loses contact; below 2 rad/s the derivatives
-are no numbers.
+There are two cycles, x_0 = 1 +- sqrt(mu), up to the speed fold(N), where they meet.  The upper one
+is stable within the ellipse g = 0.  Damper and spring do nothing.  Beyond 30 rad/s the motion loses
+contact; below 2 rad/s the derivatives are no numbers.
 """
 
 import math
@@ -22,7 +24,10 @@ from disc_model.stability.return_map import Counts, Flight
 
 PERIOD, ANGLE = 0.015, 1.2
 ROTATION = np.array([[math.cos(ANGLE), -math.sin(ANGLE)], [math.sin(ANGLE), math.cos(ANGLE)]])
-RETURNED, LOST = (next(code for code, name in floquet.ENDS.items() if name == n) for n in ("returned", "lost_contact"))
+RETURNED, LOST = (
+    next(code for code, name in floquet.ENDS.items() if name == n)
+    for n in ("returned", "lost_contact")
+)
 
 
 def fold_at(N):
@@ -57,7 +62,12 @@ class ToyMap:
     deflection = 2.0
 
     def __init__(
-        self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patient: bool = False
+        self,
+        p: Parameters,
+        tol: float = 1e-12,
+        parameters: tuple[str, ...] = (),
+        *,
+        patient: bool = False,
     ) -> None:
         self.parameters, self.tol, self._names = p, tol, parameters
 

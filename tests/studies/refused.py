@@ -1,4 +1,5 @@
-"""What is said of a study file, or of arguments, that are refused, and the grid of a file that is right."""
+"""What is said of a study file, or of arguments, that are refused, and the grid of a file that is
+right."""
 
 from collections.abc import Callable
 from typing import Any

@@ -37,7 +37,9 @@ def test_batches_are_fixed_axes_times_chunks_of_blocks() -> None:
 def test_changes_change_only_the_batches_they_touch() -> None:
     before = set(parse_grid(study()).batches)
     axes = study()["axes"]
-    assert len(set(parse_grid(study(axes={**axes, "N": [100, 150, 200, 300]})).batches) - before) == 2
+    assert (
+        len(set(parse_grid(study(axes={**axes, "N": [100, 150, 200, 300]})).batches) - before) == 2
+    )
     assert set(parse_grid(study(axes={**axes, "N": [100, 300]})).batches) < before
     assert not before & set(parse_grid(study(base={"mu_k": 0.23})).batches)
     assert not before & set(parse_grid(study(options={"horizon": 3})).batches)
@@ -91,7 +93,12 @@ def test_extra_values_leave_the_batches_that_there_are() -> None:
 
 
 def test_a_batch_knows_the_starts_that_its_points_have_and_no_others() -> None:
-    raw = {"study": "x", "quantity": "outcome", "options": {"horizon": 2}, "base": {"N": 200, "Omega": 20}}
+    raw = {
+        "study": "x",
+        "quantity": "outcome",
+        "options": {"horizon": 2},
+        "base": {"N": 200, "Omega": 20},
+    }
     raw |= {"batch": {"over": ["c"]}}
     after = {"prerun": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}}
 
@@ -101,7 +108,9 @@ def test_a_batch_knows_the_starts_that_its_points_have_and_no_others() -> None:
 
     before = texts({"apart": after}, ["static", "apart"])
     assert sorted(sorted(text["starts"]) for text in before.values()) == [["apart"], ["static"]]
-    more = texts({"apart": after, "kicked": {"perturbation": {"u": 1e-3}}}, ["static", "apart", "kicked"])
+    more = texts(
+        {"apart": after, "kicked": {"perturbation": {"u": 1e-3}}}, ["static", "apart", "kicked"]
+    )
     assert set(before) < set(more)
     changed = texts({"apart": after | {"perturbation": {"f": 1}}}, ["static", "apart"])
     assert len(set(before) & set(changed)) == 1

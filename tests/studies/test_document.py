@@ -25,9 +25,12 @@ def test_what_is_shipped_is_made_from_the_models() -> None:
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "config").rglob("*.yaml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path", sorted((ROOT / "config").rglob("*.yaml")), ids=lambda path: path.stem
+)
 def test_a_shipped_file_is_right(path: Path) -> None:
-    """It fits the schema that it names, bears the name of its study, and says nothing implausible."""
+    """It fits the schema that it names, bears the name of its study, and says nothing
+    implausible."""
     phrase = path.read_text(encoding="utf-8")
     assert [error.message for error in CHECK.iter_errors(yaml.safe_load(phrase))] == []
     named = re.match(r"# yaml-language-server: \$schema=(\S+)\n", phrase)
@@ -39,18 +42,32 @@ def test_a_shipped_file_is_right(path: Path) -> None:
     if study.grid and not study.cases:  # what its figures show besides is found beside it
         grids, names = study.grids([Path(), path.parent])
         assert names == (study.name,)
-        assert {other for plot in study.grid.plots.values() for other in plot.overlays.values()} <= grids.keys()
+        assert {
+            other for plot in study.grid.plots.values() for other in plot.overlays.values()
+        } <= grids.keys()
 
 
-GRID = {"study": "s", "quantity": "outcome", "options": {"horizon": 10}, "axes": {"N": [1], "Omega": [2, 3]}}
+GRID = {
+    "study": "s",
+    "quantity": "outcome",
+    "options": {"horizon": 10},
+    "axes": {"N": [1], "Omega": [2, 3]},
+}
 
 
 def test_what_is_unknown_or_of_another_kind_does_not_fit() -> None:
-    wrong = [(raw, words) for raw, words in STUDIES if re.search("unknown|required|mapping|axes.mus", words)]
+    wrong = [
+        (raw, words)
+        for raw, words in STUDIES
+        if re.search("unknown|required|mapping|axes.mus", words)
+    ]
     assert len(wrong) > 4
     known = {"axes.Omega required", "axes required one axis"}  # or a zip, or base
     known |= {"figures.f.overlays.sliding required"}  # of that kind
-    known |= {"figures.f.overlays.growth unknown", "figures.f.at.k required by"}  # of that kind, and variable
+    known |= {
+        "figures.f.overlays.growth unknown",
+        "figures.f.at.k required by",
+    }  # of that kind, and variable
     assert {words for raw, words in wrong if CHECK.is_valid(raw)} == known
 
 

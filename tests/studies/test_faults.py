@@ -1,4 +1,5 @@
-"""Typical faults of study files, arguments and command lines: each error names what is wrong, its value and the rule.
+"""Typical faults of study files, arguments and command lines: each error names what is wrong, its
+value and the rule.
 
 Only the words that carry the meaning are checked, so that sentences may change.
 """
@@ -27,7 +28,9 @@ ROOT = Path(__file__).parents[2]
 FAULTS = yaml.safe_load(Path(__file__).with_name("faults.yaml").read_text(encoding="utf-8"))
 GRID, CASE = FAULTS["grid"], FAULTS["case"]
 STUDIES = [
-    (whole | change, words) for whole, name in ((GRID, "grids"), (CASE, "cases")) for change, words in FAULTS[name]
+    (whole | change, words)
+    for whole, name in ((GRID, "grids"), (CASE, "cases"))
+    for change, words in FAULTS[name]
 ]
 STUDIES.append(({"study": "s"}, "quantity required cases studies"))
 
@@ -43,7 +46,10 @@ def test_a_fault_of_a_study_is_named(raw: dict[str, Any], words: str) -> None:
 
 
 def test_the_faults_of_a_study_come_in_one_error() -> None:
-    faults = faults_of(parse_study, GRID | {"base": {"N": -1, "m": "x", "mu": 1}, "figures": {"f": {"kind": "heat"}}})
+    faults = faults_of(
+        parse_study,
+        GRID | {"base": {"N": -1, "m": "x", "mu": 1}, "figures": {"f": {"kind": "heat"}}},
+    )
     for words in ("base.N -1", "base.m 'x' number", "base.mu mu_s", "figures.f.kind"):
         assert_named(faults, words)
 
@@ -60,11 +66,14 @@ def p(**changes: Any) -> dm.Parameters:
 
 def disc(**changes: Any) -> dm.Disc:
     return dm.Disc(
-        **{"diameters": [0, 1, 1], "omega": [1490.0, 1515.0, 1820.0], "amplitude": [1.5, 2.2, 2.1]} | changes
+        **{"diameters": [0, 1, 1], "omega": [1490.0, 1515.0, 1820.0], "amplitude": [1.5, 2.2, 2.1]}
+        | changes
     )
 
 
-RESIDUAL = dm.Parameters(N=200, Omega=50, disc=disc(diameters=[0, 1, 2]), contact_compliance="residual")
+RESIDUAL = dm.Parameters(
+    N=200, Omega=50, disc=disc(diameters=[0, 1, 2]), contact_compliance="residual"
+)
 
 
 def ramp(**changes: Any) -> dm.Ramp:
@@ -81,7 +90,10 @@ ARGUMENTS: list[tuple[Callable[[], object], str]] = [
     (lambda: disc(diameters=[0, 1, 2], omega=[1490.0, 0.0, 1820.0]), "omega.1=0 0.001"),
     (lambda: disc(amplitude=[0, 0, 0]), "largest amplitude 0"),
     (lambda: disc(radii=[0.1, 0.05], shapes=[[1, 1]] * 3), "radii ascend"),
-    (lambda: p(disc=disc(diameters=[0, 1, 2]), friction_offset="surface"), "friction_offset='surface' tangential"),
+    (
+        lambda: p(disc=disc(diameters=[0, 1, 2]), friction_offset="surface"),
+        "friction_offset='surface' tangential",
+    ),
     (lambda: dm.Window(rate=1, stop=2, last=1), "last=1 stop"),
     (lambda: from_state(phase="flight"), "initial_state.phase='flight' stick slip separation"),
     (lambda: from_state(psy=0.1), "psy=0.1 psi"),
@@ -103,7 +115,10 @@ ARGUMENTS: list[tuple[Callable[[], object], str]] = [
     (lambda: dm.simulate(RESIDUAL, 1.0), "disc.static_compliance None"),
     (lambda: dm.sweep(dm.floquet, p(), Omega=[]), "Omega one value"),
     (lambda: dm.sweep(dm.floquet, p(), Omega=["x"]), "Omega 'x' number"),
-    (lambda: dm.deflection(p(), [dm.snapshots(p(n_diameters=2), 0.1)[0]], 0.1, 0.0), "states.0 modes"),
+    (
+        lambda: dm.deflection(p(), [dm.snapshots(p(n_diameters=2), 0.1)[0]], 0.1, 0.0),
+        "states.0 modes",
+    ),
     (lambda: dm.continue_cycle(p(N=0), "Omega", (1, 60)), "p cycle"),
 ]
 
@@ -120,7 +135,9 @@ def test_a_fault_of_a_table_is_named(text: str, words: str, tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize(("arguments", "words"), FAULTS["commands"])
-def test_a_wrong_command_line_is_named(arguments: str, words: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_wrong_command_line_is_named(
+    arguments: str, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     with pytest.raises(SystemExit) as ended:
         cli.main(arguments.split())
     assert ended.value.code == 2
@@ -129,7 +146,22 @@ def test_a_wrong_command_line_is_named(arguments: str, words: str, capsys: pytes
 
 # ---- whatever is given, errors are those of the package
 
-HOSTILE = [math.nan, math.inf, -0.0, 10**400, -1, True, None, b"x", [], {}, [1, [2]], {"N": {"N": 1}}, "nan", "\0"]
+HOSTILE = [
+    math.nan,
+    math.inf,
+    -0.0,
+    10**400,
+    -1,
+    True,
+    None,
+    b"x",
+    [],
+    {},
+    [1, [2]],
+    {"N": {"N": 1}},
+    "nan",
+    "\0",
+]
 VALUES = st.one_of(st.sampled_from(HOSTILE), st.floats(), st.integers(), st.text(max_size=20))
 FILES = [ROOT / "config/test.yaml", *sorted((ROOT / "config/studies").glob("*.yaml"))]
 TEXTS = [path.read_text(encoding="utf-8") for path in FILES]
@@ -139,7 +171,13 @@ WORDS = st.one_of(st.sampled_from(["--t-end", "--help", *OPTIONS]), st.text(max_
 
 def plant(tree: Any, value: Any, data: st.DataObject) -> Any:
     """The tree with another value somewhere."""
-    keys = list(tree) if isinstance(tree, dict) else list(range(len(tree))) if isinstance(tree, list) else []
+    keys = (
+        list(tree)
+        if isinstance(tree, dict)
+        else list(range(len(tree)))
+        if isinstance(tree, list)
+        else []
+    )
     if not keys or data.draw(st.integers(0, 5)) == 0:
         return value
     key = data.draw(st.sampled_from(keys))
@@ -151,7 +189,9 @@ def plant(tree: Any, value: Any, data: st.DataObject) -> Any:
 @given(st.dictionaries(st.sampled_from([*dm.Parameters.model_fields, "n", ""]), VALUES, max_size=8))
 def test_any_parameters(values: dict[str, Any]) -> None:
     with contextlib.suppress(dm.ParameterError):
-        numbers = dm.Parameters(**values).model_dump(exclude={"friction_decay"})  # which is infinite if friction drops
+        numbers = dm.Parameters(**values).model_dump(
+            exclude={"friction_decay"}
+        )  # which is infinite if friction drops
         assert all(math.isfinite(x) for x in numbers.values() if isinstance(x, float))
 
 
@@ -187,9 +227,13 @@ def test_any_command_line_ends_with_help_or_code_2(arguments: list[str]) -> None
 # ---- what a run says in the end
 
 
-def test_a_run_says_in_the_end_what_has_no_result(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_run_says_in_the_end_what_has_no_result(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     grids = parse_study(GRID).grids()[0]
     (folder := tmp_path / "results" / "s").mkdir(parents=True)
     (folder / "s.failed.txt").write_text("Omega = 10: paradox\nOmega = 20: paradox\n")
-    assert list(closing_lines(grids)) == [f"s: 2 of 4 points have no result, see {Path('results/s/s.failed.txt')}"]
+    assert list(closing_lines(grids)) == [
+        f"s: 2 of 4 points have no result, see {Path('results/s/s.failed.txt')}"
+    ]

@@ -1,4 +1,5 @@
-"""Quantities of a case, sweeps and studies as functions: the same numbers as those of the workflow's batches."""
+"""Quantities of a case, sweeps and studies as functions: the same numbers as those of the
+workflow's batches."""
 
 import json
 from functools import partial
@@ -16,7 +17,11 @@ P = dm.Parameters(N=385, Omega=14)
 SCAN = {"start": 14, "stop": 15, "step": 1}
 SAME = [
     (dm.outcome, {"horizon": 20}, {"horizon": 20}),
-    (dm.critical_speed, {"scan": (14, 15), "horizon": [20, 30]}, {"scan": SCAN, "horizons": [20, 30]}),
+    (
+        dm.critical_speed,
+        {"scan": (14, 15), "horizon": [20, 30]},
+        {"scan": SCAN, "horizons": [20, 30]},
+    ),
     (dm.basins, {"horizon": 20, "energies": [0.1]}, {"horizon": 20, "energies": [0.1]}),
     (dm.hysteresis, {"scan": (14, 15), "dwell": 10}, {"scan": SCAN, "dwell": 10}),
 ]
@@ -24,7 +29,13 @@ SAME = [
 
 def the_study(quantity: str, options: dict[str, Any]) -> dict[str, Any]:
     base = {"N": 385} if "scan" in options else {"N": 385, "Omega": 14}
-    return {"study": "s", "quantity": quantity, "base": base, "options": options, "axes": {"c": [0]}}
+    return {
+        "study": "s",
+        "quantity": quantity,
+        "base": base,
+        "options": options,
+        "axes": {"c": [0]},
+    }
 
 
 @pytest.mark.compiled
@@ -54,11 +65,15 @@ def test_a_sweep_has_a_status_for_each_point_and_the_same_numbers_with_any_worke
 
 
 def test_a_sweep_takes_any_function_and_passes_its_arguments() -> None:
-    swept = sweep(lambda case, factor: {"load": factor * case.N, "word": "x"}, P, N=[1, 2], factor=3)
+    swept = sweep(
+        lambda case, factor: {"load": factor * case.N, "word": "x"}, P, N=[1, 2], factor=3
+    )
     assert swept["load"].values.tolist() == [3, 6]
     assert swept["word"].values.tolist() == ["x", "x"]
     assert sweep(dm.simulate, P, t_end=0.1, N=[200])["n_separations"].values.tolist() == [0]
-    with pytest.raises(dm.ParameterError, match=r"Omga=.*: is no number of the case.*did you mean Omega"):
+    with pytest.raises(
+        dm.ParameterError, match=r"Omga=.*: is no number of the case.*did you mean Omega"
+    ):
         sweep(dm.floquet, P, Omga=[1])
     assert sweep(partial(dm.floquet, tol=1e-10), P, N=[200]).attrs["function"] == "partial"
 

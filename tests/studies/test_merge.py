@@ -20,7 +20,9 @@ def batches() -> list[xr.Dataset]:
     return [run_batch(text) for text in parse_grid(STILL).batches.values()]
 
 
-def test_merged_points_are_in_the_order_of_the_grid(batches: list[xr.Dataset], tmp_path: Path) -> None:
+def test_merged_points_are_in_the_order_of_the_grid(
+    batches: list[xr.Dataset], tmp_path: Path
+) -> None:
     study = parse_grid(STILL)
     merge_batches(batches[::-1], study.grid, {"title": "t"}).to_netcdf(tmp_path / "still.nc")
     merged = xr.load_dataset(tmp_path / "still.nc")
@@ -28,7 +30,10 @@ def test_merged_points_are_in_the_order_of_the_grid(batches: list[xr.Dataset], t
     assert merged["N"].values.tolist() == [100, 200]
     assert merged.attrs["title"] == "t"
     assert json.loads(merged.attrs["base"])["contact"] == "unilateral"
-    assert (merged["Omega"].attrs["units"], merged["growth_rate"].attrs["units"]) == ("rad s-1", "s-1")
+    assert (merged["Omega"].attrs["units"], merged["growth_rate"].attrs["units"]) == (
+        "rad s-1",
+        "s-1",
+    )
     lines = list(failures(merged))
     assert len(lines) == 4
     assert lines[0].startswith("N = 100, Omega = 10: permanent stick: Nothing ever slips")
@@ -37,6 +42,10 @@ def test_merged_points_are_in_the_order_of_the_grid(batches: list[xr.Dataset], t
 def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
     study = parse_grid(STILL)
     fewer = parse_grid(STILL | {"axes": {"N": [100], "Omega": [10, 20]}})
-    for some, grid in ((batches[1:], study.grid), ([*batches, batches[0]], study.grid), (batches, fewer.grid)):
+    for some, grid in (
+        (batches[1:], study.grid),
+        ([*batches, batches[0]], study.grid),
+        (batches, fewer.grid),
+    ):
         with pytest.raises(MergeError, match="not those of the grid"):
             merge_batches(some, grid, {})

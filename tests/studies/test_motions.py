@@ -54,9 +54,14 @@ def test_samples_are_those_of_the_motion():
 @pytest.mark.compiled
 @pytest.mark.parametrize(
     ("quantity", "Omega", "options"),
-    [("floquet", 14.0, {}), *((name, *at) for name in ("outcome", "regions") for at in ((14.0, {"horizon": 5}), LATE))],
+    [
+        ("floquet", 14.0, {}),
+        *((name, *at) for name in ("outcome", "regions") for at in ((14.0, {"horizon": 5}), LATE)),
+    ],
 )
-def test_a_quantity_shows_the_motion_that_it_tells_of(quantity: str, Omega: float, options: dict[str, float]) -> None:
+def test_a_quantity_shows_the_motion_that_it_tells_of(
+    quantity: str, Omega: float, options: dict[str, float]
+) -> None:
     motion = histories(quantity, [385], [Omega], **options).isel(point=0)
     assert int(motion["status"]) == 0
     assert 0 < float(motion["length"]) < 1

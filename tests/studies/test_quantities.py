@@ -1,4 +1,5 @@
-"""What all quantities must keep: a batch has the results of its points, and a failure costs its own point alone."""
+"""What all quantities must keep: a batch has the results of its points, and a failure costs its own
+point alone."""
 
 import math
 from collections.abc import Callable
@@ -10,7 +11,14 @@ import pytest
 
 from disc_model.data.variables import Variable, flag_names
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import STATUS, STATUSES, Point, Quantity, quantity_names, quantity_of
+from disc_model.studies.quantity import (
+    STATUS,
+    STATUSES,
+    Point,
+    Quantity,
+    quantity_names,
+    quantity_of,
+)
 from tests.studies.conftest import compute, computed
 from tests.studies.refused import parse_grid
 
@@ -35,7 +43,12 @@ OPTIONS: dict[str, dict[str, Any]] = {
         "horizon": 1,
     },
     "sliding": {"scan": SCAN},
-    "stability_curves": {"x_range": [10, 20], "y_lines": SCAN | {"stop": 200}, "points": 3, "max_points": 3},
+    "stability_curves": {
+        "x_range": [10, 20],
+        "y_lines": SCAN | {"stop": 200},
+        "points": 3,
+        "max_points": 3,
+    },
 }
 
 
@@ -46,7 +59,13 @@ def grid(name: str, **batch: Any) -> dict[str, Any]:
     axes: dict[str, Any] = {"c_p": [0, 0.02, 0.05]}
     if name in ("campbell", "regions"):
         axes["Omega"] = [base.pop("Omega"), 16, 17]
-    raw = {"quantity": name, "options": OPTIONS[name], "base": base | {"n_diameters": 1}, "axes": axes, "batch": batch}
+    raw = {
+        "quantity": name,
+        "options": OPTIONS[name],
+        "base": base | {"n_diameters": 1},
+        "axes": axes,
+        "batch": batch,
+    }
     return {"study": "small"} | raw
 
 
@@ -65,7 +84,9 @@ def test_a_batch_of_a_grid_has_the_results_of_its_points(name: str) -> None:
     quantity = quantity_of(name)
     assert {*quantity.COLUMNS, *quantity.SUMMARY_COLUMNS, "message"} == {*one.data_vars}
     assert set(np.unique(flag_names(one["status"]))) == {"ok"}
-    numbers = [key for key, column in quantity.COLUMNS.items() if not column.flags and not column.whole]
+    numbers = [
+        key for key, column in quantity.COLUMNS.items() if not column.flags and not column.whole
+    ]
     # there is no curve in so small a plane
     assert any(np.isfinite(one[key]).any() for key in numbers) or name == "stability_curves"
 
@@ -75,7 +96,11 @@ def test_a_quantity_says_what_it_costs_and_what_its_motions_show(name: str) -> N
     quantity = quantity_of(name)
     assert "status" in quantity.COLUMNS
     assert 0 < quantity.model_validate(OPTIONS[name]).cost() < 600
-    assert bool(quantity.motions) == bool(quantity.motion) == (quantity.state_at is not Quantity.state_at)
+    assert (
+        bool(quantity.motions)
+        == bool(quantity.motion)
+        == (quantity.state_at is not Quantity.state_at)
+    )
     assert bool(quantity.SUMMARY_COLUMNS) == ("summarise" in vars(quantity))
     assert parse_grid(grid(name)).sources == (f"studies.quantities.{name}",)
 

@@ -19,7 +19,9 @@ GRID: dict[str, Any] = {
     "quantity": "floquet",
     "base": {"N": 200, "Omega": 20},
     "axes": {"mu_s": [0.3, 0.4], "mu_k": [0.1, 0.2, 0.3]},
-    "figures": {"growth": {"kind": "heat_map", "variable": "growth_rate", "x": "mu_s", "y": "mu_k"}},
+    "figures": {
+        "growth": {"kind": "heat_map", "variable": "growth_rate", "x": "mu_s", "y": "mu_k"}
+    },
 }
 CASES: dict[str, Any] = {
     "study": "small",
@@ -41,7 +43,10 @@ def test_a_file_can_say_both_and_figures_of_both() -> None:
     assert [text["title"] for text in study.labels.values()] == ["A", "b"]
     assert list(study.grids()[0][study.name].plots) == ["growth"]
     entries = study.entries(study.grids()[0])
-    assert [(name, [*entry.inputs]) for (_, name), entry in entries.items()] == [("growth", ["study"]), ("seen", ["A"])]
+    assert [(name, [*entry.inputs]) for (_, name), entry in entries.items()] == [
+        ("growth", ["study"]),
+        ("seen", ["A"]),
+    ]
 
 
 def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:
@@ -79,13 +84,23 @@ def test_cases_inherit_and_override() -> None:
 def test_keys_given_twice(tmp_path: Path) -> None:
     text = "study: x\ncases:\n  A: {title: a, t_end: 1, parameters: {N: 1, Omega: 2, N: -3}}\n"
     (path := tmp_path / "twice.yaml").write_text(text)
-    for load in (load_study, lambda file: study_from_config({"study": "x", "cases": {"A": CASE}}, [file])):
+    for load in (
+        load_study,
+        lambda file: study_from_config({"study": "x", "cases": {"A": CASE}}, [file]),
+    ):
         assert re.search(r"N is given twice\n.* line 3, column 56", faults_of(load, path)[0])
 
 
 def test_faults_between_studies_are_reported_together(tmp_path: Path) -> None:
-    figure = {"f": {"kind": "region_map", "x": "Omega", "y": "N", "overlays": {"curves": "elsewhere"}}}
-    plane = {"study": "three", "quantity": "regions", "options": {"horizon": 1}, "axes": {"N": [1], "Omega": [1]}}
+    figure = {
+        "f": {"kind": "region_map", "x": "Omega", "y": "N", "overlays": {"curves": "elsewhere"}}
+    }
+    plane = {
+        "study": "three",
+        "quantity": "regions",
+        "options": {"horizon": 1},
+        "axes": {"N": [1], "Omega": [1]},
+    }
     (tmp_path / "three.yaml").write_text(json.dumps(plane | {"figures": figure}))
     study = parse_study({"study": "all", "studies": ["*.yaml"], "overrides": {"six": {}}})
     found = faults_of(study.grids, [tmp_path])
@@ -104,7 +119,9 @@ def test_faults_between_studies_are_reported_together(tmp_path: Path) -> None:
         ("five", {"study": "five", "cases": {"A": CASE}}, "study = 'five': must be a grid alone"),
     ],
 )
-def test_a_fault_of_another_file_is_named(name: str, content: Any, fault: str, tmp_path: Path) -> None:
+def test_a_fault_of_another_file_is_named(
+    name: str, content: Any, fault: str, tmp_path: Path
+) -> None:
     (tmp_path / f"{name}.yaml").write_text(json.dumps(content))
     study = parse_study({"study": "all", "studies": ["*.yaml"]})
     assert faults_of(study.grids, [tmp_path]) == [fault]

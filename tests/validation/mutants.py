@@ -1,8 +1,10 @@
-"""Wrong signs, factors and comparisons in the modules that hold the equations, one at a time; and which tests notice.
+"""Wrong signs, factors and comparisons in the modules that hold the equations, one at a time; and
+which tests notice.
 
     NUMBA_DISABLE_JIT=1 python -m tests.validation.mutants engine/laws.py ...    # of these modules; without any, of all
 
-What is changed is read from the syntax tree, so that no formatting and no new function needs attention here:
+What is changed is read from the syntax tree, so that no formatting and no new function needs
+attention here:
 
     a + b, a - b, a += b, a -= b    the other sign; of a vector operation, the sign of its last argument
     -a                              a
@@ -10,10 +12,12 @@ What is changed is read from the syntax tree, so that no formatting and no new f
     2.0 in a sum or product         4.0 (any float)
     a < b, a == b, ...              the opposite
 
-Left alone are elements' numbers, messages of errors, and sizes (sums of moduli, by which rounding is judged).
+Left alone are elements' numbers, messages of errors, and sizes (sums of moduli, by which rounding
+is judged).
 
-Tests are collected once, without compilation. Each change is put into a fork of that process, which runs them until one
-fails: first those that noticed other changes of the function, then the quickest.
+Tests are collected once, without compilation. Each change is put into a fork of that process, which
+runs them until one fails: first those that noticed other changes of the function, then the
+quickest.
 """
 
 import ast
@@ -49,7 +53,10 @@ def _files(name: str) -> list[str]:
 
 
 #: The modules, and the tests that have to notice.
-MODULES = {module: (*chain.from_iterable(map(_files, names)),) for module, names in TABLES["modules"].items()}
+MODULES = {
+    module: (*chain.from_iterable(map(_files, names)),)
+    for module, names in TABLES["modules"].items()
+}
 NO_EQUATION: dict[str, dict[str, str]] = TABLES["no_equation"]
 """Functions that are left out, with the reason."""
 EQUIVALENT: dict[str, str] = TABLES["equivalent"]
@@ -81,7 +88,11 @@ class Mutant(NamedTuple):
         tree = ast.parse((PACKAGE / self.module).read_text(encoding="utf-8"))
         flip([node for _, node in places(tree)][self.place])
         ast.fix_missing_locations(tree)
-        return next(code for code in codes(compile(tree, self.module, "exec")) if code.co_qualname == self.function)
+        return next(
+            code
+            for code in codes(compile(tree, self.module, "exec"))
+            if code.co_qualname == self.function
+        )
 
 
 def mutants(module: str) -> Iterator[Mutant]:
@@ -106,7 +117,8 @@ def codes(code: CodeType) -> Iterator[CodeType]:
             yield from codes(constant)
 
 
-# ------------------------------------------------------------------------------------ where to change, and what
+# ------------------------------------------------------------------------------------ where to
+# change, and what
 VECTOR_OPERATIONS = ("fma", "mul", "add", "sub")
 STORAGE = ("load", "store", "spread")
 NUMBERS_OF_ELEMENTS = ("range", "len")
@@ -153,7 +165,10 @@ def _changeable(node: ast.AST) -> Iterator[ast.AST]:
 
 def _is_changeable(node: ast.AST) -> bool:
     match node:
-        case ast.BinOp(op=ast.Add() | ast.Sub(), right=other) | ast.AugAssign(op=ast.Add() | ast.Sub(), value=other):
+        case (
+            ast.BinOp(op=ast.Add() | ast.Sub(), right=other)
+            | ast.AugAssign(op=ast.Add() | ast.Sub(), value=other)
+        ):
             return not _is_size(other)
         case ast.BinOp(op=ast.Pow()):
             return True
@@ -170,7 +185,8 @@ def _is_factor(side: ast.AST) -> bool:
 
 def _is_size(term: ast.AST) -> bool:
     return any(
-        isinstance(part, ast.Call) and getattr(part.func, "id", "") in ("abs", "absolute") for part in ast.walk(term)
+        isinstance(part, ast.Call) and getattr(part.func, "id", "") in ("abs", "absolute")
+        for part in ast.walk(term)
     )
 
 
@@ -208,7 +224,8 @@ def flip(node: ast.AST) -> str:
 
 # ------------------------------------------------------------------------------------ trials
 class Trials:
-    """A plugin of pytest that runs what is collected against each mutant of some modules, each in a fork.
+    """A plugin of pytest that runs what is collected against each mutant of some modules, each in a
+    fork.
 
     Attributes
     ----------
@@ -222,7 +239,8 @@ class Trials:
         self._until, self._pipe = 0.0, 0
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """A failure ends the fork; seconds are the processor's, so that other work beside it leaves no test out."""
+        """A failure ends the fork; seconds are the processor's, so that other work beside it leaves
+        no test out."""
         until = time.process_time()
         self._spent[report.nodeid] += until - self._until
         self._until = until
@@ -233,7 +251,9 @@ class Trials:
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         functions, caches = {}, []
         for found in gc.get_objects():
-            if isinstance(found, FunctionType) and (found.__module__ or "").startswith("disc_model."):
+            if isinstance(found, FunctionType) and (found.__module__ or "").startswith(
+                "disc_model."
+            ):
                 functions[f"{found.__module__}.{found.__qualname__}"] = found
             elif isinstance(found, functools._lru_cache_wrapper):
                 caches.append(found)
@@ -245,13 +265,23 @@ class Trials:
         for module in self.modules:
             here = [item for item in session.items if item.nodeid.split("::")[0] in MODULES[module]]
             all_of_it = accumulate(spent[item.nodeid] for item in here)
-            items = {item.nodeid: item for item, so_far in zip(here, all_of_it, strict=True) if so_far < BUDGET}
+            items = {
+                item.nodeid: item
+                for item, so_far in zip(here, all_of_it, strict=True)
+                if so_far < BUDGET
+            }
             for mutant in mutants(module):
                 if str(mutant) not in EQUIVALENT:
                     self._try(mutant, items, functions[mutant.name], caches)
         return True
 
-    def _try(self, mutant: Mutant, items: dict[str, pytest.Item], function: FunctionType, caches: list[Any]) -> None:
+    def _try(
+        self,
+        mutant: Mutant,
+        items: dict[str, pytest.Item],
+        function: FunctionType,
+        caches: list[Any],
+    ) -> None:
         def change() -> None:
             # an endless loop is ended by a signal
             resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE, PATIENCE + 1))
@@ -267,10 +297,15 @@ class Trials:
         elif killer:
             self._noticed[mutant.name].insert(0, killer)
             self._noticed[mutant.module].insert(0, killer)
-        print(f"survives: {mutant}" if code == 0 else f"{mutant}, by {killer}", file=sys.__stderr__, flush=True)
+        print(
+            f"survives: {mutant}" if code == 0 else f"{mutant}, by {killer}",
+            file=sys.__stderr__,
+            flush=True,
+        )
 
     def _fork(self, items: list[pytest.Item], prepare: Callable[[], None]) -> tuple[int, str]:
-        """Exit code or the signal that ended it, and what it said: which test failed, or how long each took."""
+        """Exit code or the signal that ended it, and what it said: which test failed, or how long
+        each took."""
         read, self._pipe = os.pipe()
         child = os.fork()
         if child == 0:
@@ -301,6 +336,8 @@ def try_all(modules: Iterable[str]) -> Trials:
 if __name__ == "__main__":
     trials = try_all(sys.argv[1:] or MODULES)
     used = [resource.getrusage(whose) for whose in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    print(f"{len(trials.tried)} tried in {sum(each.ru_utime + each.ru_stime for each in used):.0f} s")
+    print(
+        f"{len(trials.tried)} tried in {sum(each.ru_utime + each.ru_stime for each in used):.0f} s"
+    )
     print(*trials.survivors, sep="\n")
     sys.exit(len(trials.survivors) > 0)

@@ -1,4 +1,5 @@
-"""docs/verification.md: every number of its tables is computed here, by the package and in closed form."""
+"""docs/verification.md: every number of its tables is computed here, by the package and in closed
+form."""
 
 import re
 from math import acos, atan, cos, exp, pi, sin, sqrt
@@ -12,17 +13,25 @@ from scipy.optimize import brentq
 from disc_model import Disc, Parameters, plate_modes, simulate, steady_sliding
 from disc_model.simulation.states import State, static_start
 
-pytestmark = [pytest.mark.compiled, pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")]
+pytestmark = [
+    pytest.mark.compiled,
+    pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue"),
+]
 PAGE = (Path(__file__).parents[2] / "docs" / "verification.md").read_text(encoding="utf-8")
 
 
 def tables():
-    """Of each case of the page: its letter and number, its parameters, its rows without the head."""
+    """Of each case of the page: its letter and number, its parameters, its rows without the
+    head."""
     for section in re.split(r"^## ", PAGE, flags=re.MULTILINE)[1:]:
         if code := re.search(r"`(Parameters\(.*?\))`", section, flags=re.DOTALL):
             lines = [line for line in section.splitlines() if line.startswith("|")][2:]
             rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
-            yield section.split(".")[0], eval(code[1], {"Parameters": Parameters, "Disc": Disc}), rows
+            yield (
+                section.split(".")[0],
+                eval(code[1], {"Parameters": Parameters, "Disc": Disc}),
+                rows,
+            )
 
 
 def edge(holds, low, high):
@@ -38,13 +47,18 @@ def edge(holds, low, high):
 def times(p, t_end, start=None, kinds=None):
     """Of events, s; of some kinds."""
     events = simulate(p, t_end, tol=1e-14, initial_state=start).events
-    return [float(t) for t, kind in zip(events["time"], events["kind"], strict=True) if kinds is None or kind in kinds]
+    return [
+        float(t)
+        for t, kind in zip(events["time"], events["kind"], strict=True)
+        if kinds is None or kind in kinds
+    ]
 
 
-# Each function gives what is exact and what the package computes, by the labels of the page; None where a number is
-# known in print alone.
+# Each function gives what is exact and what the package computes, by the labels of the page; None
+# where a number is known in print alone.
 def annulus(p):
-    """Frequencies over sqrt(D / (rho h)) / b^2: squares of lambda; by the formula, one of them in Hz."""
+    """Frequencies over sqrt(D / (rho h)) / b^2: squares of lambda; by the formula, one of them in
+    Hz."""
     modes = plate_modes(p)
     unit = sqrt(p.D / (p.rho * p.h)) / p.b**2
     rows = zip(modes["diameters"], modes["circles"], modes["omega"], strict=True)
@@ -55,7 +69,10 @@ def annulus(p):
 def centre(p):
     """Frequencies over h sqrt(E / (rho (1 - nu^2))) / (2 b)^2."""
     modes, unit = plate_modes(p), p.h * sqrt(p.E / (p.rho * (1 - p.nu**2))) / (2 * p.b) ** 2
-    return {f"(0, {c})": (None, omega / unit) for c, omega in zip(modes["circles"], modes["omega"], strict=True)}
+    return {
+        f"(0, {c})": (None, omega / unit)
+        for c, omega in zip(modes["circles"], modes["omega"], strict=True)
+    }
 
 
 def shoe(p):
@@ -76,18 +93,22 @@ def belt(p):
     *_, begin, end, again = times(p, 1.0, kinds={"stick_to_slip", "slip_to_stick"})[-4:]
     lengths = sorted([end - begin, again - end], reverse=slip > stick)
     exact = {"slip, s": slip, "stick, s": stick, "period, s": slip + stick}
-    return {name: (exact[name], own) for name, own in zip(exact, [*lengths, sum(lengths)], strict=True)}
+    return {
+        name: (exact[name], own) for name, own in zip(exact, [*lengths, sum(lengths)], strict=True)
+    }
 
 
 def damped_belt(p):
-    """The speed at which the slider, after its first swing, is just as fast as the belt: there it sticks no more."""
+    """The speed at which the slider, after its first swing, is just as fast as the belt: there it
+    sticks no more."""
 
     def sticks(Omega, c_p):
         kinds = simulate(p.replace(Omega=Omega, c_p=c_p), 1.0, tol=1e-13).events["kind"]
         return "slip_to_stick" in set(kinds)
 
     def excess(v, c_p):
-        """Velocity of the spring's end after a swing less that of the belt, v (m/s), with which it starts."""
+        """Velocity of the spring's end after a swing less that of the belt, v (m/s), with which it
+        starts."""
         square, decay = p.k_p / p.m, c_p / (2 * p.m)
         w, z = sqrt(square - decay**2), ((p.mu_s - p.mu_k) * p.N - c_p * v) / p.k_p
         rate = -2 * decay * v - square * z
@@ -96,7 +117,9 @@ def damped_belt(p):
 
     found = {}
     for c_p in (0.5, 1.0, 2.0, 5.0):
-        about = (p.mu_s - p.mu_k) * p.N / sqrt(2 * pi * c_p * sqrt(p.k_p * p.m))  # the rule of thumb for small damping
+        about = (
+            (p.mu_s - p.mu_k) * p.N / sqrt(2 * pi * c_p * sqrt(p.k_p * p.m))
+        )  # the rule of thumb for small damping
         exact = brentq(excess, about / 2, 2 * about, args=(c_p,), xtol=1e-15) / p.r_0
         own = edge(lambda Omega, c_p=c_p: sticks(Omega, c_p), 0.9 * exact, 1.1 * exact)
         found[f"$c_p$ = {c_p:g} N s/m, rad/s"] = exact, own
@@ -115,7 +138,10 @@ def divergence(p):
             return steady_sliding(p.replace(k=k, Omega=Omega)).growth_rate > 1e-3
 
         middle = (first + last) / 2
-        own = edge(lambda Omega: not grows(Omega), 0.999 * first, middle), edge(grows, middle, 1.001 * last)
+        own = (
+            edge(lambda Omega: not grows(Omega), 0.999 * first, middle),
+            edge(grows, middle, 1.001 * last),
+        )
         for name, exact, value in zip(("begins", "ends"), (first, last), own, strict=True):
             found[f"$k$ = {k:g} N/m, {name}, rad/s"] = exact, value
     return found
@@ -129,16 +155,26 @@ def dashpot(p):
         """By eigenvalues of one pair of modes; a, b, alpha, beta in the slider's frame."""
         turn = l * Omega
         free = np.array(
-            [[0, turn, 1, 0], [-turn, 0, 0, 1], [-(omega**2), 0, -damping, turn], [0, -(omega**2), -turn, -damping]]
+            [
+                [0, turn, 1, 0],
+                [-turn, 0, 0, 1],
+                [-(omega**2), 0, -damping, turn],
+                [0, -(omega**2), -turn, -damping],
+            ]
         )
         free[2] -= p.c * psi**2 * free[0]
         return np.linalg.eigvals(free).real.max()
 
     def own(Omega, damping):
         ratio = damping / (2 * omega)
-        return steady_sliding(p.replace(Omega=Omega, disc=p.disc.replace(damping_ratio=[ratio]))).growth_rate
+        return steady_sliding(
+            p.replace(Omega=Omega, disc=p.disc.replace(damping_ratio=[ratio]))
+        ).growth_rate
 
-    found = {f"{Omega:g} rad/s, 1/s": (growth(Omega, 0.0), own(Omega, 0.0)) for Omega in (900.0, 915.0, 1000.0)}
+    found = {
+        f"{Omega:g} rad/s, 1/s": (growth(Omega, 0.0), own(Omega, 0.0))
+        for Omega in (900.0, 915.0, 1000.0)
+    }
     exact = brentq(lambda x: growth(x, 0.2), 1.1 * omega / l, 9 * omega / l, xtol=1e-11)
     limit = brentq(lambda x: own(x, 0.2), 0.99 * exact, 1.01 * exact, xtol=1e-11)
     return found | {"growth begins, rad/s": (exact, limit)}
@@ -147,7 +183,12 @@ def dashpot(p):
 def impact(p):
     """Fall, impact, a piece of a harmonic motion together, a flight."""
     (omega,), (psi,) = p.disc.omega, p.disc.amplitude
-    g, height, mass, M = p.N / p.m, 0.02, 1 / psi**2, p.m + 1 / psi**2  # masses of the disc's mode, and of both
+    g, height, mass, M = (
+        p.N / p.m,
+        0.02,
+        1 / psi**2,
+        p.m + 1 / psi**2,
+    )  # masses of the disc's mode, and of both
     t1 = sqrt(2 * height / g)
     impulse = p.m * mass / M * g * t1
     # together: w = (cos - 1) N/K - v/w sin; contact ends where w'' = -g
@@ -157,7 +198,10 @@ def impact(p):
     def height_of(t):
         return rest * (cos(w * t) - 1) - speed / w * sin(w * t)
 
-    size, phase = np.hypot(rest, speed / w), atan(speed / (w * rest))  # of height_of(t) + rest, a cosine
+    size, phase = (
+        np.hypot(rest, speed / w),
+        atan(speed / (w * rest)),
+    )  # of height_of(t) + rest, a cosine
     t2 = (2 * pi - acos(g / (w**2 * size)) - phase) / w
     x, v = height_of(t2), -rest * w * sin(w * t2) - speed * cos(w * t2)
 
@@ -198,12 +242,16 @@ def bounce(p):
 
 
 def falling_friction(p):
-    """A cycle from release to release: by a method of Runge and Kutta for slip, x in m along the belt."""
+    """A cycle from release to release: by a method of Runge and Kutta for slip, x in m along the
+    belt."""
     speed = p.r_0 * p.Omega
 
     def rates(_, y):
         x, v = y
-        return [speed - v, (p.k_p * x - p.N * (p.mu_k + (p.mu_s - p.mu_k) / (1 + p.friction_decay * v))) / p.m]
+        return [
+            speed - v,
+            (p.k_p * x - p.N * (p.mu_k + (p.mu_s - p.mu_k) / (1 + p.friction_decay * v))) / p.m,
+        ]
 
     def stop(_, y):
         return y[1]
@@ -213,17 +261,32 @@ def falling_friction(p):
 
     stop.terminal, stop.direction, turn.direction = True, -1, 1
     release = p.mu_s * p.N / p.k_p
-    slip = solve_ivp(rates, (0, 1e3), [release, 0.0], method="DOP853", rtol=1e-13, atol=1e-14, events=(stop, turn))
+    slip = solve_ivp(
+        rates,
+        (0, 1e3),
+        [release, 0.0],
+        method="DOP853",
+        rtol=1e-13,
+        atol=1e-14,
+        events=(stop, turn),
+    )
     end, largest = slip.t_events[0][0], slip.y_events[1][0][0]
     rest = slip.y_events[0][0][0]
     stick = (release - rest) / speed
     run = simulate(p, release / speed + 1.01 * (end + stick), tol=1e-14)
     (start, halt, again), stopped = run.events["time"][:3], p.r_0 * run.events["psi"][1]
-    # a state at the turn: from there the largest displacement is missed by the square of the turn's error
+    # a state at the turn: from there the largest displacement is missed by the square of the turn's
+    # error
     near = simulate(p, start + slip.t_events[1][0], tol=1e-14).final_state
     exact = end, rest, stick, end + stick, largest
     own = halt - start, stopped, again - halt, again - start, p.r_0 * near.psi
-    names = "slip, s", "displacement at the stop, m", "stick, s", "period, s", "largest displacement, m"
+    names = (
+        "slip, s",
+        "displacement at the stop, m",
+        "stick, s",
+        "period, s",
+        "largest displacement, m",
+    )
     return {name: pair for name, *pair in zip(names, exact, own, strict=True)}
 
 
@@ -258,14 +321,20 @@ OTHERS = {
 
 
 def says(text, value):
-    """Whether a number of the page is the value, rounded to as many digits, up to noise in the last."""
+    """Whether a number of the page is the value, rounded to as many digits, up to noise in the
+    last."""
     digits = text.partition("e")[0].partition(".")[2]
-    return abs(float(text) - value) <= 0.6 * 10.0 ** -len(digits) * 10.0 ** int(text.partition("e")[2] or 0)
+    return abs(float(text) - value) <= 0.6 * 10.0 ** -len(digits) * 10.0 ** int(
+        text.partition("e")[2] or 0
+    )
 
 
-@pytest.mark.parametrize(("name", "p", "rows"), [pytest.param(*case, id=case[0]) for case in tables()])
+@pytest.mark.parametrize(
+    ("name", "p", "rows"), [pytest.param(*case, id=case[0]) for case in tables()]
+)
 def test_the_page_says_what_is_computed(name, p, rows):
-    """Exact numbers and ours, to the last digit shown; and their relative difference is below what the page says."""
+    """Exact numbers and ours, to the last digit shown; and their relative difference is below what
+    the page says."""
     found = COMPUTED[name](p)
     assert [row[0] for row in rows] == list(found)
     for (label, reference, ours, allowed), (exact, own) in zip(rows, found.values(), strict=True):
@@ -277,7 +346,9 @@ def test_the_page_says_what_is_computed(name, p, rows):
         assert float(allowed) <= max(10 * difference, 1e-8), (label, difference)
 
 
-@pytest.mark.parametrize(("name", "changes"), [(name, changes) for name in OTHERS for changes in OTHERS[name]])
+@pytest.mark.parametrize(
+    ("name", "changes"), [(name, changes) for name in OTHERS for changes in OTHERS[name]]
+)
 def test_other_parameters_are_as_exact_as_the_page_says(name, changes):
     p, rows = next((p, rows) for case, p, rows in tables() if case == name)
     found = COMPUTED[name](p.replace(**changes))

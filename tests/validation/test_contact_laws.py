@@ -1,4 +1,5 @@
-"""`simulate` and its series under every law of contact: compliant or rigid, force vertical or normal."""
+"""`simulate` and its series under every law of contact: compliant or rigid, force vertical or
+normal."""
 
 import math
 
@@ -18,17 +19,28 @@ from tests.references.printed import MOTIONS, P, lively
 EVENT_TIMES = 1e-13
 
 
-# Kernels of each law take minutes to compile: the quick tests try the law that has both, the long ones all.
-EACH_LAW = [pytest.param(name, marks=() if name == "compliant_normal" else pytest.mark.slow, id=name) for name in LAWS]
+# Kernels of each law take minutes to compile: the quick tests try the law that has both, the long
+# ones all.
+EACH_LAW = [
+    pytest.param(name, marks=() if name == "compliant_normal" else pytest.mark.slow, id=name)
+    for name in LAWS
+]
 
 
 def _difference(name, runs, tol, audited=False):
-    """Largest difference of event times (s) and of contact forces (N), all switches being there, in order."""
+    """Largest difference of event times (s) and of contact forces (N), all switches being there, in
+    order."""
     data, times, forces = stored.load(f"contact_{name}"), [0.0], [0.0]
     p = Parameters(**data["parameters"])
     for run in data["runs"][runs]:
         start = stored.engine_state(run["start"], p) if run["start"] else None
-        result = simulate(p, run["t_end"], tol=tol, initial_state=start, execution=Execution(audit_every_step=audited))
+        result = simulate(
+            p,
+            run["t_end"],
+            tol=tol,
+            initial_state=start,
+            execution=Execution(audit_every_step=audited),
+        )
         events = result.events
         if audited:
             assert result.statistics["energy_residual"] < 1e-13
@@ -55,40 +67,59 @@ def test_every_switch_of_a_quiet_second_and_of_half_a_violent_one(name):
     for tol in (1e-6, 1e-8, 1e-10, 1e-12, 1e-15):
         times, forces = _difference(name, slice(0, 1), tol)
         assert times <= (4 * tol if tol > 1e-15 else 0.0) + EVENT_TIMES
-    assert forces <= 1e-8  # of 385 N; a compliant contact feels a rounding of u as 1e-18/C = 4e-12 N at least
+    assert (
+        forces <= 1e-8
+    )  # of 385 N; a compliant contact feels a rounding of u as 1e-18/C = 4e-12 N at least
 
 
 @pytest.mark.compiled
 def test_release_by_the_slope_s_acceleration_is_found_as_exactly_as_all_else():
-    """Steps looked at the contact force alone: a release of a heavy slider on a disc of many modes was 5e-13 s off."""
-    disc = {"a": 0.0327, "b": 0.0952, "r_0": 0.0927, "h": 0.0011, "E": 86e9, "D_star": 1e-6, "n_diameters": 4}
+    """Steps looked at the contact force alone: a release of a heavy slider on a disc of many modes
+    was 5e-13 s off."""
+    disc = {
+        "a": 0.0327,
+        "b": 0.0952,
+        "r_0": 0.0927,
+        "h": 0.0011,
+        "E": 86e9,
+        "D_star": 1e-6,
+        "n_diameters": 4,
+    }
     slider = {"m": 0.197, "k": 0.0, "c": 0.0, "k_p": 5168.0, "c_p": 0.0, "mu_s": 0.72, "mu_k": 0.35}
     laws = {"normalization": "orthonormal", "contact": "bilateral", "contact_force": "normal"}
     p = Parameters(N=187.0, Omega=11.7, **disc, **slider, **laws)
     q = taylor.problem_of(p)
-    wanted = [float(event["time"]) for event in taylor.Reference(q, q.equilibrium()).run(0.15).events]
+    wanted = [
+        float(event["time"]) for event in taylor.Reference(q, q.equilibrium()).run(0.15).events
+    ]
     assert len(wanted) > 4
-    assert simulate(p, 0.15, tol=1e-14).events["time"].to_numpy() == pytest.approx(wanted, abs=EVENT_TIMES, rel=0)
+    assert simulate(p, 0.15, tol=1e-14).events["time"].to_numpy() == pytest.approx(
+        wanted, abs=EVENT_TIMES, rel=0
+    )
 
 
-# ------------------------------------------------------------------------ where nothing but the disc's slope pulls
+# ------------------------------------------------------------------------ where nothing but the
+# disc's slope pulls
 RIGID_OR_NOT = [pytest.param(0.0, marks=COMPILES), 1e-7]
 SLOPING = {"n_diameters": 1, "contact_force": "normal", "mu_s": 0.02, "mu_k": 0.01}
 
 
 def _swinging(p, psi=0.0, **modal):
-    """The static start, but psi, and one of the mode's coordinates across the slider's direction."""
+    """The static start, but psi, and one of the mode's coordinates across the slider's
+    direction."""
     start = static_start(p)
     return start.replace(psi=psi, **{name: np.array([0.0, value]) for name, value in modal.items()})
 
 
 @pytest.mark.parametrize("give", RIGID_OR_NOT)
 @pytest.mark.parametrize(
-    ("modal", "psi"), [({"beta": 3.0}, 0), ({"beta": -3.0}, 0), ({"b": 2e-3}, 0), ({"beta": 3.0}, 1e-5)]
+    ("modal", "psi"),
+    [({"beta": 3.0}, 0), ({"beta": -3.0}, 0), ({"b": 2e-3}, 0), ({"beta": 3.0}, 1e-5)],
 )
 @pytest.mark.parametrize("weak", ["k_p", "Omega"])
 def test_a_slope_pulls_as_without_as_with_a_feeble_drive(weak, modal, psi, give):
-    """Without any the slider stuck, however steep the disc: the limit of contact alone was looked for."""
+    """Without any the slider stuck, however steep the disc: the limit of contact alone was looked
+    for."""
     p = Parameters(N=200, Omega=20, contact_compliance=give, **SLOPING)
     found = []
     for value in (0.0, 1e-10):
@@ -97,7 +128,8 @@ def test_a_slope_pulls_as_without_as_with_a_feeble_drive(weak, modal, psi, give)
     none, feeble = found
     assert none.events["kind"].iloc[0] == "stick_to_slip"
     assert list(none.events["kind"]) == list(feeble.events["kind"])
-    # the feeble drive moves events by its share in the friction limit, 1e-10 rad/s times 20 kN/m in N
+    # the feeble drive moves events by its share in the friction limit, 1e-10 rad/s times 20 kN/m in
+    # N
     np.testing.assert_allclose(none.events["time"], feeble.events["time"], rtol=0, atol=1e-9)
     assert none.final_state.f == pytest.approx(feeble.final_state.f, rel=1e-6)
 
@@ -107,17 +139,26 @@ def test_contact_ends_where_its_force_does_although_friction_ends_there_too(give
     p = Parameters(N=200, Omega=20, k_p=0, contact_compliance=give, **SLOPING)
     upward = np.array([0.0, 1.5])
     velocity = float(plate_modes(p)["psi"] @ upward)
-    thrown = simulate(p, 8e-4, initial_state=_swinging(p, b=1e-5).replace(alpha=upward, u_velocity=velocity))
+    thrown = simulate(
+        p, 8e-4, initial_state=_swinging(p, b=1e-5).replace(alpha=upward, u_velocity=velocity)
+    )
     assert list(thrown.events["kind"])[:1] == ["separation"]
 
 
 def test_a_compliant_contact_does_not_pull_where_friction_holds_on_a_steep_slope():
     """The slider stuck on, drawn down by a contact that had opened, until friction gave way."""
-    p = Parameters(N=200, Omega=20, **SLOPING | LAWS["compliant_normal"] | {"mu_s": 2.0, "mu_k": 0.1})
+    p = Parameters(
+        N=200, Omega=20, **SLOPING | LAWS["compliant_normal"] | {"mu_s": 2.0, "mu_k": 0.1}
+    )
     psi = plate_modes(p)["psi"].to_numpy()
     upward = np.array([0.0, 6.0]) * np.sign(psi)  # kg^1/2 m/s
-    start = _swinging(p, 0.01, b=0.8 * p.r_0 / psi[1]).replace(alpha=upward, u_velocity=float(psi @ upward))
-    windows, execution = {"all": Window(start=0.0, stop=2e-4, rate=1e6)}, Execution(audit_every_step=True)
+    start = _swinging(p, 0.01, b=0.8 * p.r_0 / psi[1]).replace(
+        alpha=upward, u_velocity=float(psi @ upward)
+    )
+    windows, execution = (
+        {"all": Window(start=0.0, stop=2e-4, rate=1e6)},
+        Execution(audit_every_step=True),
+    )
     result = simulate(p, 2e-4, windows, initial_state=start, tol=1e-14, execution=execution)
     assert list(result.events["kind"]) == ["separation"]
     sample = result.samples["all"]
@@ -126,35 +167,52 @@ def test_a_compliant_contact_does_not_pull_where_friction_holds_on_a_steep_slope
     assert sample["P"][held].min() > 1.0  # normal to the disc it presses to the end
     reference = taylor.Reference(taylor.problem_of(p), stored.reference_state(start, p)).run(2e-4)
     assert [event["kind"] for event in reference.events] == ["separation"]
-    assert result.events["time"][0] == pytest.approx(float(reference.events[0]["time"]), abs=EVENT_TIMES)
+    assert result.events["time"][0] == pytest.approx(
+        float(reference.events[0]["time"]), abs=EVENT_TIMES
+    )
 
 
-# ------------------------------------------------------------------------ the series, coefficient by coefficient
+# ------------------------------------------------------------------------ the series, coefficient
+# by coefficient
 @pytest.mark.parametrize("name", ["default", *ALL_LAWS])
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 @pytest.mark.parametrize("n_diameters", [pytest.param(n, marks=COMPILES) for n in (2, 5)])
 @pytest.mark.parametrize("rates", [None, (-9e3, 7e5)], ids=["constant", "ramps"])
 def test_series_against_the_reference(name, phase, direction, n_diameters, rates):
-    """One block of lanes and two; each coefficient in units of the largest, ``rates`` are those of Omega and N."""
+    """One block of lanes and two; each coefficient in units of the largest, ``rates`` are those of
+    Omega and N."""
     p = P.replace(n_diameters=n_diameters, **ALL_LAWS.get(name, {}))
     start, order = lively(phase, direction, p).replace(time=1e-3 if rates else 0.0), 16
     if p.contact_compliance:
-        start = start.replace(u=start.u - 500 * contact_compliance(p), u_velocity=start.u_velocity + 0.01)
-    step = taylor.Step(taylor.problem_of(p, rates or (0.0, 0.0)), phase, direction, stored.reference_state(start, p))
+        start = start.replace(
+            u=start.u - 500 * contact_compliance(p), u_velocity=start.u_velocity + 0.01
+        )
+    step = taylor.Step(
+        taylor.problem_of(p, rates or (0.0, 0.0)),
+        phase,
+        direction,
+        stored.reference_state(start, p),
+    )
     case, sign = engine_case(p), np.sign(plate_modes(p)["psi"].to_numpy())
     model = case.model
     if rates:
-        model = layout.on_ramp(model, 0.0, 0.0, Omega=p.Omega, Omega_rate=rates[0], N=p.N, N_rate=rates[1])
+        model = layout.on_ramp(
+            model, 0.0, 0.0, Omega=p.Omega, Omega_rate=rates[0], N=p.N, N_rate=rates[1]
+        )
     s, state = build_series(model, order), layout.build_state(model)
     write_state(case, start, state)
     if rates:
         layout.set_course(model, state)
-    event_loop.expand(model.compliant, model.normal, model.normal + model.decaying, model, s, state, order)
+    event_loop.expand(
+        model.compliant, model.normal, model.normal + model.decaying, model, s, state, order
+    )
     powers = np.array([float(model.unit) ** k for k in range(order + 1)])
 
     def compare(own, wanted, rtol=1e-10, degree=order):
         wanted = np.array(wanted[:degree], float) * powers[:degree]
-        np.testing.assert_allclose(own[:degree], wanted, atol=1e-12 * np.abs(wanted).max(), rtol=rtol)
+        np.testing.assert_allclose(
+            own[:degree], wanted, atol=1e-12 * np.abs(wanted).max(), rtol=rtol
+        )
 
     width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     pairs = [x.reshape(-1, width)[: order + 1] for x in (s.z, s.e)]
@@ -162,7 +220,9 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
     own = np.concatenate(pairs + single, axis=1)[:, case.places]
     for i, name in enumerate(("a", "b", "alpha", "beta")):
         here = case.present // len(sign) == i
-        wanted = np.array(sign * getattr(step, name)[: order + 1], float)[:, case.present[here] % len(sign)]
+        wanted = np.array(sign * getattr(step, name)[: order + 1], float)[
+            :, case.present[here] % len(sign)
+        ]
         wanted *= powers[:, None]
         sizes = np.abs(wanted).max(axis=1, keepdims=True)
         assert np.all(np.abs(own[:, here] - wanted) <= 1e-10 * sizes), name
@@ -171,7 +231,12 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
     if phase != "separation":
         compare(s.P, step.V if phase == "stick" else step.R)
     if phase != "stick":
-        compare(s.switch, direction * step.f if direction else step.u - step.a @ step.q.s, 1e-9, order + 1)
+        compare(
+            s.switch,
+            direction * step.f if direction else step.u - step.a @ step.q.s,
+            1e-9,
+            order + 1,
+        )
     if p.contact_compliance or phase == "separation":
         compare(s.u, step.u, degree=order + 1)
         compare(s.v, step.v, degree=order + 1)
@@ -184,7 +249,9 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
         compare(s.switch2, p.mu_s * press + pull, 1e-9)
         held = np.array([pull[0], press[0]], float)
         i, _ = transitions.instant(model, state)
-        np.testing.assert_allclose(laws.stick_loads(model, i, laws.vertical_in_stick(model, i)), held, rtol=1e-10)
+        np.testing.assert_allclose(
+            laws.stick_loads(model, i, laws.vertical_in_stick(model, i)), held, rtol=1e-10
+        )
         force = transitions.force_in_stick(model, state, transitions.stick_force(model, state))
         assert force == pytest.approx(float(step.R[0]), rel=1e-10)
 
@@ -200,10 +267,14 @@ def test_energy_balances_over_ten_thousand_switches(name):
     statistics = result.statistics
     assert statistics["events"] > 10_000
     assert statistics["audited_steps"] == statistics["steps"]
-    assert max(statistics["energy_residual_transverse"], statistics["energy_residual_inplane"]) < 1e-12
+    assert (
+        max(statistics["energy_residual_transverse"], statistics["energy_residual_inplane"]) < 1e-12
+    )
 
 
-@pytest.mark.parametrize(("phase", "direction"), [pytest.param(*motion, marks=COMPILES) for motion in MOTIONS])
+@pytest.mark.parametrize(
+    ("phase", "direction"), [pytest.param(*motion, marks=COMPILES) for motion in MOTIONS]
+)
 def test_energy_balances_with_the_couple_on_more_modes_than_fill_a_block(phase, direction):
     p = P.replace(n_diameters=5, **COUPLE)
     start, execution = lively(phase, direction, p), Execution(audit_every_step=True)
@@ -219,10 +290,14 @@ def classical_events(p, count):
     slip = 2 * (math.pi - math.atan(rate * (static - kinetic) / p.Omega)) / rate
     stick = 2 * (static - kinetic) / p.Omega
     first = static / p.Omega
-    return np.array([first + i // 2 * (slip + stick) + (slip if i % 2 else 0) for i in range(count)])
+    return np.array(
+        [first + i // 2 * (slip + stick) + (slip if i % 2 else 0) for i in range(count)]
+    )
 
 
-@pytest.mark.parametrize("name", ["default", *EACH_LAW, pytest.param("bonded", marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "name", ["default", *EACH_LAW, pytest.param("bonded", marks=pytest.mark.slow)]
+)
 def test_a_rigid_disc_gives_the_classical_cycle(name):
     """More events than the engine keeps room for at first."""
     law = {"default": {}, "bonded": {"contact": "bilateral"}} | LAWS

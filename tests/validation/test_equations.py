@@ -1,6 +1,7 @@
 """Each equation of motion, wherever the package implements it, against the paper's as printed.
 
-tests/references/printed.py has Eqs. (18)-(37), and the states from which single phases are compared with them.
+tests/references/printed.py has Eqs. (18)-(37), and the states from which single phases are compared
+with them.
 """
 
 import numpy as np
@@ -20,7 +21,9 @@ def close(got, expected, accuracy=ACCURACY, names=None):
     """Each quantity to the accuracy of its own size."""
     for name in names or expected:
         size = np.max(np.abs(expected[name]))
-        np.testing.assert_allclose(got[name], expected[name], rtol=0, atol=accuracy * size, err_msg=name)
+        np.testing.assert_allclose(
+            got[name], expected[name], rtol=0, atol=accuracy * size, err_msg=name
+        )
 
 
 def engine_state(p, state):
@@ -31,24 +34,35 @@ def engine_state(p, state):
     return case.model, inside
 
 
-# ------------------------------------------------------------------------------------------------ the engine
+# ------------------------------------------------------------------------------------------------
+# the engine
 @pytest.mark.parametrize("tol", [1e-13, 1e-6])
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_motion_of_each_phase(phase, direction, tol):
     """At a loose tolerance steps are long: a wrong coefficient of any order shows."""
     start = lively(phase, direction)
-    window, execution = Window(start=0, stop=SPAN, rate=3 / SPAN, theta=THETA), Execution(audit_every_step=True)
+    window, execution = (
+        Window(start=0, stop=SPAN, rate=3 / SPAN, theta=THETA),
+        Execution(audit_every_step=True),
+    )
     result = simulate(P, SPAN, {"w": window}, tol=tol, initial_state=start, execution=execution)
     assert len(result.events) == 0
     printed, accuracy = Printed(P, start), max(ACCURACY, 10 * tol)
     end = printed.at(SPAN)
-    close({name: getattr(result.final_state, name) for name in vars(start)}, end, accuracy, vars(start).keys() & end)
+    close(
+        {name: getattr(result.final_state, name) for name in vars(start)},
+        end,
+        accuracy,
+        vars(start).keys() & end,
+    )
     samples = result.samples["w"]
     wanted = [printed.at(t) if t else printed.described(0.0, printed.y) for t in samples["time"]]
     names = ("P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi")
     assert len(wanted) == 4
     close(samples, {name: np.array([row[name] for row in wanted]) for name in names}, accuracy)
-    np.testing.assert_allclose(samples["psi_velocity"], [P.Omega - row["f"] for row in wanted], rtol=accuracy)
+    np.testing.assert_allclose(
+        samples["psi_velocity"], [P.Omega - row["f"] for row in wanted], rtol=accuracy
+    )
     for name in ("energy_residual_transverse", "energy_residual_inplane"):
         assert result.statistics[name] < accuracy
 
@@ -58,7 +72,12 @@ def test_states_pass_the_engine_unchanged(phase, direction):
     start = lively(phase, direction)
     _, state = engine_state(P, start)
     back = read_state(engine_case(P), state)
-    close(vars(back), Printed(P, start).described(0.0, Printed(P, start).y), 1e-12, ("a", "b", "alpha", "beta"))
+    close(
+        vars(back),
+        Printed(P, start).described(0.0, Printed(P, start).y),
+        1e-12,
+        ("a", "b", "alpha", "beta"),
+    )
     assert (back.phase, back.direction) == (phase, direction)
     assert (back.u, back.u_velocity) == pytest.approx((start.u, start.u_velocity), rel=1e-12)
 
@@ -69,7 +88,12 @@ def test_impact():
     expected = printed.described(0.0, printed.literal.impact(printed.y))
     model, state = engine_state(P, start)
     impulse = transitions.impact(model, state)
-    close(vars(read_state(engine_case(P), state)), expected, 1e-12, ("a", "b", "alpha", "beta", "psi", "f"))
+    close(
+        vars(read_state(engine_case(P), state)),
+        expected,
+        1e-12,
+        ("a", "b", "alpha", "beta", "psi", "f"),
+    )
     w, velocity, _ = transitions.disc_point(model, state)
     assert state.x[layout.U_VELOCITY] == pytest.approx(expected["u_velocity"], rel=1e-12)
     assert (state.x[layout.U], state.x[layout.U_VELOCITY]) == (w, velocity)
@@ -86,7 +110,9 @@ def test_static_equilibrium():
     assert np.max(np.abs(printed.rates()["alpha"])) < 1e-9 * P.N
     assert model.u_0 == pytest.approx(printed.literal.w_0, rel=1e-13)
     assert start.u == pytest.approx(model.u_0, rel=1e-13)
-    assert transitions.stick_force(model, layout.build_state(model)) == pytest.approx(P.N, rel=1e-12)
+    assert transitions.stick_force(model, layout.build_state(model)) == pytest.approx(
+        P.N, rel=1e-12
+    )
     close(vars(scenes.static_start(P)), vars(start), 1e-12, ("a", "u"))
 
 
@@ -102,7 +128,10 @@ def test_release_conditions_of_stick():
         assert first["time"] > 1e-5
         printed, time = Printed(p, tense), first["time"]
         y = printed.literal.fresh("stick", 0.0, printed.y, time)
-        friction, pull = p.mu_s * printed.literal.contact(time, y, "stick"), p.r_0 * printed.literal.pull(time, y)
+        friction, pull = (
+            p.mu_s * printed.literal.contact(time, y, "stick"),
+            p.r_0 * printed.literal.pull(time, y),
+        )
         assert friction == pytest.approx(side * pull, rel=1e-9)
         slipping = "slip+" if side > 0 else "slip-"
         assert first["P"] == pytest.approx(printed.literal.contact(time, y, slipping), rel=1e-9)

@@ -1,9 +1,18 @@
-"""Friction that falls with the speed: the package against references, and its way to the paper's law."""
+"""Friction that falls with the speed: the package against references, and its way to the paper's
+law."""
 
 import numpy as np
 import pytest
 
-from disc_model import Execution, ParameterError, Parameters, continue_cycle, floquet, simulate, steady_sliding
+from disc_model import (
+    Execution,
+    ParameterError,
+    Parameters,
+    continue_cycle,
+    floquet,
+    simulate,
+    steady_sliding,
+)
 from disc_model.engine import transitions
 from disc_model.stability.return_map import ReturnMap
 from tests.contact_laws import COUPLE, COUPLED, FALLING
@@ -12,10 +21,18 @@ from tests.stability.test_return_map import central_differences
 from tests.validation.test_friction_couple import compare_sliding
 
 P = Parameters(N=385, Omega=15.1, n_diameters=1)
-EACH_LAW = [pytest.param(name, marks=() if name == "vertical_falling" else pytest.mark.slow) for name in FALLING]
+EACH_LAW = [
+    pytest.param(name, marks=() if name == "vertical_falling" else pytest.mark.slow)
+    for name in FALLING
+]
 BONDED = {"bilateral_coupled": COUPLE | {"contact": "bilateral"}}
-QUICK = ("vertical_coupled", "bilateral_coupled")  # whose kernels the quick tests compile in any case
-COUPLES = [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in COUPLED | BONDED]
+QUICK = (
+    "vertical_coupled",
+    "bilateral_coupled",
+)  # whose kernels the quick tests compile in any case
+COUPLES = [
+    pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in COUPLED | BONDED
+]
 
 
 @pytest.mark.compiled
@@ -25,7 +42,10 @@ def test_events_are_those_of_the_reference_and_the_energy_balances(law):
     p = Parameters(N=385, Omega=15.1, c=0.3, c_p=0.2, **(FALLING | COUPLED | BONDED)[law])
     q, audit = taylor.problem_of(p), Execution(audit_every_step=True)
     violent = stored.rounded(taylor.violent_start(1.3))
-    for start, own, span in ((violent, stored.engine_state(violent, p), 0.012), (q.equilibrium(), None, 0.05)):
+    for start, own, span in (
+        (violent, stored.engine_state(violent, p), 0.012),
+        (q.equilibrium(), None, 0.05),
+    ):
         run = taylor.Reference(q, start).run(span)
         result = simulate(p, span, tol=1e-15, initial_state=own, execution=audit)
         assert list(result.events["kind"]) == [event["kind"] for event in run.events]
@@ -55,8 +75,12 @@ def test_multipliers_are_those_of_differences_of_motions(decay):
 
 
 def test_fast_decay_comes_to_the_paper_s_law():
-    """Event times, as ln(d)/d; growth rates of steady sliding as 1/d, and the drop of friction of no height at once."""
-    paper, rate = simulate(P, 0.05, tol=1e-13).events["time"].to_numpy(), steady_sliding(P).growth_rate
+    """Event times, as ln(d)/d; growth rates of steady sliding as 1/d, and the drop of friction of
+    no height at once."""
+    paper, rate = (
+        simulate(P, 0.05, tol=1e-13).events["time"].to_numpy(),
+        steady_sliding(P).growth_rate,
+    )
     differences, rates = [], []
     for decay in (1e4, 1e5, 1e6):
         p = P.replace(friction_decay=decay)
@@ -66,12 +90,15 @@ def test_fast_decay_comes_to_the_paper_s_law():
     assert np.ptp(differences) < 0.1 * differences[0]
     assert np.ptp(rates) < 0.01 * rates[0]
     flat = P.replace(mu_s=0.24)
-    assert simulate(flat.replace(friction_decay=1.0), 0.05).events.equals(simulate(flat, 0.05).events)
+    assert simulate(flat.replace(friction_decay=1.0), 0.05).events.equals(
+        simulate(flat, 0.05).events
+    )
 
 
 @pytest.mark.compiled
 def test_a_friction_limit_that_is_only_touched_releases_nothing():
-    """Newton's method took points of the section where the limit rises for cycles of no duration."""
+    """Newton's method took points of the section where the limit rises for cycles of no
+    duration."""
     p = Parameters(N=385, Omega=10, c_p=1, friction_decay=3, normalization="orthonormal")
     map_, outcomes = ReturnMap(p), []
     for velocity in (0.1, -0.1):  # of all modes, over the deflection's
@@ -87,12 +114,16 @@ def test_the_fold_of_the_quiet_cycle_comes_to_the_paper_s():
     """By continuation in speed; and in the decay itself, from a cycle to that of another decay."""
     folds = []
     for decay in (1e4, 1e6, np.inf):
-        branch = continue_cycle(Parameters(N=385, Omega=14.9, friction_decay=decay), "Omega", (14.8, 15.2))
+        branch = continue_cycle(
+            Parameters(N=385, Omega=14.9, friction_decay=decay), "Omega", (14.8, 15.2)
+        )
         assert len(branch.folds) == 1
         folds.append(branch.values.max())
     assert 15.11 < folds[0] < 15.12
     assert 0 < folds[1] - folds[2] < 0.02 * (folds[0] - folds[2])
-    branch = continue_cycle(Parameters(N=385, Omega=14, friction_decay=50), "friction_decay", (40, 100))
+    branch = continue_cycle(
+        Parameters(N=385, Omega=14, friction_decay=50), "friction_decay", (40, 100)
+    )
     reached = Parameters(N=385, Omega=14, friction_decay=branch.values[-1, 0])
     assert branch.growth_rate[-1] == pytest.approx(floquet(reached).growth_rate, abs=1e-8)
 
@@ -108,5 +139,7 @@ def test_event_times_are_as_exact_as_the_tolerance_says(decay):
 
 
 def test_a_decay_beyond_rounding_is_refused():
-    with pytest.raises(ParameterError, match="friction_decay=10000000000000: must be at most 1e12 s/m, or inf"):
+    with pytest.raises(
+        ParameterError, match="friction_decay=10000000000000: must be at most 1e12 s/m, or inf"
+    ):
         P.replace(friction_decay=1e13)

@@ -1,4 +1,5 @@
-"""The cycle's stability against growth in simulations, prototypes' growth rates, and limits with known answers."""
+"""The cycle's stability against growth in simulations, prototypes' growth rates, and limits with
+known answers."""
 
 import math
 from pathlib import Path
@@ -47,7 +48,9 @@ def test_the_fold_near_15_0949():
     assert math.isnan(beyond.growth_rate)
     before = floquet(p.replace(Omega=branch.folds[0, 0] - 1e-3))
     assert before.status is CycleStatus.OK
-    resonance = nearest_resonance(p, branch.period[-1], branch.multipliers[-1, 0], int(branch.diameters[-1]))
+    resonance = nearest_resonance(
+        p, branch.period[-1], branch.multipliers[-1, 0], int(branch.diameters[-1])
+    )
     assert resonance.label == "2 f_s = 135.42 Hz"
 
 

@@ -1,4 +1,5 @@
-"""The couple of friction on the disc's surface: the package against references, and these against each other."""
+"""The couple of friction on the disc's surface: the package against references, and these against
+each other."""
 
 import numpy as np
 import pytest
@@ -48,7 +49,11 @@ def test_growth_rates_of_the_paper_s_disc(law, N):
 def test_growth_rates_of_a_disc_by_its_modes(law, offset):
     """With tangential amplitudes of a table, and with a height in their place."""
     for Omega in (5.0, 20.0, 80.0):
-        compare_sliding(Parameters(N=8000, Omega=Omega, disc=BRAKE, friction_offset=offset, **SLIDER, **EACH_LAW[law]))
+        compare_sliding(
+            Parameters(
+                N=8000, Omega=Omega, disc=BRAKE, friction_offset=offset, **SLIDER, **EACH_LAW[law]
+            )
+        )
 
 
 def compare_sliding(p):
@@ -67,4 +72,6 @@ def test_first_separations_are_those_of_fixed_steps(N, Omega):
     """To 0.1 %; without the couple none of the first two separates so early."""
     p = Parameters(N=N, Omega=Omega, **ORTHONORMAL)
     wanted = first_separation(taylor.problem_of(p), 80)[0]
-    assert simulate(p, 80, stop_at="first_separation").first_separation == pytest.approx(wanted, rel=1e-3)
+    assert simulate(p, 80, stop_at="first_separation").first_separation == pytest.approx(
+        wanted, rel=1e-3
+    )

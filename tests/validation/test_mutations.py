@@ -1,4 +1,5 @@
-"""The tests notice a wrong sign, factor or comparison in any of the equations: tests/validation/mutants.py."""
+"""The tests notice a wrong sign, factor or comparison in any of the equations:
+tests/validation/mutants.py."""
 
 import ast
 import os

@@ -13,18 +13,23 @@ THETA = 0.7
 
 
 def compared(p, ramps, t_end, start=None):
-    """Switches of a run on ramps, its audit, and samples that also show where the drive has turned to."""
+    """Switches of a run on ramps, its audit, and samples that also show where the drive has turned
+    to."""
     q, course = taylor.problem_of(p), course_of(p, ramps)
     reference = taylor.Reference(q, start or q.equilibrium(), course=course)
     windows, execution = {"w": Window(rate=1e3, theta=THETA)}, Execution(audit_every_step=True)
     given = start and stored.engine_state(start, p)
-    found = simulate(p, t_end, windows, tol=1e-15, initial_state=given, ramps=ramps, execution=execution)
+    found = simulate(
+        p, t_end, windows, tol=1e-15, initial_state=given, ramps=ramps, execution=execution
+    )
     assert found.statistics["audited_steps"] == found.statistics["steps"]
     assert found.statistics["energy_residual"] < 1e-13
     sample = found.samples["w"]
     wanted = np.array([reference.run(t).sample(turned(course, t), THETA) for t in sample["time"]])
     for name, values in zip(taylor.SAMPLED, wanted.T, strict=True):
-        np.testing.assert_allclose(sample[name], values, rtol=0, atol=1e-9 * np.abs(values).max(), err_msg=name)
+        np.testing.assert_allclose(
+            sample[name], values, rtol=0, atol=1e-9 * np.abs(values).max(), err_msg=name
+        )
     events = reference.run(t_end).events
     assert list(found.events["kind"]) == [event["kind"] for event in events]
     times = [float(event["time"]) for event in events]
@@ -37,7 +42,9 @@ def _ramp(p, parameter, rate, end=0.0625):
     return Ramp(parameter=parameter, to=getattr(p, parameter) + rate * end, start=0.0, end=end)
 
 
-@pytest.mark.parametrize("name", ["default", *(pytest.param(name, marks=COMPILES) for name in ALL_LAWS)])
+@pytest.mark.parametrize(
+    "name", ["default", *(pytest.param(name, marks=COMPILES) for name in ALL_LAWS)]
+)
 def test_every_law_on_ramps_of_both(name):
     """Of a motion that separates."""
     p = Parameters(N=385.0, Omega=15.1, c=5.0, c_p=0.5, **ALL_LAWS.get(name, {}))

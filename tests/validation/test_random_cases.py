@@ -36,11 +36,14 @@ def drawn_case(rng):
     b, mu_s = a + rng.uniform(0.03, 0.1), mu_k + sometimes(0.8, rng.uniform(0.01, 0.6))
     give = str(rng.choice(["rigid", "number", "residual"], p=[0.5, 0.3, 0.2]))
     # as published the residual flexibility is a sum of a thousand modes, which takes seconds
-    normalization = "orthonormal" if give == "residual" else str(rng.choice(["as_published", "orthonormal"]))
+    normalization = (
+        "orthonormal" if give == "residual" else str(rng.choice(["as_published", "orthonormal"]))
+    )
     p = Parameters(
         N=spread(rng, 20, 1000), Omega=spread(rng, 2, 60), c=sometimes(0.5, spread(rng, 1e-2, 10)),
-        # without kinetic friction an undamped slider comes to rest where stick is just not possible, or just possible;
-        # with equal coefficients it swings back to rest where it has just begun to slip
+        # without kinetic friction an undamped slider comes to rest where stick is just not
+        # possible, or just possible; with equal coefficients it swings back to rest where it has
+        # just begun to slip
         c_p=sometimes(0.5 if 0 < mu_k < mu_s else 1.0, spread(rng, 1e-2, 10)),
         k=sometimes(0.8, spread(rng, 5e3, 5e5)), k_p=spread(rng, 2e3, 2e5), E=spread(rng, 30e9, 300e9),
         m=spread(rng, 0.01, 1), mu_k=mu_k, mu_s=mu_s, a=a, b=b, r_0=a + rng.uniform(0.3, 1) * (b - a),
@@ -52,7 +55,9 @@ def drawn_case(rng):
     )  # fmt: skip
     # damping ratio of the fastest mode: beyond, an explicit integrator takes ever smaller steps
     ratio = sometimes(0.8, spread(rng, 1e-5, 0.3))
-    return p.replace(D_star=2 * ratio * p.D / (plate_modes(p)["omega"].max() if p.n_diameters >= 0 else 1.0))
+    return p.replace(
+        D_star=2 * ratio * p.D / (plate_modes(p)["omega"].max() if p.n_diameters >= 0 else 1.0)
+    )
 
 
 def fastest(p):
@@ -60,24 +65,33 @@ def fastest(p):
     modes = plate_modes(p)
     found = max(modes["omega"].max() if len(modes) else 0.0, math.sqrt(max(p.k, p.k_p) / p.m))
     give = contact_compliance(p)
-    return max(found, math.sqrt((1 / p.m + float(modes["psi"] @ modes["psi"])) / give)) if give else found
+    return (
+        max(found, math.sqrt((1 / p.m + float(modes["psi"] @ modes["psi"])) / give))
+        if give
+        else found
+    )
 
 
 def drawn_ramps(rng, p, span):
     """None, or one or two."""
     names = [str(name) for name in rng.permutation(["Omega", "N"])[: rng.choice([0, 0, 1, 2])]]
-    if p.n_diameters * (p.n_circles + 1) > 4 and (p.contact_compliance != 0 or p.contact_force == "normal"):
+    if p.n_diameters * (p.n_circles + 1) > 4 and (
+        p.contact_compliance != 0 or p.contact_force == "normal"
+    ):
         names = []  # with two blocks of modes: kernels more that would be compiled for a minute each
     ramps = []
     for name in names:
         begin = span * rng.uniform(0, 0.6)
         end = begin + span * rng.uniform(0.1, 0.6)
-        ramps.append(Ramp(parameter=name, to=getattr(p, name) * rng.uniform(0.5, 1.5), start=begin, end=end))
+        ramps.append(
+            Ramp(parameter=name, to=getattr(p, name) * rng.uniform(0.5, 1.5), start=begin, end=end)
+        )
     return tuple(ramps)
 
 
 def drawn_start(rng, p, time):
-    """The static start, or any motion in any phase, in the slider's frame; contact is as its law says."""
+    """The static start, or any motion in any phase, in the slider's frame; contact is as its law
+    says."""
     rest = static_start(p).replace(time=time)
     phase = str(rng.choice(["rest", "stick", "slip", "slip", "separation"]))
     if phase == "rest" or (phase == "separation" and p.contact == "bilateral"):
@@ -85,9 +99,11 @@ def drawn_start(rng, p, time):
     modes, direction = plate_modes(p), int(rng.choice([-1, 1])) if phase == "slip" else 0
     psi, omega, l = (modes[name].to_numpy() for name in ("psi", "omega", "diameters"))
     pair, size = l > 0, np.abs(p.N * psi / omega**2)
-    f = {"stick": 0.0, "slip": direction * spread(rng, 0.1, 3) * p.Omega, "separation": rng.normal() * 2 * p.Omega}[
-        phase
-    ]
+    f = {
+        "stick": 0.0,
+        "slip": direction * spread(rng, 0.1, 3) * p.Omega,
+        "separation": rng.normal() * 2 * p.Omega,
+    }[phase]
     angle = rng.uniform(-1.2, 1.2) * p.mu_s * p.N / (p.r_0 * p.k_p)
     lively = spread(rng, 0.03, 3)
     give = contact_compliance(p)
@@ -107,24 +123,30 @@ def drawn_start(rng, p, time):
         R, T = reference(p, start).forces(phase, direction)
         # on a steeper slope slip may have no solution, or two
         steep = p.contact_force == "normal" and p.mu_s * abs(np.sum(l * psi * b)) > 0.5 * p.r_0
-        if phase == "separation" or (R > 0 and not steep and (phase == "slip" or abs(T) < p.mu_s * R)):
+        if phase == "separation" or (
+            R > 0 and not steep and (phase == "slip" or abs(T) < p.mu_s * R)
+        ):
             return start
         lively, angle = lively / 2, angle / 2
     return rest
 
 
 def delay(events):
-    """s, by which the engine may be off after so many events: each may shift those after it by its own error."""
+    """s, by which the engine may be off after so many events: each may shift those after it by its
+    own error."""
     return 1e-12 + 1e-14 * events  # 4e-13 was found where friction reaches its limit slowly
 
 
 def reference(p, start, **how):
     """A run from this state at the time 0."""
-    return taylor.Reference(taylor.problem_of(p), stored.reference_state(start.replace(time=0.0), p), **how)
+    return taylor.Reference(
+        taylor.problem_of(p), stored.reference_state(start.replace(time=0.0), p), **how
+    )
 
 
 class Compared:
-    """A random case, followed by the engine and twice by the reference, whose runs part where errors grow."""
+    """A random case, followed by the engine and twice by the reference, whose runs part where
+    errors grow."""
 
     def __init__(self, seed, number):
         rng = np.random.default_rng([seed, number])
@@ -133,20 +155,34 @@ class Compared:
         self.ramps = drawn_ramps(rng, p, self.span)
         course = course_of(p, self.ramps)
         self.begin = 0.0 if self.ramps or rng.random() < 0.5 else rng.uniform(0, 50)
-        self.start, self.theta, end = drawn_start(rng, p, self.begin), rng.uniform(0, 6), self.begin + self.span
-        window = Window(start=self.begin, stop=end, rate=(SAMPLES - 0.5) / self.span, theta=self.theta)
+        self.start, self.theta, end = (
+            drawn_start(rng, p, self.begin),
+            rng.uniform(0, 6),
+            self.begin + self.span,
+        )
+        window = Window(
+            start=self.begin, stop=end, rate=(SAMPLES - 0.5) / self.span, theta=self.theta
+        )
         windows = {"fine": window, "rough": window.replace(envelope=BIN)}
         how = {"ramps": self.ramps, "execution": Execution(audit_every_step=True)}
         self.result = simulate(p, end, windows, tol=1e-14, initial_state=self.start, **how)
         self.times = self.result.samples["fine"]["time"] - self.begin
-        self.runs = [reference(p, self.start, course=course, truncation=size) for size in (taylor.TRUNCATION, ROUGH)]
+        self.runs = [
+            reference(p, self.start, course=course, truncation=size)
+            for size in (taylor.TRUNCATION, ROUGH)
+        ]
         drives = [p.Omega * self.begin + turned(course, t) for t in self.times]
         at = list(zip(self.times, drives, strict=True))
-        self.samples = [np.array([run.run(t).sample(drive, self.theta) for t, drive in at]) for run in self.runs]
-        self.events = [[(float(e["time"]), e["kind"]) for e in run.run(self.span).events] for run in self.runs]
+        self.samples = [
+            np.array([run.run(t).sample(drive, self.theta) for t, drive in at]) for run in self.runs
+        ]
+        self.events = [
+            [(float(e["time"]), e["kind"]) for e in run.run(self.span).events] for run in self.runs
+        ]
 
     def check(self):
-        """Switches, samples, envelope and end, as long as the reference is sure; how many switches those were."""
+        """Switches, samples, envelope and end, as long as the reference is sure; how many switches
+        those were."""
         statistics, events = self.result.statistics, self.result.events
         assert self.result.status.complete, self.result.message
         names = ("residual", "residual_transverse", "residual_inplane")
@@ -165,7 +201,8 @@ class Compared:
         return sure
 
     def sure(self):
-        """How many switches both runs of the reference agree on, up to when no other is, and errors of their times."""
+        """How many switches both runs of the reference agree on, up to when no other is, and errors
+        of their times."""
         error, same = [0.0], 0
         for (t, kind), (u, other) in zip(*self.events, strict=False):
             if kind != other or abs(t - u) > 1e-7:
@@ -176,45 +213,70 @@ class Compared:
         return same, min(others, default=math.inf), np.array(error[1:])
 
     def check_samples(self, horizon):
-        """Against the reference, and the envelope against its samples; where none is near a switch."""
+        """Against the reference, and the envelope against its samples; where none is near a
+        switch."""
         fine, rough = self.samples
         switches = np.array([t for t, _ in [*self.events[0], (math.inf, "")]])
         clear = np.abs(self.times[:, None] - switches).min(axis=1) > 1e-8
         scale = np.abs(fine).max(axis=0) + 1e-300
-        # near rest a velocity is the rounding of its displacement, 1e-16 of it at the fastest oscillation
+        # near rest a velocity is the rounding of its displacement, 1e-16 of it at the fastest
+        # oscillation
         scale[[2, 5, 7]] = np.maximum(scale[[2, 5, 7]], 1e-4 * fastest(self.p) * scale[[1, 4, 6]])
-        error = np.maximum.accumulate(np.where(clear[:, None], np.abs(fine - rough) / scale, 0), axis=0)
+        error = np.maximum.accumulate(
+            np.where(clear[:, None], np.abs(fine - rough) / scale, 0), axis=0
+        )
         good = clear & (self.times < horizon) & (error.max(axis=1) < 1e-4)
         # errors are relative to static deflection, which a ramp alone moves much less
-        allowed = (1e-10 + delay(np.searchsorted(switches, self.times)[:, None]) * fastest(self.p) + 10 * error) * scale
+        allowed = (
+            1e-10
+            + delay(np.searchsorted(switches, self.times)[:, None]) * fastest(self.p)
+            + 10 * error
+        ) * scale
         give = contact_compliance(self.p)
         if give:  # the force is a difference of heights over it
             allowed[:, 0] += 4e-16 * np.abs(fine[:, 1]).max() / give
         sample, folded = self.result.samples.values()
         for i, name in enumerate(taylor.SAMPLED):
             off = np.abs(sample[name] - fine[:, i])
-            assert np.all(off[good] <= allowed[good, i]), (name, (off / scale[i])[good].max(), error[good, i].max())
-            for j in np.flatnonzero(good.reshape(-1, BIN).all(axis=1)) if f"{name}_min" in folded else ():
+            assert np.all(off[good] <= allowed[good, i]), (
+                name,
+                (off / scale[i])[good].max(),
+                error[good, i].max(),
+            )
+            for j in (
+                np.flatnonzero(good.reshape(-1, BIN).all(axis=1)) if f"{name}_min" in folded else ()
+            ):
                 inside = slice(j * BIN, (j + 1) * BIN)
                 least, most = fine[inside, i].min(), fine[inside, i].max()
-                off = max(abs(folded[f"{name}_min"][j] - least), abs(folded[f"{name}_max"][j] - most))
+                off = max(
+                    abs(folded[f"{name}_min"][j] - least), abs(folded[f"{name}_max"][j] - most)
+                )
                 assert off <= allowed[inside, i].max(), (name, off / scale[i])
 
     def check_end(self):
         """All variables of the last state."""
-        fine, rough = (stored.engine_state(stored.rounded(run.state()), self.p) for run in self.runs)
+        fine, rough = (
+            stored.engine_state(stored.rounded(run.state()), self.p) for run in self.runs
+        )
         speed, height = fastest(self.p), abs(self.result.u_0) + np.abs(fine.u)
         modal = np.abs([fine.a, fine.b, fine.alpha / speed, fine.beta / speed]).max(initial=0.0)
-        # steps end where errors are 1e-14 of static deflection, even if damping has left much less than that
+        # steps end where errors are 1e-14 of static deflection, even if damping has left much less
+        # than that
         modal = max(modal, 1e-4 * np.abs(static_start(self.p).a).max(initial=0.0))
         sizes = dict.fromkeys(("a", "b"), modal) | dict.fromkeys(("alpha", "beta"), modal * speed)
         sizes |= {"u": height, "u_velocity": height * speed}
-        sizes |= {"psi": 1e-3 + abs(fine.psi), "f": self.p.Omega + np.abs(self.samples[0][:, 7]).max()}
+        sizes |= {
+            "psi": 1e-3 + abs(fine.psi),
+            "f": self.p.Omega + np.abs(self.samples[0][:, 7]).max(),
+        }
         for name, size in sizes.items():
             off, error = (
-                np.abs(np.subtract(getattr(fine, name), getattr(x, name))) for x in (self.result.final_state, rough)
+                np.abs(np.subtract(getattr(fine, name), getattr(x, name)))
+                for x in (self.result.final_state, rough)
             )
-            allowed = (1e-10 + delay(len(self.events[0])) * speed) * size + 10 * np.max(error, initial=0.0)
+            allowed = (1e-10 + delay(len(self.events[0])) * speed) * size + 10 * np.max(
+                error, initial=0.0
+            )
             assert np.all(off <= allowed), (name, off, allowed)
 
 

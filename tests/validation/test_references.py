@@ -1,8 +1,9 @@
 """simulate against references that were computed apart from it, and these against each other.
 
-tests/references/data holds event times of long-double runs (two of different order and step size agree to 4e-18 s, a
-53-bit run to 3e-15 s), found by heyoka's series; tests/references/taylor.py gives them again and has other laws of
-contact.  Phases and switches by themselves are compared with the paper's equations in test_equations.py.
+tests/references/data holds event times of long-double runs (two of different order and step size
+agree to 4e-18 s, a 53-bit run to 3e-15 s), found by heyoka's series; tests/references/taylor.py
+gives them again and has other laws of contact.  Phases and switches by themselves are compared with
+the paper's equations in test_equations.py.
 """
 
 import itertools
@@ -38,7 +39,9 @@ def test_modes_are_those_of_the_reference():
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize(("name", "count", "separations"), [("A", 135, 0), ("B", 140, 0), ("C", 398, 131)])
+@pytest.mark.parametrize(
+    ("name", "count", "separations"), [("A", 135, 0), ("B", 140, 0), ("C", 398, 131)]
+)
 def test_every_event_is_there_with_an_error_that_falls_with_tol(name, count, separations):
     data, errors = stored.load(name), []
     kinds = data["kinds"]
@@ -57,17 +60,22 @@ def test_every_event_is_there_with_an_error_that_falls_with_tol(name, count, sep
         wanted = np.array(data[value])
         np.testing.assert_allclose(events[value], wanted, atol=1e-10 * np.abs(wanted).max(), rtol=0)
     for coarse, fine in itertools.pairwise(errors[3:10:2]):
-        assert fine <= coarse / 10 + ROUNDING, errors  # tol falls a hundredfold: at least ten, in practice 60 to 200
+        assert fine <= coarse / 10 + ROUNDING, (
+            errors
+        )  # tol falls a hundredfold: at least ten, in practice 60 to 200
     # nor far better than asked for, which would cost time: it was a fiftieth of tol
     assert np.all(np.array(errors[3:8]) >= np.array(tolerances[3:8]) / 6), errors
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize(("tol", "allowed"), [(1e-8, 1e-6), (1e-10, 3e-8), (1e-12, 1e-9), (1e-15, 1e-11)])
+@pytest.mark.parametrize(
+    ("tol", "allowed"), [(1e-8, 1e-6), (1e-10, 3e-8), (1e-12, 1e-9), (1e-15, 1e-11)]
+)
 def test_first_separation_at_15_1_rad_s(tol, allowed):
     """54.418905535947973 s: long-double runs agree to 4e-16 s, 53-bit runs to 4e-13 s.
 
-    Rounding of one unit in the last place of any mode shifts it by no more than 4e-16 s, see the stored data.
+    Rounding of one unit in the last place of any mode shifts it by no more than 4e-16 s, see the
+    stored data.
     """
     data = stored.load("first_separation")
     result = simulate(Parameters(**data["parameters"]), 60.0, tol=tol, stop_at="first_separation")
@@ -77,7 +85,8 @@ def test_first_separation_at_15_1_rad_s(tol, allowed):
 
 @pytest.mark.compiled
 def test_violent_motion():
-    """Crowded switches, P < 0 after an impact, reversals, both directions, all dampers: 2076 events."""
+    """Crowded switches, P < 0 after an impact, reversals, both directions, all dampers: 2076
+    events."""
     kinds, gaps = [], []
     for group in stored.load("wild")["groups"]:
         p = Parameters(**group["parameters"])
@@ -96,9 +105,12 @@ def test_violent_motion():
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize(("name", "releases", "length"), [("F02", 180, 30.0), ("F07", 45, 10.0), ("F22", 280, 28.0)])
+@pytest.mark.parametrize(
+    ("name", "releases", "length"), [("F02", 180, 30.0), ("F07", 45, 10.0), ("F22", 280, 28.0)]
+)
 def test_the_papers_method_finds_the_same_period(name: str, releases: int, length: float) -> None:
-    """Long periods are no artefact of the engine. Errors of these steps are far below what intervals repeat to."""
+    """Long periods are no artefact of the engine. Errors of these steps are far below what
+    intervals repeat to."""
     case = paper_cases()[name]
     p = Parameters(**case["parameters"], normalization="as_published")
     motion, state = motion_to(p, case["t_end"])
@@ -112,7 +124,8 @@ def test_the_papers_method_finds_the_same_period(name: str, releases: int, lengt
 # ------------------------------------------------------------------------ the references themselves
 @pytest.mark.parametrize("name", ["A", "B", "C", *(f"contact_{name}" for name in LAWS)])
 def test_stored_runs_can_be_computed_again(name):
-    """Those of the default law by an integrator that shares no code with the one that found them."""
+    """Those of the default law by an integrator that shares no code with the one that found
+    them."""
     data = stored.load(name)
     q = taylor.stored_problem(data)
     runs = [(data, 0.1)] if name in "ABC" else [(run, 0.01) for run in data["runs"][:2]]
@@ -121,34 +134,49 @@ def test_stored_runs_can_be_computed_again(name):
         reference = taylor.Reference(q, start).run(float(start.time) + span)
         again = reference.events
         assert [event["kind"] for event in again] == run["kinds"][: len(again)]
-        assert all(abs(event["time"] - t) < 1e-16 for event, t in zip(again, stored.times_of(run), strict=False))
+        assert all(
+            abs(event["time"] - t) < 1e-16
+            for event, t in zip(again, stored.times_of(run), strict=False)
+        )
 
 
 @pytest.mark.parametrize("law", ["default", *LAWS])
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_rates_of_the_reference_balance_in_coordinates_fixed_in_space(law, phase, direction):
-    """What acts on each mode, on the slider across the disc and on it along the disc: nothing is eliminated."""
+    """What acts on each mode, on the slider across the disc and on it along the disc: nothing is
+    eliminated."""
     p = P.replace(**LAWS.get(law, {}))
     C, start = p.contact_compliance, lively(phase, direction, p)
     if C:
         start = start.replace(u=start.u - 500 * C, u_velocity=start.u_velocity + 0.01)
-    step = taylor.Step(taylor.problem_of(p), phase, direction, stored.reference_state(start, p), order=1)
+    step = taylor.Step(
+        taylor.problem_of(p), phase, direction, stored.reference_state(start, p), order=1
+    )
     V, R, T, f, f_rate = (float(x) for x in (step.V[0], step.R[0], step.T[0], *step.f[:2]))
     printed = Printed(p, start)
     case, y, l = printed.literal, printed.y, printed.literal.l
     q, v, phi, _, u, u_rate = case.unpack(y)
     turning = step.q.l * f  # the axes of alpha and beta turn with the slider
-    rates = {"alpha": step.alpha[1] - turning * step.beta[0], "beta": step.beta[1] + turning * step.alpha[0]}
+    rates = {
+        "alpha": step.alpha[1] - turning * step.beta[0],
+        "beta": step.beta[1] + turning * step.alpha[0],
+    }
     pushed = replace(stored.reference_state(start, p), **rates)
     _, acceleration, *_ = case.unpack(from_slider_frame(pushed, plate_modes(p)["diameters"])[1])
     shape = case.Psi * np.exp(1j * l * phi)
     free = -case.damping * v - case.omega**2 * q
-    np.testing.assert_allclose(acceleration - free, -shape.conj() * V, rtol=0, atol=1e-9 * np.abs(free).max())
+    np.testing.assert_allclose(
+        acceleration - free, -shape.conj() * V, rtol=0, atol=1e-9 * np.abs(free).max()
+    )
     w, slope, velocity = case.disc(q, v, phi, f)
     rise = float(step.v[1])
     if phase != "separation" and not C:
         u, u_rate = w, velocity
-        rise = (shape * (acceleration + 2j * l * f * v + (1j * l * f_rate - (l * f) ** 2) * q)).sum().real
+        rise = (
+            (shape * (acceleration + 2j * l * f * v + (1j * l * f_rate - (l * f) ** 2) * q))
+            .sum()
+            .real
+        )
     elif phase != "separation":
         assert pytest.approx((w - u) / C, rel=1e-9) == V
     lean = slope / p.r_0 if p.contact_force == "normal" else 0.0
@@ -163,21 +191,28 @@ def test_rates_of_the_reference_balance_in_coordinates_fixed_in_space(law, phase
 
 @pytest.mark.parametrize("law", ["default", "normal"])
 def test_an_impact_of_the_reference_keeps_momentum_and_loses_energy_by_the_approach(law):
-    """Half the impulse times the velocity of approach, less what a vertical force does on the moving slope."""
+    """Half the impulse times the velocity of approach, less what a vertical force does on the
+    moving slope."""
     p = P.replace(**LAWS.get(law, {}))
-    run = taylor.Reference(taylor.problem_of(p), stored.reference_state(lively("separation", 0, p), p))
+    run = taylor.Reference(
+        taylor.problem_of(p), stored.reference_state(lively("separation", 0, p), p)
+    )
     run.v = run.disc()[1] - 0.3
     q, alpha, v, f = run.q, run.alpha, run.v, run.f
 
     def energy():
-        return (run.alpha @ run.alpha + run.beta @ run.beta + q.m * run.v**2 + q.m * q.r_0**2 * run.f**2) / 2
+        return (
+            run.alpha @ run.alpha + run.beta @ run.beta + q.m * run.v**2 + q.m * q.r_0**2 * run.f**2
+        ) / 2
 
     before = energy()
     run._switch("reattachment")
     impulse, slope = q.m * (run.v - v), run.disc()[2] / q.r_0 * q.normal
     assert impulse > 0
     assert abs(slope) > 1e-4 or not q.normal
-    np.testing.assert_allclose((run.alpha - alpha).astype(float), (-q.s * impulse).astype(float), rtol=1e-12)
+    np.testing.assert_allclose(
+        (run.alpha - alpha).astype(float), (-q.s * impulse).astype(float), rtol=1e-12
+    )
     assert float(q.m * q.r_0 * (run.f - f)) == pytest.approx(float(-slope * impulse), rel=1e-12)
     driven = 0 if q.normal else f * run.disc()[2]
     assert float(before - energy()) == pytest.approx(float(impulse * (0.3 / 2 - driven)), rel=1e-9)

@@ -1,4 +1,5 @@
-"""Anything in the parameter box and beyond ends with a result or a named status, and breaks no law on the way."""
+"""Anything in the parameter box and beyond ends with a result or a named status, and breaks no law
+on the way."""
 
 from pathlib import Path
 
@@ -15,7 +16,11 @@ from disc_model.simulation.states import static_start
 
 # phase left -> (kind, phase entered): the table of switches
 LEGAL = {
-    "stick": {("stick_to_slip", "slip"), ("stick_to_slip", "separation"), ("separation", "separation")},
+    "stick": {
+        ("stick_to_slip", "slip"),
+        ("stick_to_slip", "separation"),
+        ("separation", "separation"),
+    },
     "slip": {("slip_to_stick", "stick"), ("slip_reversal", "slip"), ("separation", "separation")},
     "separation": {
         *(("reattachment", phase) for phase in ("slip", "stick", "separation")),
@@ -67,13 +72,18 @@ def check_laws(result: Result, phase: str = "stick") -> None:
         assert np.all(np.isfinite(values)), name
     in_contact = samples["phase"] < 2
     if p.contact == "unilateral":
-        # a loss of contact that was missed would show as a tension; P is a sum of terms as large as its own extremes
+        # a loss of contact that was missed would show as a tension; P is a sum of terms as large as
+        # its own extremes
         size = max(p.N, np.abs(samples["P"]).max(initial=0.0))
         assert samples["P"][in_contact].min(initial=0.0) >= -1e-6 * size
-    # the slip's direction is the sign of f; contact means that slider and disc are at the same height
+    # the slip's direction is the sign of f; contact means that slider and disc are at the same
+    # height
     scale = max(np.abs(samples["w"]).max(), np.abs(samples["u"]).max(), 1e-300)
-    np.testing.assert_allclose(samples["u"][in_contact], samples["w"][in_contact], rtol=0, atol=1e-12 * scale)
-    # where contact is lost P is zero to within the tolerance, and the gap opens with an error of that share
+    np.testing.assert_allclose(
+        samples["u"][in_contact], samples["w"][in_contact], rtol=0, atol=1e-12 * scale
+    )
+    # where contact is lost P is zero to within the tolerance, and the gap opens with an error of
+    # that share
     assert np.all(samples["u"] - samples["w"] >= -(1e-9 + 10 * result.tol) * scale)
 
 
@@ -83,15 +93,16 @@ def check_paradox(result: Result) -> None:
     psi, diameters = modes.psi.to_numpy(), modes.diameters.to_numpy()
     free = 1 + p.m * float(psi @ psi)
     slope = float(psi * diameters @ state.b)
-    # the direction that could not be entered is not in the state where stick or separation was to end in slip, nor
-    # where slip was to turn round: f = 0 and the direction is the one before
+    # the direction that could not be entered is not in the state where stick or separation was to
+    # end in slip, nor where slip was to turn round: f = 0 and the direction is the one before
     directions = [state.direction] if state.direction and state.f != 0 else [-1, 1]
     # rounding in sums of as many terms as there are modes, and the engine's own margin of 1e-6
     assert min(free + s * p.mu_k * slope / p.r_0 for s in directions) <= 2e-6 * free
 
 
 def check_ending(result: Result) -> None:
-    """At the end of the time, or with a message that says where, and with a paradox only if it is one."""
+    """At the end of the time, or with a message that says where, and with a paradox only if it is
+    one."""
     if result.status is Status.OK:
         assert result.final_state.time == pytest.approx(result.t_end, rel=1e-14)
     else:
@@ -102,7 +113,18 @@ def check_ending(result: Result) -> None:
 
 # slip turns round where the other direction has no solution
 NO_WAY_BACK = Parameters(
-    N=1000, Omega=1, D_star=0, c=10, c_p=0, k=0, k_p=1e7, E=1e8, m=1e-5, mu_s=0.25, mu_k=0.25, contact="bilateral"
+    N=1000,
+    Omega=1,
+    D_star=0,
+    c=10,
+    c_p=0,
+    k=0,
+    k_p=1e7,
+    E=1e8,
+    m=1e-5,
+    mu_s=0.25,
+    mu_k=0.25,
+    contact="bilateral",
 )
 
 
@@ -117,7 +139,9 @@ def test_a_reversal_into_a_direction_without_solution_is_a_paradox() -> None:
 @pytest.mark.compiled
 @given(parameters(), st.floats(10, 3000), magnitude(1e-14, 1e-4))
 @example(NO_WAY_BACK, 10.0, 1e-4)
-def test_every_run_ends_with_a_result_or_a_named_status(p: Parameters, radians: float, tol: float) -> None:
+def test_every_run_ends_with_a_result_or_a_named_status(
+    p: Parameters, radians: float, tol: float
+) -> None:
     result = run(p, radians, tol)
     assert isinstance(result.status, Status)
     assert result.statistics["steps"] <= 20_000
@@ -125,15 +149,21 @@ def test_every_run_ends_with_a_result_or_a_named_status(p: Parameters, radians: 
     check_ending(result)
 
 
-# ------------------------------------------------------------------------------------ switches at the edge of being one
+# ------------------------------------------------------------------------------------ switches at
+# the edge of being one
 FIRST = yaml.safe_load(Path(__file__).with_name("first_switches.yaml").read_text(encoding="utf-8"))
 AT_ONCE = ("a strong damper breaks stick at once", "no friction breaks stick at once")
 
 
 def changed(state: State, **changes: float | str) -> State:
-    """Another state: a and alpha of the first mode with a nodal diameter, and u, are added to what is there."""
+    """Another state: a and alpha of the first mode with a nodal diameter, and u, are added to what
+    is there."""
     one = np.arange(len(state.a)) == 1
-    added = {name: getattr(state, name) + changes[name] * one for name in ("a", "alpha") if name in changes}
+    added = {
+        name: getattr(state, name) + changes[name] * one
+        for name in ("a", "alpha")
+        if name in changes
+    }
     height = {"u": state.u + changes["u"]} if "u" in changes else {}
     return state.replace(time=0.0, _roots=(0, 0), **changes | added | height)
 
@@ -164,21 +194,24 @@ def test_first_switches(what: str) -> None:
         assert list(events.phase[:2]) == ["separation", "separation"]
 
 
-# without a pull the slip before contact is lost lasts for 1e-11 s, within the rounding of what steps of 1e-5 s end with
+# without a pull the slip before contact is lost lasts for 1e-11 s, within the rounding of what
+# steps of 1e-5 s end with
 SEEN_BY_STEPS = [what for what in FIRST if not what.endswith(("pulled by 1e-08", "pulled by 0.0"))]
 
 
 @np.errstate(divide="ignore")  # secants where an event is at once
 @pytest.mark.parametrize("what", SEEN_BY_STEPS)
 def test_switches_are_those_of_fixed_steps(what: str) -> None:
-    """The paper's method shares no code with the engine; its error falls sixteenfold where steps are half as long."""
+    """The paper's method shares no code with the engine; its error falls sixteenfold where steps
+    are half as long."""
     p, start = beginning(what)
     right, errors = simulate(p, 0.01, tol=1e-13, initial_state=start).events, []
     for step in (2e-5, 1e-5):
         found = METHODS["RK4"].solve(Problem(p, start, 0.01), step)
         assert found.kinds == tuple(right.kind)
         errors.append(np.abs(found.times - right.time.to_numpy()).max(initial=0))
-    # on the stiff spring the slider swings at 7,000 rad/s: 0.14**5 / 120 / 7,000 s are lost in each of 500 steps
+    # on the stiff spring the slider swings at 7,000 rad/s: 0.14**5 / 120 / 7,000 s are lost in each
+    # of 500 steps
     assert errors[0] < 1e-7
     assert errors[1] <= max(errors[0] / 10, 1e-12)
 
@@ -186,15 +219,18 @@ def test_switches_are_those_of_fixed_steps(what: str) -> None:
 def test_no_preload_slips_at_once_and_never_separates() -> None:
     result = simulate(Parameters(N=0, Omega=15), 1)
     assert result.status is Status.OK
-    # f = Omega (1 - cos) touches zero once a swing: rounding decides whether that counts as a reversal
+    # f = Omega (1 - cos) touches zero once a swing: rounding decides whether that counts as a
+    # reversal
     assert set(result.events.kind) <= {"stick_to_slip", "slip_reversal"}
     assert result.events.time[0] == 0
-    # no friction: the slider swings about the drive point, psi'' = -k_p/m psi with psi' = Omega at the start
+    # no friction: the slider swings about the drive point, psi'' = -k_p/m psi with psi' = Omega at
+    # the start
     rate = np.sqrt(2e4 / 0.1)
     assert result.final_state.psi == pytest.approx(15 / rate * np.sin(rate), abs=1e-11)
 
 
-# ------------------------------------------------------------------------------------ where a step or a run ends
+# ------------------------------------------------------------------------------------ where a step
+# or a run ends
 
 
 @pytest.mark.parametrize("late", [1e-15, 1e-12, 1e-9])

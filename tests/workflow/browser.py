@@ -14,7 +14,10 @@ from typing import Any
 from tests import needs
 
 BROWSER, DRIVER = (needs.program(*names) for names in needs.BROWSER.programs)
-OPTIONS = [f"--{name}" for name in ("headless=new", "no-sandbox", "disable-gpu", "disable-background-networking")]
+OPTIONS = [
+    f"--{name}"
+    for name in ("headless=new", "no-sandbox", "disable-gpu", "disable-background-networking")
+]
 OPTIONS.append("--disable-dev-shm-usage")
 
 
@@ -30,7 +33,9 @@ class Page:
     def call(self, method: str, path: str, body: Any = None) -> Any:
         data = None if body is None else json.dumps(body).encode()
         headers = {"Content-Type": "application/json"}
-        request = urllib.request.Request(self.address + path, method=method, data=data, headers=headers)
+        request = urllib.request.Request(
+            self.address + path, method=method, data=data, headers=headers
+        )
         with urllib.request.urlopen(request, timeout=120) as answer:
             return json.load(answer)["value"]
 
@@ -52,7 +57,11 @@ class Page:
     def resize(self, width: int, height: int) -> None:
         """Show the page as a window, or a telephone, of that size would (CSS pixels)."""
         metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600}
-        self.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setDeviceMetricsOverride", "params": metrics})
+        self.call(
+            "POST",
+            "/goog/cdp/execute",
+            {"cmd": "Emulation.setDeviceMetricsOverride", "params": metrics},
+        )
 
     def prefer(self, scheme: str) -> None:
         """What the reader's system asks for: "light" or "dark"."""
@@ -66,10 +75,17 @@ class Page:
 
     def point(self, x: float, y: float, *, click: bool = False) -> None:
         """Move the pointer to a place in the window, and click there."""
-        steps: list[dict[str, Any]] = [{"type": "pointerMove", "x": round(x), "y": round(y), "duration": 0}]
+        steps: list[dict[str, Any]] = [
+            {"type": "pointerMove", "x": round(x), "y": round(y), "duration": 0}
+        ]
         if click:
             steps += [{"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}]
-        source = {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": steps}
+        source = {
+            "type": "pointer",
+            "id": "mouse",
+            "parameters": {"pointerType": "mouse"},
+            "actions": steps,
+        }
         self.call("POST", "/actions", {"actions": [source]})
 
     def messages(self) -> list[dict[str, Any]]:
@@ -84,7 +100,9 @@ def browser(profile: Path) -> Iterator[Page]:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    driver = subprocess.Popen([DRIVER, f"--port={port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    driver = subprocess.Popen(
+        [DRIVER, f"--port={port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
     try:
         root = Page(f"http://127.0.0.1:{port}")
         _wait(root)
@@ -94,7 +112,9 @@ def browser(profile: Path) -> Iterator[Page]:
             "goog:chromeOptions": {"args": arguments, "binary": BROWSER},
             "goog:loggingPrefs": {"browser": "ALL"},
         }
-        session = root.call("POST", "/session", {"capabilities": {"alwaysMatch": wanted}})["sessionId"]
+        session = root.call("POST", "/session", {"capabilities": {"alwaysMatch": wanted}})[
+            "sessionId"
+        ]
         page = Page(f"{root.address}/session/{session}")
         try:
             yield page

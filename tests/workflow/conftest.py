@@ -40,7 +40,8 @@ class Project:
     variables: Mapping[str, str] = field(default_factory=dict)
 
     def complete(self, *options: str, fails: bool = False) -> str:
-        """Run Snakemake as a user would, with the copy's own sources; it must succeed, or fail; what it says."""
+        """Run Snakemake as a user would, with the copy's own sources; it must succeed, or fail;
+        what it says."""
         done = run(*self.command(*options), cwd=self.folder, fails=fails, timeout=900, **self.own)
         return done.stdout + done.stderr
 
@@ -56,12 +57,17 @@ class Project:
     @property
     def own(self) -> dict[str, str]:
         """Variables of the environment of such a run."""
-        return {"PYTHONPATH": str(self.folder / "src"), "PYTHONDONTWRITEBYTECODE": "1", **self.variables}
+        return {
+            "PYTHONPATH": str(self.folder / "src"),
+            "PYTHONDONTWRITEBYTECODE": "1",
+            **self.variables,
+        }
 
     def start(
         self, *options: str, log: str = "run.log", prepare: Callable[[], object] | None = None
     ) -> subprocess.Popen[bytes]:
-        """Run Snakemake in the background, in a session of its own, which does what ``prepare`` says; add to a log."""
+        """Run Snakemake in the background, in a session of its own, which does what ``prepare``
+        says; add to a log."""
         with (self.folder / log).open("ab") as file:
             return subprocess.Popen(
                 self.command(*options), cwd=self.folder, env=os.environ | self.own, stdout=file, stderr=file,
@@ -70,8 +76,14 @@ class Project:
 
     def products(self) -> dict[str, bytes]:
         """Content of every file that the study is about; no logs."""
-        files = [path for path in sorted((self.folder / "results").rglob("*")) if path.suffix in PRODUCTS]
-        return {str(path.relative_to(self.folder)): path.read_bytes() for path in files if path.name[0] != "."}
+        files = [
+            path for path in sorted((self.folder / "results").rglob("*")) if path.suffix in PRODUCTS
+        ]
+        return {
+            str(path.relative_to(self.folder)): path.read_bytes()
+            for path in files
+            if path.name[0] != "."
+        }
 
     def jobs(self, *options: str) -> Iterator[tuple[str, dict[str, str]]]:
         """Jobs that a run would do: rule and wildcards."""
@@ -84,7 +96,9 @@ class Project:
 
     def planned(self, *options: str) -> set[str]:
         """The same as rule or rule:wildcard, without the target `all`."""
-        return {":".join((rule, *wildcards.values())) for rule, wildcards in self.jobs(*options)} - {"all"}
+        return {
+            ":".join((rule, *wildcards.values())) for rule, wildcards in self.jobs(*options)
+        } - {"all"}
 
     def edit(self, path: str, old: str, new: str) -> None:
         """Replace a text in a file; it must be there."""
@@ -104,14 +118,18 @@ class Project:
             shutil.rmtree(self.folder / made)
 
     def change(self, path: str) -> None:
-        """Change what a source does, as far as anyone can tell without running it: a comment would not count."""
+        """Change what a source does, as far as anyone can tell without running it: a comment would
+        not count."""
         assert (self.folder / path).is_file()
         with (self.folder / path).open("a") as file:
             file.write("\n_CHANGED = True\n" if path.endswith(".py") else "\n# changed\n")
 
 
-def copy_repository(folder: Path, studies: Mapping[str, str] | None = None, **variables: str) -> Project:
-    """What a run needs of the repository, in a folder of its own, with study files by path: the first is run."""
+def copy_repository(
+    folder: Path, studies: Mapping[str, str] | None = None, **variables: str
+) -> Project:
+    """What a run needs of the repository, in a folder of its own, with study files by path: the
+    first is run."""
     folder.mkdir(exist_ok=True)
     for part in PARTS:
         source, target = ROOT / part, folder / part

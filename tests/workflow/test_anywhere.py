@@ -1,4 +1,5 @@
-"""The workflow outside its repository's folder: from elsewhere, as a module, without the package installed."""
+"""The workflow outside its repository's folder: from elsewhere, as a module, without the package
+installed."""
 
 import re
 import subprocess
@@ -38,28 +39,50 @@ def snakemake(folder: Path, *options: str | Path, fails: bool = False) -> str:
 
 @pytest.fixture(scope="module")
 def elsewhere(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with a study of both kinds, its name with what a shell would take apart, computed there."""
+    """A folder with a study of both kinds, its name with what a shell would take apart, computed
+    there."""
     folder = tmp_path_factory.mktemp("else where & {more}")
     (folder / "mine.yaml").write_text(STUDY)
-    snakemake(ROOT, "-j2", "-s", SNAKEFILE, "--directory", folder, "--configfile", folder / "mine.yaml")
+    snakemake(
+        ROOT, "-j2", "-s", SNAKEFILE, "--directory", folder, "--configfile", folder / "mine.yaml"
+    )
     return folder
 
 
 def test_a_study_is_computed_in_another_folder(elsewhere: Path) -> None:
     made = {path.name for path in (elsewhere / "results" / "mine").rglob("*.*")}
-    assert {"mine.nc", "cases.nc", "growth.png", "growth.pdf", "seen.png", "provenance.html"} <= made
-    assert not [name for name in made if name.startswith(("claims", "table"))], "nobody asked for them"
+    assert {
+        "mine.nc",
+        "cases.nc",
+        "growth.png",
+        "growth.pdf",
+        "seen.png",
+        "provenance.html",
+    } <= made
+    assert not [name for name in made if name.startswith(("claims", "table"))], (
+        "nobody asked for them"
+    )
 
 
 def test_neither_the_folder_of_the_environment_nor_the_locale_matters(tmp_path: Path) -> None:
-    """A shell executed parts of the folder's name, and a title that is not ASCII ended the merge."""
+    """A shell executed parts of the folder's name, and a title that is not ASCII ended the
+    merge."""
     environment = tmp_path / 'we$ird `touch EXECUTED` "x'
     environment.symlink_to(sys.prefix)
     (tmp_path / "mine.yaml").write_text(
-        STUDY.replace("itle: Growth", "itle: Grüße Ω, growth").replace("P_{max}", "Größe P_{max}"), encoding="utf-8"
+        STUDY.replace("itle: Growth", "itle: Grüße Ω, growth").replace("P_{max}", "Größe P_{max}"),
+        encoding="utf-8",
     )
     plain = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
-    command = (environment / "bin" / "python", "-m", "snakemake", "-s", SNAKEFILE, "--configfile", "mine.yaml")
+    command = (
+        environment / "bin" / "python",
+        "-m",
+        "snakemake",
+        "-s",
+        SNAKEFILE,
+        "--configfile",
+        "mine.yaml",
+    )
     run(*command, "-j2", cwd=tmp_path, timeout=900, **plain)
     assert not (tmp_path / "EXECUTED").exists()
     with xr.open_dataset(tmp_path / "results" / "mine" / "mine.nc") as study:
@@ -71,14 +94,21 @@ def disc_model(folder: Path, *options: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> None:
-    """What an included file makes by default is not the default: the root's made nothing, and said that all was so."""
+    """What an included file makes by default is not the default: the root's made nothing, and said
+    that all was so."""
     (tmp_path / "mine.yaml").write_text(STUDY)
     for place in (ROOT / "Snakefile", SNAKEFILE):
-        assert re.search(r"^draw_figure +2$", snakemake(tmp_path, "-n", "-s", place, "--configfile", "mine.yaml"), re.M)
+        assert re.search(
+            r"^draw_figure +2$",
+            snakemake(tmp_path, "-n", "-s", place, "--configfile", "mine.yaml"),
+            re.M,
+        )
     disc_model(tmp_path, "init", "own")
     assert re.search(r"^compute_batch +1$", snakemake(tmp_path / "own", "-n"), re.M)
     phrase = snakemake(tmp_path, "-n", "-s", SNAKEFILE, "results/paper/figures/fig13.pdf")
-    assert re.search(r"^simulate_case +2$", phrase, re.M), "the two cases of the paper's figure, if no study is given"
+    assert re.search(r"^simulate_case +2$", phrase, re.M), (
+        "the two cases of the paper's figure, if no study is given"
+    )
 
 
 def test_it_is_a_module_of_another_workflow(elsewhere: Path, tmp_path: Path) -> None:

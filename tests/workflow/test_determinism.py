@@ -1,11 +1,11 @@
 """The same study gives the same data: what is equal to the last bit, and what only within rounding.
 
-Equal to the last bit, on one kind of processor: every file of a study on 1 and 2 cores, with 1 and 2 threads of the
-linear algebra, in another folder, with kernels just compiled or from the cache.
+Equal to the last bit, on one kind of processor: every file of a study on 1 and 2 cores, with 1 and
+2 threads of the linear algebra, in another folder, with kernels just compiled or from the cache.
 
 Equal within rounding: with and without compilation, and on another kind of processor, which
-`tests/workflow/test_instruction_sets.py` tries.  Compiled code may round a * b + c once instead of twice (`contract`,
-see `disc_model.engine.jit`); Python rounds twice.
+`tests/workflow/test_instruction_sets.py` tries.  Compiled code may round a * b + c once instead of
+twice (`contract`, see `disc_model.engine.jit`); Python rounds twice.
 """
 
 from dataclasses import replace
@@ -45,10 +45,12 @@ simulate(after.parameters, after.t_end, {"w": window}, initial_state=after.start
 
 
 def test_kernels_just_compiled_from_the_cache_and_none(tmp_path: Path) -> None:
-    """Without compilation each of a thousand steps rounds otherwise: 1e-16 x 1000 of a quantity's extremes.
+    """Without compilation each of a thousand steps rounds otherwise: 1e-16 x 1000 of a quantity's
+    extremes.
 
-    The motion does not tell neighbours apart faster than that within a second, but after an impact velocities of the
-    slider are differences of larger numbers. Measured: 9e-12 of the extremes. Switches, phases and steps are the same.
+    The motion does not tell neighbours apart faster than that within a second, but after an impact
+    velocities of the slider are differences of larger numbers. Measured: 9e-12 of the extremes.
+    Switches, phases and steps are the same.
     """
     own = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
     ways = {"cold": own, "warm": own, "usual": {}, "none": {"NUMBA_DISABLE_JIT": "1"}}
@@ -59,7 +61,9 @@ def test_kernels_just_compiled_from_the_cache_and_none(tmp_path: Path) -> None:
     for name in ("warm", "usual"):
         found = instruction_sets.differences(tmp_path / name, tmp_path / "cold")
         assert max(difference for *_, difference in found) == 0
-    for file, variable, difference in instruction_sets.differences(tmp_path / "none", tmp_path / "cold"):
+    for file, variable, difference in instruction_sets.differences(
+        tmp_path / "none", tmp_path / "cold"
+    ):
         # residuals of the energy are rounding themselves
         assert difference < (0.5 if "energy" in variable else 1e-10), (file, variable, difference)
 

@@ -1,5 +1,5 @@
-"""Faults during a study: after a rerun the results are those of an undisturbed run, byte for byte. Bad study files end
-Snakemake before any job, with every fault in the message."""
+"""Faults during a study: after a rerun the results are those of an undisturbed run, byte for byte.
+Bad study files end Snakemake before any job, with every fault in the message."""
 
 import os
 import random
@@ -20,7 +20,11 @@ def assert_recovered(project: Project, finished: Project) -> None:
     """Inputs of finished files may be missing: nothing asks for them."""
     found, wanted = project.products(), finished.products()
     assert {name for name in found if found[name] != wanted.get(name)} == set()
-    assert not {name for name in wanted.keys() - found.keys() if "/cases/" not in name and "/batches/" not in name}
+    assert not {
+        name
+        for name in wanted.keys() - found.keys()
+        if "/cases/" not in name and "/batches/" not in name
+    }
 
 
 @pytest.mark.parametrize("run", range(3))
@@ -42,21 +46,29 @@ def test_a_run_killed_at_random(run: int, project: Project, finished: Project) -
 
 
 def test_two_workflows_without_lock(project: Project, finished: Project) -> None:
-    """They remove each other's files and may fail, but no file is ever half one's and half the other's."""
+    """They remove each other's files and may fail, but no file is ever half one's and half the
+    other's."""
     project.forget()
     both = [project.start("-j2", "--nolock", log=f"run{i}.log") for i in range(2)]
     for process in both:
         process.wait(timeout=900)
     wanted = finished.products()
-    assert all(content == wanted[name] for name, content in project.products().items() if name.endswith(".nc"))
+    assert all(
+        content == wanted[name]
+        for name, content in project.products().items()
+        if name.endswith(".nc")
+    )
     project.complete("-j2")
     assert_recovered(project, finished)
 
 
 @pytest.mark.parametrize(
-    ("patterns", "count"), [(("small/cases/*.nc", "small_map/batches/*.nc"), 6), (("small/cases.nc",), 1)]
+    ("patterns", "count"),
+    [(("small/cases/*.nc", "small_map/batches/*.nc"), 6), (("small/cases.nc",), 1)],
 )
-def test_damaged_files(project: Project, finished: Project, patterns: tuple[str, ...], count: int) -> None:
+def test_damaged_files(
+    project: Project, finished: Project, patterns: tuple[str, ...], count: int
+) -> None:
     """A damaged file that a job reads is named; without it the same command computes it anew."""
     results = project.folder / "results"
     damaged = [path for pattern in patterns for path in results.glob(pattern)]
@@ -72,9 +84,14 @@ def test_damaged_files(project: Project, finished: Project, patterns: tuple[str,
     assert_recovered(project, finished)
 
 
-def test_check_finds_damage_that_left_the_times_and_puts_times_right(project: Project, finished: Project) -> None:
+def test_check_finds_damage_that_left_the_times_and_puts_times_right(
+    project: Project, finished: Project
+) -> None:
     results = project.folder / "results"
-    damaged, early = sorted(results.glob("small/cases/*.nc")), sorted(results.glob("small_map/batches/*.nc"))
+    damaged, early = (
+        sorted(results.glob("small/cases/*.nc")),
+        sorted(results.glob("small_map/batches/*.nc")),
+    )
     for path in damaged:
         times = path.stat()
         os.truncate(path, times.st_size - 1)
@@ -92,8 +109,11 @@ def test_check_finds_damage_that_left_the_times_and_puts_times_right(project: Pr
 
 
 def test_lost_records(project: Project, finished: Project) -> None:
-    """Without its records Snakemake would take everything for up to date; those in files do not count in a database."""
-    assert "`snakemake -j1 check` removes them" in project.refused("-n", "--persistence-backend", "db")
+    """Without its records Snakemake would take everything for up to date; those in files do not
+    count in a database."""
+    assert "`snakemake -j1 check` removes them" in project.refused(
+        "-n", "--persistence-backend", "db"
+    )
     shutil.rmtree(project.folder / ".snakemake")
     project.edit(SMALL, "Omega: 15.1", "Omega: 15.2")
     told = project.refused("-j2")
@@ -106,7 +126,8 @@ def test_lost_records(project: Project, finished: Project) -> None:
 
 
 def test_clock_set_back_between_two_runs(project: Project, finished: Project) -> None:
-    """A case computed anew by an earlier clock looks older than what was made of its former self."""
+    """A case computed anew by an earlier clock looks older than what was made of its former
+    self."""
     case = project.folder / "results" / "small" / "cases" / "F13.nc"
     for old, new, days in (("15.1", "15.2", -2), ("15.2", "15.1", -4)):
         project.edit(SMALL, f"Omega: {old}", f"Omega: {new}")
@@ -125,7 +146,11 @@ def set_times(paths: list[Path], days: float) -> None:
 # ---- bad study files
 
 
-FAULTS = [f"{SMALL}: 2 faults", "cases.X.parameters.N=-5: must be >= 0", "cases.X.t_end=0: must be > 0"]
+FAULTS = [
+    f"{SMALL}: 2 faults",
+    "cases.X.parameters.N=-5: must be >= 0",
+    "cases.X.t_end=0: must be > 0",
+]
 
 
 @pytest.mark.parametrize(
@@ -149,12 +174,19 @@ def test_every_fault_is_shown_and_nothing_runs(
 
 def test_results_of_another_study_of_the_same_name_are_not_overwritten(tmp_path: Path) -> None:
     """They were, without a word."""
-    project = copy_repository(tmp_path / "project", {"first.yaml": STUDIES["config/small_growth.yaml"]})
+    project = copy_repository(
+        tmp_path / "project", {"first.yaml": STUDIES["config/small_growth.yaml"]}
+    )
     project.complete("check", "-j1")  # a run in which nothing is computed
-    (project.folder / "second.yaml").write_text((project.folder / "first.yaml").read_text().replace("25", "30"))
+    (project.folder / "second.yaml").write_text(
+        (project.folder / "first.yaml").read_text().replace("25", "30")
+    )
     second = replace(project, config="second.yaml")
     shown = second.refused("-j1", "-n")
-    assert "study='small_growth': is also the name of the study in first.yaml, whose results are in" in shown
+    assert (
+        "study='small_growth': is also the name of the study in first.yaml, whose results are in"
+        in shown
+    )
     assert "Job stats" not in shown
     (project.folder / "detail.yaml").write_text("title: in other detail")
     both = replace(project, config=None).complete("-n", "--configfile", "first.yaml", "detail.yaml")

@@ -1,7 +1,9 @@
-"""Other processors, tried on this one: kernels are compiled and libraries take code for their instruction sets.
+"""Other processors, tried on this one: kernels are compiled and libraries take code for their
+instruction sets.
 
-Processors differ in the last bit: one has fused multiplication and addition and rounds a * b + c once, another rounds
-twice; vectors of another length add up in another order.  No test may turn on that, and no published digit.
+Processors differ in the last bit: one has fused multiplication and addition and rounds a * b + c
+once, another rounds twice; vectors of another length add up in another order.  No test may turn on
+that, and no published digit.
 """
 
 import functools
@@ -53,7 +55,8 @@ def environment(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], dic
 
 @pytest.fixture(scope="module")
 def study(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
-    """Results of the small study, computed with the variables of a set; with none, as this processor does it."""
+    """Results of the small study, computed with the variables of a set; with none, as this
+    processor does it."""
 
     @functools.cache
     def results(**variables: str) -> Path:
@@ -64,7 +67,9 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
     return results
 
 
-def test_code_is_compiled_for_the_set(name: str, environment: Callable[[str], dict[str, str]]) -> None:
+def test_code_is_compiled_for_the_set(
+    name: str, environment: Callable[[str], dict[str, str]]
+) -> None:
     """Or what follows would try this processor's own code again."""
     done = python(FUSED, **environment(name))
     assert done.stdout.strip() == str("fma" in instruction_sets.SETS[name].features), done.stderr
@@ -72,7 +77,9 @@ def test_code_is_compiled_for_the_set(name: str, environment: Callable[[str], di
 
 def test_the_numbers_pass(name: str, environment: Callable[[str], dict[str, str]]) -> None:
     options = ("-q", "-p", "no:cacheprovider", "-m", "not slow and not workflow")
-    done = run(sys.executable, "-m", "pytest", *options, *NUMBERS, PYTEST_ADDOPTS="", **environment(name))
+    done = run(
+        sys.executable, "-m", "pytest", *options, *NUMBERS, PYTEST_ADDOPTS="", **environment(name)
+    )
     assert re.search(r"\d+ passed", done.stdout)
 
 
@@ -90,12 +97,15 @@ for normalization in ("as_published", "orthonormal"):
 """
 
 
-@pytest.mark.parametrize("openblas", ["Prescott", *(chosen.openblas for chosen in instruction_sets.SETS.values())])
+@pytest.mark.parametrize(
+    "openblas", ["Prescott", *(chosen.openblas for chosen in instruction_sets.SETS.values())]
+)
 def test_modes_and_states_are_those_of_any_linear_algebra(openblas: str, tmp_path: Path) -> None:
-    """A null vector has another sign on another processor: states taken there were those of other motions.
+    """A null vector has another sign on another processor: states taken there were those of other
+    motions.
 
-    Modes differ by 6e-14 of the largest, and times of switches by 1e-14 s in half a second. Both continue after a stop,
-    which moves switches by the tolerance: the steps are others.
+    Modes differ by 6e-14 of the largest, and times of switches by 1e-14 s in half a second. Both
+    continue after a stop, which moves switches by the tolerance: the steps are others.
     """
     for name, chosen in instruction_sets.SETS.items():
         if chosen.openblas == openblas and (reason := instruction_sets.why_not(name)):
@@ -112,14 +122,22 @@ def test_modes_and_states_are_those_of_any_linear_algebra(openblas: str, tmp_pat
         np.testing.assert_allclose(there, here, rtol=0, atol=1e-12)
 
 
-def test_the_small_study(name: str, environment: Callable[[str], dict[str, str]], study: Callable[..., Path]) -> None:
-    """Whatever is counted or named is the same: phases, kinds and numbers of switches, statuses, steps.
+def test_the_small_study(
+    name: str, environment: Callable[[str], dict[str, str]], study: Callable[..., Path]
+) -> None:
+    """Whatever is counted or named is the same: phases, kinds and numbers of switches, statuses,
+    steps.
 
-    Slow growth multiplies every rounding: in 150 s times of switches shift by up to 2e-10 s, in which the highest mode
-    turns by 1e-6 rad. The residual of the energy is itself rounding, and differs in its second digit.
+    Slow growth multiplies every rounding: in 150 s times of switches shift by up to 2e-10 s, in
+    which the highest mode turns by 1e-6 rad. The residual of the energy is itself rounding, and
+    differs in its second digit.
     """
     found = list(instruction_sets.differences(study(**environment(name)), study()))
     for file, variable, difference in found:
-        assert difference < (0.1 if variable.endswith("energy_residual") else 1e-6), (file, variable, difference)
+        assert difference < (0.1 if variable.endswith("energy_residual") else 1e-6), (
+            file,
+            variable,
+            difference,
+        )
     # parameters, times of samples, counts and names at least
     assert sum(difference == 0.0 for *_, difference in found) > len(found) / 4

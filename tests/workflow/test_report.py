@@ -1,4 +1,5 @@
-"""The report in a real browser: everything in it can be opened, every figure loads, and the console stays clean."""
+"""The report in a real browser: everything in it can be opened, every figure loads, and the console
+stays clean."""
 
 from pathlib import Path
 
@@ -11,7 +12,9 @@ from tests.workflow.conftest import Project
 pytestmark = [pytest.mark.workflow, pytest.mark.slow, needs.BROWSER.mark]
 
 
-def test_the_report_holds_every_result_and_needs_no_network(finished: Project, tmp_path: Path) -> None:
+def test_the_report_holds_every_result_and_needs_no_network(
+    finished: Project, tmp_path: Path
+) -> None:
     finished.complete("--report", "report.html")
     with browser(tmp_path / "profile") as page:
         page.open(finished.folder / "report.html")
@@ -21,6 +24,8 @@ def test_the_report_holds_every_result_and_needs_no_network(finished: Project, t
         assert not [message for message in page.messages() if message["level"] == "SEVERE"]
     assert [name for name in loaded if not name.startswith(("data:", "file:", "blob:"))] == []
     assert found.keys() >= {"Claims of the paper", "Figures", "Maps and curves", "Provenance"}
-    files = {Path(file).name for parts in found.values() for inside in parts.values() for file in inside}
+    files = {
+        Path(file).name for parts in found.values() for inside in parts.values() for file in inside
+    }
     pages = {"claims.html", "provenance.html", "table1.html", "table2.html"}
     assert files == {"fig11.png", "fig13.png", "chart.png", *pages}

@@ -51,7 +51,9 @@ def test_a_second_run_does_nothing(project: Project) -> None:
     before = {path: path.stat().st_mtime_ns for path in (project.folder / "results").rglob("*")}
     assert not [path for path in before if path.suffix == ".tmp"]
     assert "Nothing to be done" in project.complete("-j2")
-    assert before == {path: path.stat().st_mtime_ns for path in (project.folder / "results").rglob("*")}
+    assert before == {
+        path: path.stat().st_mtime_ns for path in (project.folder / "results").rglob("*")
+    }
 
 
 @pytest.mark.parametrize(
@@ -65,7 +67,9 @@ def test_a_second_run_does_nothing(project: Project) -> None:
         (MAP, "title: outcome", "title: what becomes of it", lambda _: MAP_TAIL),
     ],
 )  # fmt: skip
-def test_a_change_runs_what_depends_on_it(project: Project, file: str, old: str, new: str, jobs: Jobs) -> None:
+def test_a_change_runs_what_depends_on_it(
+    project: Project, file: str, old: str, new: str, jobs: Jobs
+) -> None:
     project.edit(file, old, new)
     assert project.planned() == jobs(project)
 
@@ -87,7 +91,10 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
     (project.folder / SMALL).write_text(cases.replace("".join(listed), "".join(listed[::-1])))
     project.edit(MAP, "[100, 200.0, 300]", "[3.0e+2, 100.00, '200']")
     project.edit(MAP, "[10, 15, 20, 25]", "[25, 20, 15, 10]")
-    for path in [*(project.folder / "src").rglob("*.py"), *(project.folder / "workflow/scripts").glob("*.py")]:
+    for path in [
+        *(project.folder / "src").rglob("*.py"),
+        *(project.folder / "workflow/scripts").glob("*.py"),
+    ]:
         path.write_text(path.read_text() + "\n# a comment\n")
     api = "src/disc_model/simulation/api.py"
     project.edit(api, "def simulate(", '"""Of what follows."""\n\n\ndef simulate(')
@@ -101,7 +108,10 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
     [
         ("src/disc_model/engine/event_loop.py", everything),
         # multipliers need no simulation
-        ("src/disc_model/simulation/api.py", lambda project: SIMULATIONS | FIGURES | TABLES | whole_map(project)),
+        (
+            "src/disc_model/simulation/api.py",
+            lambda project: SIMULATIONS | FIGURES | TABLES | whole_map(project),
+        ),
         ("src/disc_model/stability/outcome.py", whole_map),
         ("src/disc_model/studies/quantities/sliding.py", whole_growth),
         ("src/disc_model/studies/quantities/hysteresis.py", lambda _: set()),
@@ -131,7 +141,11 @@ def test_deleted_intermediate_is_not_missed_but_a_deleted_figure_is(project: Pro
 
 def test_the_explorer_computes_motions_of_what_changed(project: Project) -> None:
     def explored() -> list[str]:
-        return sorted(rule for rule, _ in project.jobs("explorer") if rule in ("compute_motions", "build_explorer"))
+        return sorted(
+            rule
+            for rule, _ in project.jobs("explorer")
+            if rule in ("compute_motions", "build_explorer")
+        )
 
     project.complete("-j2", "explorer")
     assert "small_growth" in (project.folder / "results" / "small" / "explorer.html").read_text()
@@ -149,7 +163,9 @@ def test_the_explorer_computes_motions_of_what_changed(project: Project) -> None
     assert "compute_motions" not in project.complete("-n")
 
 
-def test_a_point_that_fails_is_reported_and_what_no_study_needs_is_removed(project: Project) -> None:
+def test_a_point_that_fails_is_reported_and_what_no_study_needs_is_removed(
+    project: Project,
+) -> None:
     project.edit(MAP, "N: [100, 200.0, 300]", "N: [100, 200, 1.0e+6]")
     project.edit(MAP, "axes:\n", "base: {k_p: 2.0e+6, mu_s: 3, mu_k: 2.9, E: 1.0e+9}\naxes:\n")
     kept = set(project.folder.glob("results/small_growth/**/*.nc"))
@@ -157,8 +173,13 @@ def test_a_point_that_fails_is_reported_and_what_no_study_needs_is_removed(proje
     bad = int((dataset(project, "small_map/small_map.nc")["status"] != 0).sum())
     lines = (project.folder / "results/small_map/small_map.failed.txt").read_text().splitlines()
     assert len(lines) == bad > 0
-    assert lines[-2].startswith("N = 1000000, Omega = 25, normalization = as_published: paradox: at t = ")
+    assert lines[-2].startswith(
+        "N = 1000000, Omega = 25, normalization = as_published: paradox: at t = "
+    )
     project.complete("-j1", "gc")
-    left = {f"compute_batch:small_map:{path.stem}" for path in project.folder.glob("results/small_map/batches/*")}
+    left = {
+        f"compute_batch:small_map:{path.stem}"
+        for path in project.folder.glob("results/small_map/batches/*")
+    }
     assert left == batches(project, "small_map")
     assert set(project.folder.glob("results/small_growth/**/*.nc")) == kept

@@ -20,7 +20,8 @@ PROGRAM = str(Path(sys.executable).with_name("disc-model"))
 
 
 def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
-    """A quarter of a second after Ctrl-C Snakemake was killed, with its lock left behind in 5 of 12 tries."""
+    """A quarter of a second after Ctrl-C Snakemake was killed, with its lock left behind in 5 of 12
+    tries."""
     shutil.copy(TEXTS / "long.yaml", tmp_path / "mine.yaml")
     processes.run(PROGRAM, "compile", cwd=tmp_path, timeout=600)
     moments, locks = random.Random(27), tmp_path / ".snakemake" / "locks"

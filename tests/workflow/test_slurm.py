@@ -1,6 +1,8 @@
-"""The SLURM profile on a cluster: every job of a study is run by it, and one that takes too long gets more time.
+"""The SLURM profile on a cluster: every job of a study is run by it, and one that takes too long
+gets more time.
 
-The partition is that of the profile, main, and temporary folders have to be seen by its nodes: `pytest --basetemp`.
+The partition is that of the profile, main, and temporary folders have to be seen by its nodes:
+`pytest --basetemp`.
 """
 
 import re
@@ -33,7 +35,9 @@ def test_a_study_is_computed_by_the_cluster(project: Project, finished: Project)
     project.forget()
     (project.folder / "src" / "sitecustomize.py").write_text(HANG)
     project.edit(f"{PROFILE}/config.yaml", "runtime: 30 * attempt", "runtime: 1 * attempt")
-    text = project.complete("--workflow-profile", PROFILE, "--quiet", "host")  # which shows every job
+    text = project.complete(
+        "--workflow-profile", PROFILE, "--quiet", "host"
+    )  # which shows every job
     submitted = re.findall(r"SLURM jobid \d+ \(log: \S*/rule_(\w+)/", text)
     batches = len(list(project.folder.glob("results/*/batches/*.nc")))
     assert submitted.count("compute_batch") == batches + 1

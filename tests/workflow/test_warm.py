@@ -25,12 +25,15 @@ match sys.argv[1]:
 
 
 def test_a_job_is_what_it_would_be_by_itself(tmp_path: Path) -> None:
-    """Arguments, folder, environment, standard streams and exit code; and it runs where no such process is."""
+    """Arguments, folder, environment, standard streams and exit code; and it runs where no such
+    process is."""
     (tmp_path / "job.py").write_text(SCRIPT)
 
     def job(way: str) -> tuple[int, str, str]:
         words = [*WARM, tmp_path / "socket", "job.py", way]
-        done = subprocess.run(words, cwd=tmp_path, env={"OF_JOB": "own"}, input="in", capture_output=True, text=True)
+        done = subprocess.run(
+            words, cwd=tmp_path, env={"OF_JOB": "own"}, input="in", capture_output=True, text=True
+        )
         return done.returncode, done.stdout, done.stderr
 
     ways = ("well", "number", "words", "bug", "killed")
@@ -44,6 +47,10 @@ def test_a_job_is_what_it_would_be_by_itself(tmp_path: Path) -> None:
     server.communicate(timeout=60)
     assert server.returncode == 0
     assert [code for code, *_ in warm] == [0, 3, 1, 1, 1]
-    assert [out for _, out, _ in warm[:4]] == [out.replace("False", "True") for _, out, _ in alone[:4]]
+    assert [out for _, out, _ in warm[:4]] == [
+        out.replace("False", "True") for _, out, _ in alone[:4]
+    ]
     assert warm[4][2] == "to stderr\nkilled, perhaps for want of memory\n"
-    assert [err.splitlines()[-1] for *_, err in warm[:4]] == [err.splitlines()[-1] for *_, err in alone[:4]]
+    assert [err.splitlines()[-1] for *_, err in warm[:4]] == [
+        err.splitlines()[-1] for *_, err in alone[:4]
+    ]

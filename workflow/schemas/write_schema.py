@@ -1,4 +1,5 @@
-"""Print the JSON Schema of study files, with which editors complete and check them: `make schema`."""
+"""Print the JSON Schema of study files, with which editors complete and check them: `make
+schema`."""
 
 import json
 from typing import Any
@@ -11,14 +12,18 @@ from disc_model.studies.study import Study
 
 
 class _Plain(GenerateJsonSchema):
-    """JSON Schema without redundant text: titles that repeat a name, and paragraphs of docstrings after the first."""
+    """JSON Schema without redundant text: titles that repeat a name, and paragraphs of docstrings
+    after the first."""
 
     def field_title_should_be_set(self, schema: Any) -> bool:
         return False
 
     def float_schema(self, schema: Any) -> Any:
         """Numbers may be given as text: with a unit, or because YAML reads 1e-3 as text."""
-        return super().float_schema(schema) | {"type": ["number", "string"], "pattern": r"^\s*[-+.]*\d"}
+        return super().float_schema(schema) | {
+            "type": ["number", "string"],
+            "pattern": r"^\s*[-+.]*\d",
+        }
 
     def get_default_value(self, schema: Any) -> Any:
         default = super().get_default_value(schema)
@@ -33,10 +38,13 @@ class _Plain(GenerateJsonSchema):
 
 
 def schema_text() -> str:
-    """The JSON Schema of study files, as shipped; it describes the values of each key, but no rules between keys."""
+    """The JSON Schema of study files, as shipped; it describes the values of each key, but no rules
+    between keys."""
     options = {name: quantity_of(name) for name in quantity_names()}
     models: tuple[type[BaseModel], ...] = (Study, *options.values())
-    refs, content = models_json_schema([(model, "validation") for model in models], schema_generator=_Plain)
+    refs, content = models_json_schema(
+        [(model, "validation") for model in models], schema_generator=_Plain
+    )
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "A study of disc_model",

@@ -15,9 +15,15 @@ def main(output: str) -> None:
     plan = json.load(sys.stdin)
     studies = []
     for study in plan["studies"]:
-        data, motions = (load(study[role]).to_dataset() if study[role] else None for role in ("data", "motions"))
+        data, motions = (
+            load(study[role]).to_dataset() if study[role] else None for role in ("data", "motions")
+        )
         studies.append(study_contents(study["name"], data, motions, study["text"]))
-    pictures = [Picture(**{**picture, "file": Path(picture["file"])}) for picture in plan["pictures"]]
+    pictures = [
+        Picture(**{**picture, "file": Path(picture["file"])}) for picture in plan["pictures"]
+    ]
     text = page(plan["title"], studies, pictures)
     Path(output).write_text(text, encoding="utf-8")
-    logging.info("%d studies, %d figures, %.1f MB", len(studies), len(pictures), len(text.encode()) / 1e6)
+    logging.info(
+        "%d studies, %d figures, %.1f MB", len(studies), len(pictures), len(text.encode()) / 1e6
+    )

@@ -1,7 +1,8 @@
 """Clean up results after a fault, while no jobs are running.
 
-Removed are netCDF files that cannot be read, remains of killed jobs, and files without a record of Snakemake, a JSON
-list on standard input. Times in the future become the present: Snakemake refuses results older than their inputs.
+Removed are netCDF files that cannot be read, remains of killed jobs, and files without a record of
+Snakemake, a JSON list on standard input. Times in the future become the present: Snakemake refuses
+results older than their inputs.
 """
 
 import json
@@ -35,7 +36,9 @@ def main(folder: str = "results") -> None:
     early = [path for path in results.rglob("*") if path.stat().st_mtime > now]
     for path in early:
         os.utime(path, (now, now))
-    print(f"{len(datasets)} datasets, {len(damaged)} damaged; {len(leftovers)} left-overs of killed jobs removed")
+    print(
+        f"{len(datasets)} datasets, {len(damaged)} damaged; {len(leftovers)} left-overs of killed jobs removed"
+    )
     if early:
         print(f"{len(early)} files had times in the future and now have the present one")
     if damaged or unrecorded or early:

@@ -1,4 +1,5 @@
-"""Judge the paper's statements by the merged cases and grid studies: the ledger as CSV, as Markdown and as a page."""
+"""Judge the paper's statements by the merged cases and grid studies: the ledger as CSV, as Markdown
+and as a page."""
 
 from disc_model.data.dataset import load_cases
 from disc_model.data.texts import write_page
@@ -10,8 +11,13 @@ from disc_model.paper.measures import views
 @script
 def main(csv: str, md: str, html: str, *inputs: str) -> None:
     table = check_claims(views(load_cases(inputs)))
-    table.assign(**{name: [", ".join(each.values()) for each in table[name]] for name in ("figures", "data")}).to_csv(
-        csv, index=False
-    )
+    table.assign(
+        **{name: [", ".join(each.values()) for each in table[name]] for name in ("figures", "data")}
+    ).to_csv(csv, index=False)
     for path in (md, html):
-        write_page(path, "The paper's statements, judged", ("", summary(table), table), template="paper/ledger")
+        write_page(
+            path,
+            "The paper's statements, judged",
+            ("", summary(table), table),
+            template="paper/ledger",
+        )

@@ -1,4 +1,5 @@
-"""Set the cases of both normalisations beside each other: all cases as CSV, the page, and all as HTML."""
+"""Set the cases of both normalisations beside each other: all cases as CSV, the page, and all as
+HTML."""
 
 from disc_model.data.dataset import load
 from disc_model.data.texts import write_page

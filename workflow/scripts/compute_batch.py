@@ -1,4 +1,5 @@
-"""Compute one batch of a grid study, a text of `GridStudy.batches` read from standard input, since it may be long."""
+"""Compute one batch of a grid study, a text of `GridStudy.batches` read from standard input, since
+it may be long."""
 
 import sys
 

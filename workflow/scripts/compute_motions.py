@@ -1,4 +1,5 @@
-"""Compute the motions for the explorer, by a text of `GridStudy.motions` read from standard input: it may be long."""
+"""Compute the motions for the explorer, by a text of `GridStudy.motions` read from standard input:
+it may be long."""
 
 import sys
 

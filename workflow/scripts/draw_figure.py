@@ -1,4 +1,5 @@
-"""Draw one figure: the plot as its kind describes it, and the title of the files, as JSON; inputs as name=file."""
+"""Draw one figure: the plot as its kind describes it, and the title of the files, as JSON; inputs
+as name=file."""
 
 import json
 

@@ -1,4 +1,5 @@
-"""Judge the paper's conclusions under five models of disc and contact: evidence as CSV, the page, and both as HTML."""
+"""Judge the paper's conclusions under five models of disc and contact: evidence as CSV, the page,
+and both as HTML."""
 
 from disc_model.data.dataset import load_cases
 from disc_model.data.texts import write_page

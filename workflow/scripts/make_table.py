@@ -1,4 +1,5 @@
-"""Make Table 1 or 2 of the paper beside ours, or a table of what results rest on: as CSV, as Markdown and as a page."""
+"""Make Table 1 or 2 of the paper beside ours, or a table of what results rest on: as CSV, as
+Markdown and as a page."""
 
 from disc_model.data.dataset import Missing, load_cases
 from disc_model.data.texts import write_page

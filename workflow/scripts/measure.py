@@ -1,4 +1,5 @@
-"""Measure a part of the benchmark: module and function of its study, such as scaling.scaling, and their arguments."""
+"""Measure a part of the benchmark: module and function of its study, such as scaling.scaling, and
+their arguments."""
 
 from importlib import import_module
 

@@ -1,5 +1,5 @@
-"""Measure the cost of compiling each kind of kernel, processor time and size of files: from an empty cache, with the
-kinds above it in the cache, and again."""
+"""Measure the cost of compiling each kind of kernel, processor time and size of files: from an
+empty cache, with the kinds above it in the cache, and again."""
 
 import os
 import subprocess
@@ -38,7 +38,9 @@ def measure(task: str, model: str, folder: str) -> float:
     """Processor time (s) to compile a kind, or to load it from the cache in a folder."""
     command = [sys.executable, "-c", SCRIPT.format(task=TASKS[task], model=MODELS[model])]
     environment = os.environ | {"NUMBA_CACHE_DIR": folder}
-    return float(subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout)
+    return float(
+        subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout
+    )
 
 
 def size(folder: str) -> int:
@@ -54,5 +56,8 @@ with tempfile.TemporaryDirectory() as common:
         before = size(common)
         further, again = measure(*kind, common), measure(*kind, common)
         size_kB = (size(common) - before) / 1000
-        print(f"{', '.join(kind):36}{alone:12.1f}{further:12.1f}{again:12.2f}{size_kB:12.0f}", flush=True)
+        print(
+            f"{', '.join(kind):36}{alone:12.1f}{further:12.1f}{again:12.2f}{size_kB:12.0f}",
+            flush=True,
+        )
     print(f"all files: {size(common) / 1e6:.1f} MB")

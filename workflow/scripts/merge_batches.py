@@ -1,5 +1,5 @@
-"""Merge the batches of a grid study into one dataset, and list the points that failed. Standard input has, as JSON, the
-names of the batches, the grid and attributes."""
+"""Merge the batches of a grid study into one dataset, and list the points that failed. Standard
+input has, as JSON, the names of the batches, the grid and attributes."""
 
 import json
 import sys

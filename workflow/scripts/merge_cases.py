@@ -1,5 +1,5 @@
-"""Merge the files of cases into one, and list them on a page with what they come from. The title of the page and, by
-case, its labels are JSON."""
+"""Merge the files of cases into one, and list them on a page with what they come from. The title of
+the page and, by case, its labels are JSON."""
 
 import json
 
@@ -23,7 +23,10 @@ def sources(attributes: dict[str, str]) -> pd.DataFrame:
     """Commit, hash of the solver's sources, and versions."""
     versions = attributes.get("versions", "{}")
     listed = json.loads(versions)
-    text = {"commit": attributes.get("git_commit", ""), "hash of the solver": attributes.get("source_hash", "")}
+    text = {
+        "commit": attributes.get("git_commit", ""),
+        "hash of the solver": attributes.get("source_hash", ""),
+    }
     text |= listed if isinstance(listed, dict) else {"versions": versions}
     return pd.DataFrame(list(text.items()), columns=["What", "Value"])
 
@@ -49,4 +52,6 @@ def main(title: str, labels: str, output: str, page: str, *paths: str) -> None:
     cases, texts = load_cases(paths), json.loads(labels)
     save(merged := merge_cases(cases, texts), output)
     rows = pd.DataFrame([row(name, case, texts.get(name, {})) for name, case in cases.items()])
-    write_page(page, json.loads(title), ("Sources", WORDS, sources(merged.attrs)), ("Cases", "", rows))
+    write_page(
+        page, json.loads(title), ("Sources", WORDS, sources(merged.attrs)), ("Cases", "", rows)
+    )

@@ -1,4 +1,5 @@
-"""Simulate one case, given as the text of `disc_model.simulation.case.CaseSpec.canonical`, and save it."""
+"""Simulate one case, given as the text of `disc_model.simulation.case.CaseSpec.canonical`, and save
+it."""
 
 from pathlib import Path
 

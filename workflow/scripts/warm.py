@@ -1,7 +1,9 @@
-"""Runs the scripts of jobs as copies of a process that has imported what they need: a second less for each.
+"""Runs the scripts of jobs as copies of a process that has imported what they need: a second less
+for each.
 
-``warm.py SOCKET`` is that process, which ends with its standard input: with Snakemake, however that ends.
-``warm.py SOCKET SCRIPT ARGUMENT...`` has a copy of it run a script, or runs the script itself where there is none.
+``warm.py SOCKET`` is that process, which ends with its standard input: with Snakemake, however that
+ends. ``warm.py SOCKET SCRIPT ARGUMENT...`` has a copy of it run a script, or runs the script itself
+where there is none.
 """
 
 import json
@@ -15,7 +17,8 @@ ALONE = {"measure.py"}
 
 
 def serve(address):
-    """Run scripts for those who connect; each in a copy of this process, with their files, folder and environment."""
+    """Run scripts for those who connect; each in a copy of this process, with their files, folder
+    and environment."""
     import select
 
     steps = prepare()
@@ -26,7 +29,9 @@ def serve(address):
         listener.bind(address)
         listener.listen(64)
         wait = 0
-        while 0 not in (ready := select.select([0, listener], [], [], wait)[0]):  # its standard input has not ended
+        while 0 not in (
+            ready := select.select([0, listener], [], [], wait)[0]
+        ):  # its standard input has not ended
             if not ready:
                 wait = next(steps, None)
                 continue
@@ -38,7 +43,8 @@ def serve(address):
 
 
 def prepare():
-    """Import what all jobs need; then, a step at a time, what many load by themselves, and draw an empty picture."""
+    """Import what all jobs need; then, a step at a time, what many load by themselves, and draw an
+    empty picture."""
     from importlib import import_module
     from io import BytesIO
 
@@ -59,7 +65,8 @@ def prepare():
 
 
 def run(connection):
-    """Run the script that a connection asks for, answer with its exit code, and end this process."""
+    """Run the script that a connection asks for, answer with its exit code, and end this
+    process."""
     import atexit
     import runpy
     import traceback

@@ -1,1 +1,2 @@
-"""Analysis of recorded signals: Poincaré sections, spectra, classification of motions, and shares of samples."""
+"""Analysis of recorded signals: Poincaré sections, spectra, classification of motions, and shares
+of samples."""

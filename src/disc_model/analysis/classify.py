@@ -1,8 +1,10 @@
-"""Classification of motions by numerical criteria, whether they have settled, and sections at the drive's period.
+"""Classification of motions by numerical criteria, whether they have settled, and sections at the
+drive's period.
 
-A motion that does not repeat within half the record is classified by the 0-1 test for chaos (Gottwald and Melbourne,
-SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009). The largest exponent, in `regularity` of `stability/attractors.py`,
-cannot replace it: it does not see jumps that part neighbouring motions, such as a release that one of them has.
+A motion that does not repeat within half the record is classified by the 0-1 test for chaos
+(Gottwald and Melbourne, SIAM J. Appl. Dyn. Syst. 8, 129-145, 2009). The largest exponent, in
+`regularity` of `stability/attractors.py`, cannot replace it: it does not see jumps that part
+neighbouring motions, such as a release that one of them has.
 """
 
 import math
@@ -17,10 +19,12 @@ from disc_model.data.variables import PHASES, Outcome, Variable
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 CLOSES = 1e-8  # s, to which intervals of a periodic motion repeat; those on a torus mostly differ by far more
-# of its first n returns a quasi-periodic motion has one that misses by 1/n of its spread: a period must be far closer
+# of its first n returns a quasi-periodic motion has one that misses by 1/n of its spread: a period
+# must be far closer
 NEAR_RETURN = 1e-3
 FEWEST = 20  # fewest intervals from which a motion is classified
-# a motion is regular if the 0-1 test gives less, chaotic above one minus this; known signals are within 0.1 of the ends
+# a motion is regular if the 0-1 test gives less, chaotic above one minus this; known signals are
+# within 0.1 of the ends
 REGULAR = 0.3
 
 
@@ -43,7 +47,11 @@ class Motion(NamedTuple):
 
     def __str__(self) -> str:
         if self.period:
-            return "periodic" if self.period == 1 else f"periodic, repeats after {self.period} releases"
+            return (
+                "periodic"
+                if self.period == 1
+                else f"periodic, repeats after {self.period} releases"
+            )
         return str(self.kind).replace("_", "-")
 
 
@@ -76,9 +84,12 @@ def closure(intervals: Array, period: int) -> float:
     return float(np.max(np.abs(intervals[period:] - intervals[:-period])))
 
 
-def shortest_period(intervals: Array, tolerance: float = CLOSES, near_return: float = NEAR_RETURN) -> int:
-    """Least number of releases, up to half of all, after which intervals repeat to `tolerance` s; 0 if there is none.
-    One that closes no better than near returns (`NEAR_RETURN`) does not count, but for 1: a slow transient."""
+def shortest_period(
+    intervals: Array, tolerance: float = CLOSES, near_return: float = NEAR_RETURN
+) -> int:
+    """Least number of releases, up to half of all, after which intervals repeat to `tolerance` s; 0
+    if there is none. One that closes no better than near returns (`NEAR_RETURN`) does not count,
+    but for 1: a slow transient."""
     extent = float(np.ptp(intervals)) if intervals.size else 0.0
     for n in range(1, intervals.size // 2 + 1):
         if abs(intervals[n] - intervals[0]) > tolerance:
@@ -90,7 +101,8 @@ def shortest_period(intervals: Array, tolerance: float = CLOSES, near_return: fl
 
 
 def zero_one(values: Array) -> float:
-    """The 0-1 test for chaos: the median over random c of the growth of p + iq = sum of values exp(i c j).
+    """The 0-1 test for chaos: the median over random c of the growth of p + iq = sum of values
+    exp(i c j).
 
     The 101 values of c are drawn from the middle of (0, pi); they are the same at every call.
 
@@ -113,7 +125,8 @@ def zero_one(values: Array) -> float:
     for c in np.random.default_rng(0).uniform(np.pi / 5, 4 * np.pi / 5, 101):
         path = np.cumsum(signal * np.exp(1j * c * np.arange(1, signal.size + 1)))
         sums = np.append(0.0, np.cumsum(np.abs(path) ** 2))
-        # mean of |path[i + j] - path[i]|^2 over i < count, without its oscillating part; it grows with j in chaos
+        # mean of |path[i + j] - path[i]|^2 over i < count, without its oscillating part; it grows
+        # with j in chaos
         together = correlate(path, path[:count], mode="valid", method="fft").real
         square = (sums[count + steps] - sums[steps] + sums[count] - 2 * together[steps]) / count
         square -= signal.mean() ** 2 * (1 - np.cos(c * steps)) / (1 - np.cos(c))
@@ -141,18 +154,26 @@ def separation_location(height: Array, starts: NDArray[np.int64]) -> float:
     amplitude = np.abs(np.fft.rfft(height - np.mean(height)))
     half = max(2, round(len(height) / max(1, int(np.argmax(amplitude[1:]) + 1))) // 2)
     cycles = [height[max(0, i - half) : i + half + 1] for i in starts]
-    shares = [(height[i] - x.min()) / (float(np.ptp(x)) or 1.0) for i, x in zip(starts, cycles, strict=True)]
+    shares = [
+        (height[i] - x.min()) / (float(np.ptp(x)) or 1.0)
+        for i, x in zip(starts, cycles, strict=True)
+    ]
     return float(np.median(shares))
 
 
-def share(hits: int, trials: int, unknown: int = 0, confidence: float = 0.95) -> tuple[float, float, float]:
-    """Share of hits among trials, and the ends of its Wilson interval. Further trials with an unknown result count as
-    misses at the lower end and as hits at the upper."""
+def share(
+    hits: int, trials: int, unknown: int = 0, confidence: float = 0.95
+) -> tuple[float, float, float]:
+    """Share of hits among trials, and the ends of its Wilson interval. Further trials with an
+    unknown result count as misses at the lower end and as hits at the upper."""
     from scipy.stats import binomtest
 
     if trials == 0:
         return np.nan, 0.0, 1.0
-    low, high = (binomtest(h, trials + unknown).proportion_ci(confidence, "wilson") for h in (hits, hits + unknown))
+    low, high = (
+        binomtest(h, trials + unknown).proportion_ci(confidence, "wilson")
+        for h in (hits, hits + unknown)
+    )
     return hits / trials, float(low.low), float(high.high)
 
 
@@ -164,9 +185,9 @@ SAME = 0.01  # share of the range, along every axis, within which two points cou
 def stages(
     time: Array, phase: NDArray[np.int8], first_separation: float, settled_since: float
 ) -> tuple[Mask, Mask, Mask]:
-    """Divide a run into the stages that the paper distinguishes by colour: masks of samples in contact early, in
-    contact later, and separated. The first separation divides early from later; without one, the time from which the
-    motion has settled does.
+    """Divide a run into the stages that the paper distinguishes by colour: masks of samples in
+    contact early, in contact later, and separated. The first separation divides early from later;
+    without one, the time from which the motion has settled does.
 
     Parameters
     ----------
@@ -175,7 +196,9 @@ def stages(
     first_separation : s, nan if there was none
     settled_since : s, nan if it is not shown that the motion has settled: then all samples in contact are early
     """
-    before = np.asarray(~(time >= (first_separation if math.isfinite(first_separation) else settled_since)))
+    before = np.asarray(
+        ~(time >= (first_separation if math.isfinite(first_separation) else settled_since))
+    )
     apart = np.asarray(phase == PHASES.index("separation"))
     return before & ~apart, ~before & ~apart, apart
 
@@ -183,8 +206,8 @@ def stages(
 def distinct_points(points: Array, extent: Array | None = None) -> int:
     """Count the distinct points of a section, by a greedy search.
 
-    Points within `SAME` of each other count as one. A chain of near points is not merged, so that a closed curve has
-    about 1/`SAME` points.
+    Points within `SAME` of each other count as one. A chain of near points is not merged, so that a
+    closed curve has about 1/`SAME` points.
 
     Parameters
     ----------
@@ -195,8 +218,12 @@ def distinct_points(points: Array, extent: Array | None = None) -> int:
     if points.size == 0:
         return 0
     extent = np.ptp(points, axis=0) if extent is None else extent
-    rounding = 1e-9 * np.max(np.abs(points))  # bound for axes along which only rounding changes the points
-    scaled = np.where(extent > rounding, (points - points.min(axis=0)) / np.where(extent > 0, extent, 1.0), 0.0)
+    rounding = 1e-9 * np.max(
+        np.abs(points)
+    )  # bound for axes along which only rounding changes the points
+    scaled = np.where(
+        extent > rounding, (points - points.min(axis=0)) / np.where(extent > 0, extent, 1.0), 0.0
+    )
     centres: list[Array] = []
     for point in scaled:
         if not centres or np.min(np.max(np.abs(np.array(centres) - point), axis=1)) > SAME:
@@ -205,9 +232,11 @@ def distinct_points(points: Array, extent: Array | None = None) -> int:
 
 
 def first_settled(points: Array, start: int = 0) -> int:
-    """Index from which all points lie on the set of a settled motion, which the later half of its points stands for.
+    """Index from which all points lie on the set of a settled motion, which the later half of its
+    points stands for.
 
-    A point lies on the set if its distance from that half is at most `SAME`, or the largest between neighbours there.
+    A point lies on the set if its distance from that half is at most `SAME`, or the largest between
+    neighbours there.
 
     Parameters
     ----------
@@ -217,20 +246,30 @@ def first_settled(points: Array, start: int = 0) -> int:
     from scipy.spatial import KDTree
 
     ends = points[(start + len(points)) // 2 :]
-    extent = np.maximum(np.ptp(ends, axis=0), STILL * np.abs(ends).max(axis=0) + np.finfo(float).tiny)
+    extent = np.maximum(
+        np.ptp(ends, axis=0), STILL * np.abs(ends).max(axis=0) + np.finfo(float).tiny
+    )
     tree = KDTree(ends / extent)
     apart = max(SAME, float(tree.query(ends / extent, k=2, p=np.inf)[0][:, 1].max()))
     away = np.flatnonzero(tree.query(points / extent, p=np.inf)[0] > apart)
     return max(start, int(away[-1]) + 1 if away.size else 0)
 
 
-# ---- Whether a motion has settled: the rate at which a record of it still changes, and the least rate that it shows.
-# A record does not exclude what stays unseen, such as a slow departure from an unstable cycle or a sudden end of chaos.
+# ---- Whether a motion has settled: the rate at which a record of it still changes, and the least
+# rate that it shows. A record does not exclude what stays unseen, such as a slow departure from an
+# unstable cycle or a sudden end of chaos.
 
-WINDOWS, LEAST_SAMPLES = 8, 8  # number of windows into which a record is cut, and least number of samples in each
-PARTS = 1 - np.geomspace(1, 0.05, 40)  # starts of later parts of a record, over its length: each omits 7 % of the rest
+WINDOWS, LEAST_SAMPLES = (
+    8,
+    8,
+)  # number of windows into which a record is cut, and least number of samples in each
+PARTS = 1 - np.geomspace(
+    1, 0.05, 40
+)  # starts of later parts of a record, over its length: each omits 7 % of the rest
 QUANTILE = 3.707  # of Student's t, `WINDOWS` - 2 degrees of freedom, 99 % on both sides: half-width of a slope
-RESOLUTION = 0.01  # least change over a record that counts as visible, relative to the width of the motion
+RESOLUTION = (
+    0.01  # least change over a record that counts as visible, relative to the width of the motion
+)
 SLOWEST = 5e-5  # 1/s: a settled motion's width changes by less than 5 % in 1000 s, and the record can show that
 STILL = 1e-3  # width, over the mean, below which a signal counts as constant: changes are then relative to this width
 
@@ -265,8 +304,11 @@ class Settling(NamedTuple):
         return f"{self.answer}{rate}, the record shows {self.least:.2g}/s or more"
 
 
-def settling(time: ArrayLike, values: ArrayLike, slowest: float = SLOWEST, still: float = STILL) -> Settling:
-    """Decide by drift of mean, spread and number of samples whether a motion has settled in a record or its later part.
+def settling(
+    time: ArrayLike, values: ArrayLike, slowest: float = SLOWEST, still: float = STILL
+) -> Settling:
+    """Decide by drift of mean, spread and number of samples whether a motion has settled in a
+    record or its later part.
 
     Parameters
     ----------
@@ -280,7 +322,9 @@ def settling(time: ArrayLike, values: ArrayLike, slowest: float = SLOWEST, still
         return Settling()
     whole = _drift(t, x, slowest, still)
     # shorter parts cannot show that little
-    starts = [start for start in t[0] + PARTS * (t[-1] - t[0]) if t[-1] - start >= RESOLUTION / slowest]
+    starts = [
+        start for start in t[0] + PARTS * (t[-1] - t[0]) if t[-1] - start >= RESOLUTION / slowest
+    ]
     later = (_drift(t[i:], x[i:], slowest, still) for i in np.searchsorted(t, starts))
     return next((part for part in later if part.answer is Settled.SETTLED), whole)
 
@@ -299,7 +343,10 @@ def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:
     errors = QUANTILE * np.sqrt((rest**2).sum(axis=1) / (WINDOWS - 2) / (middle @ middle))
     errors, sizes = np.maximum(errors, RESOLUTION / (t[-1] - t[0])), np.abs(slopes)
     clear = sizes > np.maximum(errors, slowest)
-    fastest, least = int(np.argmax(sizes + clear)), float(errors.max())  # of those that are clear, if any
+    fastest, least = (
+        int(np.argmax(sizes + clear)),
+        float(errors.max()),
+    )  # of those that are clear, if any
     if clear.any():
         return Settling(Settled.CHANGING, float(slopes[fastest]), least)
     if max(least, sizes.max()) <= slowest:

@@ -1,4 +1,5 @@
-"""Spectra: lines of a stationary signal, their identification, and spectra that change with time; resonances."""
+"""Spectra: lines of a stationary signal, their identification, and spectra that change with time;
+resonances."""
 
 import math
 import re
@@ -15,8 +16,13 @@ from disc_model.parameters import Parameters
 
 Array = NDArray[np.float64]
 
-AROUND = (1.0, 6.0)  # Hz, distances from a line between which the level of its neighbourhood is determined
-RESOLVED = 4  # bins, half the width of a line's main lobe: two lines nearer to each other are not resolved
+AROUND = (
+    1.0,
+    6.0,
+)  # Hz, distances from a line between which the level of its neighbourhood is determined
+RESOLVED = (
+    4  # bins, half the width of a line's main lobe: two lines nearer to each other are not resolved
+)
 SIDE_LOBES = 3e-5  # highest side lobe of the window relative to the line's own height: 2.5e-5, and a margin of a fifth
 
 
@@ -28,7 +34,8 @@ class Line(NamedTuple):
 
 
 class Combination(NamedTuple):
-    """The combination ``n f_s + m f_drive`` nearest to a line, and the deviation of the line from it, Hz."""
+    """The combination ``n f_s + m f_drive`` nearest to a line, and the deviation of the line from
+    it, Hz."""
 
     n: int
     m: int
@@ -36,13 +43,16 @@ class Combination(NamedTuple):
     deviation: float
 
     def __str__(self) -> str:
-        parts = [f"{order} {symbol}" for order, symbol in ((self.n, "f_s"), (self.m, "f_Ω")) if order]
+        parts = [
+            f"{order} {symbol}" for order, symbol in ((self.n, "f_s"), (self.m, "f_Ω")) if order
+        ]
         plain = re.sub(r"\b1 ", "", " + ".join(parts))  # f_s for 1 f_s
         return plain.replace("+ -", "− ") or "0"
 
 
 class TimeFrequency(NamedTuple):
-    """Power against time and frequency: `time` (s) shape (n,), `frequency` (Hz) shape (m,), `power` shape (m, n)."""
+    """Power against time and frequency: `time` (s) shape (n,), `frequency` (Hz) shape (m,), `power`
+    shape (m, n)."""
 
     time: Array
     frequency: Array
@@ -50,20 +60,24 @@ class TimeFrequency(NamedTuple):
 
 
 def rate_of(time: Array, values: Array) -> float:
-    """Sampling rate (Hz) of uniform samples, both of shape (n,); raises ParameterError if they are not uniform."""
+    """Sampling rate (Hz) of uniform samples, both of shape (n,); raises ParameterError if they are
+    not uniform."""
     if np.ndim(time) != 1 or np.shape(values) != np.shape(time) or np.size(time) < 2:
         raise ParameterError("values: must be two or more, one for each time")
     if not np.all(np.isfinite(values)):
         raise ParameterError("values: must be finite")
     step = (time[-1] - time[0]) / (len(time) - 1)
     # a missing sample shifts times by half a step or more, and rounding by less
-    if not step > 0 or not np.all(np.abs(time - np.linspace(time[0], time[-1], len(time))) < 0.45 * step):
+    if not step > 0 or not np.all(
+        np.abs(time - np.linspace(time[0], time[-1], len(time))) < 0.45 * step
+    ):
         raise ParameterError("time: must rise in even steps; resample an uneven signal first")
     return float(1 / step)
 
 
 def amplitude_spectrum(time: Array, values: Array) -> tuple[Array, Array]:
-    """One-sided amplitude spectrum with a Blackman-Harris window (side lobes below -92 dB), mean removed.
+    """One-sided amplitude spectrum with a Blackman-Harris window (side lobes below -92 dB), mean
+    removed.
 
     Returns
     -------
@@ -71,7 +85,9 @@ def amplitude_spectrum(time: Array, values: Array) -> tuple[Array, Array]:
         height 1, less the loss between two bins (at most 0.8 dB)
     """
     rate = rate_of(time, values)
-    from scipy.signal.windows import blackmanharris  # the first import takes a second: most jobs do without
+    from scipy.signal.windows import (
+        blackmanharris,
+    )  # the first import takes a second: most jobs do without
 
     window = blackmanharris(len(time), sym=False)
     transform = np.fft.rfft((values - np.mean(values)) * window)
@@ -107,18 +123,27 @@ def lines(
     step = float(frequency[1])
     peaks = _maxima(amplitude, RESOLVED if apart is None else max(1, round(apart / step)))
     # vertices of parabolas through the logarithms of the maxima and their neighbours
-    low, mid, high = (np.log(np.maximum(amplitude[peaks + i], np.finfo(float).tiny)) for i in (-1, 0, 1))
+    low, mid, high = (
+        np.log(np.maximum(amplitude[peaks + i], np.finfo(float).tiny)) for i in (-1, 0, 1)
+    )
     curvature = low - 2 * mid + high
     shift = np.divide(0.5 * (low - high), curvature, out=np.zeros(len(peaks)), where=curvature < 0)
-    frequencies, heights = frequency[peaks] + shift * frequency[1], np.exp(mid - 0.25 * (low - high) * shift)
+    frequencies, heights = (
+        frequency[peaks] + shift * frequency[1],
+        np.exp(mid - 0.25 * (low - high) * shift),
+    )
     inside = (frequencies > above) & (frequencies < below)
     bins = np.where(inside, amplitude[peaks], 0.0)
     lasting = inside & (bins >= floor * bins.max(initial=0.0))
-    return [Line(float(f), float(a)) for f, a in zip(frequencies[lasting], heights[lasting], strict=True)]
+    return [
+        Line(float(f), float(a))
+        for f, a in zip(frequencies[lasting], heights[lasting], strict=True)
+    ]
 
 
 def strongest(time: Array, values: Array, near: float, within: float) -> Line:
-    """Find the strongest line within `within` Hz of the frequency `near`; raises ValueError if there is none."""
+    """Find the strongest line within `within` Hz of the frequency `near`; raises ValueError if
+    there is none."""
     peaks = lines(time, values, above=near - within, below=near + within, floor=0.0)
     if not peaks:
         raise ValueError(f"no line within {within:g} Hz of {near:g} Hz")
@@ -126,7 +151,8 @@ def strongest(time: Array, values: Array, near: float, within: float) -> Line:
 
 
 def chance(time: Array, values: Array, line: Line, searched: float) -> float:
-    """Probability that noise at the level of a line's neighbourhood has as strong a line in the searched band.
+    """Probability that noise at the level of a line's neighbourhood has as strong a line in the
+    searched band.
 
     Parameters
     ----------
@@ -145,10 +171,14 @@ def chance(time: Array, values: Array, line: Line, searched: float) -> float:
     frequency, amplitude = amplitude_spectrum(time, values)
     step, off = float(frequency[1]), frequency - line.frequency
     stretches = ((RESOLVED * step, near), (near, far))
-    parts = [(side * off > low) & (side * off < high) for side in (-1, 1) for low, high in stretches]
+    parts = [
+        (side * off > low) & (side * off < high) for side in (-1, 1) for low, high in stretches
+    ]
     levels = [float(np.median(amplitude[part] ** 2)) for part in parts if part.any()]
     if not levels:
-        raise ValueError(f"no bin of the spectrum is {near:g} to {far:g} Hz from {line.frequency:g} Hz")
+        raise ValueError(
+            f"no bin of the spectrum is {near:g} to {far:g} Hz from {line.frequency:g} Hz"
+        )
     level, trials = max(levels), max(1.0, 2 * searched / step)
     if not level > 0:
         return 0.0
@@ -156,9 +186,11 @@ def chance(time: Array, values: Array, line: Line, searched: float) -> float:
 
 
 def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
-    """Find the combination ``n f_s + m f_drive`` (0 <= n <= 12, abs(m) <= 3) nearest to a frequency, all in Hz.
+    """Find the combination ``n f_s + m f_drive`` (0 <= n <= 12, abs(m) <= 3) nearest to a
+    frequency, all in Hz.
 
-    Of combinations that are equally near, to a thousandth of a Hz, the one with the smallest orders is taken.
+    Of combinations that are equally near, to a thousandth of a Hz, the one with the smallest orders
+    is taken.
     """
     orders = [(n, m) for n in range(13) for m in range(-3, 4) if n > 0 or m > 0]
     values = ((n, m, n * f_s + m * f_drive) for n, m in orders)
@@ -166,8 +198,11 @@ def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
     return min(combinations, key=lambda near: (round(abs(near.deviation), 3), near.n + abs(near.m)))
 
 
-def time_frequency(time: Array, values: Array, *, window: float = 1.0, hop: float = 0.05) -> TimeFrequency:
-    """Short-time Fourier transform: power in a Hann window that slides over the samples, mean removed.
+def time_frequency(
+    time: Array, values: Array, *, window: float = 1.0, hop: float = 0.05
+) -> TimeFrequency:
+    """Short-time Fourier transform: power in a Hann window that slides over the samples, mean
+    removed.
 
     Parameters
     ----------
@@ -182,12 +217,16 @@ def time_frequency(time: Array, values: Array, *, window: float = 1.0, hop: floa
     rate = rate_of(time, values)
     length, step = round(window * rate), max(1, round(hop * rate))
     if len(values) < length + 2 * step:
-        raise ValueError(f"{len(values) / rate:g} s of samples are too few for a window of {window:g} s")
+        raise ValueError(
+            f"{len(values) / rate:g} s of samples are too few for a window of {window:g} s"
+        )
     from scipy.signal import ShortTimeFFT
     from scipy.signal.windows import hann
 
     # scale_to="magnitude": the height of a line does not depend on the window's length
-    transform = ShortTimeFFT(hann(length, sym=False), step, rate, fft_mode="onesided2X", scale_to="magnitude")
+    transform = ShortTimeFFT(
+        hann(length, sym=False), step, rate, fft_mode="onesided2X", scale_to="magnitude"
+    )
     centred = np.asarray(values, dtype=float) - np.mean(values)
     first, last = transform.lower_border_end[1], transform.upper_border_begin(len(centred))[1]
     power = np.abs(transform.stft(centred, p0=first, p1=last)) ** 2 / 2
@@ -195,14 +234,16 @@ def time_frequency(time: Array, values: Array, *, window: float = 1.0, hop: floa
 
 
 def power_share(time: Array, values: Array, above: float, reference: float) -> float:
-    """Power above the frequency `above` over the power above a lower frequency `reference` (both Hz)."""
+    """Power above the frequency `above` over the power above a lower frequency `reference` (both
+    Hz)."""
     frequency, amplitude = amplitude_spectrum(time, values)
     power = amplitude**2
     return float(power[frequency > above].sum() / power[frequency > reference].sum())
 
 
 def coverage(time: Array, values: Array, low: float, high: float, floor: float = 1e-3) -> float:
-    """Share of the band `low` to `high`, Hz, where the amplitude exceeds `floor` of its strongest line (0 without)."""
+    """Share of the band `low` to `high`, Hz, where the amplitude exceeds `floor` of its strongest
+    line (0 without)."""
     frequency, amplitude = amplitude_spectrum(time, values)
     band = (frequency >= low) & (frequency <= high)
     peaks = _maxima(amplitude, RESOLVED)
@@ -211,14 +252,16 @@ def coverage(time: Array, values: Array, low: float, high: float, floor: float =
 
 
 def _maxima(amplitude: Array, distance: int) -> NDArray[np.int64]:
-    """Bins of local maxima that are not side lobes and at least `distance` bins apart; the higher one is kept."""
+    """Bins of local maxima that are not side lobes and at least `distance` bins apart; the higher
+    one is kept."""
     from scipy.signal import find_peaks
 
     peaks, _ = find_peaks(amplitude, height=SIDE_LOBES * amplitude.max(), distance=distance)
     return np.asarray(peaks, dtype=np.int64)
 
 
-# ---- Resonances of the stick-slip cycle: the one to which a multiplier belongs, and its label in figures
+# ---- Resonances of the stick-slip cycle: the one to which a multiplier belongs, and its label in
+# figures
 
 
 @dataclass(frozen=True)
@@ -244,11 +287,14 @@ class Resonance:
         return f"{self.harmonic:g} f_s = {self.frequency:.2f} Hz{shift}"
 
 
-def nearest_resonance(p: Parameters, period: float, multiplier: complex, diameters: int) -> Resonance:
+def nearest_resonance(
+    p: Parameters, period: float, multiplier: complex, diameters: int
+) -> Resonance:
     """The resonance to which a cycle's multiplier belongs, among modes of so many nodal diameters.
 
-    In the slider's frame a free mode of l diameters has the frequency f -/+ l Omega / 2 pi; one bound to the slider, f.
-    Modulo f_s that is the multiplier's angle over 2 pi T. The harmonic is the nearest multiple of f_s, or of f_s / 2.
+    In the slider's frame a free mode of l diameters has the frequency f -/+ l Omega / 2 pi; one
+    bound to the slider, f. Modulo f_s that is the multiplier's angle over 2 pi T. The harmonic is
+    the nearest multiple of f_s, or of f_s / 2.
     """
     rate = 1 / float(period)
     angle = math.atan2(multiplier.imag, multiplier.real) / (2 * math.pi)
@@ -262,17 +308,24 @@ def nearest_resonance(p: Parameters, period: float, multiplier: complex, diamete
             seen = (frequency + sign * l * p.Omega / (2 * math.pi)) / rate
             miss = min(abs((seen - s * angle + 0.5) % 1 - 0.5) for s in (-1, 1))
             harmonic = round(seen - half) + half
-            resonances.append((miss, Resonance(harmonic, frequency, l, sign, float((harmonic - seen) * rate))))
+            resonances.append(
+                (miss, Resonance(harmonic, frequency, l, sign, float((harmonic - seen) * rate)))
+            )
     return min(resonances, key=lambda pair: pair[0])[1]
 
 
 def modes_at_rest(p: Parameters) -> list[tuple[float, int, bool]]:
-    """Frequency (Hz), diameters and whether the slider takes part, for every mode of disc and slider at rest. A coupled
-    mode has the diameters of the disc's mode with most of its energy; a compliant contact adds one mode."""
+    """Frequency (Hz), diameters and whether the slider takes part, for every mode of disc and
+    slider at rest. A coupled mode has the diameters of the disc's mode with most of its energy; a
+    compliant contact adds one mode."""
     modes = mode_arrays(p)
     frequencies, shapes = coupled_shapes(p, contact_compliance(p))
     coupled = [
-        (float(frequency) / (2 * math.pi), int(modes.diameters[np.argmax(np.abs(shape[: len(modes.omega)]))]), True)
+        (
+            float(frequency) / (2 * math.pi),
+            int(modes.diameters[np.argmax(np.abs(shape[: len(modes.omega)]))]),
+            True,
+        )
         for frequency, shape in zip(frequencies, shapes.T, strict=True)
     ]
     pairs = zip(modes.omega[modes.diameters > 0], modes.diameters[modes.diameters > 0], strict=True)

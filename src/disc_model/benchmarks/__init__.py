@@ -1,1 +1,2 @@
-"""Benchmark of other methods: speed against accuracy and failures, on common scenes with stored references."""
+"""Benchmark of other methods: speed against accuracy and failures, on common scenes with stored
+references."""

@@ -1,7 +1,9 @@
-"""What each answer costs: questions that methods are compared by, their correct answers, and replies to them.
+"""What each answer costs: questions that methods are compared by, their correct answers, and
+replies to them.
 
-Of a method the tolerance or step varies. The line ``cycle`` finds onset and growth rate without a simulation. In the
-lines ``rigid`` and ``residual`` the number of nodal diameters varies, and errors are distances from the `RICHEST`.
+Of a method the tolerance or step varies. The line ``cycle`` finds onset and growth rate without a
+simulation. In the lines ``rigid`` and ``residual`` the number of nodal diameters varies, and errors
+are distances from the `RICHEST`.
 """
 
 import enum
@@ -23,7 +25,13 @@ from disc_model.benchmarks.methods import METHODS, Method
 from disc_model.benchmarks.methods.integrators import Array, MethodResult, Problem, RunStatus
 from disc_model.benchmarks.scenes import read_state, stored
 from disc_model.benchmarks.study import CONTACTS, TABLES, Flags, Row, run
-from disc_model.benchmarks.work_precision import DEFAULT, REFERENCE_TOL, MapSettings, map_settings, with_facts
+from disc_model.benchmarks.work_precision import (
+    DEFAULT,
+    REFERENCE_TOL,
+    MapSettings,
+    map_settings,
+    with_facts,
+)
 from disc_model.data.dataset import json_attribute
 from disc_model.data.variables import CycleStatus, flag_names
 from disc_model.errors import ParameterError
@@ -38,10 +46,21 @@ SEPARATING = Parameters(N=385.0, Omega=15.1)
 SETTLED = Parameters(N=300.0, Omega=20.0)
 GROWING = Parameters(N=200.0, Omega=20.0)
 SEPARATION_HORIZON = 55.0  # simulated time for the first separation, s
-SETTLED_AT, SETTLED_SPAN = 250.0, 5.0  # begin and length of the examined motion, s: a little more than two periods
-ONSET_BETWEEN, ONSET_WITHIN = (14.6, 15.6), 0.02  # interval and precision of the search for the onset, rad/s
-ONSET_HORIZON = 65.0  # s; at 15.09 rad/s contact is lost after 56 s, at 15.08 rad/s not within 300 s
-GROWING_AT, GROWING_SPAN = 100.0, 10.0  # the same of a motion from a cycle; by then one deviation is left that grows
+SETTLED_AT, SETTLED_SPAN = (
+    250.0,
+    5.0,
+)  # begin and length of the examined motion, s: a little more than two periods
+ONSET_BETWEEN, ONSET_WITHIN = (
+    (14.6, 15.6),
+    0.02,
+)  # interval and precision of the search for the onset, rad/s
+ONSET_HORIZON = (
+    65.0  # s; at 15.09 rad/s contact is lost after 56 s, at 15.08 rad/s not within 300 s
+)
+GROWING_AT, GROWING_SPAN = (
+    100.0,
+    10.0,
+)  # the same of a motion from a cycle; by then one deviation is left that grows
 SIDE = 32  # number of cells of the region along each axis
 REGION_SPEEDS, REGION_LOADS = (14.0, 34.0), (480.0, 600.0)  # rad/s, N
 REGION_HORIZON = 25.0  # s
@@ -56,7 +75,8 @@ FLAGS: Flags = {"status": AnswerStatus, "verdict": AnswerVerdict}
 
 
 class Reply(NamedTuple):
-    """An answer: value (nan without one), wall time (s), status, reason, bounds, and number of cells examined."""
+    """An answer: value (nan without one), wall time (s), status, reason, bounds, and number of
+    cells examined."""
 
     value: float
     seconds: float
@@ -73,18 +93,28 @@ def verdict(question: str, reply: Reply, right: float) -> AnswerVerdict:
         return AnswerVerdict.RIGHT if math.isnan(right) else AnswerVerdict.WRONG
     if reply.status is not AnswerStatus.FOUND:
         return AnswerVerdict.NO_ANSWER
-    return AnswerVerdict.RIGHT if abs(reply.value - right) <= QUESTIONS[question]["enough"] else AnswerVerdict.WRONG
+    return (
+        AnswerVerdict.RIGHT
+        if abs(reply.value - right) <= QUESTIONS[question]["enough"]
+        else AnswerVerdict.WRONG
+    )
 
 
 def reference(name: str) -> SimpleNamespace:
-    """The correct answer to a question, or ``fold``: its ``value``, its ``error``, and ``by`` which other method."""
+    """The correct answer to a question, or ``fold``: its ``value``, its ``error``, and ``by`` which
+    other method."""
     return SimpleNamespace(**stored("answers")["references"][name])
 
 
-# ---- Replies of a method that integrates, by the name of the answer, from the events that it finds within a budget (s)
+# ---- Replies of a method that integrates, by the name of the answer, from the events that it finds
+# within a budget (s)
 Solve = Callable[[Problem, float], MethodResult]
 Replies = dict[str, Reply]
-AFTER_SEPARATION = ("separation_rate", "disc_range", "period")  # names of the answers of `after_separation`
+AFTER_SEPARATION = (
+    "separation_rate",
+    "disc_range",
+    "period",
+)  # names of the answers of `after_separation`
 REPEATS = 3  # number of repeated quick runs; the fastest counts, since disturbances only add time
 QUICK = 0.3  # longest time of a run that is repeated, s
 TRIED = 4  # number of cells from which the affordable number is estimated
@@ -105,11 +135,16 @@ def first_separation(
     result, seconds = _timed(solve, Problem(p, static_start(p), horizon, stop=True), budget)
     times = _times(result, "separation")
     missing = f"no separation within {horizon:g} s"
-    return {"first_separation": reply_of(times[0] if len(times) else math.nan, seconds, missing, result)}
+    return {
+        "first_separation": reply_of(times[0] if len(times) else math.nan, seconds, missing, result)
+    }
 
 
-def after_separation(solve: Solve, budget: float, p: Parameters = SETTLED, start: State | None = None) -> Replies:
-    """Separations per second, the disc's range and the period in releases, long after contact was first lost."""
+def after_separation(
+    solve: Solve, budget: float, p: Parameters = SETTLED, start: State | None = None
+) -> Replies:
+    """Separations per second, the disc's range and the period in releases, long after contact was
+    first lost."""
     start = start or read_state(stored("answers")["starts"]["settled"])
     problem = Problem(p, start, start.time + SETTLED_SPAN, watched=True)
     result = solve(problem, budget)
@@ -119,21 +154,31 @@ def after_separation(solve: Solve, budget: float, p: Parameters = SETTLED, start
     if result.outcome is not RunStatus.FINISHED:
         return dict.fromkeys(AFTER_SEPARATION, reply_of(math.nan, seconds, "", result))
     low, high = result.heights
-    gaps = np.diff(_times(result, "stick_to_slip"))  # equal if they differ by less than a thousandth of the largest
-    repeats = shortest_period(gaps, 1e-3 * np.max(gaps, initial=0.0), near_return=np.inf) or math.nan
+    gaps = np.diff(
+        _times(result, "stick_to_slip")
+    )  # equal if they differ by less than a thousandth of the largest
+    repeats = (
+        shortest_period(gaps, 1e-3 * np.max(gaps, initial=0.0), near_return=np.inf) or math.nan
+    )
     values = (result.kinds.count("separation") / problem.span, high - low, repeats)
     missing = "the motion does not repeat"
-    return {name: reply_of(value, seconds, missing) for name, value in zip(AFTER_SEPARATION, values, strict=True)}
+    return {
+        name: reply_of(value, seconds, missing)
+        for name, value in zip(AFTER_SEPARATION, values, strict=True)
+    }
 
 
 def onset(solve: Solve, budget: float, within: float = ONSET_WITHIN) -> Replies:
-    """Lowest speed that leads to a separation, by bisection: the middle of a final bracket of this width (rad/s)."""
+    """Lowest speed that leads to a separation, by bisection: the middle of a final bracket of this
+    width (rad/s)."""
     used = 0.0
 
     def separates(speed: float) -> bool:
         nonlocal used
         p = SEPARATING.replace(Omega=speed)
-        result = solve(Problem(p, static_start(p), ONSET_HORIZON, stop=True), max(budget - used, 0.1))
+        result = solve(
+            Problem(p, static_start(p), ONSET_HORIZON, stop=True), max(budget - used, 0.1)
+        )
         used += result.seconds
         return _separates(result)
 
@@ -156,12 +201,21 @@ def growth_rate(solve: Solve, budget: float) -> Replies:
     """Rate at which a deviation from the cycle grows, from the stretches between releases."""
     start = read_state(stored("answers")["starts"]["growing"])
     result, seconds = _timed(solve, Problem(GROWING, start, start.time + GROWING_SPAN), budget)
-    rate = growth(_times(result, "stick_to_slip")) if result.outcome is RunStatus.FINISHED else math.nan
-    return {"growth_rate": reply_of(rate, seconds, "no oscillation that grows or dies out steadily", result)}
+    rate = (
+        growth(_times(result, "stick_to_slip"))
+        if result.outcome is RunStatus.FINISHED
+        else math.nan
+    )
+    return {
+        "growth_rate": reply_of(
+            rate, seconds, "no oscillation that grows or dies out steadily", result
+        )
+    }
 
 
 def growth(releases: Array) -> float:
-    """Rate (1/s) of an oscillation in the stretches between releases (s), by least squares; nan if there is none."""
+    """Rate (1/s) of an oscillation in the stretches between releases (s), by least squares; nan if
+    there is none."""
     if len(releases) < 64:
         return math.nan
     gaps, times = np.diff(releases), 0.5 * (releases[1:] + releases[:-1])
@@ -170,13 +224,19 @@ def growth(releases: Array) -> float:
         return math.nan
     y = (gaps - gaps.mean()) / size
     spectrum = np.abs(np.fft.rfft(y * np.hanning(len(y)), 8 * len(y)))
-    peaks = find_peaks(spectrum)[0]  # of the whole spectrum: a slow drift stands highest where it would be cut off
+    peaks = find_peaks(spectrum)[
+        0
+    ]  # of the whole spectrum: a slow drift stands highest where it would be cut off
     peaks = peaks[peaks >= 8]
     line = peaks[np.argmax(spectrum[peaks])]
     omega = 2.0 * math.pi * line / (8 * len(y)) * (len(times) - 1) / float(np.ptp(times))
 
-    def model(t: Array, rate: float, omega: float, cosine: float, sine: float, rest: float) -> Array:
-        return np.asarray(np.exp(rate * t) * (cosine * np.cos(omega * t) + sine * np.sin(omega * t)) + rest)
+    def model(
+        t: Array, rate: float, omega: float, cosine: float, sine: float, rest: float
+    ) -> Array:
+        return np.asarray(
+            np.exp(rate * t) * (cosine * np.cos(omega * t) + sine * np.sin(omega * t)) + rest
+        )
 
     basis = np.column_stack([np.cos(omega * times), np.sin(omega * times), np.ones_like(times)])
     first = np.linalg.lstsq(basis, y, rcond=None)[0]
@@ -188,17 +248,22 @@ def growth(releases: Array) -> float:
 
 
 def region(solve: Solve, budget: float) -> Replies:
-    """Share of the cells for which it is said wrongly whether the static start leads to a separation."""
+    """Share of the cells for which it is said wrongly whether the static start leads to a
+    separation."""
     right = [letter == "1" for row in stored("answers")["region"] for letter in row]
     return {"region": judged(partial(cell, solve, budget), right.__getitem__, budget)}
 
 
 def judged(
-    judge: Callable[[int], tuple[bool, float]], right: Callable[[int], bool], budget: float, most: int = SIDE * SIDE
+    judge: Callable[[int], tuple[bool, float]],
+    right: Callable[[int], bool],
+    budget: float,
+    most: int = SIDE * SIDE,
 ) -> Reply:
-    """The answer as of `region`, from functions of a cell's index: separation and seconds, and the right answer. If the
-    budget is too small for all cells, a power of two of them is drawn at random with a fixed seed. The answer then has
-    Wilson's interval of 95 %. The time is extrapolated to all cells."""
+    """The answer as of `region`, from functions of a cell's index: separation and seconds, and the
+    right answer. If the budget is too small for all cells, a power of two of them is drawn at
+    random with a fixed seed. The answer then has Wilson's interval of 95 %. The time is
+    extrapolated to all cells."""
     indices = np.random.default_rng(20).permutation(SIDE * SIDE)
     verdicts: list[tuple[bool, float]] = []
     try:
@@ -210,8 +275,12 @@ def judged(
             return Reply(math.nan, each * len(indices), AnswerStatus.TOO_SLOW, why, cells=TRIED)
         verdicts += [judge(int(index)) for index in indices[TRIED:count]]
     except Broken as broken:
-        return reply_of(math.nan, sum(s for _, s in verdicts), "", *broken.args)._replace(cells=len(verdicts))
-    wrong = sum(apart != right(int(index)) for (apart, _), index in zip(verdicts, indices, strict=False))
+        return reply_of(math.nan, sum(s for _, s in verdicts), "", *broken.args)._replace(
+            cells=len(verdicts)
+        )
+    wrong = sum(
+        apart != right(int(index)) for (apart, _), index in zip(verdicts, indices, strict=False)
+    )
     part = float(wrong) / count
     low, high = share(int(wrong), count)[1:] if count < len(indices) else (part, part)
     seconds = sum(s for _, s in verdicts) / count * len(indices)
@@ -219,14 +288,17 @@ def judged(
 
 
 def cell(solve: Solve, budget: float, index: int, **model: Any) -> tuple[bool, float]:
-    """Whether a cell of the region (0 to `SIDE`^2 - 1, speeds first) separates, and the seconds that took."""
+    """Whether a cell of the region (0 to `SIDE`^2 - 1, speeds first) separates, and the seconds
+    that took."""
     load, speed = np.linspace(*REGION_LOADS, SIDE), np.linspace(*REGION_SPEEDS, SIDE)
     p = Parameters(N=float(load[index // SIDE]), Omega=float(speed[index % SIDE]), **model)
     result = solve(Problem(p, static_start(p), REGION_HORIZON, stop=True), budget)
     return _separates(result), result.seconds
 
 
-ASKED: Mapping[str, tuple[Callable[[Solve, float], Replies], float]] = {  # and the budget at one setting, s
+ASKED: Mapping[
+    str, tuple[Callable[[Solve, float], Replies], float]
+] = {  # and the budget at one setting, s
     "first_separation": (first_separation, 10.0),
     "after_separation": (after_separation, 6.0),
     "onset": (onset, 12.0),
@@ -236,15 +308,19 @@ ASKED: Mapping[str, tuple[Callable[[Solve, float], Replies], float]] = {  # and 
 
 
 def _timed(solve: Solve, problem: Problem, budget: float) -> tuple[MethodResult, float]:
-    """A result and the least wall time (s); quick runs are repeated, since the first may have compiled."""
+    """A result and the least wall time (s); quick runs are repeated, since the first may have
+    compiled."""
     results = [solve(problem, budget)]
     while results[-1].seconds < QUICK and len(results) <= REPEATS:
         results.append(solve(problem, budget))
     return results[0], min(result.seconds for result in results)
 
 
-def reply_of(value: float, seconds: float, missing: str, result: MethodResult | None = None) -> Reply:
-    """An answer; if it is nan, the reason is ``missing`` or, if the run that gave it did not end, how that failed."""
+def reply_of(
+    value: float, seconds: float, missing: str, result: MethodResult | None = None
+) -> Reply:
+    """An answer; if it is nan, the reason is ``missing`` or, if the run that gave it did not end,
+    how that failed."""
     if math.isfinite(value):
         return Reply(float(value), seconds, AnswerStatus.FOUND)
     if result is None or result.outcome is RunStatus.FINISHED:
@@ -258,7 +334,8 @@ def _times(result: MethodResult, kind: str) -> Array:
 
 
 def _separates(result: MethodResult) -> bool:
-    """Whether contact is lost; raises `Broken` if the motion neither lost it nor reached its end."""
+    """Whether contact is lost; raises `Broken` if the motion neither lost it nor reached its
+    end."""
     separates = "separation" in result.kinds
     if not separates and result.outcome is not RunStatus.FINISHED:
         raise Broken(result)
@@ -270,7 +347,10 @@ CYCLE_SETTINGS = (1e-6, 1e-8, 1e-10, 1e-12)  # tolerances of the search for a cy
 LINES: Mapping[str, tuple[str, str]] = TABLES["lines"]
 RICHEST: dict[str, Any] = {"n_diameters": 12, "contact_compliance": "residual"}
 CELLS = 64  # number of cells of the region on which models are compared
-SETTLES_WITHIN, SETTLES_FOR = 400.0, 100.0  # s: contact is lost within it, and time from then until the examined motion
+SETTLES_WITHIN, SETTLES_FOR = (
+    400.0,
+    100.0,
+)  # s: contact is lost within it, and time from then until the examined motion
 NEVER = 1e6  # a budget in s that is never used up: models take their time
 SERIES = setting_of(METHODS["series"], DEFAULT)
 
@@ -282,15 +362,21 @@ def answers(
     asked: Sequence[str] = tuple(ASKED),
     models: Sequence[int] = (0, 1, 2, 3, 4, 6, 8),
 ) -> xr.Dataset:
-    """Measure a method at settings from coarse to fine, the ``cycle``, or ``models`` by numbers of nodal diameters."""
-    hopeless: set[str] = set()  # questions for which it is too slow, which are skipped at finer settings
+    """Measure a method at settings from coarse to fine, the ``cycle``, or ``models`` by numbers of
+    nodal diameters."""
+    hopeless: set[str] = (
+        set()
+    )  # questions for which it is too slow, which are skipped at finer settings
 
     def measure(line: str, setting: Any, question: str = "") -> Iterator[Row]:
         if question in hopeless:
             return
         if line == "cycle":
             replies = ask_cycle({}, setting)
-            right = {"onset": reference("fold").value, "growth_rate": reference("growth_rate").value}
+            right = {
+                "onset": reference("fold").value,
+                "growth_rate": reference("growth_rate").value,
+            }
         elif line in CONTACTS:
             replies = ask_model({"n_diameters": setting} | CONTACTS[line])
             right = {answer: reply.value for answer, reply in _richest().items()}
@@ -300,10 +386,21 @@ def answers(
             right = {answer: reference(answer).value for answer in replies}
             if any(reply.status is AnswerStatus.TOO_SLOW for reply in replies.values()):
                 hopeless.add(question)
-        label, varies = LINES[line] if line in LINES else (METHODS[line].label, METHODS[line].setting)
+        label, varies = (
+            LINES[line] if line in LINES else (METHODS[line].label, METHODS[line].setting)
+        )
         for answer, reply in replies.items():
-            error, judgement = abs(reply.value - right[answer]), verdict(answer, reply, right[answer])
-            row = {"answer": answer, "label": label, "varies": varies, "right": right[answer], "found": reply.value}
+            error, judgement = (
+                abs(reply.value - right[answer]),
+                verdict(answer, reply, right[answer]),
+            )
+            row = {
+                "answer": answer,
+                "label": label,
+                "varies": varies,
+                "right": right[answer],
+                "found": reply.value,
+            }
             yield row | {"error": error, "verdict": judgement} | reply._asdict()
 
     if part == "cycle":
@@ -312,20 +409,30 @@ def answers(
         points = [{"line": line, "setting": count} for line in CONTACTS for count in models]
     else:
         values = settings or METHODS[part].settings["stick_slip"]
-        points = [{"line": part, "setting": value, "question": name} for value in values for name in asked]
+        points = [
+            {"line": part, "setting": value, "question": name} for value in values for name in asked
+        ]
     known = {name: reference(name) for name in QUESTIONS}
-    about = {name: QUESTIONS[name] | {"error": f"{right.error:.2g}, {right.by}"} for name, right in known.items()}
+    about = {
+        name: QUESTIONS[name] | {"error": f"{right.error:.2g}, {right.by}"}
+        for name, right in known.items()
+    }
     title = "What each answer costs"
-    return run("answers", points, measure, flags=FLAGS, title=title, questions=json_attribute(about))
+    return run(
+        "answers", points, measure, flags=FLAGS, title=title, questions=json_attribute(about)
+    )
 
 
 def in_words(dataset: xr.Dataset) -> pd.DataFrame:
-    """All rows, in the order in which they were measured; status, verdict and setting (``at``) in words."""
+    """All rows, in the order in which they were measured; status, verdict and setting (``at``) in
+    words."""
     frame = dataset.to_dataframe()
     counted = frame["varies"] == "diameters"
     settings = [f"{x:.0f} diameters" if count else f"{kind}={x:g}"
           for count, kind, x in zip(counted, frame["varies"], frame["setting"], strict=True)]  # fmt: skip
-    return frame.assign(at=settings, **{name: flag_names(dataset[name]) for name in ("status", "verdict")})
+    return frame.assign(
+        at=settings, **{name: flag_names(dataset[name]) for name in ("status", "verdict")}
+    )
 
 
 # ---- Answers of this package with other modes at its default tolerance, and from the cycle itself
@@ -354,10 +461,13 @@ def settled_after_separation(p: Parameters) -> Replies:
 
 
 def ask_cycle(model: Mapping[str, Any], tol: float) -> Replies:
-    """Onset and growth rate with these modes from the cycle itself, without a simulation, and the least processor time
-    (s) of several runs."""
+    """Onset and growth rate with these modes from the cycle itself, without a simulation, and the
+    least processor time (s) of several runs."""
     replies = {}
-    for name, function, case in (("onset", cycle_onset, SEPARATING), ("growth_rate", cycle_growth_rate, GROWING)):
+    for name, function, case in (
+        ("onset", cycle_onset, SEPARATING),
+        ("growth_rate", cycle_growth_rate, GROWING),
+    ):
         p, seconds = case.replace(**model), math.inf
         reply = function(p, tol)  # may have compiled
         for _ in range(REPEATS):
@@ -374,16 +484,22 @@ def cycle_onset(p: Parameters, tol: float) -> Reply:
     """Speed (rad/s) of the first fold of the quiet cycle above 14.5 rad/s."""
     low, high = 14.5, 16.0
     try:
-        folds = continue_cycle(p.replace(Omega=14.8), "Omega", (low, high), direction=1, tol=tol).folds
+        folds = continue_cycle(
+            p.replace(Omega=14.8), "Omega", (low, high), direction=1, tol=tol
+        ).folds
     except ParameterError as error:
         return reply_of(math.nan, 0.0, f"no cycle to follow: {error}")
-    return reply_of(folds[0, 0] if len(folds) else math.nan, 0.0, f"no fold from {low:g} to {high:g} rad/s")
+    return reply_of(
+        folds[0, 0] if len(folds) else math.nan, 0.0, f"no fold from {low:g} to {high:g} rad/s"
+    )
 
 
 def cycle_growth_rate(p: Parameters, tol: float) -> Reply:
     """Growth rate (1/s) of the stick-slip cycle, from its multipliers."""
     cycle = floquet(p, tol=tol)
-    return reply_of(cycle.growth_rate if cycle.status is CycleStatus.OK else math.nan, 0.0, cycle.message)
+    return reply_of(
+        cycle.growth_rate if cycle.status is CycleStatus.OK else math.nan, 0.0, cycle.message
+    )
 
 
 @lru_cache(maxsize=CELLS)
@@ -392,19 +508,28 @@ def _right_cell(index: int) -> bool:
 
 
 # ---- Where methods find the first separation
-MAP_CASE, MAP_HORIZON = Parameters(N=600.0, Omega=27.0), 25.0  # a case that loses contact within the horizon (s)
+MAP_CASE, MAP_HORIZON = (
+    Parameters(N=600.0, Omega=27.0),
+    25.0,
+)  # a case that loses contact within the horizon (s)
 MAP_BUDGET = 3.0  # s for a point; beyond it, finer settings with the same modes are skipped
 
 
-def answer_map(method: str, diameters: Sequence[int] = (1, 2, 4, 8), values: MapSettings = None) -> xr.Dataset:
+def answer_map(
+    method: str, diameters: Sequence[int] = (1, 2, 4, 8), values: MapSettings = None
+) -> xr.Dataset:
     """Verdicts on a method's first separation along (diameters, value), from coarse to fine."""
     judged = METHODS[method].economical()
 
     def ask(asked: Method, value: float, budget: float, count: int) -> Reply:
         p = MAP_CASE.replace(n_diameters=count)
-        return first_separation(setting_of(asked, value), budget, p, MAP_HORIZON)["first_separation"]
+        return first_separation(setting_of(asked, value), budget, p, MAP_HORIZON)[
+            "first_separation"
+        ]
 
-    right = {count: ask(METHODS["series"], REFERENCE_TOL, math.inf, count).value for count in diameters}
+    right = {
+        count: ask(METHODS["series"], REFERENCE_TOL, math.inf, count).value for count in diameters
+    }
     late: set[int] = set()
 
     def measure(diameters: int, value: float) -> Iterator[Row]:
@@ -422,7 +547,15 @@ def answer_map(method: str, diameters: Sequence[int] = (1, 2, 4, 8), values: Map
 
     if values is None:  # six at most: the first, the last, and some between
         every = map_settings(judged)
-        values = [every[i] for i in np.linspace(0, len(every) - 1, min(6, len(every))).round().astype(int)]
-    about: dict[str, Any] = {"budget": MAP_BUDGET, "horizon": MAP_HORIZON, "parameters": MAP_CASE.canonical_json}
-    study = run("answer_map", {"diameters": diameters, "value": values}, measure, flags=FLAGS, **about)
+        values = [
+            every[i] for i in np.linspace(0, len(every) - 1, min(6, len(every))).round().astype(int)
+        ]
+    about: dict[str, Any] = {
+        "budget": MAP_BUDGET,
+        "horizon": MAP_HORIZON,
+        "parameters": MAP_CASE.canonical_json,
+    }
+    study = run(
+        "answer_map", {"diameters": diameters, "value": values}, measure, flags=FLAGS, **about
+    )
     return with_facts(judged, study, facts, "answer_map_facts")

@@ -1,4 +1,5 @@
-"""What the size of a problem decides: how cost grows with points, modes and horizon, and what few modes change."""
+"""What the size of a problem decides: how cost grows with points, modes and horizon, and what few
+modes change."""
 
 import json
 import math
@@ -23,8 +24,17 @@ from disc_model.studies.functions import run_study
 
 # ---- Cost of maps and of their points
 CORES = 2
-SPEEDS, PRELOADS = (5.0, 50.0), (50.0, 600.0)  # rad/s, N: the area of the map over speed and preload
-GRIDS = ((2, 5), (10, 10), (25, 40), (100, 100), (250, 400))  # numbers of speeds and preloads: 10 to 100,000 points
+SPEEDS, PRELOADS = (
+    (5.0, 50.0),
+    (50.0, 600.0),
+)  # rad/s, N: the area of the map over speed and preload
+GRIDS = (
+    (2, 5),
+    (10, 10),
+    (25, 40),
+    (100, 100),
+    (250, 400),
+)  # numbers of speeds and preloads: 10 to 100,000 points
 SEVERAL = (10, 10)  # points over which the cost of a point is averaged
 HORIZON, SHORT = 500.0, 50.0  # s, of the outcome, and where the number of modes varies
 MODELS = ((0, 0), (1, 0), (2, 0), (4, 0), (8, 0), (8, 1))  # diameters and circles: 1 to 34 modes
@@ -38,7 +48,9 @@ def scaling(
     several: tuple[int, int] = SEVERAL,
 ) -> xr.Dataset:
     """A row for each study; of ``grids``, growth rates leave out the first, outcomes the last."""
-    points: list[Row] = [{"varies": "points", "quantity": "floquet", "grid": grid} for grid in grids[1:]]
+    points: list[Row] = [
+        {"varies": "points", "quantity": "floquet", "grid": grid} for grid in grids[1:]
+    ]
     points += [{"varies": "points", "quantity": "outcome", "grid": grid} for grid in grids[:-1]]
     for quantity in ("floquet", "outcome"):
         common = {"varies": "modes", "quantity": quantity, "grid": several, "horizon": SHORT}
@@ -49,13 +61,24 @@ def scaling(
 
 
 def measure(
-    varies: str, quantity: str, grid: tuple[int, int], model: tuple[int, int] = (4, 0), horizon: float = HORIZON
+    varies: str,
+    quantity: str,
+    grid: tuple[int, int],
+    model: tuple[int, int] = (4, 0),
+    horizon: float = HORIZON,
 ) -> Iterator[Row]:
-    """The cost of a study in `CORES` processes as a row; coarse and fine grids have the same mix of motions."""
+    """The cost of a study in `CORES` processes as a row; coarse and fine grids have the same mix of
+    motions."""
     options = {"horizon": horizon} if quantity == "outcome" else {}
     base = dict(zip(("n_diameters", "n_circles"), model, strict=True))
     axes = {"Omega": _centres(*SPEEDS, grid[0]), "N": _centres(*PRELOADS, grid[1])}
-    study = {"study": "scaling", "quantity": quantity, "options": options, "base": base, "axes": axes}
+    study = {
+        "study": "scaling",
+        "quantity": quantity,
+        "options": options,
+        "base": base,
+        "axes": axes,
+    }
     few = study | {"axes": {name: values[:1] for name, values in axes.items()}}
     run_study(few)  # compiles
     wall, began = time.perf_counter(), _processor_time()
@@ -71,21 +94,44 @@ def _centres(low: float, high: float, count: int) -> list[float]:
 
 
 def _processor_time() -> float:
-    return sum(os.times()[:4])  # user and system time of this process and of its children that have ended, s
+    return sum(
+        os.times()[:4]
+    )  # user and system time of this process and of its children that have ended, s
 
 
 # ---- Effect of truncation, with rigid contact and residual flexibility: docs/options.md
-TRUNCATED = ((0, 0), (1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (8, 1), (8, 2), (12, 2))  # diameters, circles
+TRUNCATED = (
+    (0, 0),
+    (1, 0),
+    (2, 0),
+    (3, 0),
+    (4, 0),
+    (6, 0),
+    (8, 0),
+    (8, 1),
+    (8, 2),
+    (12, 2),
+)  # diameters, circles
 CASES: dict[str, dict[str, Any]] = TABLES["contact_truncation_cases"]
 LATE = (20.0, 10.0)  # time from the first separation to the late stretch, and its length, s
-TOLERANCES = (1e-10, 1e-12, 1e-13)  # of the motion after the first separation, until one reaches the end
-MOST_GROWTH = 80  # greatest number of real modes for growth rates, which need four columns for every pair
+TOLERANCES = (
+    1e-10,
+    1e-12,
+    1e-13,
+)  # of the motion after the first separation, until one reaches the end
+MOST_GROWTH = (
+    80  # greatest number of real modes for growth rates, which need four columns for every pair
+)
 
 
 def contact_study(
-    models: Sequence[tuple[int, int]] = TRUNCATED, cases: Mapping[str, Row] = CASES, *, horizon: float = 200.0
+    models: Sequence[tuple[int, int]] = TRUNCATED,
+    cases: Mapping[str, Row] = CASES,
+    *,
+    horizon: float = 200.0,
 ) -> xr.Dataset:
-    """Measure the variables ``contact_truncation`` along (case, contact, model); nan where there is none."""
+    """Measure the variables ``contact_truncation`` along (case, contact, model); nan where there is
+    none."""
 
     def measure(case: str, contact: str, model: str) -> Iterator[Row]:
         diameters, circles = map(int, model.split(","))

@@ -1,4 +1,5 @@
-"""Speed against accuracy, every method on every scene at settings from coarse to fine, and maps of failures."""
+"""Speed against accuracy, every method on every scene at settings from coarse to fine, and maps of
+failures."""
 
 import math
 import time as clock
@@ -24,19 +25,27 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 
 DEFAULT = 1e-10  # the series engine's default tolerance, and the event-time error (s) required of the other methods
-BUDGET, RIGID_BUDGET = 12.0, 4.0  # for a point, s; the second on the rigid disc, which methods in Python cannot finish
+BUDGET, RIGID_BUDGET = (
+    12.0,
+    4.0,
+)  # for a point, s; the second on the rigid disc, which methods in Python cannot finish
 LONG = 0.5  # longest time of a point measured in later rounds, s; a tenth of it or less is measured in all rounds
 FURTHER = 4.0  # extension of quick points beyond a scene's end, in spans of the scene, for the cost of a further second
 FLOOR = 1e-15  # errors below this count as equal in costs, zero among them, s
 COLUMNS = TABLES["work_precision_table"]  # variables by the column of the table that shows them
-Settings = Mapping[str, Mapping[str, Sequence[float]]]  # settings from coarse to fine, by scene and method
+Settings = Mapping[
+    str, Mapping[str, Sequence[float]]
+]  # settings from coarse to fine, by scene and method
 
 
 def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.Dataset:
-    """Measure all points along (scene, solver, point), at most ``rounds`` times, of which the median is reported. A
-    method that gives up at a setting is not tried at finer ones."""
+    """Measure all points along (scene, solver, point), at most ``rounds`` times, of which the
+    median is reported. A method that gives up at a setting is not tried at finer ones."""
     if settings is None:
-        settings = {x: {name: each.settings[x] for name, each in METHODS.items() if x in each.settings} for x in SCENES}
+        settings = {
+            x: {name: each.settings[x] for name, each in METHODS.items() if x in each.settings}
+            for x in SCENES
+        }
     points = [
         {"scene": scene, "solver": solver, "point": point, "value": value}
         for scene, by_method in settings.items()
@@ -79,7 +88,11 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.
     described: dict[str, Any] = {}
     for name in settings:
         case, right = scenes.problem(name), scenes.answer(name)
-        about = {"parameters": case.parameters.canonical_json, "span": case.span, "reference_error": right.error}
+        about = {
+            "parameters": case.parameters.canonical_json,
+            "span": case.span,
+            "reference_error": right.error,
+        }
         about |= {"events": len(right.kinds), "separations": right.kinds.count("separation")}
         described[f"scene_{name}"] = json_attribute(about)
     dataset = run(
@@ -88,11 +101,14 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.
     )  # fmt: skip
     solvers = [name for name in METHODS if name in dataset["solver"]]
     dataset = dataset.drop_vars("point").sel(solver=solvers)
-    return dataset.assign(label=("solver", [METHODS[name].label for name in solvers], {"long_name": "name in words"}))
+    return dataset.assign(
+        label=("solver", [METHODS[name].label for name in solvers], {"long_name": "name in words"})
+    )
 
 
 def _whole_call() -> float:
-    """Processor time (s) of one whole call of `simulate` at its default for ``stick_slip``: the median of several."""
+    """Processor time (s) of one whole call of `simulate` at its default for ``stick_slip``: the
+    median of several."""
     problem, seconds = scenes.problem("stick_slip"), []
     for _ in range(21):
         began = clock.thread_time()
@@ -107,18 +123,24 @@ def _quick(times: Sequence[float]) -> bool:
 
 # ---- The measured points as a table, and costs at equal error
 def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
-    """One row for each measured point; ``further`` is the cost of a further second, or of a second of a long run."""
+    """One row for each measured point; ``further`` is the cost of a further second, or of a second
+    of a long run."""
     frame = dataset.to_dataframe(dim_order=["scene", "solver", "point"]).reset_index()
     frame = frame[frame["verdict"] != Verdict.NOT_RUN].reset_index(drop=True)
     return frame.assign(further=frame["marginal_cost"].fillna(frame["cost"]))
 
 
 def cost_at(line: pd.DataFrame, wanted: float, cost: str = "further") -> float:
-    """Cost at which a line reaches an event-time error (s): interpolated in log-log; nan if no setting is as accurate.
-    A setting counts only if no cheaper one is as accurate; nothing is extrapolated to coarser settings."""
+    """Cost at which a line reaches an event-time error (s): interpolated in log-log; nan if no
+    setting is as accurate. A setting counts only if no cheaper one is as accurate; nothing is
+    extrapolated to coarser settings."""
     known = line[np.isfinite(line["event_error"])].sort_values(cost)
     errors = np.maximum(known["event_error"].to_numpy(), FLOOR)
-    best = errors < np.minimum.accumulate(np.concatenate([[np.inf], errors[:-1]])) if len(known) else []
+    best = (
+        errors < np.minimum.accumulate(np.concatenate([[np.inf], errors[:-1]]))
+        if len(known)
+        else []
+    )
     errors, costs = errors[best], known[cost].to_numpy()[best]
     if not len(errors) or not errors[-1] <= max(wanted, FLOOR):
         return math.nan
@@ -126,13 +148,18 @@ def cost_at(line: pd.DataFrame, wanted: float, cost: str = "further") -> float:
 
 
 def table(dataset: xr.Dataset) -> pd.DataFrame:
-    """One row per measured point; ``times_series``: its cost over the series engine's at that error, by `cost_at`."""
+    """One row per measured point; ``times_series``: its cost over the series engine's at that
+    error, by `cost_at`."""
     points = measured_points(dataset)
     series = points[points["solver"] == "series"]
     wanted = zip(points["scene"], points["event_error"], strict=True)
-    yardsticks = [cost_at(series[series["scene"] == scene], error, "cost") for scene, error in wanted]
+    yardsticks = [
+        cost_at(series[series["scene"] == scene], error, "cost") for scene, error in wanted
+    ]
     derived = points.assign(
-        setting=[f"{METHODS[name].setting}={x:.3g}" for name, x in points[["solver", "value"]].to_numpy()],
+        setting=[
+            f"{METHODS[name].setting}={x:.3g}" for name, x in points[["solver", "value"]].to_numpy()
+        ],
         verdict=[Verdict(verdict).name.lower() for verdict in points["verdict"]],
         times_series=points["cost"] / yardsticks,
     )
@@ -140,7 +167,8 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
     return derived.astype(counts)[[*COLUMNS.values()]].set_axis([*COLUMNS], axis=1)
 
 
-# ---- Where methods fail: maps over step or tolerance and number of modes, against the engine at `REFERENCE_TOL`
+# ---- Where methods fail: maps over step or tolerance and number of modes, against the engine at
+# `REFERENCE_TOL`
 SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}  # s
 STEPS = tuple(np.geomspace(2e-5, 2e-3, 61)[::-1].tolist())  # fixed steps of a map, s
 REFERENCE_TOL = 1e-14
@@ -148,9 +176,13 @@ MapSettings = Sequence[float] | None  # those of `map_settings` if not given
 
 
 def failure_map(
-    method: str, scene: str = "separating", diameters: Sequence[int] = (1, 2, 4, 6, 8), values: MapSettings = None
+    method: str,
+    scene: str = "separating",
+    diameters: Sequence[int] = (1, 2, 4, 6, 8),
+    values: MapSettings = None,
 ) -> xr.Dataset:
-    """Verdicts on a method on a short span of a scene along (diameters, value), and facts that explain them."""
+    """Verdicts on a method on a short span of a scene along (diameters, value), and facts that
+    explain them."""
     judged = METHODS[method].economical()
     cases: dict[int, tuple[Problem, Answer]] = {}
     for count in diameters:
@@ -158,13 +190,20 @@ def failure_map(
         start = scenes.MOTIONS[scene][1](p)
         problem = Problem(p, start, start.time + SPANS[scene])
         right = METHODS["series"].solve(problem, REFERENCE_TOL)
-        cases[count] = problem, Answer(right.times.astype(np.longdouble), right.kinds, right.final, REFERENCE_TOL)
+        cases[count] = (
+            problem,
+            Answer(right.times.astype(np.longdouble), right.kinds, right.final, REFERENCE_TOL),
+        )
 
     def measure(diameters: int, value: float) -> Iterator[Row]:
         problem, right = cases[diameters]
         result = judged.solve(problem, value, judged.map_budget)
         errors = scenes.errors(problem, right, result)
-        yield {"verdict": errors.verdict, "event_error": errors.event_time, "longest_step": result.longest_step}
+        yield {
+            "verdict": errors.verdict,
+            "event_error": errors.event_time,
+            "longest_step": result.longest_step,
+        }
 
     def facts(diameters: int) -> Iterator[Row]:
         problem, right = cases[diameters]
@@ -172,7 +211,11 @@ def failure_map(
         top = float(mode_arrays(p).omega.max())
         gaps = np.diff(right.times.astype(float))  # which a step must not exceed
         shortest, stiff = float(gaps[gaps > 0].min()), p.mu_s * p.N / (p.m * p.r_0 * top)
-        limits = {"step_limit": STABILITY_LIMIT / top, "shortest_phase": shortest, "stiff_epsilon": stiff}
+        limits = {
+            "step_limit": STABILITY_LIMIT / top,
+            "shortest_phase": shortest,
+            "stiff_epsilon": stiff,
+        }
         yield {"modes": real_modes(diameters, 0), "omega_max": top} | limits
 
     axes = {"diameters": diameters, "value": map_settings(judged) if values is None else values}
@@ -185,9 +228,13 @@ def map_settings(method: Method) -> Sequence[float]:
     return STEPS if method.setting == "step" else method.map_values
 
 
-def with_facts(method: Method, study: xr.Dataset, facts: Callable[..., Iterator[Row]], table: str) -> xr.Dataset:
+def with_facts(
+    method: Method, study: xr.Dataset, facts: Callable[..., Iterator[Row]], table: str
+) -> xr.Dataset:
     """The map of a method with the facts of each row, and what its axes are."""
-    study = study.assign(run(table, {"diameters": study["diameters"].values.tolist()}, facts).data_vars)
+    study = study.assign(
+        run(table, {"diameters": study["diameters"].values.tolist()}, facts).data_vars
+    )
     study["diameters"].attrs = {"units": "1", "long_name": "highest nodal diameter"}
     study["value"].attrs = {"long_name": f"setting: {method.setting}"}
     return study.assign_attrs(method=method.name, label=method.label, setting=method.setting)

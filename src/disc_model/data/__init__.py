@@ -1,1 +1,2 @@
-"""Results on disk: names and units of variables, datasets, atomic writing of files, and their provenance."""
+"""Results on disk: names and units of variables, datasets, atomic writing of files, and their
+provenance."""

@@ -1,6 +1,6 @@
-"""Files of results. A case is a tree of groups: its root holds the scalars, ``events`` has an entry for each along
-`event`, and each window, ``poincare`` too, is along `time`. No time stamps or run times are stored, so that equal runs
-give equal bytes."""
+"""Files of results. A case is a tree of groups: its root holds the scalars, ``events`` has an entry
+for each along `event`, and each window, ``poincare`` too, is along `time`. No time stamps or run
+times are stored, so that equal runs give equal bytes."""
 
 from __future__ import annotations
 
@@ -26,32 +26,48 @@ from disc_model.errors import DiscModelError, Fault, ParameterError, raise_fault
 from disc_model.parameters import RESIDUAL, SURFACE, Parameters
 
 CONVENTIONS = "CF-1.11"
-Tables = dict[str, dict[str, Any]]  # columns of numbers, shape (n,), by the names of tables and their own
+Tables = dict[
+    str, dict[str, Any]
+]  # columns of numbers, shape (n,), by the names of tables and their own
 
 
 def series_dataset(columns: Mapping[str, Any], along: str) -> xr.Dataset:
-    """Dataset of columns of numbers: samples along `time`, or events along `event`, as two may have the same time."""
+    """Dataset of columns of numbers: samples along `time`, or events along `event`, as two may have
+    the same time."""
     kinds = {name: SERIES[name].dtype if name in SERIES else float for name in columns}
-    data = {name: (along, np.asarray(x, kinds[name]), attributes(name)) for name, x in columns.items()}
+    data = {
+        name: (along, np.asarray(x, kinds[name]), attributes(name)) for name, x in columns.items()
+    }
     return xr.Dataset(data).set_coords("time")
 
 
-def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, message: str) -> xr.Dataset:
-    """The root of a case: its scalars, `SCALARS`, of which most values are missing if it failed, and the parameters."""
+def scalars_dataset(
+    p: Parameters, values: Mapping[str, Any], status: str, message: str
+) -> xr.Dataset:
+    """The root of a case: its scalars, `SCALARS`, of which most values are missing if it failed,
+    and the parameters."""
     known = {"status": STATUSES.index(status), **values}
     data: dict[str, Any] = {
         name: ((), variable.dtype(known.get(name, variable.missing)), variable.attributes)
         for name, variable in SCALARS.items()
     }
-    numbers: dict[str, Any] = {"disc": p.disc.model_dump_json() if p.disc else ""}  # netCDF variables hold no mapping
+    numbers: dict[str, Any] = {
+        "disc": p.disc.model_dump_json() if p.disc else ""
+    }  # netCDF variables hold no mapping
     if p.contact_compliance == RESIDUAL:
-        numbers["contact_compliance"] = math.nan  # if no modes are left out for it, which has made the case fail
+        numbers["contact_compliance"] = (
+            math.nan
+        )  # if no modes are left out for it, which has made the case fail
         with contextlib.suppress(DiscModelError):
             numbers["contact_compliance"] = contact_compliance(p)
     if p.friction_offset == SURFACE:  # nan if it follows from the table of a disc
         numbers["friction_offset"] = p.h / 2 if p.disc is None else math.nan
     for name, value in (p.model_dump() | numbers).items():
-        data[name] = ((), np.int8(CHOICES[name].index(value)) if name in CHOICES else value, attributes(name))
+        data[name] = (
+            (),
+            np.int8(CHOICES[name].index(value)) if name in CHOICES else value,
+            attributes(name),
+        )
     attrs = {"Conventions": CONVENTIONS, "parameters": p.json_in_words, "parameters_key": p.key}
     return xr.Dataset(data, attrs=attrs | {"status": status, "message": message})
 
@@ -60,21 +76,24 @@ def scalars_dataset(p: Parameters, values: Mapping[str, Any], status: str, messa
 
 
 def save(tree: xr.DataTree, path: str | Path) -> None:
-    """Write a tree as compressed netCDF 4, atomically; raises `ParameterError` for what is no tree, or `WriteError`."""
+    """Write a tree as compressed netCDF 4, atomically; raises `ParameterError` for what is no tree,
+    or `WriteError`."""
     require((isinstance(tree, xr.DataTree), "tree", tree, "must be an xarray.DataTree"))
     write_atomically(regular_file(path), lambda name: _write(tree, name))
 
 
 def _write(tree: xr.DataTree, name: str) -> None:
-    """Write a new file of a tree, with all groups defined before an array is written. `DataTree.to_netcdf` writes each
-    array as soon as it is defined, after a pass through all of the file's metadata: eight times the time for 70
-    cases."""
+    """Write a new file of a tree, with all groups defined before an array is written.
+    `DataTree.to_netcdf` writes each array as soon as it is defined, after a pass through all of the
+    file's metadata: eight times the time for 70 cases."""
     arrays: list[tuple[Any, Any]] = []
     collector = SimpleNamespace(add=lambda source, target: arrays.append((source, target)))
     with Dataset(name, "w") as root:
         for node in tree.subtree:
             group = node.to_dataset(inherit=node is tree)
-            store = NetCDF4DataStore(root if node is tree else root.createGroup(node.relative_to(tree)))
+            store = NetCDF4DataStore(
+                root if node is tree else root.createGroup(node.relative_to(tree))
+            )
             encoding = {str(name): _encode(variable) for name, variable in group.variables.items()}
             group.dump_to_store(store, encoding=encoding, writer=collector)
         for source, target in arrays:
@@ -113,11 +132,15 @@ def load(path: str | Path) -> xr.DataTree:
     file = regular_file(path)
     try:
         with xr.open_datatree(file, engine="netcdf4", decode_timedelta=False) as tree:
-            return tree.map_over_datasets(xr.Dataset.load)  # DataTree.load skips a variable with its group's name
+            return tree.map_over_datasets(
+                xr.Dataset.load
+            )  # DataTree.load skips a variable with its group's name
     except FileNotFoundError:
         raise MissingFile(f"{path}: there is no such file") from None
     except (OSError, RuntimeError, ValueError) as error:
-        raise UnreadableFile(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from error
+        raise UnreadableFile(
+            f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}"
+        ) from error
 
 
 def json_attribute(value: Any) -> str:
@@ -126,10 +149,17 @@ def json_attribute(value: Any) -> str:
 
 
 def common_provenance(datasets: Sequence[xr.Dataset]) -> dict[str, str]:
-    """Attributes that say what made datasets; a value that differs between them becomes the list of all, as text."""
+    """Attributes that say what made datasets; a value that differs between them becomes the list of
+    all, as text."""
     names = ("source_hash", "git_commit", "versions")
-    texts = {name: {str(each.attrs[name]) for each in datasets if name in each.attrs} for name in names}
-    return {name: min(text) if len(text) == 1 else json_attribute(sorted(text)) for name, text in texts.items() if text}
+    texts = {
+        name: {str(each.attrs[name]) for each in datasets if name in each.attrs} for name in names
+    }
+    return {
+        name: min(text) if len(text) == 1 else json_attribute(sorted(text))
+        for name, text in texts.items()
+        if text
+    }
 
 
 def _encode(variable: xr.Variable) -> dict[str, Any]:
@@ -143,16 +173,20 @@ def _encode(variable: xr.Variable) -> dict[str, Any]:
 # ---- Tables of a result in files of several kinds
 
 
-def save_tables(tables: Tables, described: str, path: str | Path, tree: xr.DataTree | None = None) -> None:
-    """Write tables and a text that describes them in the form of which `Result.save` tells; as netCDF, the groups of
-    a tree, with columns and tables that it lacks."""
+def save_tables(
+    tables: Tables, described: str, path: str | Path, tree: xr.DataTree | None = None
+) -> None:
+    """Write tables and a text that describes them in the form of which `Result.save` tells; as
+    netCDF, the groups of a tree, with columns and tables that it lacks."""
     file = regular_file(path)
     if file.suffix == ".nc":
         tree = xr.DataTree() if tree is None else tree
         for name, table in tables.items():
             known = tree[name].to_dataset() if name in tree.children else xr.Dataset()
             along = next(iter(known.dims), "mode")
-            tree[name] = known.assign({key: (along, x) for key, x in table.items() if key not in known})
+            tree[name] = known.assign(
+                {key: (along, x) for key, x in table.items() if key not in known}
+            )
         tree.attrs["result"] = described
         save(tree, file)
     elif file.suffix == ".mat":
@@ -160,17 +194,29 @@ def save_tables(tables: Tables, described: str, path: str | Path, tree: xr.DataT
 
         allowed = re.compile(r"(?!(result|units)$)[A-Za-z]\w{0,62}", re.ASCII)
         rule = "must be a name that MATLAB allows, but not `units`"
-        raise_faults([Fault(("windows", name), "", rule) for name in tables if not allowed.fullmatch(name)])
-        units = {name: SERIES[name].units for table in tables.values() for name in table if name in SERIES}
+        raise_faults(
+            [Fault(("windows", name), "", rule) for name in tables if not allowed.fullmatch(name)]
+        )
+        units = {
+            name: SERIES[name].units
+            for table in tables.values()
+            for name in table
+            if name in SERIES
+        }
         content = {"result": described, "units": units, **tables}
-        options: dict[str, Any] = {"appendmat": False, "long_field_names": True, "oned_as": "column"}
+        options: dict[str, Any] = {
+            "appendmat": False,
+            "long_field_names": True,
+            "oned_as": "column",
+        }
         write_atomically(file, lambda name: savemat(name, content, **options))
     else:
         raise ParameterError(Fault.of(("path",), str(path), "must end in .nc or .mat"))
 
 
 def load_tables(path: str | Path) -> tuple[str, Tables]:
-    """The text, or "", and the tables that `save_tables` has written; of netCDF the attribute `result` and groups."""
+    """The text, or "", and the tables that `save_tables` has written; of netCDF the attribute
+    `result` and groups."""
     file = regular_file(path)
     if not file.exists():
         raise MissingFile(f"{path}: there is no such file")
@@ -178,7 +224,9 @@ def load_tables(path: str | Path) -> tuple[str, Tables]:
         tree, tables = load(file), {}
         for name, node in tree.children.items():
             group = node.to_dataset(inherit=False).variables
-            tables[name] = {str(key): np.asarray(group[key], float) for key in sorted(group, key="time".__ne__)}
+            tables[name] = {
+                str(key): np.asarray(group[key], float) for key in sorted(group, key="time".__ne__)
+            }
         return tree.attrs.get("result", ""), tables
     from scipy.io import loadmat
 
@@ -186,8 +234,15 @@ def load_tables(path: str | Path) -> tuple[str, Tables]:
         content = loadmat(file, appendmat=False, simplify_cells=True)
     except Exception as error:  # whatever a damaged file leads scipy to
         raise UnreadableFile(f"{path}: cannot be read: {error}") from error
-    named = {name: table for name, table in content.items() if name != "units" and isinstance(table, dict)}
-    flat = {name: {key: np.atleast_1d(x).ravel() for key, x in table.items()} for name, table in named.items()}
+    named = {
+        name: table
+        for name, table in content.items()
+        if name != "units" and isinstance(table, dict)
+    }
+    flat = {
+        name: {key: np.atleast_1d(x).ravel() for key, x in table.items()}
+        for name, table in named.items()
+    }
     return content.get("result", ""), flat
 
 
@@ -208,14 +263,16 @@ class UnreadableFile(DiscModelError):
 
 def regular_file(path: str | Path) -> Path:
     """A path that leads to a file or to nothing; raises `ParameterError` otherwise."""
-    named = isinstance(path, str | os.PathLike) and (Path(path).is_file() or not Path(path).exists())
+    named = isinstance(path, str | os.PathLike) and (
+        Path(path).is_file() or not Path(path).exists()
+    )
     require((named, "path", str(path), "must be the name of a file"))
     return Path(path)
 
 
 def write_atomically(path: Path, write: Callable[[str], object]) -> None:
-    """Write a file by `write` under a temporary name, and rename it: after a failure `path` is unchanged. Raises
-    `WriteError`."""
+    """Write a file by `write` under a temporary name, and rename it: after a failure `path` is
+    unchanged. Raises `WriteError`."""
     if not path.parent.is_dir():
         raise WriteError(f"{path}: must be in a folder that exists")
     # `write` makes the file, so that the umask determines its permissions
@@ -223,14 +280,18 @@ def write_atomically(path: Path, write: Callable[[str], object]) -> None:
     try:
         write(str(temporary))
         os.replace(temporary, path)
-    except (OSError, RuntimeError) as error:  # the netCDF library raises RuntimeError, without the system's reason
+    except (
+        OSError,
+        RuntimeError,
+    ) as error:  # the netCDF library raises RuntimeError, without the system's reason
         raise WriteError(f"{path}: cannot be written: {error}") from error
     finally:
         temporary.unlink(missing_ok=True)
 
 
 def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:
-    """Trees by the names of their files, such as those of cases or studies; raises `UnreadableFile` with a remedy."""
+    """Trees by the names of their files, such as those of cases or studies; raises `UnreadableFile`
+    with a remedy."""
     try:
         return {Path(path).stem: load(path) for path in paths}
     except UnreadableFile as error:
@@ -242,7 +303,8 @@ def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:
 
 
 class Missing(Exception):
-    """Data that a case does not hold. The text gives the reason; it continues a sentence that begins "the case"."""
+    """Data that a case does not hold. The text gives the reason; it continues a sentence that
+    begins "the case"."""
 
 
 def group(case: xr.DataTree, name: str) -> xr.Dataset:
@@ -261,18 +323,28 @@ def events(case: xr.DataTree) -> xr.Dataset:
     return table
 
 
-def samples(case: xr.DataTree, name: str, at_least: int = 2, *, envelope: bool = False) -> xr.Dataset:
-    """A window of at least `at_least` samples; or bins of an `envelope`, each variable as ``_min`` and ``_max``."""
+def samples(
+    case: xr.DataTree, name: str, at_least: int = 2, *, envelope: bool = False
+) -> xr.Dataset:
+    """A window of at least `at_least` samples; or bins of an `envelope`, each variable as ``_min``
+    and ``_max``."""
     window = group(case, name)
     if any(str(key).endswith("_min") for key in window) != envelope:
-        instead = "samples, not as ranges: its window needs" if envelope else "ranges, not as samples: its window has"
+        instead = (
+            "samples, not as ranges: its window needs"
+            if envelope
+            else "ranges, not as samples: its window has"
+        )
         raise Missing(f"recorded {name} as {instead} an envelope")
     if (length := window.sizes["time"]) < at_least:
-        raise Missing(f"has {length} {'bins' if envelope else 'samples'} in {name}, at least {at_least} are needed")
+        raise Missing(
+            f"has {length} {'bins' if envelope else 'samples'} in {name}, at least {at_least} are needed"
+        )
     return window
 
 
 def markdown_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> list[str]:
-    """Lines of a table: its head, the rule below it, and one line for each row; a | within a cell is escaped."""
+    """Lines of a table: its head, the rule below it, and one line for each row; a | within a cell
+    is escaped."""
     cells = [[str(cell).replace("|", r"\|") for cell in row] for row in (head, *rows)]
     return [f"| {' | '.join(row)} |" for row in (cells[0], ["---"] * len(cells[0]), *cells[1:])]

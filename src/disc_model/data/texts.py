@@ -17,7 +17,8 @@ Section = tuple[str, str, pd.DataFrame]  # part of a page: its heading, or "", a
 
 
 def number_text(value: Any, form: str) -> Any:
-    """A number, or each of a list, in a format such as ``.1f`` or ``.1f mm``: ``{{ width|as('.1f mm') }}``."""
+    """A number, or each of a list, in a format such as ``.1f`` or ``.1f mm``: ``{{ width|as('.1f
+    mm') }}``."""
     if isinstance(value, list | np.ndarray):
         return [number_text(each, form) for each in value]
     digits, _, unit = form.partition(" ")
@@ -45,7 +46,9 @@ _TEMPLATES = jinja2.Environment(
 _TEMPLATES.filters |= {
     "as": number_text,
     "cell": _cell,
-    "markdown": lambda table: "\n".join(markdown_table(table.columns, table.map(_cell).itertuples(index=False))),
+    "markdown": lambda table: "\n".join(
+        markdown_table(table.columns, table.map(_cell).itertuples(index=False))
+    ),
 }
 _template_of = cache(_TEMPLATES.from_string)
 
@@ -55,8 +58,13 @@ def fill(template: str, **values: Any) -> str:
     return _template_of(template).render(values)
 
 
-def write_page(path: str | Path, title: str, *sections: Section, template: str = "data/texts") -> None:
-    """Write a page as Markdown or as self-contained HTML, by the ending of the file; template: without this ending."""
+def write_page(
+    path: str | Path, title: str, *sections: Section, template: str = "data/texts"
+) -> None:
+    """Write a page as Markdown or as self-contained HTML, by the ending of the file; template:
+    without this ending."""
     path = Path(path)
-    page = _TEMPLATES.get_template(f"{template}{path.suffix}").render(title=title, sections=sections)
+    page = _TEMPLATES.get_template(f"{template}{path.suffix}").render(
+        title=title, sections=sections
+    )
     path.write_text(page.rstrip() + "\n", encoding="utf-8")

@@ -23,7 +23,8 @@ STATUSES = (*(status.value for status in Status), "failed")
 
 
 class Outcome(enum.StrEnum):
-    """Outcome of a motion, in the words of all datasets; `disc_model.stability.outcome` gives the criteria."""
+    """Outcome of a motion, in the words of all datasets; `disc_model.stability.outcome` gives the
+    criteria."""
 
     QUIET = "quiet"  # the stable stick-slip cycle of the static start
     OTHER_CYCLE = "other_cycle"  # another stable cycle in contact
@@ -34,7 +35,9 @@ class Outcome(enum.StrEnum):
     AT_REST = "at_rest"  # the slider stuck to the disc for good
     UNDECIDED = "undecided"  # none of these could be shown
     GROWING = "growing"  # in contact at the horizon, after a departure from an unstable cycle
-    SEPARATION = "separation"  # contact is lost before the horizon, and the later motion is not examined
+    SEPARATION = (
+        "separation"  # contact is lost before the horizon, and the later motion is not examined
+    )
 
 
 class CycleStatus(StatusBase):
@@ -47,16 +50,28 @@ class CycleStatus(StatusBase):
         "as beyond a fold: give floquet the last state of a simulation as guess, or follow the cycle of another case "
         "by disc_model.continue_cycle.",
     )
-    SEPARATES = "separates", "Near the static start no cycle keeps contact, and contact is soon lost: simulate."
-    NO_STICK_SLIP = "no_stick_slip", "The slider does not stick again: look at disc_model.steady_sliding."
+    SEPARATES = (
+        "separates",
+        "Near the static start no cycle keeps contact, and contact is soon lost: simulate.",
+    )
+    NO_STICK_SLIP = (
+        "no_stick_slip",
+        "The slider does not stick again: look at disc_model.steady_sliding.",
+    )
     AT_REST = "at_rest", "Nothing ever slips: raise Omega, k_p or lower the friction."
-    PARADOX = "paradox", "Painleve's paradox: rigid Coulomb friction has no solution there; lower mu_k or N."
+    PARADOX = (
+        "paradox",
+        "Painleve's paradox: rigid Coulomb friction has no solution there; lower mu_k or N.",
+    )
     NON_FINITE = "non_finite", "The motion overflowed: check the parameters' magnitudes."
 
 
-# Flags of the outcomes of motions that are followed until they settle, and of those that are followed to a horizon, or
-# until they separate; `failed`: not computed.
-LONG_TERM_OUTCOMES = ("failed", *(word for word in Outcome if word not in (Outcome.GROWING, Outcome.SEPARATION)))
+# Flags of the outcomes of motions that are followed until they settle, and of those that are
+# followed to a horizon, or until they separate; `failed`: not computed.
+LONG_TERM_OUTCOMES = (
+    "failed",
+    *(word for word in Outcome if word not in (Outcome.GROWING, Outcome.SEPARATION)),
+)
 _SETTLED = (Outcome.SEPARATING, Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
 OUTCOMES_TO_HORIZON = ("failed", *(word for word in Outcome if word not in _SETTLED))
 
@@ -73,7 +88,10 @@ class Variable(NamedTuple):
     @property
     def attributes(self) -> dict[str, Any]:
         """The variable's CF attributes; without ``units`` if they are "", as for words."""
-        flags = {"flag_values": np.arange(len(self.flags), dtype=np.int8), "flag_meanings": " ".join(self.flags)}
+        flags = {
+            "flag_values": np.arange(len(self.flags), dtype=np.int8),
+            "flag_meanings": " ".join(self.flags),
+        }
         units = {"units": self.units} if self.units else {}
         return {**units, "long_name": self.long_name, **(flags if self.flags else {})}
 
@@ -83,7 +101,8 @@ class Variable(NamedTuple):
 
     @property
     def missing(self) -> float:
-        """Value of unknown points: `failed` for a status, the first value for other flags, 0 for counts, else nan."""
+        """Value of unknown points: `failed` for a status, the first value for other flags, 0 for
+        counts, else nan."""
         if "failed" in self.flags:
             return self.flags.index("failed")
         return 0 if self.flags or self.whole else math.nan
@@ -93,7 +112,11 @@ class Variable(NamedTuple):
         return np.full(shape, self.missing, dtype=self.dtype)
 
 
-STABLE_CYCLES = ("stable", "steady_sliding", "at_rest")  # motions near the static start: a cycle, sliding, rest
+STABLE_CYCLES = (
+    "stable",
+    "steady_sliding",
+    "at_rest",
+)  # motions near the static start: a cycle, sliding, rest
 _FLAGS = {"kind": EVENT_KINDS, "phase": PHASES, "status": STATUSES}
 
 
@@ -105,19 +128,34 @@ def _variables(section: str) -> dict[str, Variable]:
 
 
 _TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-SERIES, SCALARS, PERTURBATIONS, _OF_GRIDS = map(_variables, ("series", "scalars", "perturbations", "of_grids"))
-COUNTS = {"steps": "steps", "n_events": "events", "n_separations": "separations", "audited_steps": "audited_steps"}
+SERIES, SCALARS, PERTURBATIONS, _OF_GRIDS = map(
+    _variables, ("series", "scalars", "perturbations", "of_grids")
+)
+COUNTS = {
+    "steps": "steps",
+    "n_events": "events",
+    "n_separations": "separations",
+    "audited_steps": "audited_steps",
+}
 """Numbers of steps and events among the scalars, and their names in `Result.statistics`."""
-BESIDE_WINDOWS = frozenset({"events", "final_state", "initial_state", *SCALARS, *Parameters.model_fields})
+BESIDE_WINDOWS = frozenset(
+    {"events", "final_state", "initial_state", *SCALARS, *Parameters.model_fields}
+)
 """Groups and variables beside the windows in a file; no window may have such a name."""
 CHOICES: dict[str, tuple[str, ...]] = {
-    name: get_args(Parameters.model_fields[name].annotation) for name in ("normalization", "contact", "contact_force")
+    name: get_args(Parameters.model_fields[name].annotation)
+    for name in ("normalization", "contact", "contact_force")
 }
-_OF_RATIOS = {name: Variable("1", f"{name_above} relative to {other}") for name, (name_above, other) in RATIOS.items()}
+_OF_RATIOS = {
+    name: Variable("1", f"{name_above} relative to {other}")
+    for name, (name_above, other) in RATIOS.items()
+}
 # names in tables and figures of points without a stick-slip cycle, by their status
 WITHOUT_CYCLE = {"no_cycle": "no cycle found", "separates": "immediate separation"}
 WITHOUT_CYCLE |= {"no_stick_slip": "steady sliding", "at_rest": "permanent stick"}
-EXCLUDED = "excluded"  # flag of points that a grid's rule leaves out; other variables have no value there
+EXCLUDED = (
+    "excluded"  # flag of points that a grid's rule leaves out; other variables have no value there
+)
 START = "start"  # the dimension of a grid along which the initial conditions vary
 SAMPLE = "sample"  # the dimension of a grid that numbers the samples of distributed parameters
 
@@ -127,25 +165,33 @@ def attributes(name: str) -> dict[str, Any]:
     stem, _, bound = name.rpartition("_")
     if bound in ("min", "max") and stem in SERIES:
         which = "least" if bound == "min" else "greatest"
-        variable = SERIES[stem]._replace(long_name=f"{SERIES[stem].long_name}, {which} within the bin")
+        variable = SERIES[stem]._replace(
+            long_name=f"{SERIES[stem].long_name}, {which} within the bin"
+        )
     elif name in (known := SERIES | SCALARS | PERTURBATIONS | _OF_RATIOS | _OF_GRIDS):
         variable = known[name]
     else:
         field = Parameters.model_fields[name]
-        unit = re.sub(r"/(\w+?)\^?(\d?)$", lambda below: f" {below[1]}-{below[2] or 1}", Parameters.unit(name) or "1")
+        unit = re.sub(
+            r"/(\w+?)\^?(\d?)$",
+            lambda below: f" {below[1]}-{below[2] or 1}",
+            Parameters.unit(name) or "1",
+        )
         variable = Variable(unit, field.description or name, CHOICES.get(name, ()))
     return variable.attributes
 
 
 def flag_names(variable: Any) -> np.ndarray:
-    """Values of a flag variable (a DataArray) as words, array of str of the same shape; words as they are."""
+    """Values of a flag variable (a DataArray) as words, array of str of the same shape; words as
+    they are."""
     if variable.dtype.kind in "UO":
         return np.asarray(variable.values, dtype=str)
     return np.asarray(np.array(variable.attrs["flag_meanings"].split())[variable.values])
 
 
 def typeset(text: str) -> str:
-    """The text with its indexed symbols, such as c_p, in the notation of matplotlib, also if some are in it already."""
+    """The text with its indexed symbols, such as c_p, in the notation of matplotlib, also if some
+    are in it already."""
     return re.sub(r"(?<!\$)\b(\w)_(\w)\b", r"$\1_\2$", text)
 
 
@@ -160,12 +206,16 @@ class Shown(NamedTuple):
 
 # numeric parameters, their ratios, perturbations, and sampled variables
 SHOWN = {name: Shown(*entry) for name, entry in _TABLES["shown"].items()}
-SHOWN |= {name: Shown("Ratio", "/".join(SHOWN[part].symbol for part in pair), "") for name, pair in RATIOS.items()}
+SHOWN |= {
+    name: Shown("Ratio", "/".join(SHOWN[part].symbol for part in pair), "")
+    for name, pair in RATIOS.items()
+}
 _OF_A_MODE = {"omega": ("ω", "rad/s"), "amplitude": ("Ψ", "kg^-1/2"), "damping_ratio": ("ζ", "")}
 
 
 def presentation_of(name: str) -> Shown:
-    """Presentation of a distributed parameter: one of `SHOWN`, or of a single mode of a table, such as omega_2_0."""
+    """Presentation of a distributed parameter: one of `SHOWN`, or of a single mode of a table, such
+    as omega_2_0."""
     if name in SHOWN:
         return SHOWN[name]
     column, diameters, circles = name.rsplit("_", 2)
@@ -174,7 +224,8 @@ def presentation_of(name: str) -> Shown:
 
 
 def axis_of(name: str, where: str = "") -> tuple[str, float]:
-    """Label of an axis, with a text after the name, such as an angle; and the factor from SI to its unit."""
+    """Label of an axis, with a text after the name, such as an angle; and the factor from SI to its
+    unit."""
     shown = presentation_of(name)
     unit = f" ({shown.unit})" if shown.unit else ""
     return typeset(f"{shown.name} {shown.symbol}".strip()) + where + unit, shown.factor
@@ -185,8 +236,11 @@ def stated_in(study: Any, what: str) -> dict[str, Any]:
     return json.loads(study.attrs[what])
 
 
-def values_text(values: Mapping[str, Any], units: Mapping[str, tuple[str, float]] = MappingProxyType({})) -> str:
-    """N, Omega and all values that differ from Table 1, in units of `SHOWN` or in `units`, with factors from SI."""
+def values_text(
+    values: Mapping[str, Any], units: Mapping[str, tuple[str, float]] = MappingProxyType({})
+) -> str:
+    """N, Omega and all values that differ from Table 1, in units of `SHOWN` or in `units`, with
+    factors from SI."""
     texts = []
     for name, field in Parameters.model_fields.items():
         if name in values and name not in ("normalization", "contact"):
@@ -195,11 +249,19 @@ def values_text(values: Mapping[str, Any], units: Mapping[str, tuple[str, float]
                 frequencies = value["omega"] if isinstance(value, Mapping) else value.omega
                 texts.append(f"a disc given by {len(frequencies)} modes")
             elif name in ("N", "Omega") or value != field.default:
-                shown = SHOWN.get(name) or Shown(name, name, Parameters.unit(name).removeprefix("1"))
+                shown = SHOWN.get(name) or Shown(
+                    name, name, Parameters.unit(name).removeprefix("1")
+                )
                 unit, factor = units.get(name, (shown.unit, shown.factor))
-                number = isinstance(value, float | int)  # some parameters may be words, which have no unit
+                number = isinstance(
+                    value, float | int
+                )  # some parameters may be words, which have no unit
                 unit = unit if value else unit.removeprefix("10⁻⁵ ")
-                text = f"{value * factor:g} {unit}".strip().replace(" 10⁻⁵", "·10⁻⁵") if number else str(value)
+                text = (
+                    f"{value * factor:g} {unit}".strip().replace(" 10⁻⁵", "·10⁻⁵")
+                    if number
+                    else str(value)
+                )
                 texts.append(f"{shown.symbol or name} = {text}")
     texts += [f"{SHOWN[name].symbol} = {values[name]:g}" for name in RATIOS if name in values]
     return ", ".join(texts)

@@ -1,1 +1,2 @@
-"""The disc: its modes, by plate theory or from a table, its flexibility, and how many modes a case needs."""
+"""The disc: its modes, by plate theory or from a table, its flexibility, and how many modes a case
+needs."""

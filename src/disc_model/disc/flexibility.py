@@ -1,11 +1,14 @@
-"""Static flexibility of the disc under the slider: of the whole plate, of the modes kept, and of those left out.
+"""Static flexibility of the disc under the slider: of the whole plate, of the modes kept, and of
+those left out.
 
-Under a unit point load at r_0 the clamped-free plate deflects by the sum of psi^2 / omega^2 over all its modes.  That
-is a static problem: for each harmonic D L^2 R = delta(r - r_0)/r_0 with L = d^2/dr^2 + 1/r d/dr - l^2/r^2, solved in
-closed form.  The difference from the sum over the modes kept is the residual flexibility.
+Under a unit point load at r_0 the clamped-free plate deflects by the sum of psi^2 / omega^2 over
+all its modes.  That is a static problem: for each harmonic D L^2 R = delta(r - r_0)/r_0 with L =
+d^2/dr^2 + 1/r d/dr - l^2/r^2, solved in closed form.  The difference from the sum over the modes
+kept is the residual flexibility.
 
-For l >= 2 a harmonic is that of the unbounded plate, r_0^2 / (4 D l (l^2 - 1)), plus the effect of the two edges: four
-functions r^l, r^(l+2), r^-l, r^(2-l), each scaled to 1 at the edge where it is largest.  Lengths are in outer radii.
+For l >= 2 a harmonic is that of the unbounded plate, r_0^2 / (4 D l (l^2 - 1)), plus the effect of
+the two edges: four functions r^l, r^(l+2), r^-l, r^(2-l), each scaled to 1 at the edge where it is
+largest.  Lengths are in outer radii.
 """
 
 from dataclasses import dataclass
@@ -18,9 +21,14 @@ from disc_model.disc.plate import Array, mode_arrays
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 
-HIGHEST_HARMONIC = 4096  # beyond it the plate is as if unbounded, unless the slider runs on its very edge
+HIGHEST_HARMONIC = (
+    4096  # beyond it the plate is as if unbounded, unless the slider runs on its very edge
+)
 ROUNDING = 1e-13  # relative accuracy of the harmonics' closed forms: their functions become nearly equal at large l
-MODAL_SUM = (60, 20)  # diameters and circles of the sum that stands for all modes if these are ``as_published``
+MODAL_SUM = (
+    60,
+    20,
+)  # diameters and circles of the sum that stands for all modes if these are ``as_published``
 
 
 @dataclass(frozen=True)
@@ -43,11 +51,13 @@ class Flexibility:
 
 
 def residual_flexibility(p: Parameters) -> Flexibility:
-    """Static flexibility of all modes and of those kept; ``contact_compliance="residual"`` is their difference.
+    """Static flexibility of all modes and of those kept; ``contact_compliance="residual"`` is their
+    difference.
 
-    For ``orthonormal`` modes the sum over all modes is exactly the static deflection of the plate under a point load.
-    Modes ``as_published`` do not expand a load, so that only their sum up to `MODAL_SUM` is available. Its remainder
-    is a third of the sum's upper half, because terms decrease at least as the third power.
+    For ``orthonormal`` modes the sum over all modes is exactly the static deflection of the plate
+    under a point load. Modes ``as_published`` do not expand a load, so that only their sum up to
+    `MODAL_SUM` is available. Its remainder is a third of the sum's upper half, because terms
+    decrease at least as the third power.
 
     Parameters
     ----------
@@ -89,7 +99,8 @@ def residual_flexibility(p: Parameters) -> Flexibility:
 
 
 def contact_compliance(p: Parameters) -> float:
-    """Compliance of a case's contact, m/N; raises `ParameterError` if "residual" is asked for and no mode left out."""
+    """Compliance of a case's contact, m/N; raises `ParameterError` if "residual" is asked for and
+    no mode left out."""
     if p.contact_compliance != RESIDUAL:
         return float(p.contact_compliance)
     found = residual_flexibility(p)
@@ -108,8 +119,9 @@ def _modal_sum(p: Parameters) -> float:
 
 
 def harmonic_flexibility(l: NDArray[np.int64], inner: float, x: float, nu: float) -> Array:
-    """Deflection at the load of the harmonics `l`, in units of b^2 / D: radii `inner` and 1, load at `x`. The plate's
-    point deflects by the harmonic l = 0 over 2 pi plus the sum of the others over pi."""
+    """Deflection at the load of the harmonics `l`, in units of b^2 / D: radii `inner` and 1, load
+    at `x`. The plate's point deflects by the harmonic l = 0 over 2 pi plus the sum of the others
+    over pi."""
     value = np.empty(l.shape)
     for order in (0, 1):
         value[l == order] = _with_edges(order, inner, x, nu)
@@ -131,9 +143,12 @@ def _point_load(inner: float, x: float, nu: float) -> tuple[float, float]:
 
 
 def _free(l: NDArray[np.int64] | int, nu: float, w: Array) -> tuple[Array, Array]:
-    """Radial moment and Kirchhoff shear at r = 1 of functions with the derivatives `w` (4, ...) there."""
+    """Radial moment and Kirchhoff shear at r = 1 of functions with the derivatives `w` (4, ...)
+    there."""
     square = np.square(l)
-    shear = w[3] + w[2] - (1 + square) * w[1] + 2 * square * w[0] - (1 - nu) * square * (w[1] - w[0])
+    shear = (
+        w[3] + w[2] - (1 + square) * w[1] + 2 * square * w[0] - (1 - nu) * square * (w[1] - w[0])
+    )
     return w[2] + nu * (w[1] - square * w[0]), shear
 
 
@@ -151,9 +166,11 @@ def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> 
     clamped, free, at_slider = ((r / largest) ** powers for r in (inner, 1.0, x))
     at_inner, at_outer = (_power(powers, r) for r in (inner, 1.0))
     moment, shear = _free(l, nu, at_outer)
-    matrix = np.stack([clamped, clamped * at_inner[1] * inner / n, free * moment / n**2, free * shear / n**3])
-    # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside, r and s are exchanged,
-    # so that its powers are the last two
+    matrix = np.stack(
+        [clamped, clamped * at_inner[1] * inner / n, free * moment / n**2, free * shear / n**3]
+    )
+    # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside, r and
+    # s are exchanged, so that its powers are the last two
     near, far = (inner / x) ** n / (8 * n), x**n / (8 * n)
     inside = [near * x**2 / (n - 1), -near * inner**2 / (n + 1)]
     outside = [far / (n - 1), -far * x**2 / (n + 1)]
@@ -169,20 +186,32 @@ def _particular(l: int, s: float) -> Array:
     [(r^2 + s^2) ln(r/s) - r^2 + s^2]/4, for l = 1 r^3/(16 s) - s r ln(r/s)/4 - s^3/(16 r)."""
     log = -np.log(s)
     if l == 0:
-        first = [(1 + s**2) * log - 1 + s**2, 2 * log + (1 + s**2) - 2, 2 * log + 3 - s**2 - 2, 2 + 2 * s**2]
+        first = [
+            (1 + s**2) * log - 1 + s**2,
+            2 * log + (1 + s**2) - 2,
+            2 * log + 3 - s**2 - 2,
+            2 + 2 * s**2,
+        ]
         return np.array(first) / 4
     first = [1 / (16 * s) - s * log / 4 - s**3 / 16, 3 / (16 * s) - s * (log + 1) / 4 + s**3 / 16]
-    return np.array([*first, 6 / (16 * s) - s / 4 - 2 * s**3 / 16, 6 / (16 * s) + s / 4 + 6 * s**3 / 16])
+    return np.array(
+        [*first, 6 / (16 * s) - s / 4 - 2 * s**3 / 16, 6 / (16 * s) + s / 4 + 6 * s**3 / 16]
+    )
 
 
 def _logarithmic(l: int, r: float) -> Array:
-    """Functions of l = 0 (1, ln r, r^2, r^2 ln r) or l = 1 (r, 1/r, r^3, r ln r), derivatives 0 to 3 at r: (4, 4)."""
+    """Functions of l = 0 (1, ln r, r^2, r^2 ln r) or l = 1 (r, 1/r, r^3, r ln r), derivatives 0 to
+    3 at r: (4, 4)."""
     log = np.log(r)
     if l == 0:
         last = [r**2 * log, 2 * r * log + r, 2 * log + 3, 2 / r]
-        return np.array([[1, 0, 0, 0], [log, 1 / r, -1 / r**2, 2 / r**3], [r**2, 2 * r, 2, 0], last]).T
+        return np.array(
+            [[1, 0, 0, 0], [log, 1 / r, -1 / r**2, 2 / r**3], [r**2, 2 * r, 2, 0], last]
+        ).T
     last = [r * log, log + 1, 1 / r, -1 / r**2]
-    return np.array([[r, 1, 0, 0], [1 / r, -1 / r**2, 2 / r**3, -6 / r**4], [r**3, 3 * r**2, 6 * r, 6], last]).T
+    return np.array(
+        [[r, 1, 0, 0], [1 / r, -1 / r**2, 2 / r**3, -6 / r**4], [r**3, 3 * r**2, 6 * r, 6], last]
+    ).T
 
 
 def _with_edges(l: int, inner: float, x: float, nu: float) -> float:

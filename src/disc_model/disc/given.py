@@ -1,4 +1,5 @@
-"""Discs given by their modes: tables as CSV files, universal files of modal tests, and finite elements."""
+"""Discs given by their modes: tables as CSV files, universal files of modal tests, and finite
+elements."""
 
 from __future__ import annotations
 
@@ -35,7 +36,9 @@ COLUMNS = {
     "tangential_per_sqrt_kg": ("tangential", 1.0),
 }
 """Field of a `Disc` that each column of a table gives, and the factor on its values; shapes have further columns."""
-SHAPE = re.compile(r"shape_at_(\d*\.?\d+(?:e-?\d+)?)_m")  # name of the column with the shapes at a radius
+SHAPE = re.compile(
+    r"shape_at_(\d*\.?\d+(?:e-?\d+)?)_m"
+)  # name of the column with the shapes at a radius
 STATIC_COMPLIANCE = "static_compliance_m_per_N"  # value that a comment line may give
 SAME_RADIUS = 1e-3  # relative difference of the radii of nodes on one circle
 SAME_PAIR = 0.05  # relative difference of the frequencies of the two halves of a pair
@@ -50,12 +53,16 @@ def read_disc(path: str | os.PathLike[str]) -> Disc:
     stated = re.compile(rf"\s*#\s*{STATIC_COMPLIANCE}\s*[:=]\s*(\S+)\s*")
     static = [match[1] for line in lines if (match := stated.fullmatch(line))]
     # empty rows, which spreadsheets append, are skipped
-    cells = csv.reader([line for line in lines if not line.lstrip().startswith("#")], skipinitialspace=True)
+    cells = csv.reader(
+        [line for line in lines if not line.lstrip().startswith("#")], skipinitialspace=True
+    )
     table = [row for row in ([cell.strip() for cell in row] for row in cells) if any(row)]
     try:
         return _disc(*(table or [[]]), static_compliance=static[0] if static else None)
     except ParameterError as error:
-        raise ParameterError(*(fault.inside((Path(path).name,)) for fault in error.faults)) from None
+        raise ParameterError(
+            *(fault.inside((Path(path).name,)) for fault in error.faults)
+        ) from None
 
 
 def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
@@ -69,13 +76,21 @@ def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
         int(number): position
         for data in sets
         if data["type"] in (15, 2411)
-        for number, *position in zip(*(data[name] for name in ("node_nums", "x", "y", "z")), strict=True)
+        for number, *position in zip(
+            *(data[name] for name in ("node_nums", "x", "y", "z")), strict=True
+        )
     }
     modes = [_uff_mode(data, positions, r_0, path) for data in sets if data["type"] == 55]
     pairs: list[list[dict[str, Any]]] = []
     for mode in sorted((mode for mode in modes if mode), key=lambda mode: mode["omega"]):
-        alone = (pair for pair in pairs if len(pair) == 1 and pair[0]["diameters"] == mode["diameters"] > 0)
-        near = [pair for pair in alone if mode["omega"] - pair[0]["omega"] < SAME_PAIR * mode["omega"]]
+        alone = (
+            pair
+            for pair in pairs
+            if len(pair) == 1 and pair[0]["diameters"] == mode["diameters"] > 0
+        )
+        near = [
+            pair for pair in alone if mode["omega"] - pair[0]["omega"] < SAME_PAIR * mode["omega"]
+        ]
         if near:
             near[0].append(mode)
         else:
@@ -83,7 +98,9 @@ def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
     if not pairs:
         raise _fault(path, "must hold a mode across the disc, as a dataset 55")
     radii = sorted(set.intersection(*({*half["shape"]} for pair in pairs for half in pair)))
-    shapes = [[float(np.mean([half["shape"][r] for half in pair])) for r in radii] for pair in pairs]
+    shapes = [
+        [float(np.mean([half["shape"][r] for half in pair])) for r in radii] for pair in pairs
+    ]
     means: dict[str, Any] = {
         name: [float(np.mean([half[name] for half in pair])) for pair in pairs]
         for name in ("omega", "damping_ratio", "amplitude")
@@ -95,7 +112,8 @@ def read_uff(path: str | os.PathLike[str], r_0: float) -> Disc:
 def _uff_mode(
     data: dict[str, Any], positions: dict[int, list[float]], r_0: float, path: object
 ) -> dict[str, Any] | None:
-    """Diameters, frequency, damping, amplitude and shape of a dataset 55; None of one that moves in the plane."""
+    """Diameters, frequency, damping, amplitude and shape of a dataset 55; None of one that moves in
+    the plane."""
     if data["analysis_type"] == 2:
         omega, damping, mass = math.tau * data["freq"], data["modal_damp_vis"], data["modal_m"]
     else:  # a complex mode: its pole, and modal a
@@ -104,17 +122,23 @@ def _uff_mode(
         mass = (complex(data["modal_a"]) / (2j * pole.imag)).real
     moves = np.real(data["r3"])
     known = [i for i, node in enumerate(data["node_nums"]) if int(node) in positions]
-    x, y, _ = np.transpose([positions[int(data["node_nums"][i])] for i in known] or np.zeros((0, 3)))
+    x, y, _ = np.transpose(
+        [positions[int(data["node_nums"][i])] for i in known] or np.zeros((0, 3))
+    )
     radius, angle, moves = np.hypot(x, y), np.arctan2(y, x), moves[known]
     circle = np.abs(radius - r_0) < SAME_RADIUS * r_0
-    rule = f"must give coordinates in m of 3 or more nodes at the radius {r_0:g} m, dataset 15 or 2411"
+    rule = (
+        f"must give coordinates in m of 3 or more nodes at the radius {r_0:g} m, dataset 15 or 2411"
+    )
     require((circle.sum() >= 3, Path(str(path)).name, int(circle.sum()), rule))
     require((mass > 0, "modal mass", mass, "must be > 0: shapes need a scale"))
     fits = []  # of each harmonic: the sum of squares that it leaves, its number, and its cosine and sine
     for order in range(min(60, (int(circle.sum()) - 1) // 2) + 1):
         waves = np.stack([np.cos(order * angle), np.sin(order * angle)], axis=1)[circle]
         solution = np.linalg.lstsq(waves, moves[circle], rcond=None)[0]
-        fits.append((float(np.sum((moves[circle] - waves @ solution) ** 2)), order, *solution.tolist()))
+        fits.append(
+            (float(np.sum((moves[circle] - waves @ solution) ** 2)), order, *solution.tolist())
+        )
     rest, l, cosine, sine = min(fits)
     if rest > 0.5 * float(np.sum(moves[circle] ** 2)):
         return None
@@ -132,14 +156,18 @@ def _uff_mode(
 def _disc(names: list[str], *rows: list[str], static_compliance: str | None) -> Disc:
     """The disc of a table; a fault in a number names its column, mode and cell."""
     rule = f"values: must be as many as columns, {len(names)}"
-    uneven = [f"mode {i} has {len(row)} {rule}" for i, row in enumerate(rows, 1) if len(row) != len(names)]
+    uneven = [
+        f"mode {i} has {len(row)} {rule}" for i, row in enumerate(rows, 1) if len(row) != len(names)
+    ]
     raise_faults(_column_faults(names) or uneven[:3])
     cells = {name: [row[i] for row in rows] for i, name in enumerate(names)}
     values: dict[str, Any] = {"static_compliance": static_compliance}
     for name, (field, factor) in COLUMNS.items():
         if name in cells:
             values[field] = [_number(cell, factor) for cell in cells[name]]
-    shapes = sorted((float(match[1]), i) for i, name in enumerate(names) if (match := SHAPE.fullmatch(name)))
+    shapes = sorted(
+        (float(match[1]), i) for i, name in enumerate(names) if (match := SHAPE.fullmatch(name))
+    )
     if shapes:
         values["radii"] = [r for r, _ in shapes]
         values["shapes"] = [[_number(row[i]) for _, i in shapes] for row in rows]
@@ -148,7 +176,9 @@ def _disc(names: list[str], *rows: list[str], static_compliance: str | None) -> 
     except ParameterError as error:
         raise ParameterError(*(_of_table(fault, cells) for fault in error.faults)) from None
     static, modal = disc.static_compliance, modes_of_table(disc).flexibility
-    if static is not None and static < modal * (1 - 1e-9):  # both may be the same sum with different rounding
+    if static is not None and static < modal * (
+        1 - 1e-9
+    ):  # both may be the same sum with different rounding
         rule = f"must not be less than what the modes give at the slider, {modal:.6g} m/N"
         raise ParameterError(Fault.of((STATIC_COMPLIANCE,), static, rule))
     return disc
@@ -164,7 +194,9 @@ def _number(cell: str, factor: float = 1.0) -> float | str:
 
 def _of_table(fault: Fault, columns: Mapping[str, Sequence[str]]) -> Fault:
     """A fault in a number of a `Disc` with column, cell and mode of the table."""
-    name = next((name for name in columns if name in COLUMNS and COLUMNS[name][0] == fault.path[0]), "")
+    name = next(
+        (name for name in columns if name in COLUMNS and COLUMNS[name][0] == fault.path[0]), ""
+    )
     if not name or len(fault.path) != 2:
         return fault
     i = int(fault.path[1])
@@ -173,7 +205,8 @@ def _of_table(fault: Fault, columns: Mapping[str, Sequence[str]]) -> Fault:
 
 
 def damping_ratios(p: Parameters) -> Array:
-    """Damping ratios of the modes of a case; of a disc that is given by a table, exactly those of the table."""
+    """Damping ratios of the modes of a case; of a disc that is given by a table, exactly those of
+    the table."""
     if p.disc is not None:
         return np.array(p.disc.damping_ratio)
     with np.errstate(invalid="ignore"):
@@ -184,10 +217,19 @@ def table_text(disc: Disc) -> str:
     """A disc as a table."""
     fields = ("diameters", "circles", "omega", "amplitude", "damping_ratio", "tangential")
     names = {field: name for name, (field, factor) in COLUMNS.items() if factor == 1.0}
-    columns: dict[str, Any] = {names[field]: column for field in fields if (column := getattr(disc, field))}
-    columns |= {f"shape_at_{r}_m": shape for r, shape in zip(disc.radii, zip(*disc.shapes, strict=True), strict=True)}
+    columns: dict[str, Any] = {
+        names[field]: column for field in fields if (column := getattr(disc, field))
+    }
+    columns |= {
+        f"shape_at_{r}_m": shape
+        for r, shape in zip(disc.radii, zip(*disc.shapes, strict=True), strict=True)
+    }
     rows = [[*columns], *zip(*columns.values(), strict=True)]
-    comment = "" if disc.static_compliance is None else f"# {STATIC_COMPLIANCE}: {disc.static_compliance}\n"
+    comment = (
+        ""
+        if disc.static_compliance is None
+        else f"# {STATIC_COMPLIANCE}: {disc.static_compliance}\n"
+    )
     return comment + "".join(",".join(map(str, row)) + "\n" for row in rows)
 
 
@@ -197,8 +239,14 @@ def _column_faults(names: list[str]) -> list[Fault]:
     for name in names:
         if name not in COLUMNS and not SHAPE.fullmatch(name):
             if ";" in name or "\t" in name:
-                return [Fault.of(("columns",), name, "must be separated by commas, with points in numbers")]
-            faults.append(Fault.of(("columns",), name, f"unknown column{suggestion(name, list(COLUMNS))}"))
+                return [
+                    Fault.of(
+                        ("columns",), name, "must be separated by commas, with points in numbers"
+                    )
+                ]
+            faults.append(
+                Fault.of(("columns",), name, f"unknown column{suggestion(name, list(COLUMNS))}")
+            )
     targets = [COLUMNS[name][0] for name in names if name in COLUMNS]
     for target in dict.fromkeys(["diameters", "omega", "amplitude", *targets]):
         if (count := targets.count(target)) != 1:
@@ -212,9 +260,10 @@ def _fault(path: object, rule: str) -> ParameterError:
     return ParameterError(Fault((as_text(str(path)),), "", rule))
 
 
-# ---- From the drawing of a disc with a hat: modes of an axisymmetric solid by finite elements of its section.
-# With u_r cos(l theta), u_z cos(l theta) and u_theta sin(l theta) the elasticity of a solid of revolution separates
-# into one problem on the section for each number l of nodal diameters. Shapes are mass-normalised over the whole solid.
+# ---- From the drawing of a disc with a hat: modes of an axisymmetric solid by finite elements of
+# its section. With u_r cos(l theta), u_z cos(l theta) and u_theta sin(l theta) the elasticity of a
+# solid of revolution separates into one problem on the section for each number l of nodal
+# diameters. Shapes are mass-normalised over the whole solid.
 
 SAME_PLACE = 1e-9  # m; the slider must run through a node of the mesh
 # more indicate a mistake in units
@@ -223,12 +272,16 @@ MOST_EQUAL = 64  # modes with equal nodal diameters
 
 
 def section(rectangles: Iterable[tuple[float, float, float, float]], size: float) -> MeshQuad:
-    """A mesh of a union of rectangles (r from, r to, z from, z to), m, with a line of nodes along every edge of each;
-    `size`: m, largest edge of an element."""
+    """A mesh of a union of rectangles (r from, r to, z from, z to), m, with a line of nodes along
+    every edge of each; `size`: m, largest edge of an element."""
     mesh_type = brought("skfem", "fe").MeshQuad
     numbers = [tuple(map(float, rectangle)) for rectangle in rectangles]
     for i, box in enumerate(numbers or [()]):
-        if not (len(box) == 4 and 0 < box[0] < box[1] < math.inf and -math.inf < box[2] < box[3] < math.inf):
+        if not (
+            len(box) == 4
+            and 0 < box[0] < box[1] < math.inf
+            and -math.inf < box[2] < box[3] < math.inf
+        ):
             rule = "must be (r from, r to, z from, z to) with 0 < r from < r to and z from < z to"
             raise ParameterError(Fault.of(("rectangles", str(i)), box, rule))
     require((is_number(size) and size > 0, "size", size, "must be > 0"))
@@ -246,14 +299,21 @@ def section(rectangles: Iterable[tuple[float, float, float, float]], size: float
 def _divided(edges: set[float], size: float) -> Array:
     """Coordinates with every edge among them, and no gap larger than ``size``."""
     ends = sorted(edges)
-    parts = [np.linspace(a, b, math.ceil((b - a) / size) + 1)[:-1] for a, b in itertools.pairwise(ends)]
+    parts = [
+        np.linspace(a, b, math.ceil((b - a) / size) + 1)[:-1] for a, b in itertools.pairwise(ends)
+    ]
     return np.concatenate([*parts, ends[-1:]])
 
 
 def disc_of_section(
-    mesh: MeshQuad, material: Mapping[str, Any], clamped: Callable[[Array], Any], slider: Any, highest_Hz: float
+    mesh: MeshQuad,
+    material: Mapping[str, Any],
+    clamped: Callable[[Array], Any],
+    slider: Any,
+    highest_Hz: float,
 ) -> Disc:
-    """The modes of a solid of revolution that move under the slider, see `disc_model.Disc.from_section`."""
+    """The modes of a solid of revolution that move under the slider, see
+    `disc_model.Disc.from_section`."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
@@ -262,9 +322,19 @@ def disc_of_section(
     is_point = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
     is_mesh = isinstance(mesh, skfem.MeshQuad)
     require(
-        (is_mesh, "section", mesh, "must be rectangles, with their size of an element, or a mesh of quadrilaterals"),
+        (
+            is_mesh,
+            "section",
+            mesh,
+            "must be rectangles, with their size of an element, or a mesh of quadrilaterals",
+        ),
         (is_point, "slider", slider, "must be two numbers, r and z"),
-        (is_number(highest_Hz) and 0 < highest_Hz < math.inf, "highest_Hz", highest_Hz, "must be finite and > 0"),
+        (
+            is_number(highest_Hz) and 0 < highest_Hz < math.inf,
+            "highest_Hz",
+            highest_Hz,
+            "must be finite and > 0",
+        ),
     )
     element = skfem.ElementComposite(*[skfem.ElementQuad2()] * 3)
     basis = skfem.Basis(mesh, element, intorder=6)
@@ -275,24 +345,40 @@ def disc_of_section(
     nearest = int(np.argmin(apart))  # unknowns of each displacement are in the same order
     measured = np.array([vertical[nearest], circular[nearest], *vertical[level[first]]])
     links = coo_matrix((np.ones(mesh.facets.shape[1]), mesh.facets), shape=(mesh.p.shape[1],) * 2)
-    pieces = len(np.unique(connected_components(links, directed=False)[1][mesh.t]))  # that have no node in common
+    pieces = len(
+        np.unique(connected_components(links, directed=False)[1][mesh.t])
+    )  # that have no node in common
     held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()
     require(
         (apart.min() < SAME_PLACE, "slider", slider, "must be a node of the mesh"),
-        (len(held) > 0, "clamped", len(held), "must hold nodes of the section: coordinates are in m"),
+        (
+            len(held) > 0,
+            "clamped",
+            len(held),
+            "must hold nodes of the section: coordinates are in m",
+        ),
         (pieces == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
     )
     warn_of_doubts(iron)
     rows: list[tuple[float, int, int, float, float, list[float]]] = []
     for l in range(61):
-        omega, moves = _harmonic(basis, l, (iron.E, iron.nu, iron.rho), held, measured, math.tau * highest_Hz)
+        omega, moves = _harmonic(
+            basis, l, (iron.E, iron.nu, iron.rho), held, measured, math.tau * highest_Hz
+        )
         if l > 1 and len(omega) == 0:  # more nodal diameters only stiffen the disc
             break
         # the sine of a mode has the displacement -v(sin(l theta) to cos(l theta)) along theta
-        rows += [(w, l, i, a, 0.0 - v, shape) for i, (w, (a, v, *shape)) in enumerate(zip(omega, moves, strict=True))]
+        rows += [
+            (w, l, i, a, 0.0 - v, shape)
+            for i, (w, (a, v, *shape)) in enumerate(zip(omega, moves, strict=True))
+        ]
     largest = max((row[3] for row in rows), default=0.0)
-    transverse = sorted(row for row in rows if row[3] > 1e-6 * largest)  # others move in the plane of the disc alone
-    require((transverse, "highest_Hz", highest_Hz, "must be above a mode that moves under the slider"))
+    transverse = sorted(
+        row for row in rows if row[3] > 1e-6 * largest
+    )  # others move in the plane of the disc alone
+    require(
+        (transverse, "highest_Hz", highest_Hz, "must be above a mode that moves under the slider")
+    )
     omegas, diameters, circles, amplitudes, tangential, shapes = zip(*transverse, strict=True)
     return Disc(
         omega=omegas, diameters=diameters, circles=circles, amplitude=amplitudes, tangential=tangential,
@@ -301,10 +387,15 @@ def disc_of_section(
 
 
 def _harmonic(
-    basis: Any, l: int, material: tuple[float, float, float], held: Any, measured: NDArray[np.intp], highest: float
+    basis: Any,
+    l: int,
+    material: tuple[float, float, float],
+    held: Any,
+    measured: NDArray[np.intp],
+    highest: float,
 ) -> tuple[list[float], list[list[float]]]:
-    """Frequencies up to the highest (rad/s) of the modes with l nodal diameters, and their values of the measured
-    unknowns, the first of which the sign of a mode makes positive."""
+    """Frequencies up to the highest (rad/s) of the modes with l nodal diameters, and their values
+    of the measured unknowns, the first of which the sign of a mode makes positive."""
     from scipy.sparse.linalg import eigsh
 
     stiffness, mass = _matrices(basis, l, *material)

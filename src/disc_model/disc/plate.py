@@ -1,11 +1,14 @@
-"""Modes of the disc: an annular Kirchhoff plate, clamped at its inner radius and free at its outer radius.
+"""Modes of the disc: an annular Kirchhoff plate, clamped at its inner radius and free at its outer
+radius.
 
-With w = R(r) cos/sin(l theta), R = A J_l + B Y_l + C I_l + G K_l of beta r and beta^4 = rho h omega^2 / D,
-the four edge conditions are a homogeneous system whose determinant vanishes at the modes (the paper's Eqs.
-(13) to (17)). Lengths are in outer radii: x = r/b, lambda = beta b; lambda depends on a/b, nu and l alone.
+With w = R(r) cos/sin(l theta), R = A J_l + B Y_l + C I_l + G K_l of beta r and beta^4 = rho h
+omega^2 / D, the four edge conditions are a homogeneous system whose determinant vanishes at the
+modes (the paper's Eqs. (13) to (17)). Lengths are in outer radii: x = r/b, lambda = beta b; lambda
+depends on a/b, nu and l alone.
 
-Bessel functions span hundreds of decades, so that each of the four columns is scaled by a factor whose logarithm is
-kept. Roots are bracketed on a grid, refined, and checked: mode c of any l has exactly c nodal circles.
+Bessel functions span hundreds of decades, so that each of the four columns is scaled by a factor
+whose logarithm is kept. Roots are bracketed on a grid, refined, and checked: mode c of any l has
+exactly c nodal circles.
 """
 
 from __future__ import annotations
@@ -91,30 +94,37 @@ class Modes:
 
     @property
     def flexibility(self) -> float:
-        """Static flexibility under the slider: the sum of psi^2 / omega^2, m/N; infinite beyond the range of floats."""
+        """Static flexibility under the slider: the sum of psi^2 / omega^2, m/N; infinite beyond the
+        range of floats."""
         with np.errstate(over="ignore"):
             return float(np.sum((self.psi / self.omega) ** 2))
 
 
 def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
-    """The modes of `plate_modes` as read-only arrays, the same at every call; `normalization` replaces the case's."""
+    """The modes of `plate_modes` as read-only arrays, the same at every call; `normalization`
+    replaces the case's."""
     if p.disc is not None:
         return modes_of_table(p.disc)
     return _modes(_PLATE(p), (normalization or p.normalization) == "orthonormal")
 
 
 def tangential_amplitudes(p: Parameters) -> Array:
-    """Amplitudes of the modes along the slider's path where friction acts, kg^-1/2, shape (n_modes,). At a height z of
-    ``friction_offset`` above the middle plane they are -(z/r_0) l psi; 0 in that plane."""
+    """Amplitudes of the modes along the slider's path where friction acts, kg^-1/2, shape
+    (n_modes,). At a height z of ``friction_offset`` above the middle plane they are -(z/r_0) l psi;
+    0 in that plane."""
     if p.disc is not None and p.friction_offset == SURFACE:
         return np.array(p.disc.tangential)
-    modes, height = mode_arrays(p), p.h / 2 if p.friction_offset == SURFACE else float(p.friction_offset)
+    modes, height = (
+        mode_arrays(p),
+        p.h / 2 if p.friction_offset == SURFACE else float(p.friction_offset),
+    )
     return -height / p.r_0 * modes.diameters * modes.psi
 
 
 def mode_shapes(p: Parameters, r: Array) -> Array:
-    """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of `plate_modes`. For
-    a table they are splines through its shapes and amplitudes. Raises ParameterError if it has no shapes."""
+    """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of
+    `plate_modes`. For a table they are splines through its shapes and amplitudes. Raises
+    ParameterError if it has no shapes."""
     if p.disc is not None:
         from scipy.interpolate import make_interp_spline  # few callers need it
 
@@ -123,12 +133,15 @@ def mode_shapes(p: Parameters, r: Array) -> Array:
     if p.n_diameters < 0:  # a rigid disc
         return np.zeros((0, len(r)))
     shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
-    radial = np.column_stack([shapes.at(float(x), p.normalization == "orthonormal") for x in r / p.b])
+    radial = np.column_stack(
+        [shapes.at(float(x), p.normalization == "orthonormal") for x in r / p.b]
+    )
     return np.where(shapes.l > 0, np.sqrt(2), 1.0)[:, None] * radial / np.sqrt(p.rho * p.h * p.b**2)
 
 
 def radial_range(p: Parameters) -> tuple[float, float]:
-    """Least and greatest radius (m) of the known shapes; raises ParameterError if the table of a disc has none."""
+    """Least and greatest radius (m) of the known shapes; raises ParameterError if the table of a
+    disc has none."""
     if p.disc is None:
         return p.a, p.b
     radii = _given_shapes(p.disc, p.r_0)[0]
@@ -141,16 +154,19 @@ def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
         rule = "must have shapes, in columns such as shape_at_0.08_m: only amplitudes under the slider are known"
         raise ParameterError(Fault(("disc",), "", rule))
     radii, shapes = np.array([r_0, *disc.radii]), np.column_stack([disc.amplitude, disc.shapes])
-    _, first = np.unique(np.round(radii, 9), return_index=True)  # nm, by which two radii are the same
+    _, first = np.unique(
+        np.round(radii, 9), return_index=True
+    )  # nm, by which two radii are the same
     return radii[first], shapes[:, first]
 
 
 def coupled_natural_frequencies(p: Parameters) -> Array:
-    """Natural frequencies of disc and attached slider at rest (Section 4.4 of the paper), rad/s, ascending.
+    """Natural frequencies of disc and attached slider at rest (Section 4.4 of the paper), rad/s,
+    ascending.
 
-    Solves (diag(omega^2) + k psi psi^T) v = lambda^2 (I + m psi psi^T) v for the modes that have an amplitude
-    under the slider; the other mode of each diametral pair has a node there and keeps its frequency. Contact is rigid
-    as in the paper, whatever the contact of the case.
+    Solves (diag(omega^2) + k psi psi^T) v = lambda^2 (I + m psi psi^T) v for the modes that have an
+    amplitude under the slider; the other mode of each diametral pair has a node there and keeps its
+    frequency. Contact is rigid as in the paper, whatever the contact of the case.
 
     Parameters
     ----------
@@ -178,20 +194,24 @@ def coupled_natural_frequencies(p: Parameters) -> Array:
 
 
 def coupled_frequencies(p: Parameters, compliance: float = 0.0, kept: Any = slice(None)) -> Array:
-    """Frequencies of the modes of disc and attached slider at rest in which the slider moves, rad/s, ascending: (n,),
-    or (n + 1,) with a `compliance` of the contact (m/N). `kept` selects n of the disc's modes. Raises `ModeError`."""
+    """Frequencies of the modes of disc and attached slider at rest in which the slider moves,
+    rad/s, ascending: (n,), or (n + 1,) with a `compliance` of the contact (m/N). `kept` selects n
+    of the disc's modes. Raises `ModeError`."""
     return np.sort(1 / np.sqrt(_inverse_squares(p, compliance, kept, eigvals_only=True)))
 
 
 def coupled_shapes(p: Parameters, compliance: float = 0.0) -> tuple[Array, Array]:
-    """Frequencies of `coupled_frequencies`, descending, and shapes in columns: n rows, each mode times its frequency.
-    On a compliant contact the last row is the slider's."""
+    """Frequencies of `coupled_frequencies`, descending, and shapes in columns: n rows, each mode
+    times its frequency. On a compliant contact the last row is the slider's."""
     inverse_squares, shapes = _inverse_squares(p, compliance)
     return 1 / np.sqrt(inverse_squares), shapes
 
 
-def _inverse_squares(p: Parameters, compliance: float, taking_part: Any = slice(None), **how: bool) -> Any:
-    """Solution by `eigh` of the eigenvalue problem of either contact: lambda^-2, ascending, and shapes."""
+def _inverse_squares(
+    p: Parameters, compliance: float, taking_part: Any = slice(None), **how: bool
+) -> Any:
+    """Solution by `eigh` of the eigenvalue problem of either contact: lambda^-2, ascending, and
+    shapes."""
     from scipy import linalg  # takes 0.3 s, and most jobs do without
 
     modes = mode_arrays(p)
@@ -212,12 +232,17 @@ def _inverse_squares(p: Parameters, compliance: float, taking_part: Any = slice(
     return solution
 
 
-def _coupling(omega: Array, psi: Array, m: float, k: float, compliance: float) -> tuple[Array, Array]:
-    """Both matrices of M y = lambda^-2 K y: `coupled_natural_frequencies` with y = omega v, so that low frequencies
-    stay accurate beside high ones. On a compliant contact the last coordinate is u over the root of its compliance."""
+def _coupling(
+    omega: Array, psi: Array, m: float, k: float, compliance: float
+) -> tuple[Array, Array]:
+    """Both matrices of M y = lambda^-2 K y: `coupled_natural_frequencies` with y = omega v, so that
+    low frequencies stay accurate beside high ones. On a compliant contact the last coordinate is u
+    over the root of its compliance."""
     phi = psi / omega
     if compliance == 0:
-        return np.diag(omega**-2) + m * np.outer(phi, phi), np.eye(omega.size) + k * np.outer(phi, phi)
+        return np.diag(omega**-2) + m * np.outer(phi, phi), np.eye(omega.size) + k * np.outer(
+            phi, phi
+        )
     stretch = np.append(phi / np.sqrt(compliance), -1.0)
     mass = np.diag(np.append(omega**-2, m * compliance))
     stiffness = np.diag(np.append(np.ones(omega.size), k * compliance)) + np.outer(stretch, stretch)
@@ -225,7 +250,8 @@ def _coupling(omega: Array, psi: Array, m: float, k: float, compliance: float) -
 
 
 def modal_damping(p: Parameters) -> Array:
-    """Damping 2 xi omega of every mode, 1/s, in the order of `plate_modes`; (D*/D) omega^2 if no ratio xi is given."""
+    """Damping 2 xi omega of every mode, 1/s, in the order of `plate_modes`; (D*/D) omega^2 if no
+    ratio xi is given."""
     omega = mode_arrays(p).omega
     ratio = p.damping_ratio if p.disc is None else np.array(p.disc.damping_ratio)
     return p.D_star / p.D * omega**2 if ratio is None else 2 * ratio * omega
@@ -243,28 +269,40 @@ _PLATE = attrgetter("a", "b", "r_0", "h", "E", "nu", "rho", "n_diameters", "n_ci
 
 @lru_cache(maxsize=1024)
 def _modes(plate: tuple[Any, ...], orthonormal: bool) -> Modes:
-    """Modes, cached by exactly the values on which they depend, so that another load or speed reuses them."""
+    """Modes, cached by exactly the values on which they depend, so that another load or speed
+    reuses them."""
     a, b, r_0, h, E, nu, rho, n_diameters, n_circles = plate
     if n_diameters < 0:  # a rigid disc
         return Modes(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0))
     shapes = _shapes(a / b, nu, n_diameters, n_circles)
     stiffness = E * h**3 / 12 / (1 - nu**2)
-    with np.errstate(all="ignore"):  # numpy's floats overflow without an exception, and the outcome is checked
+    with np.errstate(
+        all="ignore"
+    ):  # numpy's floats overflow without an exception, and the outcome is checked
         omega = shapes.lam**2 / np.float64(b) ** 2 * np.sqrt(stiffness / (np.float64(rho) * h))
         amplitude = shapes.at(r_0 / b, orthonormal)
-        psi = np.where(shapes.l > 0, np.sqrt(2), 1.0) * amplitude / np.sqrt(rho * h * np.float64(b) ** 2)
+        psi = (
+            np.where(shapes.l > 0, np.sqrt(2), 1.0)
+            * amplitude
+            / np.sqrt(rho * h * np.float64(b) ** 2)
+        )
     if not (np.all((omega > 0) & np.isfinite(omega)) and np.all(np.isfinite(psi)) and np.any(psi)):
-        values = ", ".join(f"{name}={as_text(x)}" for name, x in (("b", b), ("h", h), ("E", E), ("rho", rho)))
-        raise ModeError(f"plate modes: {values}: frequencies or amplitudes must be within the range of numbers")
+        values = ", ".join(
+            f"{name}={as_text(x)}" for name, x in (("b", b), ("h", h), ("E", E), ("rho", rho))
+        )
+        raise ModeError(
+            f"plate modes: {values}: frequencies or amplitudes must be within the range of numbers"
+        )
     return Modes(np.repeat(np.arange(n_circles + 1), n_diameters + 1), shapes.l.copy(), omega, psi)
 
 
 @dataclass(frozen=True)
 class _Shapes:
-    """Radial shapes R(x), x = r/b, of the n modes of a plate with the radii `inner` and 1, by circles, then diameters.
+    """Radial shapes R(x), x = r/b, of the n modes of a plate with the radii `inner` and 1, by
+    circles, then diameters.
 
-    R = sum over J, Y, I, K of coefficients (4, n) times function / exp(exponents (4, n)), and `norm` (n,) is
-    2 pi * integral of R^2 x dx.
+    R = sum over J, Y, I, K of coefficients (4, n) times function / exp(exponents (4, n)), and
+    `norm` (n,) is 2 pi * integral of R^2 x dx.
     """
 
     inner: float
@@ -296,14 +334,19 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     lam = _roots(inner, nu, n_diameters, n_circles).ravel()
     matrix, exponents = _columns(l, lam, inner, nu)
     if not np.all(np.isfinite(matrix)):
-        rule = f"must not be so near 0 for {n_diameters} nodal diameters: the modes cannot be computed"
+        rule = (
+            f"must not be so near 0 for {n_diameters} nodal diameters: the modes cannot be computed"
+        )
         raise ModeError(f"plate modes: a/b={inner:g} and 1 - a/b={1 - inner:g} {rule}")
     matrix = np.moveaxis(matrix, -1, 0)
     rows = np.max(np.abs(matrix), axis=2, keepdims=True)
     coefficients = np.linalg.svd(matrix / rows)[2][:, -1, :].T
     # a null vector has no sign of its own; at the free edge no mode vanishes
-    coefficients = coefficients * np.sign(_evaluate(l, lam, coefficients, exponents, np.array([1.0]))[:, 0])
-    # nodes that integrate R^2 r to rounding: several per half wave, more for edge layers of many diameters
+    coefficients = coefficients * np.sign(
+        _evaluate(l, lam, coefficients, exponents, np.array([1.0]))[:, 0]
+    )
+    # nodes that integrate R^2 r to rounding: several per half wave, more for edge layers of many
+    # diameters
     count = 8 * (int(40 + lam[-1] * (1 - inner) + 1.2 * n_diameters) // 8)
     nodes, weights = np.polynomial.legendre.leggauss(count)
     half = (1 - inner) / 2
@@ -311,26 +354,35 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     values = _evaluate(l, lam, coefficients, exponents, nodes)
     circles = np.repeat(np.arange(n_circles + 1), n_diameters + 1)
     for shape, diameters, expected in zip(values, l, circles, strict=True):
-        clear = shape[np.abs(shape) > 1e-7 * np.max(np.abs(shape))]  # without rounding errors near the clamp
+        clear = shape[
+            np.abs(shape) > 1e-7 * np.max(np.abs(shape))
+        ]  # without rounding errors near the clamp
         counted = np.count_nonzero(clear[1:] * clear[:-1] < 0)
         if counted != expected:
             root = f"root {expected} for {diameters} nodal diameters at a/b={inner:g}, nu={nu:g}"
-            raise ModeError(f"plate modes: {root} has {counted} nodal circles; one was missed or doubled")
+            raise ModeError(
+                f"plate modes: {root} has {counted} nodal circles; one was missed or doubled"
+            )
     norm = 2 * np.pi * values**2 @ (weights * nodes)
     return _Shapes(inner, l, lam, coefficients, exponents, norm)
 
 
-def _evaluate(l: NDArray[np.int64], lam: Array, coefficients: Array, exponents: Array, x: Array) -> Array:
+def _evaluate(
+    l: NDArray[np.int64], lam: Array, coefficients: Array, exponents: Array, x: Array
+) -> Array:
     """R of n modes at the radii `x` (k,), roughly in units of its largest value: (n, k)."""
     values, logs = _bessel(l[:, None], lam[:, None] * x)
     return np.sum(coefficients[..., None] * values * np.exp(logs - exponents[..., None]), axis=0)
 
 
 def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
-    """The lowest zeros lambda of the frequency determinant for each l, (n_circles + 1, n_diameters + 1)."""
+    """The lowest zeros lambda of the frequency determinant for each l, (n_circles + 1, n_diameters
+    + 1)."""
     step = np.pi / (1 - inner) / POINTS_PER_ROOT
     l = np.arange(n_diameters + 1)
-    start = 0.02 + 0.3 * np.maximum(l - 1.0, 0.0)  # below the first roots, where the determinant is well conditioned
+    start = 0.02 + 0.3 * np.maximum(
+        l - 1.0, 0.0
+    )  # below the first roots, where the determinant is well conditioned
     by_diameters: list[list[tuple[float, float]]] = [[] for _ in l]
     chunk = POINTS_PER_ROOT * (n_circles + 1) + 8
     missing = l
@@ -339,21 +391,32 @@ def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
         orders = np.broadcast_to(missing[:, None], grid.shape)
         signs = np.sign(_determinant(orders.ravel(), grid.ravel(), inner, nu)).reshape(grid.shape)
         # A zero on the grid belongs to the interval that ends there.
-        for row, i in zip(*np.nonzero((signs[:, 1:] != signs[:, :-1]) & (signs[:, :-1] != 0)), strict=True):
+        for row, i in zip(
+            *np.nonzero((signs[:, 1:] != signs[:, :-1]) & (signs[:, :-1] != 0)), strict=True
+        ):
             by_diameters[missing[row]].append((grid[row, i], grid[row, i + 1]))
-        missing = np.array([order for order in missing if len(by_diameters[order]) <= n_circles], dtype=np.int64)
+        missing = np.array(
+            [order for order in missing if len(by_diameters[order]) <= n_circles], dtype=np.int64
+        )
         if missing.size == 0:
             break
     else:
-        raise ModeError(f"plate modes: no {n_circles + 1} roots for {missing[0]} nodal diameters at a/b={inner:g}")
+        raise ModeError(
+            f"plate modes: no {n_circles + 1} roots for {missing[0]} nodal diameters at a/b={inner:g}"
+        )
     brackets = np.array([of_l[: n_circles + 1] for of_l in by_diameters]).transpose(1, 0, 2)
     orders = np.tile(l, n_circles + 1)
-    lam = _refine(lambda x: _determinant(orders, x, inner, nu), brackets[..., 0].ravel(), brackets[..., 1].ravel())
+    lam = _refine(
+        lambda x: _determinant(orders, x, inner, nu),
+        brackets[..., 0].ravel(),
+        brackets[..., 1].ravel(),
+    )
     return lam.reshape(n_circles + 1, n_diameters + 1)
 
 
 def _refine(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
-    """Zeros of n functions in n brackets at once, to rounding: Chandrupatla's method (1997), shape (n,)."""
+    """Zeros of n functions in n brackets at once, to rounding: Chandrupatla's method (1997), shape
+    (n,)."""
     x_1, x_2 = low.copy(), high.copy()
     f_1, f_2 = function(x_1), function(x_2)
     t = np.full_like(low, 0.5)
@@ -373,7 +436,9 @@ def _refine(function: Callable[[Array], Array], low: Array, high: Array) -> Arra
             xi, phi = (x_1 - x_2) / (x_3 - x_2), (f_1 - f_2) / (f_3 - f_2)
             quadratic = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)
             alpha = (x_3 - x_1) / (x_2 - x_1)
-            t = f_1 / (f_1 - f_2) * f_3 / (f_3 - f_2) - alpha * f_1 / (f_3 - f_1) * f_2 / (f_2 - f_3)
+            t = f_1 / (f_1 - f_2) * f_3 / (f_3 - f_2) - alpha * f_1 / (f_3 - f_1) * f_2 / (
+                f_2 - f_3
+            )
             edge = np.minimum(tolerance / width, 0.5)
         t = np.where(quadratic & np.isfinite(t), np.clip(t, edge, 1 - edge), 0.5)
         t = np.where(np.isfinite(t), t, 0.5)
@@ -381,9 +446,11 @@ def _refine(function: Callable[[Array], Array], low: Array, high: Array) -> Arra
 
 
 def _determinant(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> Array:
-    """Determinant of the scaled edge conditions, up to a positive factor, for `l` and `lam` (n,): (n,)."""
+    """Determinant of the scaled edge conditions, up to a positive factor, for `l` and `lam` (n,):
+    (n,)."""
     m, _ = _columns(l, lam, inner, nu)
-    # Laplace expansion: minors of the clamped edge (rows 0, 1) times those of the free edge (rows 2, 3).
+    # Laplace expansion: minors of the clamped edge (rows 0, 1) times those of the free edge (rows
+    # 2, 3).
     i, j, partner = [0, 2, 0, 1, 0, 1], [1, 3, 2, 3, 3, 2], [1, 0, 3, 2, 5, 4]
     clamped = m[0, i] * m[1, j] - m[0, j] * m[1, i]
     free = m[2, i] * m[3, j] - m[2, j] * m[3, i]
@@ -392,8 +459,9 @@ def _determinant(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> A
 
 
 def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple[Array, Array]:
-    """Matrix of the edge conditions, (4 conditions, 4 functions, n), and logarithms (4, n) taken out of its columns.
-    Its rows are R and R' at the inner edge, radial moment and Kirchhoff shear at the outer one, over lambda x."""
+    """Matrix of the edge conditions, (4 conditions, 4 functions, n), and logarithms (4, n) taken
+    out of its columns. Its rows are R and R' at the inner edge, radial moment and Kirchhoff shear
+    at the outer one, over lambda x."""
     value, slope, logs = _with_slope(l, np.stack([lam * inner, lam]))
     # J and I grow outwards, Y and K inwards: scaled by the larger edge, no entry is much above one.
     exponents = np.max(logs, axis=1)
@@ -409,8 +477,8 @@ def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple
 
 
 def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
-    """J, Y, I, K of order l and their derivatives at `x` (..., n), the larger of them 1 in magnitude, and the
-    logarithms of their factors: (4, ..., n) each."""
+    """J, Y, I, K of order l and their derivatives at `x` (..., n), the larger of them 1 in
+    magnitude, and the logarithms of their factors: (4, ..., n) each."""
     value, exponent = _bessel(l, x)
     following, exponent_next = _bessel(l + 1, x)
     sign = np.array([-1.0, -1.0, 1.0, -1.0]).reshape((4,) + (1,) * x.ndim)
@@ -420,7 +488,8 @@ def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
 
 
 def _bessel(l: NDArray[np.int64], x: Array) -> tuple[Array, Array]:
-    """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of x)."""
+    """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of
+    x)."""
     from scipy import special  # takes 0.2 s, and merges and figures do without
 
     value = np.stack([special.jv(l, x), special.yv(l, x), special.ive(l, x), special.kve(l, x)])

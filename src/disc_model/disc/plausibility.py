@@ -1,4 +1,5 @@
-"""Warnings of values that are allowed but implausible, such as E = 150, which was probably meant in GPa."""
+"""Warnings of values that are allowed but implausible, such as E = 150, which was probably meant in
+GPa."""
 
 import math
 import warnings
@@ -36,7 +37,8 @@ _reported: set[str] = set()
 
 
 def warn_of_doubts(p: Parameters, tell: Callable[[str], object] | None = None) -> None:
-    """Report implausible values of a case, once in a process by each rule; by default as a warning."""
+    """Report implausible values of a case, once in a process by each rule; by default as a
+    warning."""
     for kind, text in doubts(p).items():
         if kind not in _reported:
             _reported.add(kind)
@@ -52,7 +54,9 @@ def _far(name: str, usual: float, p: Parameters) -> str:
     if usual / 100 <= value <= usual * 100 or value == 0:
         return ""
     how = "more than a hundred times" if value > usual else "less than a hundredth of"
-    exceeded = ", and event times are less accurate than tol says" if name == "k" and value > usual else ""
+    exceeded = (
+        ", and event times are less accurate than tol says" if name == "k" and value > usual else ""
+    )
     return f"{_value(p, name)} is {how} the {usual:g} of Table 1{exceeded}"
 
 
@@ -69,8 +73,8 @@ def _deflected(p: Parameters) -> str:
         deflection = p.N * mode_arrays(p, "orthonormal").flexibility  # of the physical plate
     except (DiscModelError, ArithmeticError):  # reported when the modes are requested
         return ""
-    # Linear theory holds up to about the thickness. The paper's cases have up to 8 times as much, and 211 at the
-    # 80,000 N that prevent any motion; a mistake in units is a factor of 1000.
+    # Linear theory holds up to about the thickness. The paper's cases have up to 8 times as much,
+    # and 211 at the 80,000 N that prevent any motion; a mistake in units is a factor of 1000.
     if not 300 * p.h < deflection < math.inf:
         return ""
     times = f"{1e3 * deflection:.3g} mm, {deflection / p.h:.0f} times the thickness"
@@ -100,7 +104,9 @@ def _elsewhere(p: Parameters) -> str:
     low, *_, high = p.disc.radii
     if not low <= p.r_0 <= high:
         return f"{_value(p, 'r_0')} is not within {low:g} to {high:g} m, where the disc's shapes are known"
-    amplitude, shape = max(zip(p.disc.amplitude, p.disc.shapes, strict=True), key=lambda mode: abs(mode[0]))
+    amplitude, shape = max(
+        zip(p.disc.amplitude, p.disc.shapes, strict=True), key=lambda mode: abs(mode[0])
+    )
     at_slider = float(np.interp(p.r_0, p.disc.radii, shape))
     if abs(at_slider - amplitude) <= 0.05 * abs(amplitude):
         return ""
@@ -111,7 +117,9 @@ def _elsewhere(p: Parameters) -> str:
 
 
 def _unstated(p: Parameters) -> str:
-    changed = [name for name in ("a", "b", "h", "E", "nu", "rho") if getattr(p, name) != DEFAULTS[name]]
+    changed = [
+        name for name in ("a", "b", "h", "E", "nu", "rho") if getattr(p, name) != DEFAULTS[name]
+    ]
     needed = {"the normalization of modes ('orthonormal' for a real disc)": {"normalization"}}
     if changed != ["E"]:  # the paper varies E alone, with the damping of Table 1
         needed |= {"the damping (D_star or damping_ratio)": {"D_star", "damping_ratio"}}

@@ -1,10 +1,12 @@
-"""Energy balances of a step (docs/model.md, Energy), by Gauss-Legendre quadrature of the dense output.
+"""Energy balances of a step (docs/model.md, Energy), by Gauss-Legendre quadrature of the dense
+output.
 
 d/dt (disc + vertical slider) = P f B + T v_s - sum 2 xi omega (alpha^2 + beta^2) - c u'^2
 d/dt (in-plane)               = Omega r_0^2 F - mu r_0 P |f| - c_p r_0^2 (Omega - f)^2
 
-T v_s is the work of friction T on the disc's surface, whose velocity is v_s; it has no counterpart in the plane. On a
-ramp of N the first balance gains N' (u - u_0), because the energy contains N (u - u_0).
+T v_s is the work of friction T on the disc's surface, whose velocity is v_s; it has no counterpart
+in the plane. On a ramp of N the first balance gains N' (u - u_0), because the energy contains N (u
+- u_0).
 """
 
 import math
@@ -22,9 +24,10 @@ from .transitions import disc_point, friction_force, inplane_force_per_radius, s
 _NODES, _WEIGHTS = (a * 0.5 for a in np.polynomial.legendre.leggauss(24))
 _NODES = _NODES + 0.5
 _PANEL = 8.0  # time units that the nodes resolve; only stick in closed form is longer
-# Indices of the sums in the audit's array. TRANSVERSE, INPLANE: sums of the residuals; *_SCALE: largest energy
-# exchanged in one step; *_TURNOVER: sum of the moduli of all energy put in and taken out; COUPLE: sum of the work
-# T v_s; SURFACE: largest abs(v_s) / (r_0 Omega) at the ends of steps, audited or not.
+# Indices of the sums in the audit's array. TRANSVERSE, INPLANE: sums of the residuals; *_SCALE:
+# largest energy exchanged in one step; *_TURNOVER: sum of the moduli of all energy put in and taken
+# out; COUPLE: sum of the work T v_s; SURFACE: largest abs(v_s) / (r_0 Omega) at the ends of steps,
+# audited or not.
 STEPS, WORST, TRANSVERSE, INPLANE, TRANSVERSE_SCALE, INPLANE_SCALE = range(6)
 TRANSVERSE_TURNOVER, INPLANE_TURNOVER, COUPLE, SURFACE, N_SUMS = range(6, 11)
 
@@ -45,7 +48,12 @@ def transverse_energy(model, state, phase):
     for j in range(len(model.mode_amplitude0)):
         energy += state.g[j] ** 2 + model.stiffness0[j] * state.y[j] ** 2
     raised = u - model.u_0
-    return 0.5 * energy + 0.5 * model.m * v * v + 0.5 * model.k * raised**2 + layout.load_now(model, state) * raised
+    return (
+        0.5 * energy
+        + 0.5 * model.m * v * v
+        + 0.5 * model.k * raised**2
+        + layout.load_now(model, state) * raised
+    )
 
 
 @helper
@@ -56,7 +64,8 @@ def inplane_energy(model, state):
 
 @inlined
 def surface_velocity(model, state):
-    """v_s: velocity of the disc's surface under the slider, along its path, by which friction bends the disc; m/s."""
+    """v_s: velocity of the disc's surface under the slider, along its path, by which friction bends
+    the disc; m/s."""
     velocity = splat(0.0)
     for b in range(0, len(model.shift), WIDTH):
         velocity = fma(load(model.couple, b), load(state.e, b), velocity)
@@ -65,9 +74,14 @@ def surface_velocity(model, state):
 
 @helper
 def _powers_in(model, state, phase, direction, P):
-    """Power into the transverse and the in-plane motion, the sums of the moduli of their parts, and T v_s, W."""
+    """Power into the transverse and the in-plane motion, the sums of the moduli of their parts, and
+    T v_s, W."""
     u, v, dw_dtheta = slider_motion(model, state)
-    f, F, Omega = state.x[layout.F], inplane_force_per_radius(model, state), layout.drive_now(model, state)
+    f, F, Omega = (
+        state.x[layout.F],
+        inplane_force_per_radius(model, state),
+        layout.drive_now(model, state),
+    )
     lost = model.c * v * v
     for j in range(len(model.shift)):
         lost += model.damping[j] * state.e[j] ** 2
@@ -89,7 +103,13 @@ def _powers_in(model, state, phase, direction, P):
         couple = friction_force(model, state, phase, direction, P) * surface_velocity(model, state)
         driven += couple
         size += abs(couple)
-    return driven - lost, supplied - rubbed - damped, size, abs(supplied) + abs(rubbed) + damped, couple
+    return (
+        driven - lost,
+        supplied - rubbed - damped,
+        size,
+        abs(supplied) + abs(rubbed) + damped,
+        couple,
+    )
 
 
 @helper
@@ -113,7 +133,9 @@ def audit_step(model, s, order, x_end, phase, direction, probe, audit):
     move_to(model, s, order, x_end, phase, probe)
     residual_t = transverse_energy(model, probe, phase) - start_t - work_t
     residual_p = inplane_energy(model, probe) - start_p - work_p
-    accumulate_residuals(audit, residual_t, residual_p, size_t + abs(start_t), size_p + abs(start_p))
+    accumulate_residuals(
+        audit, residual_t, residual_p, size_t + abs(start_t), size_p + abs(start_p)
+    )
     audit[TRANSVERSE_TURNOVER] += size_t
     audit[INPLANE_TURNOVER] += size_p
     audit[STEPS] += 1.0
@@ -134,8 +156,9 @@ def accumulate_residuals(audit, residual_t, residual_p, size_t, size_p):
 
 @helper
 def audit_impact(model, before, impulse, dw_dtheta, state, audit):
-    """Balance of a plastic impact: Delta E = -p^2 (S2 + 1/m) / 2 + p f B, f being that after it. The normal force
-    changes f: the energy that the slope takes from the in-plane motion beyond p f B is lost."""
+    """Balance of a plastic impact: Delta E = -p^2 (S2 + 1/m) / 2 + p f B, f being that after it.
+    The normal force changes f: the energy that the slope takes from the in-plane motion beyond p f
+    B is lost."""
     lost, f = 0.5 * impulse**2 * (model.inverse_effective_mass + 1.0 / model.m), state.x[layout.F]
     expected = -lost + impulse * f * dw_dtheta
     after = transverse_energy(model, state, layout.SEPARATION)

@@ -1,10 +1,12 @@
-"""State and contact force anywhere in a step: from the series or, in stick, in closed form; uniform samples of both.
+"""State and contact force anywhere in a step: from the series or, in stick, in closed form; uniform
+samples of both.
 
-Stick is not integrated as long as it cannot end.  In the modes of ``stick_modes`` |P - N| <= sum gain_i |q_i|: the
-growing spring force reaches the friction limit mu_s P at the earliest where it meets mu_s (N - that sum).
+Stick is not integrated as long as it cannot end.  In the modes of ``stick_modes`` |P - N| <= sum
+gain_i |q_i|: the growing spring force reaches the friction limit mu_s P at the earliest where it
+meets mu_s (N - that sum).
 
-A sample at an event shows the side before it. Its time is rounded, and differently on another way to the same event: a
-sample is "at" an event up to `SAME_INSTANT` of the clock after it.
+A sample at an event shows the side before it. Its time is rounded, and differently on another way
+to the same event: a sample is "at" an event up to `SAME_INSTANT` of the clock after it.
 """
 
 import math
@@ -21,8 +23,21 @@ from .transitions import disc_point, force_in_stick, stick_force
 CLOSED_FORM = 0  # in place of a series' order where stick has a closed form instead
 SHORTEST_STICK = 5.0  # time units: the closed form saves time from about the length of a usual step
 # Columns of a row of samples.
-ROW = ("sampler", "time", "P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity", "phase")
-# A release found by the series is rounded at each step, and deviates by up to 80 units of rounding within 400 steps.
+ROW = (
+    "sampler",
+    "time",
+    "P",
+    "u",
+    "u_velocity",
+    "w",
+    "w_point",
+    "w_point_velocity",
+    "psi",
+    "psi_velocity",
+    "phase",
+)
+# A release found by the series is rounded at each step, and deviates by up to 80 units of rounding
+# within 400 steps.
 SAME_INSTANT = 256 * 2.0**-52
 
 
@@ -34,8 +49,14 @@ def _times(ar, ai, br, bi):
 
 @helper
 def propagate_stick(model, s, x, state):
-    """Fill ``state`` with stick at x (time units) after the state of the call of ``closed_form_length``."""
-    modes, amplitudes, disc, psi = model.modes, s.amplitudes, state.disc, s.psi[0] + model.Omega * model.unit * x
+    """Fill ``state`` with stick at x (time units) after the state of the call of
+    ``closed_form_length``."""
+    modes, amplitudes, disc, psi = (
+        model.modes,
+        s.amplitudes,
+        state.disc,
+        s.psi[0] + model.Omega * model.unit * x,
+    )
     n, length, spring = len(modes.gain), len(disc), model.k_p * psi + model.c_p * model.Omega
     quanta = int(x / QUANTUM)
     rest = splat(x - quanta * QUANTUM)
@@ -58,7 +79,9 @@ def propagate_stick(model, s, x, state):
         v = load(modes.rest, b)
         if model.coupled:
             v = fma(splat(model.r_0 * spring), load(modes.friction_rest, b), v)
-            v = fma(splat(model.r_0 * model.k_p * model.Omega), load(modes.friction_rest, length + b), v)
+            v = fma(
+                splat(model.r_0 * model.k_p * model.Omega), load(modes.friction_rest, length + b), v
+            )
         for i in range(2 * n):
             v = fma(spread(amplitudes, 2 * n + i), load(modes.leave, i * length + b), v)
         store(disc, b, v)
@@ -70,7 +93,8 @@ def propagate_stick(model, s, x, state):
 
 @helper
 def closed_form_length(model, s, state):
-    """Time (time units) for which stick surely lasts, 0 if too short for ``propagate_stick`` to be worth it."""
+    """Time (time units) for which stick surely lasts, 0 if too short for ``propagate_stick`` to be
+    worth it."""
     modes = model.modes
     n, width, swing = len(modes.gain), len(modes.offset), 0.0
     if n == 0:
@@ -84,7 +108,11 @@ def closed_form_length(model, s, state):
         q = load(modes.offset, b)
         if model.coupled:
             q = fma(splat(model.r_0 * spring), load(modes.friction_offset, b), q)
-            q = fma(splat(model.r_0 * model.k_p * model.Omega), load(modes.friction_offset, width + b), q)
+            q = fma(
+                splat(model.r_0 * model.k_p * model.Omega),
+                load(modes.friction_offset, width + b),
+                q,
+            )
         for j in range(states):
             q = fma(spread(state.disc, j), load(modes.enter, j * width + b), q)
         store(s.amplitudes, b, q)
@@ -104,7 +132,8 @@ def closed_form_length(model, s, state):
 
 @inlined
 def _pairs_at(model, s, order, x, state):
-    """Displacements and velocities of the pairs at x; even and odd powers do not wait for each other."""
+    """Displacements and velocities of the pairs at x; even and odd powers do not wait for each
+    other."""
     width, at, square = lane_count(model), splat(x), splat(x * x)
     for b in range(0, width, WIDTH):
         i = order * width + b
@@ -121,12 +150,16 @@ def _pairs_at(model, s, order, x, state):
 
 @inlined
 def state_at(model, s, order, x, phase, state):
-    """Fill ``state`` with the series' value, of even order, at x; u, u' only where they are not the disc's."""
+    """Fill ``state`` with the series' value, of even order, at x; u, u' only where they are not the
+    disc's."""
     set_powers(s.powers, x, order)
     psi, f = dot(s.psi, 0, s.powers, order), dot(s.f, 0, s.powers, order)
     _pairs_at(model, s, order, x, state)
     for j in range(len(model.mode_amplitude0)):
-        state.y[j], state.g[j] = dot(s.y, j * ROWS, s.powers, order), dot(s.g, j * ROWS, s.powers, order)
+        state.y[j], state.g[j] = (
+            dot(s.y, j * ROWS, s.powers, order),
+            dot(s.g, j * ROWS, s.powers, order),
+        )
     if model.compliant or phase == layout.SEPARATION:
         state.x[U], state.x[U_VELOCITY] = dot(s.u, 0, s.powers, order), dot(s.v, 0, s.powers, order)
     state.x[PHASE], state.x[PSI], state.x[F] = phase, psi, 0.0 if phase == STICK else f
@@ -137,7 +170,8 @@ def state_at(model, s, order, x, phase, state):
 
 @inlined
 def move_to(model, s, order, x, phase, state):
-    """Fill ``state`` with the dense output at x: the series of this order, or the closed form of stick."""
+    """Fill ``state`` with the dense output at x: the series of this order, or the closed form of
+    stick."""
     if order == CLOSED_FORM:
         propagate_stick(model, s, x, state)
     else:
@@ -146,7 +180,8 @@ def move_to(model, s, order, x, phase, state):
 
 @inlined
 def force_at(model, s, order, phase, state):
-    """Contact force where ``move_to`` has put ``state``, which leaves the powers of that place in ``s.powers``."""
+    """Contact force where ``move_to`` has put ``state``, which leaves the powers of that place in
+    ``s.powers``."""
     if order == CLOSED_FORM:
         return stick_force(model, state)
     if phase == layout.SEPARATION:
@@ -165,8 +200,14 @@ def load_state(model, s, state):
         s.y[j * ROWS], s.g[j * ROWS] = state.y[j], state.g[j]
     s.psi[0], s.f[0], s.u[0], s.v[0] = state.x[PSI], state.x[F], state.x[U], state.x[U_VELOCITY]
     if model.ramped:
-        s.slider[DRIVE_SERIES], s.slider[DRIVE_SERIES + 1] = state.x[layout.DRIVE], model.Omega_rate * model.unit
-        s.slider[LOAD_SERIES], s.slider[LOAD_SERIES + 1] = state.x[layout.LOAD], model.N_rate * model.unit
+        s.slider[DRIVE_SERIES], s.slider[DRIVE_SERIES + 1] = (
+            state.x[layout.DRIVE],
+            model.Omega_rate * model.unit,
+        )
+        s.slider[LOAD_SERIES], s.slider[LOAD_SERIES + 1] = (
+            state.x[layout.LOAD],
+            model.N_rate * model.unit,
+        )
 
 
 @helper
@@ -178,7 +219,9 @@ def point_motion(model, state, angle):
             turn = model.shift[j] * angle
             cosine, sine = math.cos(turn), math.sin(turn)
             w += model.mode_amplitude[j] * (state.z[j] * cosine + state.z[j + layout.HALF] * sine)
-            velocity += model.mode_amplitude[j] * (state.e[j] * cosine + state.e[j + layout.HALF] * sine)
+            velocity += model.mode_amplitude[j] * (
+                state.e[j] * cosine + state.e[j + layout.HALF] * sine
+            )
     for j in range(len(model.mode_amplitude0)):
         w += model.mode_amplitude0[j] * state.y[j]
         velocity += model.mode_amplitude0[j] * state.g[j]
@@ -187,9 +230,10 @@ def point_motion(model, state, angle):
 
 @helper
 def sample_step(model, s, order, state, x_end, samplers, progress, probe, rows, filled):
-    """Append to ``rows`` one for every sample time within the step that starts at ``state`` and lasts ``x_end`` units,
-    its end included, to rounding.  Returns the number of rows filled. ``samplers``: shape (n, 5), columns first time,
-    interval, number of samples, theta, end of run; ``progress``: shape (n,), samples taken so far."""
+    """Append to ``rows`` one for every sample time within the step that starts at ``state`` and
+    lasts ``x_end`` units, its end included, to rounding.  Returns the number of rows filled.
+    ``samplers``: shape (n, 5), columns first time, interval, number of samples, theta, end of run;
+    ``progress``: shape (n,), samples taken so far."""
     start, low, phase = state.x[layout.TIME], state.x[layout.TIME_LOW], state.x[PHASE]
     last = x_end + SAME_INSTANT * (start / model.unit + x_end + 1.0)
     for i in range(len(samplers)):
@@ -207,7 +251,11 @@ def sample_step(model, s, order, state, x_end, samplers, progress, probe, rows, 
             if model.compliant or phase == layout.SEPARATION:
                 row[3], row[4] = probe.x[U], probe.x[U_VELOCITY]
             row[6], row[7] = point_motion(model, probe, angle)
-            row[8], row[9], row[10] = probe.x[PSI], layout.drive_now(model, probe) - probe.x[F], phase
+            row[8], row[9], row[10] = (
+                probe.x[PSI],
+                layout.drive_now(model, probe) - probe.x[F],
+                phase,
+            )
             filled += 1
             progress[i] += 1
     return filled

@@ -1,13 +1,13 @@
 """First root of a polynomial on an interval, without missing any.
 
-An event function is the polynomial sum_j c[low + j] x^j on (0, x_end]: ``low`` is the multiplicity of its known root at
-x = 0, divided out.  A bound settles most steps. The others need the Bernstein form, whose sign changes bound the number
-of roots from above; with more than one the interval is halved, left half first (Descartes' rule, de Casteljau's
-algorithm).
+An event function is the polynomial sum_j c[low + j] x^j on (0, x_end]: ``low`` is the multiplicity
+of its known root at x = 0, divided out.  A bound settles most steps. The others need the Bernstein
+form, whose sign changes bound the number of roots from above; with more than one the interval is
+halved, left half first (Descartes' rule, de Casteljau's algorithm).
 
-With S the sum of the moduli of all terms at x_end, the polynomial is nowhere below -2e-15 S before the root returned,
-or before x_end if there is none; and at that root it is not above 2e-15 S.  A root in x_end may be left to the next
-step, which starts there.
+With S the sum of the moduli of all terms at x_end, the polynomial is nowhere below -2e-15 S before
+the root returned, or before x_end if there is none; and at that root it is not above 2e-15 S.  A
+root in x_end may be left to the next step, which starts there.
 """
 
 import math
@@ -15,21 +15,41 @@ import math
 import numpy as np
 
 from .jit import helper, inlined
-from .jit.simd import WIDTH, add, fma, item, load, maximum, minimum, mul, powers_of, put, splat, spread, store, total
+from .jit.simd import (
+    WIDTH,
+    add,
+    fma,
+    item,
+    load,
+    maximum,
+    minimum,
+    mul,
+    powers_of,
+    put,
+    splat,
+    spread,
+    store,
+    total,
+)
 from .layout import ROWS
 
 NO_ROOT = -1.0
-# Halley's method ends at a step of this relative size, or at one whose cube, the next step, is rounding, if the
-# curvature over it is this small.
+# Halley's method ends at a step of this relative size, or at one whose cube, the next step, is
+# rounding, if the curvature over it is this small.
 _SETTLED, _SMALL, _STRAIGHT = 4e-16, 1e-5, 1e-4
 _NARROWEST = 2.0**-50  # in a narrower cell the sign pattern is rounding, and the cell's end decides
 _MOST_HALVINGS = 20
 _COUNT = np.arange(float(ROWS))
 _HALVES = 0.5**_COUNT
-_BINOMIALS = np.array([[float(math.comb(j, i)) for j in range(ROWS)] for i in range(ROWS)])  # j over i at [i, j]
-# Flat, in whole blocks of lanes: j over i at i * ROWS + j; one over (n over j), or 0 for j > n, at n * ROWS + j.
+_BINOMIALS = np.array(
+    [[float(math.comb(j, i)) for j in range(ROWS)] for i in range(ROWS)]
+)  # j over i at [i, j]
+# Flat, in whole blocks of lanes: j over i at i * ROWS + j; one over (n over j), or 0 for j > n, at
+# n * ROWS + j.
 _CHOOSE = _BINOMIALS.ravel()
-_ONE_OVER_CHOOSE = np.divide(1.0, _BINOMIALS.T, out=np.zeros((ROWS, ROWS)), where=_BINOMIALS.T > 0.0).ravel()
+_ONE_OVER_CHOOSE = np.divide(
+    1.0, _BINOMIALS.T, out=np.zeros((ROWS, ROWS)), where=_BINOMIALS.T > 0.0
+).ravel()
 _ONES = np.repeat([1.0, 0.0], ROWS)
 
 
@@ -80,8 +100,8 @@ def _raised(c, n, b):
 
 @helper
 def _halve(cell, left, n, work):
-    """Halve the interval: ``left`` becomes the left half's coefficients, ``cell`` the right half's, which are those of
-    the left half of the reversed cell; work: shape of a cell."""
+    """Halve the interval: ``left`` becomes the left half's coefficients, ``cell`` the right half's,
+    which are those of the left half of the reversed cell; work: shape of a cell."""
     for j in range(0, n + 1, WIDTH):
         store(left, j, mul(_raised(cell, n, j), load(_HALVES, j)))
     for j in range(n + 1):
@@ -95,7 +115,8 @@ def _halve(cell, left, n, work):
 
 @inlined
 def _polish(d, n, low, high, x):
-    """Root between ``low`` (positive) and ``high`` (not positive), from the guess x: Halley in a shrinking bracket."""
+    """Root between ``low`` (positive) and ``high`` (not positive), from the guess x: Halley in a
+    shrinking bracket."""
     for _ in range(80):
         p, slope, curve = item(d, n), 0.0, 0.0
         for j in range(n - 1, -1, -1):
@@ -128,10 +149,12 @@ def _crossing(b, n):
 
 @inlined
 def first_root(c, low, n, x_end, powers, work):
-    """Smallest x in (0, x_end] where the polynomial stops being positive (0 if it is negative there), or NO_ROOT.
+    """Smallest x in (0, x_end] where the polynomial stops being positive (0 if it is negative
+    there), or NO_ROOT.
 
-    c: coefficients, zero beyond n; low: known multiplicity of the root at 0; powers: x_end**j; both padded to whole
-    blocks of lanes; work: shape (>= 54, whole blocks for n + 1 coefficients and two more).
+    c: coefficients, zero beyond n; low: known multiplicity of the root at 0; powers: x_end**j; both
+    padded to whole blocks of lanes; work: shape (>= 54, whole blocks for n + 1 coefficients and two
+    more).
     """
     zero = splat(0.0)
     negative = zero
@@ -155,7 +178,9 @@ def _sum_of(d, n):
 
 @helper
 def _search(c, low, n, x_end, powers, work):
-    while c[low] == 0.0:  # exactly zero at the start: the first other coefficient says which way it leaves
+    while (
+        c[low] == 0.0
+    ):  # exactly zero at the start: the first other coefficient says which way it leaves
         low += 1
         if low > n:
             return NO_ROOT
@@ -166,7 +191,8 @@ def _search(c, low, n, x_end, powers, work):
     for j in range(0, degree + 1, WIDTH):
         store(d, j, mul(load(c, low + j), load(powers, j)))
     end = _sum_of(d, degree)
-    # a left half with a non-positive end holds the first root: far cheaper than halving the Bernstein form
+    # a left half with a non-positive end holds the first root: far cheaper than halving the
+    # Bernstein form
     for _ in range(_MOST_HALVINGS):
         for j in range(0, degree + 1, WIDTH):
             store(work[1], j, mul(load(d, j), load(_HALVES, j)))
@@ -189,15 +215,17 @@ def _search(c, low, n, x_end, powers, work):
         store(work[2], j, _raised(work[1], degree, j))
     root = _leftmost(d, degree, work)
     if root == NO_ROOT:
-        # to within rounding in the end itself: the last Bernstein coefficient, the same sum in another order, is >= 0
+        # to within rounding in the end itself: the last Bernstein coefficient, the same sum in
+        # another order, is >= 0
         return x_end if end <= 0.0 else NO_ROOT
     return x_end * root
 
 
 @helper
 def _leftmost(d, n, work):
-    """First root in (0, 1] of the polynomial whose Bernstein form is work[2]; NO_ROOT if there is none. work[2:] is a
-    stack of cells, leftmost on top: coefficients in whole blocks of lanes, left end, width."""
+    """First root in (0, 1] of the polynomial whose Bernstein form is work[2]; NO_ROOT if there is
+    none. work[2:] is a stack of cells, leftmost on top: coefficients in whole blocks of lanes, left
+    end, width."""
     top, start = 2, work.shape[1] - 2
     work[top, start], work[top, start + 1] = 0.0, 1.0
     while top >= 2:

@@ -1,16 +1,20 @@
-"""Taylor coefficients of the three phases (docs/model.md: Slip, Stick, Separation), eight lanes at a time.
+"""Taylor coefficients of the three phases (docs/model.md: Slip, Stick, Separation), eight lanes at
+a time.
 
-The contact force of order k needs a sum over all modes, and every quantity of order k + 1 needs the contact force. This
-chain would leave the arithmetic units idle.  The sum is therefore taken over the terms known before P_{k-1}, whose
-contribution is a known constant (``damped_inverse_mass``), and terms from order k - 1 are collected while that order is
-processed ("pending"). The convolutions of f with z and e, nearly all of the work, are computed for two orders at once.
+The contact force of order k needs a sum over all modes, and every quantity of order k + 1 needs the
+contact force. This chain would leave the arithmetic units idle.  The sum is therefore taken over
+the terms known before P_{k-1}, whose contribution is a known constant (``damped_inverse_mass``),
+and terms from order k - 1 are collected while that order is processed ("pending"). The convolutions
+of f with z and e, nearly all of the work, are computed for two orders at once.
 
-With C = 2 f_0 slope - force damping and s_k = sum_{j=1..k} f_{k-j} z_j, the disc's part of u'' at order k is
+With C = 2 f_0 slope - force damping and s_k = sum_{j=1..k} f_{k-j} z_j, the disc's part of u'' at
+order k is
 
     sum(C e_k + f_0 bend s_k - force stiffness z_k + slope (E_k + (k+1) Z_k))
         + f_k (sum(slope e_0) + f_0 sum(bend z_0) + (k+1) sum(slope z_1))
 
-where E_k, Z_k are the inner terms of the convolutions sum f_{k-i} e_i, sum f_{k-i} z_{i+1}, 1 <= i <= k - 1.
+where E_k, Z_k are the inner terms of the convolutions sum f_{k-i} e_i, sum f_{k-i} z_{i+1}, 1 <= i
+<= k - 1.
 """
 
 from collections import namedtuple
@@ -20,34 +24,59 @@ import numpy as np
 from . import layout
 from .jit import inlined, simd
 from .jit.packing import packed
-from .jit.simd import WIDTH, add, fma, item, load, low_halves, mul, put, splat, spread, store, sub, total
+from .jit.simd import (
+    WIDTH,
+    add,
+    fma,
+    item,
+    load,
+    low_halves,
+    mul,
+    put,
+    splat,
+    spread,
+    store,
+    sub,
+    total,
+)
 from .laws import friction_coefficient, slip_denominator
 from .layout import ROWS, Model, padded
 
-# Rows of Series.modes where e and scratch begin (z begins at 0). Rows of scratch: inner terms (e, z) of a pair's second
-# order, s_k, the constant C, and in a-lanes that of the displacements, in b-lanes f_0 bend; FORCES times T / V, where
-# that is constant, in b-lanes.
+# Rows of Series.modes where e and scratch begin (z begins at 0). Rows of scratch: inner terms (e,
+# z) of a pair's second order, s_k, the constant C, and in a-lanes that of the displacements, in
+# b-lanes f_0 bend; FORCES times T / V, where that is constant, in b-lanes.
 E, SCRATCH = ROWS, 2 * ROWS
 _E_HIGH, _Z_HIGH, _CARRIED, _CORIOLIS, _BENT, _PUSHED, _MODES_END = range(SCRATCH, SCRATCH + 7)
 # Offsets of the slider's series in Series.slider, and its end.
-PSI_SERIES, F_SERIES, U_SERIES, V_SERIES, P_SERIES, SWITCH, SWITCH2, _POWERS, UP, DOWN = (ROWS * i for i in range(10))
-SLOPE_SERIES, DRIVE_SERIES, LOAD_SERIES, NORMAL_SERIES, FRICTION_SERIES = (ROWS * i for i in range(10, 15))
+PSI_SERIES, F_SERIES, U_SERIES, V_SERIES, P_SERIES, SWITCH, SWITCH2, _POWERS, UP, DOWN = (
+    ROWS * i for i in range(10)
+)
+SLOPE_SERIES, DRIVE_SERIES, LOAD_SERIES, NORMAL_SERIES, FRICTION_SERIES = (
+    ROWS * i for i in range(10, 15)
+)
 COEFFICIENT_SERIES, WEAKENING_SERIES, _SLIDER_END = (ROWS * i for i in range(15, 18))
 _ROOT_ROWS = 7 * WIDTH
 
 
 @packed
-class Series(namedtuple("Series", "modes slider z e y g psi f u v P switch switch2 powers up down roots amplitudes")):
-    """Taylor coefficients of one step: coefficient k multiplies (time / unit)**k, so that none overflows, however stiff
-    the disc is. Those of pairs are stored as [order][lane], all others as [quantity][order].
+class Series(
+    namedtuple(
+        "Series", "modes slider z e y g psi f u v P switch switch2 powers up down roots amplitudes"
+    )
+):
+    """Taylor coefficients of one step: coefficient k multiplies (time / unit)**k, so that none
+    overflows, however stiff the disc is. Those of pairs are stored as [order][lane], all others as
+    [quantity][order].
 
-    z and e are views of ``modes``, whose end is scratch; psi to down of ``slider``. Behind them stand those of B / r_0
-    (normal force), of Omega and N (ramp), R of stick (normal force and couple), T of that or of slip under falling
-    friction, with its coefficient, and the change of T with f.
+    z and e are views of ``modes``, whose end is scratch; psi to down of ``slider``. Behind them
+    stand those of B / r_0 (normal force), of Omega and N (ramp), R of stick (normal force and
+    couple), T of that or of slip under falling friction, with its coefficient, and the change of T
+    with f.
 
-    switch: direction * f in slip, gap in separation, forward release function in stick; switch2: the backward one; up:
-    unit / (k + 1) integrates; down: (k + 1) / unit differentiates; roots: work space of the root finder; amplitudes: of
-    the modes of stick, real parts, imaginary parts, then those at a later time
+    switch: direction * f in slip, gap in separation, forward release function in stick; switch2:
+    the backward one; up: unit / (k + 1) integrates; down: (k + 1) / unit differentiates; roots:
+    work space of the root finder; amplitudes: of the modes of stick, real parts, imaginary parts,
+    then those at a later time
     """
 
 
@@ -61,7 +90,9 @@ def build_series(model: Model, order: int) -> Series:
     np.divide(model.unit, from_1, out=rows[UP // ROWS])
     np.divide(from_1, model.unit, out=rows[DOWN // ROWS])
     z, e = modes[: E * width], modes[E * width : SCRATCH * width]
-    return Series._make((modes, slider, z, e, y, g, *rows[: SLOPE_SERIES // ROWS], roots, amplitudes))
+    return Series._make(
+        (modes, slider, z, e, y, g, *rows[: SLOPE_SERIES // ROWS], roots, amplitudes)
+    )
 
 
 @inlined
@@ -87,13 +118,15 @@ def _row(model, row, b):
 
 @inlined
 def _block(s, width, row, b):
-    """Block of a row of ``Series.modes``: displacements of order k are row k, velocities E + k; then comes scratch."""
+    """Block of a row of ``Series.modes``: displacements of order k are row k, velocities E + k;
+    then comes scratch."""
     return load(s.modes, row * width + b)
 
 
 @inlined
 def _push(model, impulse, friction):
-    """Minus the impulses of V, in a-lanes, and of friction T, in b-lanes: what multiplies row ``FORCES`` (lanes)."""
+    """Minus the impulses of V, in a-lanes, and of friction T, in b-lanes: what multiplies row
+    ``FORCES`` (lanes)."""
     return low_halves(splat(-impulse), splat(-friction)) if model.coupled else splat(-impulse)
 
 
@@ -131,7 +164,8 @@ def _disc_point(model, s):
 
 @inlined
 def _products(s, width, b, k, f_high, e_low, z_low):
-    """Sums with f_{k-i} e_i and f_{k-i} z_{i+1}, 2 <= i <= k - 2, of an odd order k and of k + 1; f_high: f_{k-1}."""
+    """Sums with f_{k-i} e_i and f_{k-i} z_{i+1}, 2 <= i <= k - 2, of an odd order k and of k + 1;
+    f_high: f_{k-1}."""
     e_high, z_high, at = splat(0.0), splat(0.0), 2 * width + b
     for i in range(2, k - 1):
         f_low = spread(s.slider, F_SERIES + k - i)
@@ -145,7 +179,8 @@ def _products(s, width, b, k, f_high, e_low, z_low):
 
 @inlined
 def _products_apart(s, width, b, k, f_high, e_low, z_low):
-    """As ``_products``, with separate sums for even and odd i: too many registers where lanes do not fit into one."""
+    """As ``_products``, with separate sums for even and odd i: too many registers where lanes do
+    not fit into one."""
     e_high, z_high, at = splat(0.0), splat(0.0), 2 * width + b
     e_low2, z_low2, e_high2, z_high2 = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
     for i in range(2, k - 1, 2):
@@ -163,14 +198,18 @@ def _products_apart(s, width, b, k, f_high, e_low, z_low):
 
 @inlined
 def _inner_terms(s, width, b, k, e_last, z_last):
-    """Inner terms of order k for e and z; ``e_last``, ``z_last`` are e_{k-1} and z_k. An odd order also computes the
-    terms of the next order, except the first and the last, which need f_k and e_k. It keeps them in scratch."""
+    """Inner terms of order k for e and z; ``e_last``, ``z_last`` are e_{k-1} and z_k. An odd order
+    also computes the terms of the next order, except the first and the last, which need f_k and
+    e_k. It keeps them in scratch."""
     e_low, z_low = splat(0.0), splat(0.0)
     if k % 2 == 0:
         e_low, z_low = _block(s, width, _E_HIGH, b), _block(s, width, _Z_HIGH, b)
         if k > 2:
             f = splat(s.slider[F_SERIES + k - 1])
-            e_low, z_low = fma(f, _block(s, width, E + 1, b), e_low), fma(f, _block(s, width, 2, b), z_low)
+            e_low, z_low = (
+                fma(f, _block(s, width, E + 1, b), e_low),
+                fma(f, _block(s, width, 2, b), z_low),
+            )
         f = splat(s.slider[F_SERIES + 1])
         return fma(f, e_last, e_low), fma(f, z_last, z_low)
     e_high, z_high = e_low, z_low
@@ -198,11 +237,13 @@ def _pending(s, width, b, e, z, carried):
 
 @inlined
 def _order(model, s, width, b, k, f, f0, push):
-    """One block of order k >= 1; ``f`` is f_k, ``push`` is that of P_{k-1} unit / k and T_{k-1} unit / k.
+    """One block of order k >= 1; ``f`` is f_k, ``push`` is that of P_{k-1} unit / k and T_{k-1}
+    unit / k.
 
-    Takes e_k without P_{k-1}, s_k, e_{k-1} and z_k; finds e_k, z_{k+1}, s_{k+1}, and e_{k+1} without P_k.  Returns
-    (lanes) the block's part of u'' of order k beyond the pending one, and what it leaves pending for order k + 1. Terms
-    with P come last in every sum: that chain sets the pace.
+    Takes e_k without P_{k-1}, s_k, e_{k-1} and z_k; finds e_k, z_{k+1}, s_{k+1}, and e_{k+1}
+    without P_k.  Returns (lanes) the block's part of u'' of order k beyond the pending one, and
+    what it leaves pending for order k + 1. Terms with P come last in every sum: that chain sets the
+    pace.
     """
     e, carried = _block(s, width, E + k, b), _block(s, width, _CARRIED, b)
     e_last, z_last = _block(s, width, E + k - 1, b), _block(s, width, k, b)
@@ -210,7 +251,9 @@ def _order(model, s, width, b, k, f, f0, push):
     part = mul(_row(model, layout.SLOPE_RATE + k, b), simd.high_halves(z_inner, e_inner))
     shift, damping = _row(model, layout.SHIFT, b), _row(model, layout.DAMPING, b)
     up, f, first = splat(s.slider[UP + k]), splat(f), splat(f0)
-    e = fma(push, _block(s, width, _PUSHED, b) if model.coupled else _row(model, layout.FORCES, b), e)
+    e = fma(
+        push, _block(s, width, _PUSHED, b) if model.coupled else _row(model, layout.FORCES, b), e
+    )
     turned = simd.swap_halves(fma(f, _block(s, width, 0, b), carried))
     z_next = mul(fma(shift, turned, e), up)
     carried = fma(first, z_next, fma(f, _block(s, width, 1, b), z_inner))
@@ -226,7 +269,12 @@ def _order(model, s, width, b, k, f, f0, push):
 
 @inlined
 def _axisymmetric_mode(model, s, k, j, impulse):
-    at, up, force, damping = j * ROWS + k, s.slider[UP + k], item(model.mode_amplitude0, j), item(model.damping0, j)
+    at, up, force, damping = (
+        j * ROWS + k,
+        s.slider[UP + k],
+        item(model.mode_amplitude0, j),
+        item(model.damping0, j),
+    )
     g, pull = item(s.g, at), item(model.stiffness0, j) * item(s.y, at)
     part = -force * (damping * g + pull)
     g -= force * impulse
@@ -238,7 +286,8 @@ def _axisymmetric_mode(model, s, k, j, impulse):
 
 @inlined
 def _axisymmetric(model, s, k, impulse):
-    """Modes without nodal diameter, which only feel P, order k.  Returns their part of u'' without P_{k-1}."""
+    """Modes without nodal diameter, which only feel P, order k.  Returns their part of u'' without
+    P_{k-1}."""
     n = len(model.mode_amplitude0)
     if n == 1:  # the usual case; a loop costs as much again
         return _axisymmetric_mode(model, s, k, 0, impulse)
@@ -250,9 +299,9 @@ def _axisymmetric(model, s, k, impulse):
 
 @inlined
 def _begin_orders(model, s, f0, braked):
-    """Order 0 of all modes: z_1, s_1, and e_1 without P_0. ``braked`` is T / V, or 1 where that is not constant: under
-    the normal force, or if friction falls. Returns u'' without P and f', the part of u'' pending for order 1 (lanes),
-    and the factors of f_k and of (k + 1) f_k in u''."""
+    """Order 0 of all modes: z_1, s_1, and e_1 without P_0. ``braked`` is T / V, or 1 where that is
+    not constant: under the normal force, or if friction falls. Returns u'' without P and f', the
+    part of u'' pending for order 1 (lanes), and the factors of f_k and of (k + 1) f_k in u''."""
     width, zero = lane_count(model), splat(0.0)
     now, pending, by_e, by_z, by_z1 = zero, zero, zero, zero, zero
     first, up = splat(f0), splat(s.slider[UP])
@@ -279,14 +328,17 @@ def _begin_orders(model, s, f0, braked):
     swing = total(by_e)
     by_f, by_f_rate = swing + f0 * total(by_z), total(by_z1)
     # C contains the Coriolis term once too often, because z_1 in by_f_rate includes it already
-    acceleration = total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - swing)
+    acceleration = (
+        total(now) + _axisymmetric(model, s, 0, 0.0) + f0 * (s.slider[DOWN] * by_f_rate - swing)
+    )
     return acceleration, pending, by_f, by_f_rate
 
 
 @inlined
 def _next_order(model, s, k, f, f0, impulse, friction, pending):
-    """Order k >= 1 of all modes; ``impulse``, ``friction``: P_{k-1} unit / k and T_{k-1} unit / k. Returns the parts of
-    u'' of the pairs (lanes) and of the other modes, and the part pending for order k + 1."""
+    """Order k >= 1 of all modes; ``impulse``, ``friction``: P_{k-1} unit / k and T_{k-1} unit / k.
+    Returns the parts of u'' of the pairs (lanes) and of the other modes, and the part pending for
+    order k + 1."""
     width, push, rest = lane_count(model), splat(-impulse), splat(0.0)
     if model.normal or model.decaying:
         push = _push(model, impulse, friction)
@@ -330,7 +382,8 @@ def _last_force(model, s, order, impulse, friction):
 
 @inlined
 def _end_slip(model, s, order, direction, impulse, friction):
-    """Complete the highest order, set the event function, and clear the order beyond the known ones."""
+    """Complete the highest order, set the event function, and clear the order beyond the known
+    ones."""
     _last_force(model, s, order, impulse, friction)
     for j in range(0, order + 1, WIDTH):
         store(s.switch, j, mul(splat(direction), load(s.f, j)))
@@ -340,8 +393,9 @@ def _end_slip(model, s, order, direction, impulse, friction):
 
 @inlined
 def slip_series(model, s, order, direction):
-    """Slip with sgn(f) = ``direction``.  Returns the denominator of P, whose zero is Painleve's paradox. Fills ``s``
-    (coefficients 0 are given) up to degree ``order``, P up to ``order - 1``, and the event function direction * f."""
+    """Slip with sgn(f) = ``direction``.  Returns the denominator of P, whose zero is Painleve's
+    paradox. Fills ``s`` (coefficients 0 are given) up to degree ``order``, P up to ``order - 1``,
+    and the event function direction * f."""
     f0, psi = s.slider[F_SERIES], s.slider[PSI_SERIES]
     u, v, dw_dtheta = _disc_point(model, s)
     s.slider[U_SERIES], s.slider[V_SERIES] = u, v
@@ -359,7 +413,12 @@ def slip_series(model, s, order, direction):
     P = (vertical + model.m * (acceleration + dw_dtheta * pull)) * inverse
     s.slider[P_SERIES] = P
     psi = (drive(model, s) - f0) * s.slider[UP]
-    by_u, by_v, by_pull, weight = inverse * model.k, inverse * model.c, inverse * model.m * dw_dtheta, inverse * model.m
+    by_u, by_v, by_pull, weight = (
+        inverse * model.k,
+        inverse * model.c,
+        inverse * model.m * dw_dtheta,
+        inverse * model.m,
+    )
     for k in range(1, order + 1):
         up = s.slider[UP + k - 1]
         impulse, f_hat = P * up, pull * up
@@ -395,7 +454,8 @@ def _stick_pending(model, b, e, z):
 
 @inlined
 def _stick_order(model, s, width, b, k, push):
-    """One block of order k in stick, from z_k, and e_k without what ``push`` gives. Returns its pending share."""
+    """One block of order k in stick, from z_k, and e_k without what ``push`` gives. Returns its
+    pending share."""
     up, z = splat(s.slider[UP + k]), _block(s, width, k, b)
     e = fma(push, _row(model, layout.FORCES, b), _block(s, width, E + k, b))
     z_next = mul(e, up)
@@ -409,7 +469,8 @@ def _stick_order(model, s, width, b, k, push):
 
 @inlined
 def _stick_friction(model, s, k):
-    """T of order k in stick, V being known: r_0 F; under the normal force r_0 F - beta R, with R = V + beta T."""
+    """T of order k in stick, V being known: r_0 F; under the normal force r_0 F - beta R, with R =
+    V + beta T."""
     T = 0.0
     if k == 0:
         T = model.r_0 * (model.k_p * s.slider[PSI_SERIES] + model.c_p * drive(model, s))
@@ -429,16 +490,26 @@ def _stick_friction(model, s, k):
 
 @inlined
 def stick_series(model, s, order):
-    """Stick: f = 0, the slider rests on the disc.  Fills both release functions mu_s P -/+ r_0 F."""
+    """Stick: f = 0, the slider rests on the disc.  Fills both release functions mu_s P -/+ r_0
+    F."""
     width, zero = lane_count(model), splat(0.0)
     u, v, _ = _disc_point(model, s)
     s.slider[U_SERIES], s.slider[V_SERIES] = u, v
     inverse = 1.0 / (1.0 + model.m * model.inverse_effective_mass)
     weight = model.m * inverse
-    by_force = inverse * (model.m * model.damped_inverse_mass - model.c * model.inverse_effective_mass)
-    pending, impulse, friction, vertical = zero, 0.0, 0.0, load_at(model, s) + model.k * (u - model.u_0) + model.c * v
+    by_force = inverse * (
+        model.m * model.damped_inverse_mass - model.c * model.inverse_effective_mass
+    )
+    pending, impulse, friction, vertical = (
+        zero,
+        0.0,
+        0.0,
+        load_at(model, s) + model.k * (u - model.u_0) + model.c * v,
+    )
     for b in range(0, width, WIDTH):
-        pending = add(pending, _stick_pending(model, b, _block(s, width, E, b), _block(s, width, 0, b)))
+        pending = add(
+            pending, _stick_pending(model, b, _block(s, width, E, b), _block(s, width, 0, b))
+        )
     for k in range(order):
         push, part, pending = _push(model, impulse, friction), pending, zero
         for b in range(0, width, WIDTH):
@@ -461,7 +532,9 @@ def stick_series(model, s, order):
         if model.ramped and k == 0:
             vertical += s.slider[LOAD_SERIES + 1]
     _last_force(model, s, order, impulse, friction)
-    s.slider[F_SERIES + order] = s.slider[P_SERIES + order] = s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
+    s.slider[F_SERIES + order] = s.slider[P_SERIES + order] = s.slider[SWITCH + order] = s.slider[
+        SWITCH2 + order
+    ] = 0.0
     s.slider[PSI_SERIES + 1] = drive(model, s) * model.unit
     start = model.r_0 * (model.k_p * s.slider[PSI_SERIES] + model.c_p * drive(model, s))
     growth = model.r_0 * model.k_p * s.slider[PSI_SERIES + 1]
@@ -480,15 +553,25 @@ def stick_series(model, s, order):
 @inlined
 def separation_series(model, s, order):
     """No contact: P = 0, disc and slider move independently.  Fills the gap u - w."""
-    n, f0, weight = len(model.mode_amplitude0), s.slider[F_SERIES], load_at(model, s) - model.k * model.u_0
+    n, f0, weight = (
+        len(model.mode_amplitude0),
+        s.slider[F_SERIES],
+        load_at(model, s) - model.k * model.u_0,
+    )
     pull = model.k_p * s.slider[PSI_SERIES] + model.c_p * (drive(model, s) - f0)
     _, pending, _, _ = _begin_orders(model, s, f0, 0.0)
     for k in range(order + 1):
         if k > 0:
             # not by _spring: in the branches there, sums would be rounded otherwise
-            pull, weight = model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F_SERIES + k], 0.0
+            pull, weight = (
+                model.k_p * s.slider[PSI_SERIES + k] - model.c_p * s.slider[F_SERIES + k],
+                0.0,
+            )
             if model.ramped:
-                pull, weight = pull + model.c_p * s.slider[DRIVE_SERIES + k], s.slider[LOAD_SERIES + k]
+                pull, weight = (
+                    pull + model.c_p * s.slider[DRIVE_SERIES + k],
+                    s.slider[LOAD_SERIES + k],
+                )
             _, _, pending = _next_order(model, s, k, s.slider[F_SERIES + k], f0, 0.0, 0.0, pending)
         gap = s.slider[U_SERIES + k] - _modal_sum(model, s, layout.AMPLITUDE_ROW, k)
         for j in range(n):
@@ -498,12 +581,13 @@ def separation_series(model, s, order):
         _move_slider(model, s, k, pull / model.m, -vertical / model.m)
 
 
-# ---- Contact beyond the paper: compliant, by a force normal to the bent disc, with friction that falls with the speed
-# Compliant: V = (w - u) / compliance follows from the state, so that each order of V is known before its convolutions.
-# Normal, with beta = B / r_0 and s = sgn(f): in slip the disc feels V = R (1 - s mu_k beta). The in-plane motion is
-# braked by R (s mu_k + beta). Stick holds while abs(r_0 F - beta V) <= mu_s (V + r_0 F beta). Products of series with
-# beta are the cost.  Rigid stick moves as under the vertical force.
-# Falling friction: q in place of s mu_k is a series, T = q R. Each order of T but for q_0 R_k is known before R_k.
+# ---- Contact beyond the paper: compliant, by a force normal to the bent disc, with friction that
+# falls with the speed Compliant: V = (w - u) / compliance follows from the state, so that each
+# order of V is known before its convolutions. Normal, with beta = B / r_0 and s = sgn(f): in slip
+# the disc feels V = R (1 - s mu_k beta). The in-plane motion is braked by R (s mu_k + beta). Stick
+# holds while abs(r_0 F - beta V) <= mu_s (V + r_0 F beta). Products of series with beta are the
+# cost.  Rigid stick moves as under the vertical force. Falling friction: q in place of s mu_k is a
+# series, T = q R. Each order of T but for q_0 R_k is known before R_k.
 
 
 @inlined
@@ -521,7 +605,8 @@ def _slope(model, s, k):
 
 @inlined
 def _closing(model, s, k):
-    """Order k of the disc's velocity under the slider from the orders before: without V_{k-1} and f_k."""
+    """Order k of the disc's velocity under the slider from the orders before: without V_{k-1} and
+    f_k."""
     width = lane_count(model)
     swing = mul(_row(model, layout.DW_DTHETA, 0), _block(s, width, _CARRIED, 0))
     lanes = fma(_row(model, layout.AMPLITUDE_ROW, 0), _block(s, width, E + k, 0), swing)
@@ -545,7 +630,8 @@ def _weight(model, s, k):
 
 @inlined
 def _leverage(s, k, force=P_SERIES, lever=SLOPE_SERIES):
-    """Order k of beta R without beta_0 R_k, R being ``force`` and beta ``lever``, in two sums: neither waits."""
+    """Order k of beta R without beta_0 R_k, R being ``force`` and beta ``lever``, in two sums:
+    neither waits."""
     odd, even = 0.0, 0.0
     for j in range(1, k, 2):
         odd += s.slider[lever + j] * s.slider[force + k - j]
@@ -557,8 +643,9 @@ def _leverage(s, k, force=P_SERIES, lever=SLOPE_SERIES):
 
 @inlined
 def _falling_part(model, s, k, direction):
-    """Order k of T without q_0 R_k, where friction falls with the speed; enters that of its coefficient q, by
-    (1 + d s f) (q - s mu_k) = s (mu_s - mu_k) with the model's ``decay`` d and s = ``direction``."""
+    """Order k of T without q_0 R_k, where friction falls with the speed; enters that of its
+    coefficient q, by (1 + d s f) (q - s mu_k) = s (mu_s - mu_k) with the model's ``decay`` d and s
+    = ``direction``."""
     f0, q = s.slider[F_SERIES], COEFFICIENT_SERIES
     if k == 0:
         s.slider[q] = friction_coefficient(model, direction, f0)
@@ -570,8 +657,8 @@ def _falling_part(model, s, k, direction):
 
 @inlined
 def weakening(model, s, k, direction):
-    """Order k of the change of T with f at the same R, where friction falls with the speed; enters it in the series.
-    It is R dq/df, and (1 + d s f) dq/df = -d s (q - s mu_k)."""
+    """Order k of the change of T with f at the same R, where friction falls with the speed; enters
+    it in the series. It is R dq/df, and (1 + d s f) dq/df = -d s (q - s mu_k)."""
     fall, at = direction * model.decay, WEAKENING_SERIES + k
     excess = s.slider[FRICTION_SERIES + k] - direction * model.mu_k * s.slider[P_SERIES + k]
     excess += _leverage(s, k, WEAKENING_SERIES, F_SERIES)
@@ -581,13 +668,28 @@ def weakening(model, s, k, direction):
 
 @inlined
 def compliant_slip_series(model, s, order, direction):
-    """Slip on a compliant contact. Returns V / R, whose zero is a jammed contact; 1 under the vertical force. Fills
-    ``s`` (coefficients 0 are given) up to degree ``order``; ``P`` is R, up to ``order - 1``."""
-    stiffness, friction = 1.0 / model.compliance, friction_coefficient(model, direction, s.slider[F_SERIES])
+    """Slip on a compliant contact. Returns V / R, whose zero is a jammed contact; 1 under the
+    vertical force. Fills ``s`` (coefficients 0 are given) up to degree ``order``; ``P`` is R, up to
+    ``order - 1``."""
+    stiffness, friction = (
+        1.0 / model.compliance,
+        friction_coefficient(model, direction, s.slider[F_SERIES]),
+    )
     lightness, lever = 1.0 / model.m, 1.0 / (model.m * model.r_0)
-    f0, ratio, share, beta, V, impulse, braked, part = s.slider[F_SERIES], 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    f0, ratio, share, beta, V, impulse, braked, part = (
+        s.slider[F_SERIES],
+        1.0,
+        1.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+    )
     w, slope = _deflection(model, s, 0), model.r_0 * _slope(model, s, 0)
-    closing = _modal_sum(model, s, layout.AMPLITUDE_ROW, E)  # and below, order 0 of w' but for f_0 B
+    closing = _modal_sum(
+        model, s, layout.AMPLITUDE_ROW, E
+    )  # and below, order 0 of w' but for f_0 B
     for j in range(len(model.mode_amplitude0)):
         closing += model.mode_amplitude0[j] * s.g[j * ROWS]
     share_of_V = 1.0 if model.normal or model.decaying else friction
@@ -657,8 +759,9 @@ def compliant_stick_series(model, s, order):
 
 @inlined
 def release_series(model, s, order):
-    """Release functions mu_s press -/+ pull of stick from V in ``P``: see ``laws.stick_loads``. If only the slope pulls
-    at a slider that may leave the disc, divided by the common factor V: mu_s +/- beta."""
+    """Release functions mu_s press -/+ pull of stick from V in ``P``: see ``laws.stick_loads``. If
+    only the slope pulls at a slider that may leave the disc, divided by the common factor V: mu_s
+    +/- beta."""
     s.slider[SWITCH + order] = s.slider[SWITCH2 + order] = 0.0
     spring, growth, bend = _spring(model, s, 0), model.k_p * s.slider[PSI_SERIES + 1], 0.0
     if model.ramped:
@@ -682,16 +785,21 @@ def release_series(model, s, order):
         s.slider[SWITCH2 + k] = model.mu_s * press + pull
     if model.normal and not model.bonded and spring == 0.0 and growth == 0.0:
         for k in range(order):
-            s.slider[SWITCH + k], s.slider[SWITCH2 + k] = s.slider[SLOPE_SERIES + k], -s.slider[SLOPE_SERIES + k]
+            s.slider[SWITCH + k], s.slider[SWITCH2 + k] = (
+                s.slider[SLOPE_SERIES + k],
+                -s.slider[SLOPE_SERIES + k],
+            )
         s.slider[SWITCH] += model.mu_s
         s.slider[SWITCH2] += model.mu_s
 
 
 @inlined
 def rigid_slip_series(model, s, order, direction):
-    """Slip in rigid contact under other laws than the paper's; ``P`` is R.  Returns the denominator of R.
+    """Slip in rigid contact under other laws than the paper's; ``P`` is R.  Returns the denominator
+    of R.
 
-    The recurrence is that of ``slip_series``. Under the normal force, with h_k, order k of beta R without beta_0 R_k,
+    The recurrence is that of ``slip_series``. Under the normal force, with h_k, order k of beta R
+    without beta_0 R_k,
 
         R_k D = (N + k (u - u_0) + c u' + m A + B F)_k + h_k ((1 + m S2) s mu_k - beta_0)
 

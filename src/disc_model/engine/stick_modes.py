@@ -4,8 +4,9 @@ With f = 0, disc and slider are one linear system.  In deviations d from the sta
 
     (1 + m psi psi^T) d'' + (2 xi omega + c psi psi^T) d' + (omega^2 + k psi psi^T) d = 0
 
-for the a-components and l = 0, and without the slider for the b-components; a compliant contact adds the coordinate u.
-The modes are q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are lanes of real parts, then of imaginary parts.
+for the a-components and l = 0, and without the slider for the b-components; a compliant contact
+adds the coordinate u. The modes are q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are lanes of
+real parts, then of imaginary parts.
 """
 
 from functools import lru_cache
@@ -16,18 +17,22 @@ import numpy as np
 from .jit.packing import packed
 from .jit.simd import WIDTH, aligned
 
-# exp(lambda x) is the product of POWERS tabled powers of exp(lambda QUANTUM) and of a series of degree DEGREE for the
-# rest; with abs(lambda) < LARGEST_RATE the series is good to 1e-17.  LONGEST_STICK bounds the table (2**POWERS quanta
-# exceed it), and the samples that fall into one advance in closed form.  (Time units.)
+# exp(lambda x) is the product of POWERS tabled powers of exp(lambda QUANTUM) and of a series of
+# degree DEGREE for the rest; with abs(lambda) < LARGEST_RATE the series is good to 1e-17.
+# LONGEST_STICK bounds the table (2**POWERS quanta exceed it), and the samples that fall into one
+# advance in closed form.  (Time units.)
 QUANTUM, LONGEST_STICK, LARGEST_RATE = 0.25, 512.0, 1.5
 DEGREE, POWERS = 12, 12
 MOST_MODES = 64  # the matrices are dense: with more modes the series are as fast
-WORST_CONDITION = 100.0  # nearly parallel eigenvectors (modes near critical damping) would lose digits
+WORST_CONDITION = (
+    100.0  # nearly parallel eigenvectors (modes near critical damping) would lose digits
+)
 
 
 @packed
 class StickModes(NamedTuple):
-    """n modes, padded with zeros to whole blocks of lanes; L = len(State.disc).  Empty if stick has no closed form."""
+    """n modes, padded with zeros to whole blocks of lanes; L = len(State.disc).  Empty if stick has
+    no closed form."""
 
     decay: np.ndarray  # Re lambda in 1 / time unit, shape (n,)
     turn: np.ndarray  # Im lambda, likewise
@@ -37,8 +42,12 @@ class StickModes(NamedTuple):
     offset: np.ndarray  # q of the zero state, shape (2 * n,)
     leave: np.ndarray  # state of a unit change of the real parts, then of the imaginary parts of q, shape (2 * n * L,)
     rest: np.ndarray  # static equilibrium, shape (L,)
-    friction_offset: np.ndarray  # q of minus the response to T = 1 N, and to T' = 1 N/s, shape (2 * 2 * n,)
-    friction_rest: np.ndarray  # that response of the disc, shape (2 * L,); both are empty without the couple
+    friction_offset: (
+        np.ndarray
+    )  # q of minus the response to T = 1 N, and to T' = 1 N/s, shape (2 * 2 * n,)
+    friction_rest: (
+        np.ndarray
+    )  # that response of the disc, shape (2 * L,); both are empty without the couple
 
 
 def padded(n: int) -> int:
@@ -51,9 +60,10 @@ def no_modes() -> StickModes:
 
 
 def _decomposed(stiffness, damping, scale, unit):
-    """Modes of d'' = -stiffness d - damping d', both matrices over the masses: lambda (n,) in 1 / ``unit``, V (2n, n)
-    and W (n, 2n) of (d, d') = 2 Re V q, q = W (d, d').  ``scale`` of displacements gives both halves of an eigenvector
-    similar size.  None if a mode does not oscillate, is too fast for the series, or nearly parallel to another."""
+    """Modes of d'' = -stiffness d - damping d', both matrices over the masses: lambda (n,) in 1 /
+    ``unit``, V (2n, n) and W (n, 2n) of (d, d') = 2 Re V q, q = W (d, d').  ``scale`` of
+    displacements gives both halves of an eigenvector similar size.  None if a mode does not
+    oscillate, is too fast for the series, or nearly parallel to another."""
     n = len(scale)
     A = np.zeros((2 * n, 2 * n))
     A[:n, n:] = np.diag(scale)
@@ -70,15 +80,18 @@ def _decomposed(stiffness, damping, scale, unit):
     if np.linalg.cond(both) > WORST_CONDITION:
         return None
     decay = np.where(rates.real > -1e-15, 0.0, rates.real)
-    back = np.concatenate([scale, np.full(n, unit)])  # to displacements and to velocities per second
+    back = np.concatenate(
+        [scale, np.full(n, unit)]
+    )  # to displacements and to velocities per second
     return decay + 1j * rates.imag, vectors / back[:, None], np.linalg.inv(both)[:n] * back
 
 
 def build_stick_modes(components, places, slider, *, u, length, unit, compliance) -> StickModes:
-    """Modes of stick for the model of `layout.build_model`. components: omega, damping, shape, arm of friction of the
-    components a, modes without nodal diameter, components b, the shape being 0 for the last, the arm for the others;
-    places: shape (2, n), of their displacements and velocities in `EngineState.disc`, whose ``length`` is given; u:
-    index of u there, followed by u', where contact is compliant."""
+    """Modes of stick for the model of `layout.build_model`. components: omega, damping, shape, arm
+    of friction of the components a, modes without nodal diameter, components b, the shape being 0
+    for the last, the arm for the others; places: shape (2, n), of their displacements and
+    velocities in `EngineState.disc`, whose ``length`` is given; u: index of u there, followed by
+    u', where contact is compliant."""
     omega, n = components[0], len(components[0])
     if not (n or compliance) or n > MOST_MODES or not (omega > 0.0).all():
         return no_modes()
@@ -92,8 +105,9 @@ def build_stick_modes(components, places, slider, *, u, length, unit, compliance
 
 @lru_cache(maxsize=256)
 def _under_unit_load(arrays, length, k, c, m, unit, compliance) -> StickModes:
-    """`StickModes` for N = 1, shared by many cases. ``arrays``: omega, damping, shape and arm of `build_stick_modes`,
-    and the indices of (d, d') in `EngineState.disc`; on a compliant contact the last entry of d is u."""
+    """`StickModes` for N = 1, shared by many cases. ``arrays``: omega, damping, shape and arm of
+    `build_stick_modes`, and the indices of (d, d') in `EngineState.disc`; on a compliant contact
+    the last entry of d is u."""
     omega, damping, shape, arm, where = map(np.array, arrays)
     rest = aligned(length)
     rest[where[: len(omega)]] = -shape / omega**2
@@ -103,14 +117,20 @@ def _under_unit_load(arrays, length, k, c, m, unit, compliance) -> StickModes:
         stretch, mass = np.append(shape, -1.0), np.append(np.ones(len(omega)), m)
         stiffness = np.diag(np.append(omega**2, k)) + np.outer(stretch, stretch) / compliance
         scale = np.append(omega, np.sqrt(stiffness[-1, -1] / m)) * unit
-        modes = _decomposed(stiffness / mass[:, None], np.diag(np.append(damping, c / m)), scale, unit)
+        modes = _decomposed(
+            stiffness / mass[:, None], np.diag(np.append(damping, c / m)), scale, unit
+        )
         force = np.concatenate([shape / compliance, [-1.0 / compliance], np.zeros(len(omega) + 1)])
     else:
         rank_one = np.outer(shape, shape)
         inverse = np.eye(len(omega)) - rank_one * (m / (1.0 + m * shape @ shape))
         stiffness = np.diag(omega**2) + k * rank_one
-        modes = _decomposed(inverse @ stiffness, inverse @ (np.diag(damping) + c * rank_one), omega * unit, unit)
-        force = np.concatenate([shape * (k - m * omega**2), shape * (c - m * damping)]) / (1.0 + m * shape @ shape)
+        modes = _decomposed(
+            inverse @ stiffness, inverse @ (np.diag(damping) + c * rank_one), omega * unit, unit
+        )
+        force = np.concatenate([shape * (k - m * omega**2), shape * (c - m * damping)]) / (
+            1.0 + m * shape @ shape
+        )
     if modes is None:
         return no_modes()
     # d'' + damping d' + omega^2 d = -arm T with T'' = 0

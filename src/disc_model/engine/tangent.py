@@ -1,14 +1,18 @@
-"""Small changes along a motion: Taylor series of the variational equations, and the jumps at events.
+"""Small changes along a motion: Taylor series of the variational equations, and the jumps at
+events.
 
-A change of the state is a column; columns are stored side by side in blocks of eight lanes, and one pass of the
-recurrence advances eight.  It is the model's, with each product f x replaced by f dx + df x. The contact force of order
-k follows from the same division as for the motion, or from the state on a compliant contact.
+A change of the state is a column; columns are stored side by side in blocks of eight lanes, and one
+pass of the recurrence advances eight.  It is the model's, with each product f x replaced by f dx +
+df x. The contact force of order k follows from the same division as for the motion, or from the
+state on a compliant contact.
 
-Rows of a column: displacements z and velocities e of all lanes, then y, g of the axisymmetric modes, then psi, f, and
-u, u' of the slider. In rigid contact u, u' are the disc's and have a meaning in separation only.
+Rows of a column: displacements z and velocities e of all lanes, then y, g of the axisymmetric
+modes, then psi, f, and u, u' of the slider. In rigid contact u, u' are the disc's and have a
+meaning in separation only.
 
-At an event h = 0 the columns change with the jump of the vector field (the saltation matrix). With dtau = -dh / h' the
-change of the event's time, J the Jacobian of the jump and v the rates before and after,
+At an event h = 0 the columns change with the jump of the vector field (the saltation matrix). With
+dtau = -dh / h' the change of the event's time, J the Jacobian of the jump and v the rates before
+and after,
 
     dx(after) = J (dx(before) + v(before) dtau) - v(after) dtau.
 """
@@ -24,14 +28,37 @@ from .jit import helper, inlined, kernel
 from .jit.packing import packed
 from .jit.simd import WIDTH, add, aligned, fma, load, mul, splat, spread, store, sub, total
 from .laws import N_ENTRIES, friction_coefficient, slip_denominator
-from .layout import DIRECTION, HALF, PHASE, PSI, ROWS, SEPARATION, SLIDER, SLIP, STICK, U_VELOCITY, F, Model, U
-from .transitions import CONSISTENT, NO_SOLUTION, RETURNED, change_phase, disc_point, event_function, instant
+from .layout import (
+    DIRECTION,
+    HALF,
+    PHASE,
+    PSI,
+    ROWS,
+    SEPARATION,
+    SLIDER,
+    SLIP,
+    STICK,
+    U_VELOCITY,
+    F,
+    Model,
+    U,
+)
+from .transitions import (
+    CONSISTENT,
+    NO_SOLUTION,
+    RETURNED,
+    change_phase,
+    disc_point,
+    event_function,
+    instant,
+)
 
 # Entries of ``Tangent.log``: times in all and by phase (s), events, steps.
 DURATION, STICK_TIME, SLIP_TIME, SEPARATION_TIME = range(4)
 RELEASES, BACK_RELEASES, REVERSALS, SEPARATIONS, STICKS, N_STEPS = range(4, 10)
-# Rows of the parameters' changes that a column carries, in the order of an `Instant` (LOAD: of N - k u_0; D_COMPLIANCE:
-# relative); after them stiffness and damping of all lanes and of the axisymmetric modes.
+# Rows of the parameters' changes that a column carries, in the order of an `Instant` (LOAD: of N -
+# k u_0; D_COMPLIANCE: relative); after them stiffness and damping of all lanes and of the
+# axisymmetric modes.
 LOAD, D_K, D_C, D_M, D_K_P, D_C_P, D_OMEGA, D_COMPLIANCE, N_SCALARS = range(9)
 PASSED = 1e-9  # radians of the fastest motion by which a root was passed before the phase began; less is rounding
 
@@ -43,7 +70,9 @@ class Tangent(NamedTuple):
     series: np.ndarray  # [block][order][row][8]
     force: np.ndarray  # [block][order][8] of P (R under the normal force)
     dw_dtheta: np.ndarray  # [block][order][8] of B
-    friction: np.ndarray  # [block][order][8] of T, where it has a series of its own: see ``_friction_in_stick``
+    friction: (
+        np.ndarray
+    )  # [block][order][8] of T, where it has a series of its own: see ``_friction_in_stick``
     now: np.ndarray  # [block][row][8]
     parameters: np.ndarray  # [block][row][8], changes of parameters
     before: np.ndarray  # [row][8], rates before an event in the first lane
@@ -60,7 +89,8 @@ class Tangent(NamedTuple):
 
 
 def longest_step(order: int, tolerance: float) -> float:
-    """Step (time units) at which the last term of an oscillation at the fastest rate falls below ``tolerance``."""
+    """Step (time units) at which the last term of an oscillation at the fastest rate falls below
+    ``tolerance``."""
     return math.exp((math.log(tolerance) + math.lgamma(order + 1)) / order)
 
 
@@ -69,7 +99,8 @@ def n_rows(model: Model) -> int:
 
 
 def build_tangent(model: Model, columns: int, order: int, plain: int | None = None) -> Tangent:
-    """Work space for ``columns`` columns; the first ``plain`` (all by default) carry no changes of parameters."""
+    """Work space for ``columns`` columns; the first ``plain`` (all by default) carry no changes of
+    parameters."""
     columns = WIDTH * -(-columns // WIDTH)
     plain = columns if plain is None else WIDTH * (plain // WIDTH)
     rows, order_size = n_rows(model), (order + 2) * columns
@@ -83,7 +114,8 @@ def build_tangent(model: Model, columns: int, order: int, plain: int | None = No
 
 @inlined
 def slider_row(model, row):
-    """Row of one of the slider's quantities, ``PSI`` to ``U_VELOCITY``, in a column: behind those of the disc."""
+    """Row of one of the slider's quantities, ``PSI`` to ``U_VELOCITY``, in a column: behind those
+    of the disc."""
     return 2 * len(model.mode_amplitude) + 2 * len(model.mode_amplitude0) + row
 
 
@@ -101,7 +133,14 @@ def _convolve(s, t, origin, k, j, width, f_row):
         p0, q0 = fma(f, load(t.series, p), p0), fma(f, load(t.series, q), q0)
         a1, b1 = fma(df, spread(s.z, low), a1), fma(df, spread(s.z, low + HALF), b1)
         p1, q1 = fma(df, spread(s.e, low), p1), fma(df, spread(s.e, low + HALF), q1)
-        a, b, p, q, at, low = a - stride, b - stride, p - stride, q - stride, at + stride, low - width
+        a, b, p, q, at, low = (
+            a - stride,
+            b - stride,
+            p - stride,
+            q - stride,
+            at + stride,
+            low - width,
+        )
     return add(a0, a1), add(b0, b1), add(p0, p1), add(q0, q1)
 
 
@@ -127,8 +166,8 @@ def point_change(model, x, at, f, B):
 
 @inlined
 def _modal_rates(model, s, t, block, k, phase):
-    """Rates of all modes without the contact force, order k; displacements of order k + 1 are final. Returns the change
-    of u'' and dB of order k + 1 (lanes)."""
+    """Rates of all modes without the contact force, order k; displacements of order k + 1 are
+    final. Returns the change of u'' and dB of order k + 1 (lanes)."""
     width, n0, q = len(model.mode_amplitude), len(model.mode_amplitude0), block * t.inputs * WIDTH
     origin, f_row = block * len(t.base_dw_dtheta) * t.rows * WIDTH, slider_row(model, F)
     here, there = origin + k * t.rows * WIDTH, origin + (k + 1) * t.rows * WIDTH
@@ -137,9 +176,15 @@ def _modal_rates(model, s, t, block, k, phase):
         if model.shift[j] > 0.0:
             i, z = j + HALF, k * width + j
             da, db = load(t.series, here + j * WIDTH), load(t.series, here + i * WIDTH)
-            dp, dq = load(t.series, here + (width + j) * WIDTH), load(t.series, here + (width + i) * WIDTH)
+            dp, dq = (
+                load(t.series, here + (width + j) * WIDTH),
+                load(t.series, here + (width + i) * WIDTH),
+            )
             stiffness, damping = splat(-model.stiffness[j]), splat(-model.damping[j])
-            rate_p, rate_q = fma(stiffness, da, mul(damping, dp)), fma(stiffness, db, mul(damping, dq))
+            rate_p, rate_q = (
+                fma(stiffness, da, mul(damping, dp)),
+                fma(stiffness, db, mul(damping, dq)),
+            )
             if phase != STICK:
                 l = splat(model.shift[j])
                 fa, fb, fp, fq = _convolve(s, t, origin, k, j, width, f_row)
@@ -149,7 +194,10 @@ def _modal_rates(model, s, t, block, k, phase):
                 d_stiffness = load(t.parameters, q + (N_SCALARS + j) * WIDTH)
                 d_damping = load(t.parameters, q + (N_SCALARS + width + j) * WIDTH)
                 rate_p = sub(rate_p, fma(d_stiffness, splat(s.z[z]), mul(d_damping, splat(s.e[z]))))
-                rate_q = sub(rate_q, fma(d_stiffness, splat(s.z[z + HALF]), mul(d_damping, splat(s.e[z + HALF]))))
+                rate_q = sub(
+                    rate_q,
+                    fma(d_stiffness, splat(s.z[z + HALF]), mul(d_damping, splat(s.e[z + HALF]))),
+                )
             db_next = mul(dq, up)
             store(t.series, there + j * WIDTH, mul(dp, up))
             store(t.series, there + i * WIDTH, db_next)
@@ -164,7 +212,12 @@ def _modal_rates(model, s, t, block, k, phase):
         if block * WIDTH >= t.plain:
             d_stiffness = load(t.parameters, q + (N_SCALARS + 2 * width + j) * WIDTH)
             d_damping = load(t.parameters, q + (N_SCALARS + 2 * width + n0 + j) * WIDTH)
-            rate = sub(rate, fma(d_stiffness, splat(s.y[j * ROWS + k]), mul(d_damping, splat(s.g[j * ROWS + k]))))
+            rate = sub(
+                rate,
+                fma(
+                    d_stiffness, splat(s.y[j * ROWS + k]), mul(d_damping, splat(s.g[j * ROWS + k]))
+                ),
+            )
         store(t.series, there + y * WIDTH, mul(dg, up))
         store(t.series, there + g * WIDTH, rate)
         single = fma(splat(model.mode_amplitude0[j]), rate, single)
@@ -196,22 +249,25 @@ def _slider_forces(model, s, t, block, k, dpsi, df, du, dv):
 
 @inlined
 def _path_change(s, t, block, k, f_row):
-    """Change of f B without f'_k B_0, order k + 1: the contribution of the disc's slope to d(u') (lanes)."""
+    """Change of f B without f'_k B_0, order k + 1: the contribution of the disc's slope to d(u')
+    (lanes)."""
     orders = len(t.base_dw_dtheta)
     origin, chain = block * orders * t.rows * WIDTH, block * orders * WIDTH
     carried = mul(splat(s.f[k + 1]), load(t.dw_dtheta, chain))
     for i in range(k + 1):
         carried = fma(splat(s.f[i]), load(t.dw_dtheta, chain + (k + 1 - i) * WIDTH), carried)
         carried = fma(
-            splat(t.base_dw_dtheta[k + 1 - i]), load(t.series, origin + (i * t.rows + f_row) * WIDTH), carried
+            splat(t.base_dw_dtheta[k + 1 - i]),
+            load(t.series, origin + (i * t.rows + f_row) * WIDTH),
+            carried,
         )
     return carried
 
 
 @inlined
 def _leverage_change(model, s, t, block, k, force, changes):
-    """Change of beta R of order k without beta_0 dR_k, beta being B / r_0 (lanes), R the series at the offset ``force``
-    in ``Series.slider`` and ``changes`` its changes, [block][order][8]."""
+    """Change of beta R of order k without beta_0 dR_k, beta being B / r_0 (lanes), R the series at
+    the offset ``force`` in ``Series.slider`` and ``changes`` its changes, [block][order][8]."""
     chain = block * len(t.base_dw_dtheta) * WIDTH
     change = mul(splat(s.slider[force]), load(t.dw_dtheta, chain + k * WIDTH))
     for i in range(1, k + 1):
@@ -222,7 +278,8 @@ def _leverage_change(model, s, t, block, k, force, changes):
 
 @inlined
 def _compliant_change(model, s, t, block, k, friction):
-    """Change of V = (w - u) / compliance of order k (lanes); ``friction``: coefficient in slip, else 0."""
+    """Change of V = (w - u) / compliance of order k (lanes); ``friction``: coefficient in slip,
+    else 0."""
     at = (block * len(t.base_dw_dtheta) + k) * t.rows * WIDTH
     dw, _, _ = point_change(model, t.series, at, 0.0, 0.0)
     compression = sub(dw, load(t.series, at + slider_row(model, U) * WIDTH))
@@ -247,19 +304,29 @@ def _falling_change(model, s, t, block, k):
     chain, df = block * orders * WIDTH, (block * orders * t.rows + slider_row(model, F)) * WIDTH
     for i in range(k + 1):
         change = fma(
-            splat(s.slider[series.WEAKENING_SERIES + i]), load(t.series, df + (k - i) * t.rows * WIDTH), change
+            splat(s.slider[series.WEAKENING_SERIES + i]),
+            load(t.series, df + (k - i) * t.rows * WIDTH),
+            change,
         )
         if i > 0:
-            change = fma(splat(s.slider[series.COEFFICIENT_SERIES + i]), load(t.force, chain + (k - i) * WIDTH), change)
+            change = fma(
+                splat(s.slider[series.COEFFICIENT_SERIES + i]),
+                load(t.force, chain + (k - i) * WIDTH),
+                change,
+            )
     return change
 
 
 @inlined
 def _forces_in_slip(model, s, t, block, k, friction, denominator, free, vertical, pull):
-    """Changes of order k of the contact force (P or R), of V, T and f' (lanes), for laws other than the paper's;
-    ``friction``: its signed coefficient; ``denominator``: of the contact force; ``free``: change of u'' without forces;
-    ``vertical`` and ``pull``: see ``_slider_forces``."""
-    beta, mobility, h = t.base_dw_dtheta[0] / model.r_0, 1.0 + model.m * model.inverse_effective_mass, splat(0.0)
+    """Changes of order k of the contact force (P or R), of V, T and f' (lanes), for laws other than
+    the paper's; ``friction``: its signed coefficient; ``denominator``: of the contact force;
+    ``free``: change of u'' without forces; ``vertical`` and ``pull``: see ``_slider_forces``."""
+    beta, mobility, h = (
+        t.base_dw_dtheta[0] / model.r_0,
+        1.0 + model.m * model.inverse_effective_mass,
+        splat(0.0),
+    )
     if model.normal:
         h = _leverage_change(model, s, t, block, k, series.P_SERIES, t.force)
     if model.decaying:
@@ -298,13 +365,16 @@ def _forces_in_slip(model, s, t, block, k, friction, denominator, free, vertical
 
 @inlined
 def _friction_in_stick(model, s, t, block, k, pull, V):
-    """Change of T of order k in stick (lanes), from those of F (``pull``) and V: see ``series._stick_friction``. Under
-    the normal force ``t.force`` holds the changes of R."""
+    """Change of T of order k in stick (lanes), from those of F (``pull``) and V: see
+    ``series._stick_friction``. Under the normal force ``t.force`` holds the changes of R."""
     T = mul(splat(model.r_0), pull)
     if model.normal:
         beta, at = t.base_dw_dtheta[0] / model.r_0, (block * len(t.base_dw_dtheta) + k) * WIDTH
         V = add(V, _leverage_change(model, s, t, block, k, series.FRICTION_SERIES, t.friction))
-        T = sub(sub(T, _leverage_change(model, s, t, block, k, series.NORMAL_SERIES, t.force)), mul(splat(beta), V))
+        T = sub(
+            sub(T, _leverage_change(model, s, t, block, k, series.NORMAL_SERIES, t.force)),
+            mul(splat(beta), V),
+        )
         T = mul(splat(1.0 / (1.0 + beta * beta)), T)
         store(t.friction, at, T)
         store(t.force, at, fma(splat(beta), T, V))
@@ -313,16 +383,23 @@ def _friction_in_stick(model, s, t, block, k, pull, V):
 
 @inlined
 def _apply_force(model, s, t, block, k, P, T):
-    """Velocities of order k + 1, once the changes P of the vertical contact force and T of friction are known."""
+    """Velocities of order k + 1, once the changes P of the vertical contact force and T of friction
+    are known."""
     width, n0, up = len(model.mode_amplitude), len(model.mode_amplitude0), splat(s.up[k])
     there = (block * len(t.base_dw_dtheta) + k + 1) * t.rows * WIDTH
     for j in range(width):
         if model.shift[j] > 0.0:
             e = there + (width + j) * WIDTH
-            store(t.series, e, mul(up, sub(load(t.series, e), mul(splat(model.mode_amplitude[j]), P))))
+            store(
+                t.series, e, mul(up, sub(load(t.series, e), mul(splat(model.mode_amplitude[j]), P)))
+            )
             if model.coupled:
                 e += HALF * WIDTH
-                store(t.series, e, sub(load(t.series, e), mul(mul(up, splat(model.couple[j + HALF])), T)))
+                store(
+                    t.series,
+                    e,
+                    sub(load(t.series, e), mul(mul(up, splat(model.couple[j + HALF])), T)),
+                )
     for j in range(n0):
         g = there + (2 * width + n0 + j) * WIDTH
         store(t.series, g, mul(up, sub(load(t.series, g), mul(splat(model.mode_amplitude0[j]), P))))
@@ -369,7 +446,9 @@ def tangent_series(model, s, t, order, phase, direction):
             elif (model.compliant or model.normal or model.decaying) and phase == SLIP:
                 mu = friction_coefficient(model, direction, s.f[0])
                 denominator = slip_denominator(model, model.m, mu, B0)
-                P, V, T, rate_f = _forces_in_slip(model, s, t, block, k, mu, denominator, free, vertical, pull)
+                P, V, T, rate_f = _forces_in_slip(
+                    model, s, t, block, k, mu, denominator, free, vertical, pull
+                )
             elif model.compliant:
                 P = V = _compliant_change(model, s, t, block, k, 0.0)
             else:
@@ -398,7 +477,8 @@ def tangent_series(model, s, t, order, phase, direction):
 
 @helper
 def take_step(model, s, t, order, x, dt, state, tangent):
-    """Count a step to x (time units; ``dt`` s), and move ``state`` and, if requested, the columns there."""
+    """Count a step to x (time units; ``dt`` s), and move ``state`` and, if requested, the columns
+    there."""
     phase = state.x[PHASE]
     if tangent:
         tangent_series(model, s, t, order, phase, state.x[DIRECTION])
@@ -440,7 +520,11 @@ def rates(model, state, out):
     for j in range(width):
         other = j + HALF if j % WIDTH < HALF else j - HALF
         out[j * WIDTH] = state.e[j] + model.shift[j] * f * state.z[other]
-        rate = model.shift[j] * f * state.e[other] - model.damping[j] * state.e[j] - model.stiffness[j] * state.z[j]
+        rate = (
+            model.shift[j] * f * state.e[other]
+            - model.damping[j] * state.e[j]
+            - model.stiffness[j] * state.z[j]
+        )
         out[(width + j) * WIDTH] = rate - model.mode_amplitude[j] * V
         if model.coupled:
             out[(width + j) * WIDTH] -= model.couple[j] * T
@@ -452,7 +536,9 @@ def rates(model, state, out):
     out[slider_row(model, F) * WIDTH] = rate_f
     u, v = (i.u, i.u_velocity) if model.compliant or phase == SEPARATION else (i.w, i.w_velocity)
     out[slider_row(model, U) * WIDTH] = v
-    out[slider_row(model, U_VELOCITY) * WIDTH] = (V - model.N - model.k * (u - model.u_0) - model.c * v) / model.m
+    out[slider_row(model, U_VELOCITY) * WIDTH] = (
+        V - model.N - model.k * (u - model.u_0) - model.c * v
+    ) / model.m
 
 
 @inlined
@@ -464,39 +550,63 @@ def _free_change(model, state, x, at, q, parameters, changes):
         if model.shift[j] > 0.0:
             i, l = j + HALF, model.shift[j]
             z, e = load(x, at + j * WIDTH), load(x, at + (width + j) * WIDTH)
-            part = fma(splat(-(model.stiffness[j] + (l * f) ** 2)), z, mul(splat(-model.damping[j]), e))
+            part = fma(
+                splat(-(model.stiffness[j] + (l * f) ** 2)), z, mul(splat(-model.damping[j]), e)
+            )
             part = fma(splat(2.0 * l * f), load(x, at + (width + i) * WIDTH), part)
             part = fma(splat(2.0 * l * state.e[i] - 2.0 * l * l * f * state.z[j]), df, part)
             if changes:
-                part = sub(part, mul(splat(state.z[j]), load(parameters, q + (N_SCALARS + j) * WIDTH)))
-                part = sub(part, mul(splat(state.e[j]), load(parameters, q + (N_SCALARS + width + j) * WIDTH)))
+                part = sub(
+                    part, mul(splat(state.z[j]), load(parameters, q + (N_SCALARS + j) * WIDTH))
+                )
+                part = sub(
+                    part,
+                    mul(splat(state.e[j]), load(parameters, q + (N_SCALARS + width + j) * WIDTH)),
+                )
             acceleration = fma(splat(model.mode_amplitude[j]), part, acceleration)
     for j in range(n0):
         y, g = load(x, at + (2 * width + j) * WIDTH), load(x, at + (2 * width + n0 + j) * WIDTH)
         part = fma(splat(-model.stiffness0[j]), y, mul(splat(-model.damping0[j]), g))
         if changes:
-            part = sub(part, mul(splat(state.y[j]), load(parameters, q + (N_SCALARS + 2 * width + j) * WIDTH)))
-            part = sub(part, mul(splat(state.g[j]), load(parameters, q + (N_SCALARS + 2 * width + n0 + j) * WIDTH)))
+            part = sub(
+                part,
+                mul(splat(state.y[j]), load(parameters, q + (N_SCALARS + 2 * width + j) * WIDTH)),
+            )
+            part = sub(
+                part,
+                mul(
+                    splat(state.g[j]),
+                    load(parameters, q + (N_SCALARS + 2 * width + n0 + j) * WIDTH),
+                ),
+            )
         acceleration = fma(splat(model.mode_amplitude0[j]), part, acceleration)
     return acceleration
 
 
 @inlined
 def _change(t, row):
-    """Change of the law whose derivatives stand in a row of ``t.gradient``, for the columns of ``t.change`` (lanes)."""
+    """Change of the law whose derivatives stand in a row of ``t.gradient``, for the columns of
+    ``t.change`` (lanes)."""
     change = splat(0.0)
     for entry in range(N_ENTRIES):
-        change = fma(splat(t.gradient[row * N_ENTRIES + entry]), load(t.change, entry * WIDTH), change)
+        change = fma(
+            splat(t.gradient[row * N_ENTRIES + entry]), load(t.change, entry * WIDTH), change
+        )
     return change
 
 
 @inlined
 def put_changes(model, state, t, x, c, changes):
-    """Changes of an instant's entries for the block of columns x that begins with ``c``, into ``t.change``;
-    ``changes``: whether columns change parameters. Returns that of the law whose derivatives begin ``t.gradient``."""
+    """Changes of an instant's entries for the block of columns x that begins with ``c``, into
+    ``t.change``; ``changes``: whether columns change parameters. Returns that of the law whose
+    derivatives begin ``t.gradient``."""
     at, q, slider = c * t.rows, c * t.inputs, c * t.rows + slider_row(model, 0) * WIDTH
     for entry in range(N_SCALARS):
-        store(t.change, entry * WIDTH, load(t.parameters, q + entry * WIDTH) if changes else splat(0.0))
+        store(
+            t.change,
+            entry * WIDTH,
+            load(t.parameters, q + entry * WIDTH) if changes else splat(0.0),
+        )
     _, _, dw_dtheta = disc_point(model, state)
     dw, dv, d_slope = point_change(model, x, at, state.x[F], dw_dtheta)
     store(t.change, laws.PSI_ENTRY * WIDTH, load(x, slider + PSI * WIDTH))
@@ -504,7 +614,11 @@ def put_changes(model, state, t, x, c, changes):
     store(t.change, laws.W_ENTRY * WIDTH, dw)
     store(t.change, laws.W_VELOCITY_ENTRY * WIDTH, dv)
     store(t.change, laws.DW_DTHETA_ENTRY * WIDTH, d_slope)
-    store(t.change, laws.FREE_ENTRY * WIDTH, _free_change(model, state, x, at, q, t.parameters, changes))
+    store(
+        t.change,
+        laws.FREE_ENTRY * WIDTH,
+        _free_change(model, state, x, at, q, t.parameters, changes),
+    )
     store(t.change, laws.U_ENTRY * WIDTH, load(x, slider + U * WIDTH))
     store(t.change, laws.U_VELOCITY_ENTRY * WIDTH, load(x, slider + U_VELOCITY * WIDTH))
     return _change(t, 0)
@@ -512,8 +626,8 @@ def put_changes(model, state, t, x, c, changes):
 
 @inlined
 def _set_derivative(model, i, t, row, entry, value):
-    """Enter a derivative, ``value`` being the law's after a complex step of an entry. The columns' change of N contains
-    that of -k u_0, and their change of the compliance is relative."""
+    """Enter a derivative, ``value`` being the law's after a complex step of an entry. The columns'
+    change of N contains that of -k u_0, and their change of the compliance is relative."""
     derivative = value.imag / laws.TINY
     if entry == D_K:
         derivative += model.u_0 * t.gradient[row * N_ENTRIES + LOAD]
@@ -528,15 +642,20 @@ def event_gradient(model, state, t, cause):
     i, _ = instant(model, state)
     slipping = state.x[PHASE] == SLIP
     for entry in range(N_ENTRIES):
-        _set_derivative(model, i, t, 0, entry, event_function(model, laws.stepped(i, entry), cause, slipping))
+        _set_derivative(
+            model, i, t, 0, entry, event_function(model, laws.stepped(i, entry), cause, slipping)
+        )
 
 
 @helper
 def event_times(model, state, t, cause, at_once):
-    """``t.tau``: change of the time of the event ``cause`` for every column.  Returns the event function's rate. A
-    phase that ended ``at_once``, its event function negative from the start, does so in neighbouring motions, too."""
+    """``t.tau``: change of the time of the event ``cause`` for every column.  Returns the event
+    function's rate. A phase that ended ``at_once``, its event function negative from the start,
+    does so in neighbouring motions, too."""
     event_gradient(model, state, t, cause)
-    rate = total(put_changes(model, state, t, t.before, 0, False))  # the other lanes of ``before`` are zero
+    rate = total(
+        put_changes(model, state, t, t.before, 0, False)
+    )  # the other lanes of ``before`` are zero
     i, _ = instant(model, state)
     value = abs(event_function(model, i, cause, state.x[PHASE] == SLIP))
     by_rate = 0.0 if at_once and value > PASSED * model.unit * abs(rate) else -1.0 / rate
@@ -577,7 +696,8 @@ def impact_change(model, state, t):
 
 @helper
 def slider_rows(model, state, t):
-    """Rows of the slider that follow from the others in contact: u, u' if it is rigid, and df = 0 in stick, exactly."""
+    """Rows of the slider that follow from the others in contact: u, u' if it is rigid, and df = 0
+    in stick, exactly."""
     _, _, B = disc_point(model, state)
     for c in range(0, t.columns, WIDTH):
         block = c * t.rows
@@ -606,8 +726,9 @@ def count_event(state, cause, log):
 
 @helper
 def pass_event(model, state, t, cause, at_once, returns, changes):
-    """Carry out and count an event, and, if requested, change the columns.  Returns the exit code. ``at_once``: the
-    phase had no duration; ``returns``: the integration ends at this event, still in the phase before it."""
+    """Carry out and count an event, and, if requested, change the columns.  Returns the exit code.
+    ``at_once``: the phase had no duration; ``returns``: the integration ends at this event, still
+    in the phase before it."""
     if cause == transitions.AT_REST:
         state.x[F] = 0.0
     if changes:

@@ -1,18 +1,35 @@
-"""Events: contact force, impact, and the choice of the next phase (docs/model.md, Contact and events)."""
+"""Events: contact force, impact, and the choice of the next phase (docs/model.md, Contact and
+events)."""
 
 from . import laws, layout
 from .jit import helper, inlined
 from .jit.simd import WIDTH, absolute, add, fma, load, mul, splat, sub, total
 
-# Exit codes of events, of runs and of integrations. The motion continues after an event, after a pause because a buffer
-# is full, after a stop at the first loss of contact, and at the end time or the section. It cannot continue:
-# Painleve's paradox, events without the clock advancing, overflow. It was stopped: too many steps, not on the section.
-CONSISTENT, PAUSED, STOPPED, TIME_OVER, RETURNED, NO_SOLUTION, STALLED, NON_FINITE, STEP_LIMIT, OFF_SECTION = range(10)
+# Exit codes of events, of runs and of integrations. The motion continues after an event, after a
+# pause because a buffer is full, after a stop at the first loss of contact, and at the end time or
+# the section. It cannot continue: Painleve's paradox, events without the clock advancing, overflow.
+# It was stopped: too many steps, not on the section.
+(
+    CONSISTENT,
+    PAUSED,
+    STOPPED,
+    TIME_OVER,
+    RETURNED,
+    NO_SOLUTION,
+    STALLED,
+    NON_FINITE,
+    STEP_LIMIT,
+    OFF_SECTION,
+) = range(10)
 # Causes of the end of a step.
 NOTHING, RELEASE_FORWARD, RELEASE_BACKWARD, AT_REST, CONTACT_LOST, GAP_CLOSED = range(6)
 
-MAX_EVENTS_IN_A_ROW = 200  # more without the clock advancing end a motion: a guard, not a tuned interval
-PAINLEVE_MARGIN = 1e-6  # below this fraction of its value without friction the denominator of P counts as zero
+MAX_EVENTS_IN_A_ROW = (
+    200  # more without the clock advancing end a motion: a guard, not a tuned interval
+)
+PAINLEVE_MARGIN = (
+    1e-6  # below this fraction of its value without friction the denominator of P counts as zero
+)
 ROUNDING = 1e-13  # a force below this fraction of the terms that make it is rounding
 
 
@@ -44,10 +61,16 @@ def slider_motion(model, state):
 @inlined
 def instant(model, state):
     """The arguments of the laws of contact; size of the terms of A."""
-    # Read in this order, before the sums over modes: it decides which product in F the optimiser does not round (see
-    # ``jit``). In another order results with c_p differ in their last bits.
+    # Read in this order, before the sums over modes: it decides which product in F the optimiser
+    # does not round (see ``jit``). In another order results with c_p differ in their last bits.
     x, N, Omega = state.x, layout.load_now(model, state), layout.drive_now(model, state)
-    k_p, c_p, f, compliance, psi = model.k_p, model.c_p, x[layout.F], model.compliance, x[layout.PSI]
+    k_p, c_p, f, compliance, psi = (
+        model.k_p,
+        model.c_p,
+        x[layout.F],
+        model.compliance,
+        x[layout.PSI],
+    )
     w, velocity, dw_dtheta = disc_point(model, state)
     f_lanes, parts, sizes = splat(f), splat(0.0), splat(0.0)
     for b in range(0, len(model.shift), WIDTH):
@@ -59,7 +82,9 @@ def instant(model, state):
         parts, sizes = add(parts, part), add(sizes, absolute(part))
     free, size = total(parts), total(sizes)
     for j in range(len(model.mode_amplitude0)):
-        single = -model.mode_amplitude0[j] * (model.damping0[j] * state.g[j] + model.stiffness0[j] * state.y[j])
+        single = -model.mode_amplitude0[j] * (
+            model.damping0[j] * state.g[j] + model.stiffness0[j] * state.y[j]
+        )
         free += single
         size += abs(single)
     return laws.Instant(
@@ -113,7 +138,8 @@ def force_in_stick(model, state, V):
 
 @inlined
 def friction_force(model, state, phase, direction, P):
-    """Friction T on the disc, in the direction of the slider's path; P: the contact force, used in slip."""
+    """Friction T on the disc, in the direction of the slider's path; P: the contact force, used in
+    slip."""
     if phase == layout.SLIP:
         return laws.friction_coefficient(model, direction, state.x[layout.F]) * P
     if phase == layout.SEPARATION:
@@ -129,7 +155,8 @@ def usual_denominator(model):  # of the contact force in slip without friction
 
 @inlined
 def slip_force(model, state, direction):
-    """Contact force in slip (P, or R under the normal force), its denominator, and its rounding error."""
+    """Contact force in slip (P, or R under the normal force), its denominator, and its rounding
+    error."""
     i, size = instant(model, state)
     friction = laws.friction_coefficient(model, direction, i.f)
     denominator = laws.slip_denominator(model, i.m, friction, i.dw_dtheta)
@@ -169,18 +196,23 @@ def event_function(model, i, cause, slipping):
 
 @inlined
 def _begin(state, phase, direction, known, force, known_force=0):
-    """Begin a phase; known, known_force: multiplicity of the root there, of event function and force of the contact.
-    Returns CONSISTENT."""
+    """Begin a phase; known, known_force: multiplicity of the root there, of event function and
+    force of the contact. Returns CONSISTENT."""
     x = state.x
-    x[layout.PHASE], x[layout.DIRECTION], x[layout.KNOWN], x[layout.KNOWN_FORCE] = phase, direction, known, known_force
+    x[layout.PHASE], x[layout.DIRECTION], x[layout.KNOWN], x[layout.KNOWN_FORCE] = (
+        phase,
+        direction,
+        known,
+        known_force,
+    )
     x[layout.FORCE], x[layout.PROPAGATED] = force, 0.0
     return CONSISTENT
 
 
 @inlined
 def _enter_separation(model, state, P, noise):
-    """Begin separation at the force P, up to ``noise``: the gap starts as t**3 from P = 0, as t**2 from P < 0; that of
-    a compliant contact starts as t, or is already open.  Returns CONSISTENT."""
+    """Begin separation at the force P, up to ``noise``: the gap starts as t**3 from P = 0, as t**2
+    from P < 0; that of a compliant contact starts as t, or is already open.  Returns CONSISTENT."""
     known = 0 if noise < -P else 1
     if not model.compliant:
         state.x[layout.U], state.x[layout.U_VELOCITY], _ = disc_point(model, state)
@@ -190,7 +222,8 @@ def _enter_separation(model, state, P, noise):
 
 @helper
 def enter_slip(model, state, direction):
-    """Begin slip in ``direction``, or separation at once if P would be negative.  Returns CONSISTENT or NO_SOLUTION."""
+    """Begin slip in ``direction``, or separation at once if P would be negative.  Returns
+    CONSISTENT or NO_SOLUTION."""
     P, denominator, noise = slip_force(model, state, direction)
     if denominator <= PAINLEVE_MARGIN * usual_denominator(model):
         return NO_SOLUTION
@@ -198,8 +231,9 @@ def enter_slip(model, state, direction):
         return _enter_separation(model, state, P, noise)
     known = 0
     if state.x[layout.F] == 0.0:
-        # f starts at zero: the root at the start is known.  It is double where f', which points into the direction of
-        # slip or vanishes, as (1 + m S2 + s mu B / r_0) f' m = (1 + m S2) (|F| - mu P_stick / r_0), is rounding.
+        # f starts at zero: the root at the start is known.  It is double where f', which points
+        # into the direction of slip or vanishes, as (1 + m S2 + s mu B / r_0) f' m = (1 + m S2)
+        # (|F| - mu P_stick / r_0), is rounding.
         resistance = bound = model.mu_s if model.decaying else model.mu_k
         if model.normal:
             _, _, dw_dtheta = disc_point(model, state)
@@ -213,25 +247,30 @@ def enter_slip(model, state, direction):
 
 @inlined
 def friction_drops(model):
-    return model.mu_s > model.mu_k and len(model.decaying) == 0  # numba has no `not` of a tuple as a value
+    return (
+        model.mu_s > model.mu_k and len(model.decaying) == 0
+    )  # numba has no `not` of a tuple as a value
 
 
 @helper
 def stop_slip(model, state):
-    """f has reached zero: stick if friction holds the spring, else slip to the side of the spring's pull."""
+    """f has reached zero: stick if friction holds the spring, else slip to the side of the spring's
+    pull."""
     state.x[layout.F] = 0.0
     i, _ = instant(model, state)
     P = laws.vertical_in_stick(model, i)
     pull, press = laws.stick_loads(model, i, P)
     if abs(pull) < model.mu_s * press:
         return _begin(state, layout.STICK, 0.0, 0, force_in_stick(model, state, P))
-    # contact may hold although P in stick is negative: in slip the spring presses the slider on with B F
+    # contact may hold although P in stick is negative: in slip the spring presses the slider on
+    # with B F
     return enter_slip(model, state, -1.0 if pull < 0.0 else 1.0)
 
 
 @helper
 def reattach(model, state):
-    """The gap has closed: impact, then contact. A compliant contact has no impact, and its force rises from zero."""
+    """The gap has closed: impact, then contact. A compliant contact has no impact, and its force
+    rises from zero."""
     if model.compliant:
         f, F = state.x[layout.F], inplane_force_per_radius(model, state)
         if f == 0.0 and F == 0.0:
@@ -250,7 +289,8 @@ def reattach(model, state):
 
 @helper
 def change_phase(model, state, cause, at_once):
-    """Carry out an event; ``at_once``: the phase had no duration.  Returns CONSISTENT or NO_SOLUTION."""
+    """Carry out an event; ``at_once``: the phase had no duration.  Returns CONSISTENT or
+    NO_SOLUTION."""
     if cause == GAP_CLOSED:
         return reattach(model, state)
     if cause == AT_REST:
@@ -265,7 +305,7 @@ def change_phase(model, state, cause, at_once):
         return _enter_separation(model, state, P, noise)
     outcome = enter_slip(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0)
     if state.x[layout.PHASE] == layout.SLIP and not friction_drops(model) and not at_once:
-        # friction does not jump: f' = 0, despite the error of the event's time. Where stick had no duration, the spring
-        # may pull harder than friction can hold.
+        # friction does not jump: f' = 0, despite the error of the event's time. Where stick had no
+        # duration, the spring may pull harder than friction can hold.
         state.x[layout.KNOWN] = 2
     return outcome

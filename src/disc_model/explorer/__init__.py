@@ -1,4 +1,5 @@
-"""The explorer's page: contents of studies, packed for JSON, with pictures, style and script in one file."""
+"""The explorer's page: contents of studies, packed for JSON, with pictures, style and script in one
+file."""
 
 import base64
 import io
@@ -20,7 +21,18 @@ from numpy.typing import NDArray
 from PIL import Image, ImageOps
 
 from disc_model.data.variables import attributes
-from disc_model.figures.drawing import BLACK, BLUE, BROWN, GREEN, GREY, ORANGE, PHASE_COLOURS, PURPLE, SKY, VERMILION
+from disc_model.figures.drawing import (
+    BLACK,
+    BLUE,
+    BROWN,
+    GREEN,
+    GREY,
+    ORANGE,
+    PHASE_COLOURS,
+    PURPLE,
+    SKY,
+    VERMILION,
+)
 from disc_model.parameters import RATIOS, Parameters
 
 # ---- Contents of studies: numbers packed, words as they are
@@ -30,27 +42,39 @@ LEVELS = 65535  # steps between the least and the greatest value of a stored his
 BITS = 17  # number of bits kept of the 23 of a 32-bit mantissa: five digits, as many as are shown
 
 
-def study_contents(name: str, study: xr.Dataset, motions: xr.Dataset | None = None, text: str = "") -> dict[str, Any]:
-    """Contents of a merged study: fixed parameters, dimensions, variables, messages; motions, and a text on these."""
+def study_contents(
+    name: str, study: xr.Dataset, motions: xr.Dataset | None = None, text: str = ""
+) -> dict[str, Any]:
+    """Contents of a merged study: fixed parameters, dimensions, variables, messages; motions, and a
+    text on these."""
     study = study.transpose(*study.sizes)
     base = json.loads(study.attrs.get("base", "{}"))
     messages = None
     if "message" in study:  # as indices into the distinct ones; most points share theirs
         words, indices = np.unique(study["message"].values.astype(str), return_inverse=True)
-        messages = {"dims": [*study["message"].dims], "words": words.tolist(), "data": packed(indices, "<u4")}
+        messages = {
+            "dims": [*study["message"].dims],
+            "words": words.tolist(),
+            "data": packed(indices, "<u4"),
+        }
     return {
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,
-        "fixed": [_named(name, attributes(name)) | {"value": value} for name, value in base.items()],
+        "fixed": [
+            _named(name, attributes(name)) | {"value": value} for name, value in base.items()
+        ],
         "dims": [_dimension(study, str(dim)) for dim in study.sizes],
-        "variables": [_variable(x) for x in study.data_vars.values() if x.ndim and x.dtype.kind in "biuf"],
+        "variables": [
+            _variable(x) for x in study.data_vars.values() if x.ndim and x.dtype.kind in "biuf"
+        ],
         "messages": messages,
         "motions": None if motions is None else motion_contents(motions, text),
     }
 
 
 def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:
-    """Histories along `point` and `sample` with 16 bits per sample, phases as runs; failed ones are left out."""
+    """Histories along `point` and `sample` with 16 bits per sample, phases as runs; failed ones are
+    left out."""
     good = motions.isel(point=np.flatnonzero(motions["status"].values == 0))
     names = [str(name) for name in good.coords if good[name].dims == ("point",)]
     points = zip(*(good[name].values.tolist() for name in names), strict=True)
@@ -60,7 +84,10 @@ def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:
         "names": names,
         "samples": good.sizes["sample"],
         "phases": good["phase"].attrs["flag_meanings"].split(),
-        "traces": [{"name": name, "unit": good[name].attrs["units"], **traces(good[name].values)} for name in TRACES],
+        "traces": [
+            {"name": name, "unit": good[name].attrs["units"], **traces(good[name].values)}
+            for name in TRACES
+        ],
         "points": [
             {"at": list(coordinates), "length": length, "phase": runs(phase)}
             for coordinates, length, phase in zip(points, lengths, phases, strict=True)
@@ -69,11 +96,16 @@ def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:
 
 
 def traces(values: NDArray[np.floating[Any]]) -> dict[str, Any]:
-    """Packed histories, shape (points, samples); ``least + step * n`` errs by half a step, 8e-6 of each range."""
+    """Packed histories, shape (points, samples); ``least + step * n`` errs by half a step, 8e-6 of
+    each range."""
     least = values.min(axis=1, keepdims=True, initial=np.inf).astype(float)
     step = (values.max(axis=1, keepdims=True, initial=-np.inf).astype(float) - least) / LEVELS
     numbers = np.rint(np.divide(values - least, step, out=np.zeros(values.shape), where=step > 0))
-    return {"least": least.ravel().tolist(), "step": step.ravel().tolist(), "data": packed(numbers, "<u2")}
+    return {
+        "least": least.ravel().tolist(),
+        "step": step.ravel().tolist(),
+        "data": packed(numbers, "<u2"),
+    }
 
 
 def runs(values: NDArray[np.integer[Any]]) -> list[list[int]]:
@@ -83,14 +115,16 @@ def runs(values: NDArray[np.integer[Any]]) -> list[list[int]]:
 
 
 def packed(values: NDArray[Any], kind: str) -> str:
-    """An array, last dimension fastest, as base64: first bytes of all numbers, then second ones and so on, deflated."""
+    """An array, last dimension fastest, as base64: first bytes of all numbers, then second ones and
+    so on, deflated."""
     numbers = np.ascontiguousarray(values, dtype=kind).reshape(-1)
     planes = numbers.view(np.uint8).reshape(-1, numbers.itemsize).T
     return base64.b64encode(zlib.compress(planes.tobytes(), 9)).decode("ascii")
 
 
 def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
-    """Numbers rounded to `BITS` bits of their mantissa; the other bits are zero, which compresses well."""
+    """Numbers rounded to `BITS` bits of their mantissa; the other bits are zero, which compresses
+    well."""
     whole = np.array(values, dtype=np.float32)
     bits, shift = whole.view(np.uint32), np.uint32(23 - BITS)
     rounded = (bits + np.uint32(1 << (shift - 1))) >> shift << shift
@@ -99,17 +133,25 @@ def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
 
 def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:
     """Name, label and unit of a parameter or variable."""
-    return {"name": name, "title": str(attrs.get("long_name", name)), "unit": str(attrs.get("units", ""))}
+    return {
+        "name": name,
+        "title": str(attrs.get("long_name", name)),
+        "unit": str(attrs.get("units", "")),
+    }
 
 
 def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
-    """Values along a dimension; for a zip, which has no coordinate of its own, its parameters as text."""
+    """Values along a dimension; for a zip, which has no coordinate of its own, its parameters as
+    text."""
     if dim in study.coords:
         values = study[dim].values.tolist()
         return _named(dim, study[dim].attrs) | {"values": values, "parts": {dim: values}}
     along = {str(name): x.values.tolist() for name, x in study.coords.items() if x.dims == (dim,)}
     columns = along or {dim: list(range(study.sizes[dim]))}
-    texts = [[f"{name} = {x if isinstance(x, str) else f'{x:g}'}" for x in column] for name, column in columns.items()]
+    texts = [
+        [f"{name} = {x if isinstance(x, str) else f'{x:g}'}" for x in column]
+        for name, column in columns.items()
+    ]
     words = [", ".join(row) for row in zip(*texts, strict=True)]
     return {"name": dim, "title": ", ".join(columns), "unit": "", "values": words, "parts": columns}
 
@@ -130,9 +172,33 @@ def _variable(variable: xr.DataArray) -> dict[str, Any]:
 PICTURE_WIDTH = 1100  # width of a page-wide figure, pixels; narrower ones are scaled alike
 PAGE_WIDTH = 2055  # width of such a figure as drawn, pixels
 QUALITY = 80
-SCRIPTS = ("contents", "view", "drawing", "map", "point", "motion", "start")  # in the order of their dependence
-PALETTE = (BLUE, ORANGE, SKY, GREEN, PURPLE, BROWN, GREY, VERMILION)  # of flags whose words have no colour of their own
-WORDS = {"ok": SKY, "quiet": BLUE, "stable": BLUE, "growing": ORANGE, "unstable": ORANGE, "failed": BLACK}
+SCRIPTS = (
+    "contents",
+    "view",
+    "drawing",
+    "map",
+    "point",
+    "motion",
+    "start",
+)  # in the order of their dependence
+PALETTE = (
+    BLUE,
+    ORANGE,
+    SKY,
+    GREEN,
+    PURPLE,
+    BROWN,
+    GREY,
+    VERMILION,
+)  # of flags whose words have no colour of their own
+WORDS = {
+    "ok": SKY,
+    "quiet": BLUE,
+    "stable": BLUE,
+    "growing": ORANGE,
+    "unstable": ORANGE,
+    "failed": BLACK,
+}
 WORDS = PHASE_COLOURS | WORDS
 
 
@@ -148,19 +214,28 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
     maps = {"sequential": cm.batlow, "diverging": cm.vik}
     contents = {
         "studies": studies,
-        "maps": {kind: [to_hex(colour) for colour in colours(range(256))] for kind, colours in maps.items()},
+        "maps": {
+            kind: [to_hex(colour) for colour in colours(range(256))]
+            for kind, colours in maps.items()
+        },
         "palette": PALETTE,
         "words": WORDS,
         "parameters": [*Parameters.model_fields, *RATIOS],
     }
     texts = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    template = jinja2.Template(_part("page.html"), autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True)
+    template = jinja2.Template(
+        _part("page.html"), autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True
+    )
     return template.render(
         title=title,
         embedded=embedded,
         style=_part("page.css"),
-        figures=[(heading, [*group]) for heading, group in groupby(pictures, key=attrgetter("heading"))],
-        contents=texts.replace("<", "\\u003c"),  # so that none of them ends the enclosing HTML element
+        figures=[
+            (heading, [*group]) for heading, group in groupby(pictures, key=attrgetter("heading"))
+        ],
+        contents=texts.replace(
+            "<", "\\u003c"
+        ),  # so that none of them ends the enclosing HTML element
         script="\n".join(['"use strict";', *(_part(f"{name}.js") for name in SCRIPTS)]),
     )
 
@@ -168,7 +243,9 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
 def embedded(file: Path) -> str:
     """A picture, reduced in size, as a data URL."""
     with Image.open(file) as picture:
-        small = ImageOps.scale(picture.convert("RGB"), PICTURE_WIDTH / PAGE_WIDTH, Image.Resampling.LANCZOS)
+        small = ImageOps.scale(
+            picture.convert("RGB"), PICTURE_WIDTH / PAGE_WIDTH, Image.Resampling.LANCZOS
+        )
     buffer = io.BytesIO()
     small.save(buffer, "WEBP", quality=QUALITY, method=6)
     return f"data:image/webp;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"

@@ -1,4 +1,5 @@
-"""Common style and parts of several figures: labels, envelopes of long histories, points of grids."""
+"""Common style and parts of several figures: labels, envelopes of long histories, points of
+grids."""
 
 from __future__ import annotations
 
@@ -18,7 +19,15 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data import dataset, variables
-from disc_model.data.variables import EXCLUDED, SHOWN, WITHOUT_CYCLE, axis_of, flag_names, stated_in, typeset
+from disc_model.data.variables import (
+    EXCLUDED,
+    SHOWN,
+    WITHOUT_CYCLE,
+    axis_of,
+    flag_names,
+    stated_in,
+    typeset,
+)
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -40,7 +49,9 @@ class _Deferred(NamedTuple):
 
 mpl, cm = _Deferred("matplotlib"), _Deferred("cmcrameri.cm")
 
-logging.getLogger("fontTools").setLevel(logging.WARNING)  # its reports on fonts would fill the logs of figures
+logging.getLogger("fontTools").setLevel(
+    logging.WARNING
+)  # its reports on fonts would fill the logs of figures
 
 COLUMN = 84 / 25.4  # width of one column, inch
 PAGE = 174 / 25.4  # width of both columns, inch
@@ -56,9 +67,21 @@ STICK, SLIP, SEPARATED = GREEN, PURPLE, VERMILION
 PHASE_COLOURS = {"stick": STICK, "slip": SLIP, "separation": SEPARATED}
 PAPER = "#F0E442"  # the paper's results, always with a black edge: no other mark and no map has it
 
-BORDERS: dict[str, dict[str, Any]] = {  # lines of all stability charts; corners of cells stay visible in short dashes
-    "neutral": {"color": BLACK, "linewidth": 1.0, "linestyle": "-", "label": "cycle loses stability"},
-    "fold": {"color": BLACK, "linewidth": 1.0, "linestyle": (0, (1.2, 0.8)), "label": "stable cycle ends (fold)"},
+BORDERS: dict[
+    str, dict[str, Any]
+] = {  # lines of all stability charts; corners of cells stay visible in short dashes
+    "neutral": {
+        "color": BLACK,
+        "linewidth": 1.0,
+        "linestyle": "-",
+        "label": "cycle loses stability",
+    },
+    "fold": {
+        "color": BLACK,
+        "linewidth": 1.0,
+        "linestyle": (0, (1.2, 0.8)),
+        "label": "stable cycle ends (fold)",
+    },
 }
 
 
@@ -72,15 +95,21 @@ def new_figure(width: float, height: float) -> Figure:
     return mpl.figure.Figure(figsize=(width, height), layout="constrained")
 
 
-def panels(width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any) -> tuple[Figure, list[Axes]]:
-    """A figure of a size in inches with panels, row by row; `shared` as `Figure.subplots` has it."""
+def panels(
+    width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any
+) -> tuple[Figure, list[Axes]]:
+    """A figure of a size in inches with panels, row by row; `shared` as `Figure.subplots` has
+    it."""
     figure = new_figure(width, height)
     return figure, list(figure.subplots(rows, columns, squeeze=False, **shared).flat)
 
 
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
-    """Write a figure with its title; equal figures give equal bytes. Further files have the layout of the first."""
-    metadata: dict[str, Any] = {"CreationDate": None} if Path(path).suffix == ".pdf" else {"Software": None}
+    """Write a figure with its title; equal figures give equal bytes. Further files have the layout
+    of the first."""
+    metadata: dict[str, Any] = (
+        {"CreationDate": None} if Path(path).suffix == ".pdf" else {"Software": None}
+    )
     metadata |= {"Title": title} if title else {}
     with styled():
         figure.savefig(path, metadata=metadata)
@@ -94,10 +123,24 @@ def history(case: xr.DataTree, window: str = "history", until: float | None = No
     return shown if shown.sizes["time"] > 1 else ranges
 
 
-MODES = {"as_published": "modes as published", "orthonormal": "orthonormal modes", "given": "modes of a table"}
-WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}  # those of the paper first
-MODELS = {"normal": WORDS["normal"], "residual": "residual flexibility", "surface": "friction on the surface"}
-MODELS |= dict.fromkeys(("bilateral", "bonded"), "bilateral contact")  # the second in files of results
+MODES = {
+    "as_published": "modes as published",
+    "orthonormal": "orthonormal modes",
+    "given": "modes of a table",
+}
+WORDS = {
+    **MODES,
+    "vertical": "vertical contact force",
+    "normal": "normal contact force",
+}  # those of the paper first
+MODELS = {
+    "normal": WORDS["normal"],
+    "residual": "residual flexibility",
+    "surface": "friction on the surface",
+}
+MODELS |= dict.fromkeys(
+    ("bilateral", "bonded"), "bilateral contact"
+)  # the second in files of results
 
 
 def sample(**look: Any) -> Artist:
@@ -121,25 +164,40 @@ def restate_axes(figure: Figure) -> None:
         text = axis.get_label_text()
         for name, (unit, factor) in UNITS.get().items():
             shown = SHOWN[name]
-            if text.startswith(typeset(f"{shown.name} {shown.symbol}".strip())) and text.endswith(f"({shown.unit})"):
+            if text.startswith(typeset(f"{shown.name} {shown.symbol}".strip())) and text.endswith(
+                f"({shown.unit})"
+            ):
                 ratio, ends = factor / shown.factor, axis.get_view_interval()
-                linear = mpl.ticker.MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(*np.multiply(ratio, ends))
+                linear = mpl.ticker.MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(
+                    *np.multiply(ratio, ends)
+                )
                 ticks = linear if axis.get_scale() == "linear" else DECADES
                 axis.set_label_text(text.removesuffix(f"({shown.unit})") + f"({unit})")
                 axis.set_major_locator(mpl.ticker.FixedLocator(np.divide(ticks, ratio)))
-                axis.set_major_formatter(mpl.ticker.FuncFormatter(lambda value, _, ratio=ratio: f"{value * ratio:.6g}"))
+                axis.set_major_formatter(
+                    mpl.ticker.FuncFormatter(lambda value, _, ratio=ratio: f"{value * ratio:.6g}")
+                )
 
 
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
     """Axis label of any variable or coordinate, and the factor from SI to its unit."""
     words = str(variable.attrs.get("long_name", variable.name)).partition(", nan ")[0]
-    for name in (str(variable.name), words):  # a scanned parameter is the long name of its dimension
+    for name in (
+        str(variable.name),
+        words,
+    ):  # a scanned parameter is the long name of its dimension
         if name in SHOWN:
             return axis_of(name)
-    words = words.replace("disturbances of ", "")  # of growth rates, which have one name in all figures
+    words = words.replace(
+        "disturbances of ", ""
+    )  # of growth rates, which have one name in all figures
     unit = str(variable.attrs.get("units", "1")).replace("s-1", "/s").replace(" /", "/")
     phrase = fill(words[0].upper() + words[1:], 48)
-    return (f"{phrase} ({'1' + unit if unit.startswith('/') else unit})" if unit not in ("", "1") else phrase), 1.0
+    return (
+        f"{phrase} ({'1' + unit if unit.startswith('/') else unit})"
+        if unit not in ("", "1")
+        else phrase
+    ), 1.0
 
 
 def along(coordinate: xr.DataArray) -> tuple[str, np.ndarray]:
@@ -149,11 +207,15 @@ def along(coordinate: xr.DataArray) -> tuple[str, np.ndarray]:
 
 
 def as_numbers(variable: xr.DataArray) -> tuple[list[str], xr.DataArray]:
-    """Words of a flag's values, none for other variables; and the variable with numbers for words, their places."""
+    """Words of a flag's values, none for other variables; and the variable with numbers for words,
+    their places."""
     words = [word for word in variable.attrs.get("flag_meanings", "").split() if word != EXCLUDED]
     if variable.dtype.kind in "UO":
         distinct, places = np.unique(variable.values, return_inverse=True)
-        words, variable = distinct.tolist(), variable.copy(data=places.reshape(variable.shape).astype(float))
+        words, variable = (
+            distinct.tolist(),
+            variable.copy(data=places.reshape(variable.shape).astype(float)),
+        )
     return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words], variable
 
 
@@ -165,17 +227,25 @@ def picked(study: xr.Dataset, values: Mapping[str, float | str]) -> xr.Dataset:
 
 
 def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
-    """Points where a variable has no value, by the word of their status; without those that a rule excludes."""
+    """Points where a variable has no value, by the word of their status; without those that a rule
+    excludes."""
     words, gone = statuses(study), variable.isnull()
-    names = {str(word): WITHOUT_CYCLE.get(str(word), "failed") for word in np.unique(words)} | {"ok": "no value"}
+    names = {str(word): WITHOUT_CYCLE.get(str(word), "failed") for word in np.unique(words)} | {
+        "ok": "no value"
+    }
     names.pop(EXCLUDED, None)
-    each = {name: gone & words.isin([word for word in names if names[word] == name]) for name in names.values()}
+    each = {
+        name: gone & words.isin([word for word in names if names[word] == name])
+        for name in names.values()
+    }
     return {name: mask for name, mask in each.items() if mask.any()}
 
 
 def what_case(values: Mapping[str, Any]) -> str:
     """Values of parameters for titles: N, Omega, and those that differ from Table 1."""
-    words = [MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS]
+    words = [
+        MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS
+    ]
     if values.get("normalization") == "orthonormal":
         words.append(MODES["orthonormal"])
     numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
@@ -183,7 +253,8 @@ def what_case(values: Mapping[str, Any]) -> str:
 
 
 def slices(variable: Any, by: str | None) -> list[tuple[str, Any]]:
-    """Label and values of each slice along a dimension; words as in `WORDS`, or by the number they begin with."""
+    """Label and values of each slice along a dimension; words as in `WORDS`, or by the number they
+    begin with."""
     if by is None:
         return [("", variable)]
     names = [str(name) for name, values in variable.coords.items() if values.dims == (by,)]
@@ -209,16 +280,25 @@ def coordinate_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
     if by == "contact_compliance":
         return f"compliance {value * factor:.3g} µm/N" if value else "rigid contact"
     if by == "friction_offset":
-        return f"friction {value * factor:g} mm above the middle plane" if value else "friction in the middle plane"
+        return (
+            f"friction {value * factor:g} mm above the middle plane"
+            if value
+            else "friction in the middle plane"
+        )
     return f"{name} = {value * factor:g} {unit}" if name else f"{label} = {value * factor:g}"
 
 
 def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
-    """Axis label of a sampled variable, with the angle of the disc's fixed point, factor to its unit, and colour."""
+    """Axis label of a sampled variable, with the angle of the disc's fixed point, factor to its
+    unit, and colour."""
     angles = sorted({float(window.attrs["theta"]) for window in windows if "theta" in window.attrs})
     at = rf", $\theta$ = {' and '.join(f'{angle:g}' for angle in angles)} rad"
     label, factor = axis_of(name, at if name.startswith("w_point") else "")
-    return label, factor, FORCE if name == "P" else DISC if name.partition("_")[0] == "w" else SLIDER
+    return (
+        label,
+        factor,
+        FORCE if name == "P" else DISC if name.partition("_")[0] == "w" else SLIDER,
+    )
 
 
 def envelope(ax: Axes, ranges: xr.Dataset, name: str, color: str = "", label: str = "") -> None:
@@ -230,7 +310,8 @@ def envelope(ax: Axes, ranges: xr.Dataset, name: str, color: str = "", label: st
 
 
 def show(ax: Axes, case: xr.DataTree, window: xr.Dataset, name: str, *, named: bool = True) -> None:
-    """Draw a variable against time, as a line or as ranges, and mark the first separation, with its time if `named`."""
+    """Draw a variable against time, as a line or as ranges, and mark the first separation, with its
+    time if `named`."""
     label, factor, colour = sampled(name, window)
     if f"{name}_min" in window:
         envelope(ax, window, name)
@@ -247,14 +328,17 @@ def headroom(ax: Axes, share: float) -> None:
     ax.set_ylim(top=high + share * (high - low))
 
 
-def broken(x: np.ndarray, y: np.ndarray, jump: float, height: np.ndarray | None = None) -> list[np.ndarray]:
+def broken(
+    x: np.ndarray, y: np.ndarray, jump: float, height: np.ndarray | None = None
+) -> list[np.ndarray]:
     """A line with gaps where its height, y unless given, changes by more than `jump`."""
     gaps = np.flatnonzero(np.abs(np.diff(y if height is None else height)) > jump) + 1
     return [np.insert(along.astype(float), gaps, np.nan) for along in (x, y)]
 
 
 def edges(values: np.ndarray) -> np.ndarray:
-    """Edges of cells around ascending values: halfway between neighbours, and the first and last value."""
+    """Edges of cells around ascending values: halfway between neighbours, and the first and last
+    value."""
     return np.concatenate([values[:1], 0.5 * (values[1:] + values[:-1]), values[-1:]])
 
 
@@ -271,7 +355,8 @@ def spans(along: np.ndarray, mask: np.ndarray) -> list[tuple[float, float]]:
 
 
 def mark_cases(axes: Sequence[Axes], places: Mapping[str, float], height: float = 0.0) -> None:
-    """Mark the paper's cases by lines, named in the first panel: left of the first line, right of the next."""
+    """Mark the paper's cases by lines, named in the first panel: left of the first line, right of
+    the next."""
     for i, (case, x) in enumerate(places.items()):
         for ax in axes:
             ax.axvline(x, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
@@ -280,42 +365,93 @@ def mark_cases(axes: Sequence[Axes], places: Mapping[str, float], height: float 
 
 
 def show_thickness(ax: Axes, case: xr.DataTree, along: Literal["x", "y"]) -> None:
-    """Draw a bar as long as the disc is thick, beside a panel whose axis is a displacement in mm, if it finds room."""
+    """Draw a bar as long as the disc is thick, beside a panel whose axis is a displacement in mm,
+    if it finds room."""
     h = json.loads(case.attrs.get("parameters", "{}")).get("h")
     low, high = ax.get_xlim() if along == "x" else ax.get_ylim()
     share = 1e3 * h / (high - low) if h else 1.0
     if share > 0.8:
         return
     points = ([1 - share, 1], [1.04, 1.04]) if along == "x" else ([1.02, 1.02], [0, share])
-    ax.plot(*points, color=BLACK, linewidth=2.5, solid_capstyle="butt", transform=ax.transAxes, clip_on=False)
-    point, offset, turn = ((1 - share, 1.04), (-3, 0), 0) if along == "x" else ((1.02, 0), (3, 1), 90)
-    say(ax, f"thickness {1e3 * h:g} mm", point, offset, xycoords="axes fraction", fontsize=6, rotation=turn)
+    ax.plot(
+        *points,
+        color=BLACK,
+        linewidth=2.5,
+        solid_capstyle="butt",
+        transform=ax.transAxes,
+        clip_on=False,
+    )
+    point, offset, turn = (
+        ((1 - share, 1.04), (-3, 0), 0) if along == "x" else ((1.02, 0), (3, 1), 90)
+    )
+    say(
+        ax,
+        f"thickness {1e3 * h:g} mm",
+        point,
+        offset,
+        xycoords="axes fraction",
+        fontsize=6,
+        rotation=turn,
+    )
 
 
 def mark_printed(ax: Axes, time: float) -> None:
-    """Mark a time that the paper prints, at the lower edge of a panel that shows it, in room made for it."""
+    """Mark a time that the paper prints, at the lower edge of a panel that shows it, in room made
+    for it."""
     (low, high), (bottom, top) = ax.get_xlim(), ax.get_ylim()
     if low <= time <= high:
         ax.set_ylim(bottom - 0.13 * (top - bottom), top)
         across, beside = ax.get_xaxis_transform(), ("data", "axes fraction")
-        ax.plot([time], [0], marker="^", c=PAPER, mec=BLACK, ms=6, zorder=6, transform=across, clip_on=False)
-        say(ax, f"paper: {time:g} s", (time, 0), (-6, 4), xycoords=beside, fontsize=6, path_effects=halo())
+        ax.plot(
+            [time],
+            [0],
+            marker="^",
+            c=PAPER,
+            mec=BLACK,
+            ms=6,
+            zorder=6,
+            transform=across,
+            clip_on=False,
+        )
+        say(
+            ax,
+            f"paper: {time:g} s",
+            (time, 0),
+            (-6, 4),
+            xycoords=beside,
+            fontsize=6,
+            path_effects=halo(),
+        )
 
 
 def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:
-    """Mark the first separation by a line with its time above it; nothing if the time shown has none."""
+    """Mark the first separation by a line with its time above it; nothing if the time shown has
+    none."""
     time, (low, high) = float(case["first_separation"]), ax.get_xlim()
     if low <= time <= high:
         ax.axvline(time, **{"color": SEPARATED, "linewidth": 0.8, "linestyle": (0, (4, 2)), **look})
         if named:
             beside = ("data", "axes fraction")
-            say(ax, f"first separation {time:.2f} s", (time, 1), (0, 2), xycoords=beside, fontsize=7, color=SEPARATED)
+            say(
+                ax,
+                f"first separation {time:.2f} s",
+                (time, 1),
+                (0, 2),
+                xycoords=beside,
+                fontsize=7,
+                color=SEPARATED,
+            )
 
 
-def say(ax: Axes, text: str, point: tuple[float, float], offset: tuple[float, float], **look: Any) -> None:
+def say(
+    ax: Axes, text: str, point: tuple[float, float], offset: tuple[float, float], **look: Any
+) -> None:
     """Write a few words beside a point, on the side to which an offset in points leads."""
     across, up = np.sign(offset)
-    ha, va = {-1: "right", 0: "center", 1: "left"}[across], {-1: "top", 0: "center", 1: "bottom"}[up]
+    ha, va = (
+        {-1: "right", 0: "center", 1: "left"}[across],
+        {-1: "top", 0: "center", 1: "bottom"}[up],
+    )
     ax.annotate(text, point, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
 
 
@@ -330,14 +466,17 @@ def letter(ax: Axes, text: str, title: str = "", **look: Any) -> None:
 
 
 def letters(axes: Sequence[Axes] | np.ndarray, titles: Iterable[str] = (), **look: Any) -> None:
-    """Write the letters of panels, and the subjects of the first ones; a single panel has no letter."""
+    """Write the letters of panels, and the subjects of the first ones; a single panel has no
+    letter."""
     for ax, text, title in zip(axes, "abcdefghijkl", chain(titles, repeat("")), strict=False):
         ax.set_title(f"({text}) {title}".strip() if len(axes) > 1 else title, loc="left", **look)
 
 
 def legend_above(ax: Axes, **look: Any) -> Any:
     """Draw a legend in one row above the right end of the axes, where it covers nothing."""
-    return ax.legend(loc="lower right", bbox_to_anchor=(1, 1), **{"borderaxespad": 0.2, "ncols": 4, **look})
+    return ax.legend(
+        loc="lower right", bbox_to_anchor=(1, 1), **{"borderaxespad": 0.2, "ncols": 4, **look}
+    )
 
 
 def normalizations(study: xr.Dataset) -> list[str]:
@@ -355,7 +494,11 @@ def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
 
 def statuses(study: xr.Dataset) -> xr.DataArray:
     """The status of each point of a grid study, as a word; "ok" without one."""
-    return study["status"].copy(data=flag_names(study["status"])) if "status" in study else xr.DataArray("ok")
+    return (
+        study["status"].copy(data=flag_names(study["status"]))
+        if "status" in study
+        else xr.DataArray("ok")
+    )
 
 
 def failed(study: xr.Dataset) -> xr.DataArray:
@@ -363,16 +506,30 @@ def failed(study: xr.Dataset) -> xr.DataArray:
     return statuses(study) != "ok"
 
 
-def mark_failed(ax: Axes, values: np.ndarray, on: Literal["x", "y"] = "x", name: str = "failed") -> None:
-    """Mark failed points by crosses beside an axis, as in stability maps; nothing if there are none."""
+def mark_failed(
+    ax: Axes, values: np.ndarray, on: Literal["x", "y"] = "x", name: str = "failed"
+) -> None:
+    """Mark failed points by crosses beside an axis, as in stability maps; nothing if there are
+    none."""
     if values.size:
         points, transform = [values, np.full(values.shape, 0.02)], ax.get_xaxis_transform()
         if on == "y":
             points, transform = points[::-1], ax.get_yaxis_transform()
-        ax.plot(*points, "x", color=BLACK, markersize=3.5, transform=transform, clip_on=False, label=name)
+        ax.plot(
+            *points,
+            "x",
+            color=BLACK,
+            markersize=3.5,
+            transform=transform,
+            clip_on=False,
+            label=name,
+        )
 
 
 def head_text(width: float, title: str, values: str) -> str:
-    """A title and values of parameters, in lines that fit a width in inches; a value stays on the line of its name."""
+    """A title and values of parameters, in lines that fit a width in inches; a value stays on the
+    line of its name."""
     joined = ", ".join(value.replace(" ", "\u00a0") for value in typeset(values).split(", "))
-    return "\n".join(fill(text, round(width / 0.06)) for text in (title, joined) if text).replace("\u00a0", " ")
+    return "\n".join(fill(text, round(width / 0.06)) for text in (title, joined) if text).replace(
+        "\u00a0", " "
+    )

@@ -13,46 +13,93 @@ from pydantic import Field
 from disc_model.data.variables import EXCLUDED, stated_in
 from disc_model.errors import Fault, as_text, suggestion
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, PAGE, Artist, Axes, Figure, FigureBase, cm, mpl, panels
+from disc_model.figures.drawing import (
+    BLACK,
+    GREY,
+    PAGE,
+    Artist,
+    Axes,
+    Figure,
+    FigureBase,
+    cm,
+    mpl,
+    panels,
+)
 from disc_model.figures.kind import NORM, Plot, Values
-from disc_model.figures.maps import CELL_LOOKS, CYCLE_LOOKS, edges_of, growth_panels, outcome_cells, patches, scale_of
+from disc_model.figures.maps import (
+    CELL_LOOKS,
+    CYCLE_LOOKS,
+    edges_of,
+    growth_panels,
+    outcome_cells,
+    patches,
+    scale_of,
+)
 from disc_model.units import UNITS, Finite, Unit
 
-COLOURS = (drawing.BLUE, drawing.ORANGE, drawing.GREEN, drawing.VERMILION, drawing.SKY, drawing.PURPLE, GREY)
-HATCH: dict[str, Any] = {"facecolor": "white", "hatch": "//////", "edgecolor": GREY}  # look of missing values
+COLOURS = (
+    drawing.BLUE,
+    drawing.ORANGE,
+    drawing.GREEN,
+    drawing.VERMILION,
+    drawing.SKY,
+    drawing.PURPLE,
+    GREY,
+)
+HATCH: dict[str, Any] = {
+    "facecolor": "white",
+    "hatch": "//////",
+    "edgecolor": GREY,
+}  # look of missing values
 LINEAR = 0.1  # growth rate up to which its scale is linear, 1/s; a greater step breaks the line, or finds another cycle
 FEW = 12  # counts below which each has a colour of its own
 MARKS = "os^Dv<>"  # marks of the lines; they are open, so that lines on top of each other show
 
 
 class General(Plot):
-    """Any variable of any quantity over dimensions of the study, those of the quantity's own included."""
+    """Any variable of any quantity over dimensions of the study, those of the quantity's own
+    included."""
 
     several = True
     room: ClassVar[int] = 6  # greatest number of values of `by`
 
     variable: str
     x: str
-    at: Annotated[dict[str, Finite | str], Unit(UNITS)] = Field({})  # values along dimensions that are not shown
-    by: str | None = None  # a dimension with a panel, or a line, for each of its values; normalization if it varies
+    at: Annotated[dict[str, Finite | str], Unit(UNITS)] = Field(
+        {}
+    )  # values along dimensions that are not shown
+    by: str | None = (
+        None  # a dimension with a panel, or a line, for each of its values; normalization if it varies
+    )
     log: bool = False  # whether the scale of the variable is logarithmic
     names: dict[str, str] = Field({})  # words for values of `by`
 
     def named(self, study: xr.Dataset) -> xr.Dataset:
         """The study with the words that the file has for values of `by`."""
-        words = {self.by: [self.names.get(str(value), value) for value in study[self.by].values]} if self.names else {}
+        words = (
+            {self.by: [self.names.get(str(value), value) for value in study[self.by].values]}
+            if self.names
+            else {}
+        )
         return study.assign_coords(words)
 
     def chosen(self, study: xr.Dataset) -> list[str]:
         shown = drawing.picked(study, self.at)[self.variable]
-        alone = [str(name) for name, size in study.sizes.items() if size > 1 and name not in shown.dims]
+        alone = [
+            str(name) for name, size in study.sizes.items() if size > 1 and name not in shown.dims
+        ]
         return [drawing.coordinate_text(shown, name) for name in alone if name in shown.coords]
 
     def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
-        """Faults by the values along each dimension (tuples for a zip, none if it has faults), and each variable's."""
+        """Faults by the values along each dimension (tuples for a zip, none if it has faults), and
+        each variable's."""
         yield from self._wrong_overlays()
         if self.variable not in variables:
-            yield Fault.of(("variable",), self.variable, f"unknown variable{suggestion(self.variable, variables)}")
+            yield Fault.of(
+                ("variable",),
+                self.variable,
+                f"unknown variable{suggestion(self.variable, variables)}",
+            )
             return
         own = {name: dims[name] for name in variables[self.variable] if name in dims}
         shown = [*self.axes.values(), *([] if self.by is None else [self.by])]
@@ -64,17 +111,23 @@ class General(Plot):
             rule = f"must be another dimension of {self.variable}{suggestion(self.by, own)}"
             yield Fault.of(("by",), self.by, rule)
         elif (count := len(own.get(self.by or "", ()))) > self.room:
-            yield Fault.of(("by",), self.by, f"has {count} values, and there is room for {self.room}")
+            yield Fault.of(
+                ("by",), self.by, f"has {count} values, and there is room for {self.room}"
+            )
         free = {name: values for name, values in own.items() if name not in shown}
         for name, value in self.at.items():
             if name not in free:
-                yield Fault.of(("at", name), value, f"is no dimension that remains{suggestion(name, free)}")
+                yield Fault.of(
+                    ("at", name), value, f"is no dimension that remains{suggestion(name, free)}"
+                )
             elif free[name] and not any(_same(value, known) for known in free[name]):
                 yield Fault.of(("at", name), value, f"must be one of {as_text([*free[name]])}")
         for name, values in free.items():
             panels = self.by is None and name == NORM and len(values) <= self.room
             if name not in self.at and len(values) > 1 and not panels:
-                yield Fault(("at", name), "", f"is required, or by: {name}; one of {as_text([*values])}")
+                yield Fault(
+                    ("at", name), "", f"is required, or by: {name}; one of {as_text([*values])}"
+                )
         yield from unknown("names", self.names, "by", dims.get(self.by or "", ()))
 
 
@@ -103,14 +156,23 @@ def scale(name: str, values: np.ndarray) -> str:
 
 def in_steps(colours: Sequence[Any]) -> dict[str, Any]:
     """Colour map and scale for matplotlib: a colour for each of the numbers 0, 1, ..."""
-    cmap, norm = mpl.colors.from_levels_and_colors((np.arange(len(colours) + 1) - 0.5).tolist(), colours)
+    cmap, norm = mpl.colors.from_levels_and_colors(
+        (np.arange(len(colours) + 1) - 0.5).tolist(), colours
+    )
     return {"cmap": cmap, "norm": norm}
 
 
 def draw_maps(
-    figure: FigureBase, axes: Sequence[Axes], study: xr.Dataset, variable: str, x: str, y: str, log: bool = False
+    figure: FigureBase,
+    axes: Sequence[Axes],
+    study: xr.Dataset,
+    variable: str,
+    x: str,
+    y: str,
+    log: bool = False,
 ) -> list[Artist]:
-    """Draw a variable in colour, a panel for each value of a third dimension; returns entries of a legend."""
+    """Draw a variable in colour, a panel for each value of a third dimension; returns entries of a
+    legend."""
     ruled = "status" in study and EXCLUDED in study["status"].attrs.get("flag_meanings", "")
     left_out = drawing.statuses(study) == EXCLUDED
     array = study[variable].where(~left_out) if ruled else study[variable]
@@ -134,9 +196,15 @@ def draw_maps(
             mesh = _cells(ax, panel.transpose(y, x), **colours)
         if ruled:
             for ax, (_, panel) in zip(axes, drawing.slices(left_out, by), strict=False):
-                _cells(ax, panel.where(panel).transpose(y, x), cmap=mpl.colors.ListedColormap(["white"]))
+                _cells(
+                    ax,
+                    panel.where(panel).transpose(y, x),
+                    cmap=mpl.colors.ListedColormap(["white"]),
+                )
             handles += patches(CYCLE_LOOKS, {EXCLUDED})
-        bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=drawing.label_of(array)[0])
+        bar = figure.colorbar(
+            mesh, ax=list(axes), pad=0.01, aspect=30, label=drawing.label_of(array)[0]
+        )
         if log and colours["norm"].vmax < 10 * colours["norm"].vmin:
             bar.ax.yaxis.set_minor_formatter("{x:g}")
         if words:
@@ -144,7 +212,9 @@ def draw_maps(
             bar.minorticks_off()
         elif gaps := drawing.gaps(study, array):
             handles.append(mpl.patches.Patch(label=", ".join(gaps), **HATCH))
-    axes[0].set(xscale=scale(x, study[x].values), yscale=scale(y, study[y].values))  # axes are shared
+    axes[0].set(
+        xscale=scale(x, study[x].values), yscale=scale(y, study[y].values)
+    )  # axes are shared
     for ax in axes:
         ax.set(xlabel=drawing.label_of(array[x])[0], ylabel=drawing.label_of(array[y])[0])
     return handles
@@ -207,7 +277,8 @@ def scale_rates(ax: Axes) -> None:
     """Scale an axis of growth rates, as peaks of tens occur beside hundredths, and mark zero."""
 
     def between(rate: float, _: float) -> str:
-        """Within about a decade, labels of some ticks between its ends, so that nobody reads the scale as linear."""
+        """Within about a decade, labels of some ticks between its ends, so that nobody reads the
+        scale as linear."""
         shown = f"{rate:e}".lstrip("-")[0] in "25" and max(map(abs, ax.get_ylim())) < 20 * LINEAR
         return f"{rate:g}" if shown else ""
 
@@ -218,16 +289,27 @@ def scale_rates(ax: Axes) -> None:
 
 
 def draw_lines(
-    ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool = False, marks: dict[str, str] | None = None
+    ax: Axes,
+    study: xr.Dataset,
+    variable: str,
+    x: str,
+    log: bool = False,
+    marks: dict[str, str] | None = None,
 ) -> None:
-    """Draw a line, or one for each value of a second dimension; its marks above the panel stand for missing values.
-    Panels of a figure share `marks`, by the names of lines, so that a line has the same mark in all of them."""
+    """Draw a line, or one for each value of a second dimension; its marks above the panel stand for
+    missing values. Panels of a figure share `marks`, by the names of lines, so that a line has the
+    same mark in all of them."""
     words, array = drawing.as_numbers(study[variable])
     by, (label, along) = remaining(array, [x]), drawing.along(array[x])
     lines = drawing.slices(array, by)
     colours = [cm.batlow(i / len(lines)) for i in range(len(lines))] if by else [BLACK]
     rates = variable == "growth_rate" and not log
-    look: dict[str, Any] = {"markersize": 3, "markerfacecolor": "none", "markeredgewidth": 0.6, "linewidth": 0.7}
+    look: dict[str, Any] = {
+        "markersize": 3,
+        "markerfacecolor": "none",
+        "markeredgewidth": 0.6,
+        "linewidth": 0.7,
+    }
     # of lines without gaps some points are marked
     every = 1 if words or rates or array.isnull().any() else max(1, along.size // 12)
     marks = {} if marks is None else marks
@@ -251,7 +333,9 @@ def draw_lines(
         for colour, (line_name, mask) in zip(colours, drawing.slices(gone, by), strict=True):
             if mask.any():
                 mark = marks[line_name] if by else "x"
-                ax.plot(along[mask.values], np.full(int(mask.sum()), top), mark, color=colour, **look)
+                ax.plot(
+                    along[mask.values], np.full(int(mask.sum()), top), mark, color=colour, **look
+                )
                 top += 0.05
         if variable == "first_separation" and name == "no value":
             name = f"none within {stated_in(study, 'options')['horizon']:g} s"
@@ -260,7 +344,8 @@ def draw_lines(
 
 
 def name_ends(ax: Axes) -> bool:
-    """Write the names of lines beside their right ends, if all end there and apart from each other; else do nothing."""
+    """Write the names of lines beside their right ends, if all end there and apart from each other;
+    else do nothing."""
     low, high = ax.get_ylim()
     lines: list[Any] = ax.get_legend_handles_labels()[0]
     ends = np.array([line.get_ydata()[-1] for line in lines])
@@ -278,8 +363,12 @@ class CurvePlot(General):
 
     room = 12
     kind: Literal["curve"] = "curve"
-    limits: tuple[Finite, Finite] | None = None  # ends of the variable's axis, so that figures can be compared
-    panels: Literal["each"] | tuple[tuple[Finite | str, ...], ...] = ()  # values of `by` in each panel
+    limits: tuple[Finite, Finite] | None = (
+        None  # ends of the variable's axis, so that figures can be compared
+    )
+    panels: (
+        Literal["each"] | tuple[tuple[Finite | str, ...], ...]
+    ) = ()  # values of `by` in each panel
 
     def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
         yield from super().faults_among(dims, variables)
@@ -293,14 +382,18 @@ class CurvePlot(General):
         else:
             chosen = [study.sel({self.by: [*values]}) for values in self.panels] or [study]
             parts = [("", self.named(part)) for part in chosen]
-        figure, axes = panels(PAGE if self.panels else drawing.COLUMN, 2.9, 1, len(parts), sharey=True)
+        figure, axes = panels(
+            PAGE if self.panels else drawing.COLUMN, 2.9, 1, len(parts), sharey=True
+        )
         marks: dict[str, str] = {}
         for ax, (_, part) in zip(axes, parts, strict=True):
             draw_lines(ax, part, self.variable, self.x, self.log, marks)
             ax.label_outer()
         if self.limits is not None:
             axes[0].set_ylim(self.limits)
-        drawing.letters(axes, [fill(name, 26) for name, _ in parts], pad=20 if self.panels == "each" else None)
+        drawing.letters(
+            axes, [fill(name, 26) for name, _ in parts], pad=20 if self.panels == "each" else None
+        )
         for ax in axes:
             handles, labels = ax.get_legend_handles_labels()
             if labels and not name_ends(ax):

@@ -1,5 +1,6 @@
-"""What all kinds of figures have in common: fields for study files, rules (`faults`) and a drawing (`draw`). None of
-their modules imports matplotlib before something is drawn, as that would double the time in which a study is checked.
+"""What all kinds of figures have in common: fields for study files, rules (`faults`) and a drawing
+(`draw`). None of their modules imports matplotlib before something is drawn, as that would double
+the time in which a study is checked.
 """
 
 from __future__ import annotations
@@ -24,30 +25,48 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Window
 from disc_model.units import Strict, in_si
 
-Values = Mapping[str, Sequence[Any]]  # along each dimension of a grid; tuples where it varies several parameters
+Values = Mapping[
+    str, Sequence[Any]
+]  # along each dimension of a grid; tuples where it varies several parameters
 NORM = "normalization"  # the dimension that a study may have beside those that a figure requires
 
 
 def kind_of(name: Any) -> type[Kind]:
-    """The kind of a name, such as ``heat_map``, or ``paper.light_slider``; raises `ParameterError`."""
+    """The kind of a name, such as ``heat_map``, or ``paper.light_slider``; raises
+    `ParameterError`."""
     try:
         return kinds_in(str(name).rpartition(".")[0])[name]
-    except (ModuleNotFoundError, KeyError, TypeError) as error:  # no such part, no such kind, no name
+    except (
+        ModuleNotFoundError,
+        KeyError,
+        TypeError,
+    ) as error:  # no such part, no such kind, no name
         fault = Fault.of(("kind",), name, f"unknown kind of figure{suggestion(name, kinds_in(''))}")
         raise ParameterError(fault) from error
 
 
 @cache
 def kinds_in(part: str) -> dict[str, type[Kind]]:
-    """All kinds by their names: of a part of the package such as ``paper``, or of this one, whose name is ""."""
+    """All kinds by their names: of a part of the package such as ``paper``, or of this one, whose
+    name is ""."""
     figures = import_module(".".join(filter(None, ["disc_model", part, "figures"])))
-    modules = [import_module(f"{figures.__name__}.{x.name}") for x in iter_modules(getattr(figures, "__path__", []))]
-    classes = [x for module in modules for x in vars(module).values() if isinstance(x, type) and issubclass(x, Kind)]
+    modules = [
+        import_module(f"{figures.__name__}.{x.name}")
+        for x in iter_modules(getattr(figures, "__path__", []))
+    ]
+    classes = [
+        x
+        for module in modules
+        for x in vars(module).values()
+        if isinstance(x, type) and issubclass(x, Kind)
+    ]
     return {name: x for x in classes if isinstance(name := x.model_fields["kind"].default, str)}
 
 
 def _si_unit(name: str) -> str:
-    return Parameters.unit(name) or (SERIES[name].units.replace(" s-1", "/s") if name in SERIES else "")
+    return Parameters.unit(name) or (
+        SERIES[name].units.replace(" s-1", "/s") if name in SERIES else ""
+    )
 
 
 def _known_units(units: dict[str, str]) -> dict[str, str]:
@@ -58,7 +77,11 @@ def _known_units(units: dict[str, str]) -> dict[str, str]:
         if name in known:
             in_si(f"1 {unit}", _si_unit(name), faults, (name,))
         else:
-            faults.append(Fault.of((name,), unit, f"no parameter or variable with a unit{suggestion(name, known)}"))
+            faults.append(
+                Fault.of(
+                    (name,), unit, f"no parameter or variable with a unit{suggestion(name, known)}"
+                )
+            )
     raise_faults(faults)
     return units
 
@@ -72,13 +95,17 @@ class Kind(Strict):
 
     kind: str
     title: str = ""  # stands above the figure, and in lists
-    # stands below the figure in report, explorer and gallery, and then nothing above; as a text or its parts
+    # stands below the figure in report, explorer and gallery, and then nothing above; as a text or
+    # its parts
     caption: Annotated[str, BeforeValidator(_joined, json_schema_input_type=str | list[str])] = ""
     section: str = ""  # heading under which report and explorer show it
-    units: Annotated[dict[str, str], AfterValidator(_known_units)] = Field({})  # by parameter or sampled variable
+    units: Annotated[dict[str, str], AfterValidator(_known_units)] = Field(
+        {}
+    )  # by parameter or sampled variable
 
     def draw(self, *inputs: Any, **options: Any) -> drawing.Figure:
-        """Draw the cases, or the study and further ones by their roles; raises `Missing` where a case lacks data."""
+        """Draw the cases, or the study and further ones by their roles; raises `Missing` where a
+        case lacks data."""
         raise NotImplementedError
 
     def drawn_with_head(self, inputs: Mapping[str, xr.DataTree]) -> tuple[drawing.Figure, str, str]:
@@ -86,9 +113,12 @@ class Kind(Strict):
         raise NotImplementedError
 
     def render(self, inputs: Mapping[str, xr.DataTree]) -> drawing.Figure:
-        """Draw it from its inputs by name, in the common style and its readers' units, below a title unless a caption
-        says the same."""
-        factors = {name: (unit, 1 / in_si(f"1 {unit}", _si_unit(name), [], ())) for name, unit in self.units.items()}
+        """Draw it from its inputs by name, in the common style and its readers' units, below a
+        title unless a caption says the same."""
+        factors = {
+            name: (unit, 1 / in_si(f"1 {unit}", _si_unit(name), [], ()))
+            for name, unit in self.units.items()
+        }
         token = drawing.UNITS.set(factors)
         try:
             with drawing.styled():
@@ -125,9 +155,15 @@ CURVES = Role("stability_curves", (), {"x": "Omega", "y": "N"})
 class Plot(Kind):
     """A figure of a grid study."""
 
-    quantities: ClassVar[tuple[str, ...]] = ()  # those that it can show, the default first; if none, that of its name
-    needs: ClassVar[tuple[str, ...]] = ()  # dimensions, beside those that the file chooses as x and y
-    several: ClassVar[bool] = False  # whether it shows several normalizations, or is drawn from the values for one
+    quantities: ClassVar[
+        tuple[str, ...]
+    ] = ()  # those that it can show, the default first; if none, that of its name
+    needs: ClassVar[
+        tuple[str, ...]
+    ] = ()  # dimensions, beside those that the file chooses as x and y
+    several: ClassVar[bool] = (
+        False  # whether it shows several normalizations, or is drawn from the values for one
+    )
     roles: ClassVar[Roles] = {}
 
     study: str = ""  # the grid study that it shows, if not the file's own
@@ -144,8 +180,14 @@ class Plot(Kind):
         # 0 stands for N or Omega if the quantity varies it by itself
         varied = {*study.coords, *(name for name in ("N", "Omega") if not base.get(name))}
         modes = drawing.normalizations(study) if NORM in study.coords else []
-        fixed = drawing.what_case({name: value for name, value in base.items() if name not in varied})
-        texts = [*self.chosen(study), fixed, *(drawing.MODES[mode] for mode in modes if len(modes) == 1)]
+        fixed = drawing.what_case(
+            {name: value for name, value in base.items() if name not in varied}
+        )
+        texts = [
+            *self.chosen(study),
+            fixed,
+            *(drawing.MODES[mode] for mode in modes if len(modes) == 1),
+        ]
         return figure, study.attrs.get("title", ""), ", ".join(filter(None, texts))
 
     def chosen(self, study: xr.Dataset) -> list[str]:
@@ -155,7 +197,9 @@ class Plot(Kind):
     @property
     def axes(self) -> dict[str, str]:
         """Dimensions that the file chooses, by axis."""
-        return {axis: name for axis in ("x", "y") if (name := getattr(self, axis, None)) is not None}
+        return {
+            axis: name for axis in ("x", "y") if (name := getattr(self, axis, None)) is not None
+        }
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -163,7 +207,8 @@ class Plot(Kind):
         return (*self.needs, *self.axes.values())
 
     def faults(self, values: Values) -> Iterator[Fault]:
-        """Faults that keep it from showing a study with these dimensions; those without values have faults already."""
+        """Faults that keep it from showing a study with these dimensions; those without values have
+        faults already."""
         yield from [*self._wrong_axes(values, "this study")] or self._wrong_dims(values)
         yield from self._wrong_overlays()
 
@@ -171,7 +216,9 @@ class Plot(Kind):
         """Axes that are none of the dimensions of what is shown, or cannot be drawn."""
         for axis, name in self.axes.items():
             if name not in values:
-                yield Fault.of((axis,), name, f"is no dimension of {shown}{suggestion(name, values)}")
+                yield Fault.of(
+                    (axis,), name, f"is no dimension of {shown}{suggestion(name, values)}"
+                )
             elif any(isinstance(value, str | tuple) for value in values[name]):
                 yield Fault.of((axis,), name, "must be one parameter, and a number")
             elif axis == "y" and name == self.axes["x"]:
@@ -180,33 +227,49 @@ class Plot(Kind):
     def _wrong_overlays(self) -> Iterator[Fault]:
         """Roles that the figure does not have, and lacks."""
         for role in self.overlays.keys() - self.roles.keys():
-            yield Fault.of(("overlays", role), self.overlays[role], f"unknown role{suggestion(role, self.roles)}")
+            yield Fault.of(
+                ("overlays", role),
+                self.overlays[role],
+                f"unknown role{suggestion(role, self.roles)}",
+            )
         for role, wanted in self.roles.items():
             if wanted.required and role not in self.overlays:
-                yield Fault(("overlays", role), "", f"is required: a study of the quantity {wanted.quantity}")
+                yield Fault(
+                    ("overlays", role),
+                    "",
+                    f"is required: a study of the quantity {wanted.quantity}",
+                )
 
     def _wrong_dims(self, values: Values) -> Iterator[Fault]:
-        """Required dimensions that the study lacks, and dimensions of the study that the figure cannot show."""
+        """Required dimensions that the study lacks, and dimensions of the study that the figure
+        cannot show."""
         allowed = (*self.dims, NORM)
         further = [name for name in values if values[name] and name not in allowed]
         if missing := [name for name in self.dims if name not in values]:
             yield Fault.of(("kind",), self.kind, f"needs the dimension {' and '.join(missing)}")
         elif further:
-            yield Fault.of(("kind",), self.kind, f"can show {', '.join(allowed)}, but not {', '.join(further)} as well")
+            yield Fault.of(
+                ("kind",),
+                self.kind,
+                f"can show {', '.join(allowed)}, but not {', '.join(further)} as well",
+            )
         elif not self.several and len(values.get(NORM, ())) > 1:
             yield Fault.of(("kind",), self.kind, f"can show one {NORM} only")
 
 
 # ---- Of named cases
 Sampled = Literal["P", "u", "u_velocity", "w", "w_point", "w_point_velocity", "psi", "psi_velocity"]
-Recorded = Mapping[str, Window | Poincare]  # of a case: windows by name, and the section as ``poincare``
+Recorded = Mapping[
+    str, Window | Poincare
+]  # of a case: windows by name, and the section as ``poincare``
 Rule = Callable[[Window], str]  # the rule that a window breaks, as the end of a sentence, or ""
 SHORTEST_SPECTRUM = 1.1  # least length of a window for a spectrum in time, s: one window of the transform and two steps
 HIGHEST = 1000.0  # highest frequency of a spectrum in time, Hz
 
 
 class Need(NamedTuple):
-    """A record that a figure shows: the figure's key that names it, its case and name, and its rule if a window."""
+    """A record that a figure shows: the figure's key that names it, its case and name, and its rule
+    if a window."""
 
     key: str
     case: str
@@ -246,15 +309,22 @@ class CasePlot(Kind):
     case: str  # the first one if there are several
 
     def needs(self) -> Iterator[Need]:
-        """The records that the figure shows: by default, of each case the windows whose names have a rule."""
+        """The records that the figure shows: by default, of each case the windows whose names have
+        a rule."""
         for case, (key, field) in product(self.cases, type(self).model_fields.items()):
-            yield from (Need(key, case, getattr(self, key), rule) for rule in field.metadata if callable(rule))
+            yield from (
+                Need(key, case, getattr(self, key), rule)
+                for rule in field.metadata
+                if callable(rule)
+            )
 
     @property
     def cases(self) -> tuple[str, ...]:
         """All cases that the figure shows."""
         named = [getattr(self, key) for key in self.further]
-        further = chain.from_iterable([names] if isinstance(names, str) else names for names in named)
+        further = chain.from_iterable(
+            [names] if isinstance(names, str) else names for names in named
+        )
         return (self.case, *filter(None, further))
 
     def drawn_with_head(self, inputs: Mapping[str, xr.DataTree]) -> tuple[drawing.Figure, str, str]:
@@ -265,21 +335,34 @@ class CasePlot(Kind):
         except Missing as reason:
             figure, [ax] = drawing.panels(drawing.COLUMN, 2)
             ax.set_axis_off()
-            ax.text(0.5, 0.5, fill(f"not shown: the case {reason}", 24), ha="center", va="center", in_layout=False)
+            ax.text(
+                0.5,
+                0.5,
+                fill(f"not shown: the case {reason}", 24),
+                ha="center",
+                va="center",
+                in_layout=False,
+            )
         return figure, "", drawing.what_case(json.loads(first.attrs.get("parameters", "{}")))
 
     def faults(self, cases: Mapping[str, Recorded | None]) -> Iterator[Fault]:
         """Faults that keep it from being drawn; a case that is None has faults of its own."""
         for case in self.cases:
             if case not in cases:
-                yield Fault.of(("case",), case, f"no such case (known: {', '.join(cases) or 'none'})")
+                yield Fault.of(
+                    ("case",), case, f"no such case (known: {', '.join(cases) or 'none'})"
+                )
         for key, case, name, rule in self.needs():
             if (recorded := cases.get(case)) is None:
                 continue
             if (window := recorded.get(name)) is None:
                 broken = f"is not recorded by case {case}{suggestion(name, recorded)}"
             elif rule is not None:
-                broken = rule(window) if isinstance(window, Window) else "must be a window, not the Poincaré section"
+                broken = (
+                    rule(window)
+                    if isinstance(window, Window)
+                    else "must be a window, not the Poincaré section"
+                )
             else:
                 continue
             if broken:

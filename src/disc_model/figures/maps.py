@@ -1,5 +1,6 @@
-"""Maps: cells in flat colours, growth rates of the stick-slip cycle, neutral curves and folds, regions of outcomes; and
-charts over speed and preload: onset and end of separation, sweeps and ramps."""
+"""Maps: cells in flat colours, growth rates of the stick-slip cycle, neutral curves and folds,
+regions of outcomes; and charts over speed and preload: onset and end of separation, sweeps and
+ramps."""
 
 import math
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
@@ -13,10 +14,29 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from disc_model.analysis.spectra import Resonance
-from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, axis_of, flag_names, stated_in, typeset
+from disc_model.data.variables import (
+    EXCLUDED,
+    WITHOUT_CYCLE,
+    axis_of,
+    flag_names,
+    stated_in,
+    typeset,
+)
 from disc_model.errors import Fault
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, ORANGE, PAGE, PAPER, SEPARATED, Artist, Axes, Figure, mpl, panels
+from disc_model.figures.drawing import (
+    BLACK,
+    GREY,
+    ORANGE,
+    PAGE,
+    PAPER,
+    SEPARATED,
+    Artist,
+    Axes,
+    Figure,
+    mpl,
+    panels,
+)
 from disc_model.figures.kind import CURVES, Plot, Role, Roles, Values
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Strict, Units
@@ -36,7 +56,9 @@ class Look(NamedTuple):
     hatch: str = ""
 
 
-UNRESOLVED = Look("unresolved", "none", 8 * "/")  # two lines of its hatch fit into a fiftieth of a panel
+UNRESOLVED = Look(
+    "unresolved", "none", 8 * "/"
+)  # two lines of its hatch fit into a fiftieth of a panel
 OUTCOME_LOOKS = {  # in all maps and charts, distinct in grey print by darkness or a hatch
     "quiet": Look("quiet", "#f3f6f8"),
     "steady_sliding": Look("steady sliding", "#e3d5ee", 3 * "|"),
@@ -63,14 +85,18 @@ GREYNESS = np.array([0.299, 0.587, 0.114])  # weights of red, green and blue in 
 
 
 def unresolved(words: Names) -> NDArray[np.bool_]:
-    """Cells between two that have one other word: single ones, and strips that are one cell wide."""
+    """Cells between two that have one other word: single ones, and strips that are one cell
+    wide."""
     around = np.pad(words, 1)
     pairs = ((around[:-2, 1:-1], around[2:, 1:-1]), (around[1:-1, :-2], around[1:-1, 2:]))
-    return np.asarray(np.any([(word == other) & (word != words) & (word != "") for word, other in pairs], axis=0))
+    return np.asarray(
+        np.any([(word == other) & (word != words) & (word != "") for word, other in pairs], axis=0)
+    )
 
 
 def scale_of(name: str, values: Array) -> str:
-    """Scale of an axis: logarithmic for values over decades, most at the lower end; with a linear start from 0."""
+    """Scale of an axis: logarithmic for values over decades, most at the lower end; with a linear
+    start from 0."""
     positive = values[values > 0]
     decades = name not in ("N", "Omega") and positive.size > 1 and positive[-1] / positive[0] > 15
     if not decades or np.median(values) - values[0] > 0.25 * (values[-1] - values[0]):
@@ -79,7 +105,8 @@ def scale_of(name: str, values: Array) -> str:
 
 
 def edges_of(plane: xr.DataArray) -> Edges:
-    """Edges of the cells around the points, halfway between neighbours, in the units of the axes; across, then up."""
+    """Edges of the cells around the points, halfway between neighbours, in the units of the axes;
+    across, then up."""
     sides = []
     for name in map(str, plane.dims):
         values = plane[name].values * drawing.label_of(plane[name])[1]
@@ -88,8 +115,11 @@ def edges_of(plane: xr.DataArray) -> Edges:
     return sides[1], sides[0]
 
 
-def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below: Array | None = None) -> None:
-    """Fill and hatch cells in the look of their word, if it has one, over colours `below`, shape (rows, columns, 4)."""
+def fill(
+    ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below: Array | None = None
+) -> None:
+    """Fill and hatch cells in the look of their word, if it has one, over colours `below`, shape
+    (rows, columns, 4)."""
     colours = np.zeros((*words.shape, 4))
     for word, look in looks.items():
         colours[words == word] = mpl.colors.to_rgba(look.face)
@@ -101,15 +131,25 @@ def fill(ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below:
     for word, look in looks.items():
         for ink, ground in ((BLACK, light >= 0.5), ("white", light < 0.5)):
             row, column = np.nonzero(ground & (words == word))
-            if look.hatch and row.size:  # all as one path, since paths of each cell take a hundred times as long
-                corners = [(x[column + across], y[row + up]) for across, up in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            if (
+                look.hatch and row.size
+            ):  # all as one path, since paths of each cell take a hundred times as long
+                corners = [
+                    (x[column + across], y[row + up])
+                    for across, up in ((0, 0), (1, 0), (1, 1), (0, 1))
+                ]
                 polygons = np.moveaxis(np.array(corners), (0, 1, 2), (1, 2, 0))
                 outline = mpl.path.Path.make_compound_path_from_polys(polygons)
-                ax.add_patch(mpl.patches.PathPatch(outline, fill=False, hatch=look.hatch, ec=ink, lw=0, zorder=1.1))
+                ax.add_patch(
+                    mpl.patches.PathPatch(
+                        outline, fill=False, hatch=look.hatch, ec=ink, lw=0, zorder=1.1
+                    )
+                )
 
 
 def outcome_cells(ax: Axes, outcome: xr.DataArray) -> set[str]:
-    """Fill cells in the look of their outcome, hatched where unresolved; returns the used keys of `CELL_LOOKS`."""
+    """Fill cells in the look of their outcome, hatched where unresolved; returns the used keys of
+    `CELL_LOOKS`."""
     words = flag_names(outcome)
     words = np.where(unresolved(words), "fine", words)
     fill(ax, edges_of(outcome), words, CELL_LOOKS)
@@ -118,7 +158,11 @@ def outcome_cells(ax: Axes, outcome: xr.DataArray) -> set[str]:
 
 def patches(looks: Mapping[str, Look], words: Container[str]) -> list[Artist]:
     """Legend entries of the looks that are among words."""
-    used = [(look, {"ec": BLACK if look.hatch else GREY, "lw": 0.4}) for name, look in looks.items() if name in words]
+    used = [
+        (look, {"ec": BLACK if look.hatch else GREY, "lw": 0.4})
+        for name, look in looks.items()
+        if name in words
+    ]
     return [mpl.patches.Patch(fc=x.face, hatch=x.hatch, label=x.label, **edge) for x, edge in used]
 
 
@@ -127,15 +171,19 @@ GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates a
 
 
 def growth_norm(rates: Array) -> drawing.Normalize:
-    """A colour scale that is nearly linear near 0 and nearly logarithmic beyond a thirtieth of its end."""
+    """A colour scale that is nearly linear near 0 and nearly logarithmic beyond a thirtieth of its
+    end."""
     sizes = np.abs(rates[np.isfinite(rates)])
     greatest = float(sizes.max()) if sizes.size and np.median(sizes) > GREATEST else GREATEST
     return mpl.colors.AsinhNorm(linear_width=1 / 30 * greatest, vmin=-greatest, vmax=greatest)
 
 
-def growth_panels(figure: drawing.FigureBase, axes: Sequence[Axes], planes: Sequence[xr.Dataset]) -> set[str]:
-    """Draw `growth_rate` (1/s) of `regions` or `floquet` on one scale of colours, dotted where it is negative, hatched
-    where isolated, or the status where no cycle is followed; returns the used keys of `CYCLE_LOOKS`, and ""."""
+def growth_panels(
+    figure: drawing.FigureBase, axes: Sequence[Axes], planes: Sequence[xr.Dataset]
+) -> set[str]:
+    """Draw `growth_rate` (1/s) of `regions` or `floquet` on one scale of colours, dotted where it
+    is negative, hatched where isolated, or the status where no cycle is followed; returns the used
+    keys of `CYCLE_LOOKS`, and ""."""
     norm = growth_norm(np.concatenate([plane["growth_rate"].values.ravel() for plane in planes]))
     used: set[str] = set()
     for ax, data in zip(axes, planes, strict=True):
@@ -143,11 +191,15 @@ def growth_panels(figure: drawing.FigureBase, axes: Sequence[Axes], planes: Sequ
         rates = np.ma.masked_invalid(data["growth_rate"].values)
         mesh = ax.pcolormesh(*sides, rates, cmap=drawing.cm.vik, norm=norm, rasterized=True)
         fill(ax, sides, without, CYCLE_LOOKS)
-        hatched = np.where(isolated(data), "alone", np.where((rates < 0).filled(False), "stable", ""))
+        hatched = np.where(
+            isolated(data), "alone", np.where((rates < 0).filled(False), "stable", "")
+        )
         fill(ax, sides, hatched, CYCLE_LOOKS, mesh.to_rgba(rates))
         used |= {*without.flat, *hatched.flat}
     label = "Growth rate of the\nstick-slip cycle (1/s)"
-    bar = figure.colorbar(mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30, label=label)
+    bar = figure.colorbar(
+        mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30, label=label
+    )
     largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
     bar.set_ticks([-largest, -largest / 10, 0, largest / 10, largest])
     bar.minorticks_off()
@@ -155,20 +207,24 @@ def growth_panels(figure: drawing.FigureBase, axes: Sequence[Axes], planes: Sequ
 
 
 def stability_of(data: xr.Dataset) -> Names:
-    """Stability of the followed cycle, or the word of the quantity `regions` where there is none."""
+    """Stability of the followed cycle, or the word of the quantity `regions` where there is
+    none."""
     rate = data["growth_rate"].values
     return np.where(rate < 0, "stable", np.where(rate > 0, "unstable", flag_names(data["cycle"])))
 
 
 def cycles_of(data: xr.Dataset) -> Names:
-    """Words where no cycle is followed, a key of `CYCLE_LOOKS`, otherwise ""; of `regions` or `floquet`."""
+    """Words where no cycle is followed, a key of `CYCLE_LOOKS`, otherwise ""; of `regions` or
+    `floquet`."""
     rate = data["growth_rate"].values
     words = np.full(rate.shape, "no_cycle")
     if "cycle" in data:
         words = flag_names(data["cycle"])
     elif "status" in data:
         words = flag_names(data["status"])
-        words = np.select([words == "ok", words == "no_stick_slip"], ["no_cycle", "steady_sliding"], words)
+        words = np.select(
+            [words == "ok", words == "no_stick_slip"], ["no_cycle", "steady_sliding"], words
+        )
         words = np.where(np.isin(words, [*CYCLE_LOOKS]), words, "failed")
     if "sliding_growth_rate" in data:
         # growing steady sliding is no lasting motion
@@ -178,12 +234,15 @@ def cycles_of(data: xr.Dataset) -> Names:
 
 
 def isolated(data: xr.Dataset) -> NDArray[np.bool_]:
-    """Cells whose growth rate (of another cycle, or a narrow resonance) or stability differs from that around them."""
+    """Cells whose growth rate (of another cycle, or a narrow resonance) or stability differs from
+    that around them."""
     rate = data["growth_rate"].values
     share = np.where(np.isfinite(rate), growth_norm(rate)(np.nan_to_num(rate)), np.nan).clip(0, 1)
     padded = np.pad(share, 1, constant_values=np.nan)
     around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
-    like = np.abs(share[..., None, None] - around) < 0.1  # of the colour scale; each cell equals itself
+    like = (
+        np.abs(share[..., None, None] - around) < 0.1
+    )  # of the colour scale; each cell equals itself
     cells = (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)
     return cells | unresolved(stability_of(data)) if "cycle" in data else cells
 
@@ -193,7 +252,8 @@ SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
 
 
 class Curve(NamedTuple):
-    """A line on a stability chart; "neutral" or "fold", with a label such as "2 f_s = 135.42 Hz"."""
+    """A line on a stability chart; "neutral" or "fold", with a label such as "2 f_s = 135.42
+    Hz"."""
 
     Omega: Array
     N: Array
@@ -202,12 +262,15 @@ class Curve(NamedTuple):
 
 
 def curves_of(data: xr.Dataset) -> list[Curve]:
-    """Curves with a stable cycle beside them, from the quantity `stability_curves`; x is Omega and y is N."""
+    """Curves with a stable cycle beside them, from the quantity `stability_curves`; x is Omega and
+    y is N."""
     kinds = flag_names(data["kind"])
     curves = []
     for i in np.flatnonzero(kinds != "none"):
         curve_data = data.isel(curve=int(i))
-        border = (flag_names(curve_data["adjoins_stable_cycle"]) == "yes") & np.isfinite(curve_data["x"].values)
+        border = (flag_names(curve_data["adjoins_stable_cycle"]) == "yes") & np.isfinite(
+            curve_data["x"].values
+        )
         x, y = (np.where(border, curve_data[name].values, np.nan) for name in ("x", "y"))
         label = ""
         # a resonance farther away, in Hz, is not named
@@ -220,16 +283,20 @@ def curves_of(data: xr.Dataset) -> list[Curve]:
 
 
 def passes(curve: Curve, cells: xr.DataArray) -> NDArray[np.bool_]:
-    """Whether each point of a curve lies in one of these cells over N and Omega, or in one of the eight around it."""
+    """Whether each point of a curve lies in one of these cells over N and Omega, or in one of the
+    eight around it."""
     from scipy.ndimage import binary_dilation
 
     points = (("N", curve.N), ("Omega", curve.Omega))
-    i, j = (np.abs(cells[name].values - np.nan_to_num(x)[:, None]).argmin(axis=1) for name, x in points)
+    i, j = (
+        np.abs(cells[name].values - np.nan_to_num(x)[:, None]).argmin(axis=1) for name, x in points
+    )
     return np.asarray(np.isfinite(curve.Omega) & binary_dilation(cells, np.ones((3, 3)))[i, j])
 
 
 def parts_of(curves: Sequence[Curve], cycle: xr.Dataset) -> list[Curve]:
-    """The parts of curves that bound the cycle of a map over N and Omega, without those of another cycle."""
+    """The parts of curves that bound the cycle of a map over N and Omega, without those of another
+    cycle."""
     rate = cycle["growth_rate"]
     beyond = {"neutral": rate > 0, "fold": ~(rate < 0)}
     parts = []
@@ -251,28 +318,44 @@ def crossings(curve: Curve, load: float) -> Array:
     indices = np.flatnonzero(side[:-1] * side[1:] <= 0)
     step = side[indices] - side[indices + 1]
     share = np.where(step == 0, 0.0, side[indices] / np.where(step == 0, 1.0, step))
-    return np.unique(curve.Omega[indices] + share * (curve.Omega[indices + 1] - curve.Omega[indices]))
+    return np.unique(
+        curve.Omega[indices] + share * (curve.Omega[indices + 1] - curve.Omega[indices])
+    )
 
 
 def draw_curves(ax: Axes, curves: Sequence[Curve]) -> list[Artist]:
-    """Draw curves, with a number beyond the upper end by label and speed; returns entries of a legend."""
-    labelled = sorted((x for x in curves if x.label), key=lambda curve: float(np.nanmax(curve.Omega)))
-    numbers = {label: i for i, label in enumerate(dict.fromkeys(curve.label for curve in labelled), 1)}
+    """Draw curves, with a number beyond the upper end by label and speed; returns entries of a
+    legend."""
+    labelled = sorted(
+        (x for x in curves if x.label), key=lambda curve: float(np.nanmax(curve.Omega))
+    )
+    numbers = {
+        label: i for i, label in enumerate(dict.fromkeys(curve.label for curve in labelled), 1)
+    }
     for curve in curves:
         ax.plot(curve.Omega, curve.N, **drawing.BORDERS[curve.kind] | {"label": "_nolegend_"})
         if curve.label and np.isfinite(curve.N).any():
             i = int(np.nanargmax(curve.N))
             end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
             text, beside = str(numbers[curve.label]), drawing.halo()
-            drawing.say(ax, text, end, (0, 2), fontsize=6, annotation_clip=False, path_effects=beside)
+            drawing.say(
+                ax, text, end, (0, 2), fontsize=6, annotation_clip=False, path_effects=beside
+            )
     kinds = {curve.kind for curve in curves}
     handles = [drawing.sample(**drawing.BORDERS[kind]) for kind in drawing.BORDERS if kind in kinds]
     numbered = [(f"${i}$", typeset(label)) for label, i in numbers.items()]
-    return handles + [drawing.sample(marker=mark, label=text, ls="", c=BLACK, ms=4, mew=0) for mark, text in numbered]
+    return handles + [
+        drawing.sample(marker=mark, label=text, ls="", c=BLACK, ms=4, mew=0)
+        for mark, text in numbered
+    ]
 
 
 # ---- Regions of outcomes, and below them the growth rates of the cycle
-PAPER_MARKERS = {"quiet": "o", "growing": "^", "separation": "s"}  # the marker of each outcome of the paper
+PAPER_MARKERS = {
+    "quiet": "o",
+    "growing": "^",
+    "separation": "s",
+}  # the marker of each outcome of the paper
 
 
 class Mark(Strict):
@@ -281,7 +364,9 @@ class Mark(Strict):
     x: Finite
     y: Finite
     paper_outcome: Literal["quiet", "growing", "separation"]
-    assumed: bool = False  # whether the paper does not state where, so that nothing is said of its start
+    assumed: bool = (
+        False  # whether the paper does not state where, so that nothing is said of its start
+    )
 
 
 class RegionMap(Plot):
@@ -299,7 +384,9 @@ class RegionMap(Plot):
     def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
         axes = {axis: Parameters.unit(str(data.get(axis))) for axis in ("x", "y")}
         marks = data.get("marks")
-        return super()._units(data) | {"marks": dict.fromkeys(marks, axes) if isinstance(marks, dict) else ""}
+        return super()._units(data) | {
+            "marks": dict.fromkeys(marks, axes) if isinstance(marks, dict) else ""
+        }
 
     def place_title(self, figure: Figure, text: str) -> None:
         figure.legends[0].set_title(text)
@@ -310,12 +397,19 @@ class RegionMap(Plot):
             for axis, dim, value in (("x", self.x, mark.x), ("y", self.y, mark.y)):
                 along = [x for x in values.get(dim, ()) if isinstance(x, float)]
                 if along and not any(math.isclose(value, x, rel_tol=1e-12) for x in along):
-                    yield Fault.of(("marks", name, axis), value, f"must be a value of {dim}, such as an extra one")
+                    yield Fault.of(
+                        ("marks", name, axis),
+                        value,
+                        f"must be a value of {dim}, such as an extra one",
+                    )
         if "curves" in self.overlays and (self.x, self.y) != ("Omega", "N"):
-            yield Fault.of(("overlays", "curves"), self.overlays["curves"], "needs x: Omega and y: N")
+            yield Fault.of(
+                ("overlays", "curves"), self.overlays["curves"], "needs x: Omega and y: N"
+            )
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw two panels for each normalization; lines are those of the study ``curves``, or lie between cells."""
+        """Draw two panels for each normalization; lines are those of the study ``curves``, or lie
+        between cells."""
         norms = drawing.normalizations(study)
         shown = [drawing.of(study, norm).transpose(self.y, self.x, ...) for norm in norms]
         figure, axes = panels(PAGE, 5.6, 2, len(norms), sharex=True, sharey=True)
@@ -323,20 +417,34 @@ class RegionMap(Plot):
         drawing.letters(axes, [drawing.MODES[norm] for norm in norms])
         gaps = growth_panels(figure, below, shown) - {"alone"}
         # branches are continued along the study's first dimension, which may be either axis
-        upward = [name for name in study["outcome"].dims if name in (self.x, self.y)] == [self.y, self.x]
+        upward = [name for name in study["outcome"].dims if name in (self.x, self.y)] == [
+            self.y,
+            self.x,
+        ]
         outcomes: set[str] = set()
         lines: list[Artist] = []
         for upper, lower, plane in zip(above, below, shown, strict=True):
             outcomes |= outcome_cells(upper, plane["outcome"])
             for ax in (upper, lower):
-                lines += _curves(ax, plane, overlays["curves"]) if "curves" in overlays else _borders(ax, plane, upward)
+                lines += (
+                    _curves(ax, plane, overlays["curves"])
+                    if "curves" in overlays
+                    else _borders(ax, plane, upward)
+                )
         _set_scales(axes, study, self.axes)
         named = {line.get_label(): line for line in lines}.values()
         marks = _marks(axes[0], self) if norms[0] == "as_published" else []
         handles = [*patches(CELL_LOOKS, outcomes), *named, *marks]
-        figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 4), title_fontsize=8)
+        figure.legend(
+            handles=handles,
+            loc="outside upper center",
+            ncols=min(len(handles), 4),
+            title_fontsize=8,
+        )
         without, said = patches(CYCLE_LOOKS, gaps), "\n".join(_captions(study, self))
-        figure.legend(handles=without, loc="outside lower center", ncols=max(len(without), 1), title=said)
+        figure.legend(
+            handles=without, loc="outside lower center", ncols=max(len(without), 1), title=said
+        )
         return figure
 
 
@@ -351,8 +459,9 @@ def _curves(ax: Axes, data: xr.Dataset, curves: xr.Dataset) -> list[Artist]:
 
 
 def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Artist]:
-    """Draw borders between resolved cells: where one cycle changes its stability, and where a stable one ends: the
-    next cell has none and does not stay quiet. Upward: the study's first dimension is the vertical one."""
+    """Draw borders between resolved cells: where one cycle changes its stability, and where a
+    stable one ends: the next cell has none and does not stay quiet. Upward: the study's first
+    dimension is the vertical one."""
     x, y = edges_of(data["outcome"])
     state = stability_of(data)
     state[unresolved(state)] = "unresolved"
@@ -372,7 +481,9 @@ def _borders(ax: Axes, data: xr.Dataset, upward: bool) -> list[Artist]:
         segments["fold"] += [ends(i, j) for i, j in np.argwhere(stops)]
     for kind, lines in segments.items():
         capstyle = "projecting" if kind == "neutral" else None
-        ax.add_collection(mpl.collections.LineCollection(lines, capstyle=capstyle, **drawing.BORDERS[kind]))
+        ax.add_collection(
+            mpl.collections.LineCollection(lines, capstyle=capstyle, **drawing.BORDERS[kind])
+        )
     return [drawing.sample(**drawing.BORDERS[kind]) for kind, lines in segments.items() if lines]
 
 
@@ -392,26 +503,58 @@ def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
 
 
 def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
-    """Mark cases by the shape of the paper's outcome, with names towards the middle; returns entries of a legend."""
-    edge: dict[str, Any] = {"edgecolor": PAPER, "linewidth": 1.4, "path_effects": drawing.halo(2.4, BLACK)}
-    look: dict[str, Any] = {"fontsize": 7, "zorder": 5, "annotation_clip": False, "path_effects": drawing.halo(2.0)}
+    """Mark cases by the shape of the paper's outcome, with names towards the middle; returns
+    entries of a legend."""
+    edge: dict[str, Any] = {
+        "edgecolor": PAPER,
+        "linewidth": 1.4,
+        "path_effects": drawing.halo(2.4, BLACK),
+    }
+    look: dict[str, Any] = {
+        "fontsize": 7,
+        "zorder": 5,
+        "annotation_clip": False,
+        "path_effects": drawing.halo(2.0),
+    }
     outcomes, marked = {mark.paper_outcome for mark in plot.marks.values()}, list[Any]()
     for name, mark in plot.marks.items():
         point = (mark.x * drawing.axis_of(plot.x)[1], mark.y * drawing.axis_of(plot.y)[1])
         shape = PAPER_MARKERS[mark.paper_outcome]
         across, up = position = (ax.transData + ax.transAxes.inverted()).transform(point)
-        around = any(math.dist(position, other) < 0.02 for other in marked)  # another mark, which stays visible
+        around = any(
+            math.dist(position, other) < 0.02 for other in marked
+        )  # another mark, which stays visible
         marked.append(position)
-        ax.scatter(*point, 140.0 if around else 55.0, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
+        ax.scatter(
+            *point,
+            140.0 if around else 55.0,
+            marker=shape,
+            facecolor="none",
+            zorder=4,
+            clip_on=False,
+            **edge,
+        )
         aside = (-8, 6) if around else (-6 if across > 0.85 else 6, -5 if up > 0.15 else 5)
         drawing.say(ax, name, point, aside, **look)
-    ring = {"ls": "", "mfc": "none", "ms": 6, "mew": 1.4, "mec": PAPER, "path_effects": edge["path_effects"]}
-    said = [(f"paper: {OUTCOME_LOOKS[name].label}", shape) for name, shape in PAPER_MARKERS.items() if name in outcomes]
+    ring = {
+        "ls": "",
+        "mfc": "none",
+        "ms": 6,
+        "mew": 1.4,
+        "mec": PAPER,
+        "path_effects": edge["path_effects"],
+    }
+    said = [
+        (f"paper: {OUTCOME_LOOKS[name].label}", shape)
+        for name, shape in PAPER_MARKERS.items()
+        if name in outcomes
+    ]
     return [drawing.sample(marker=shape, label=label, **ring) for label, shape in said]
 
 
 def _set_scales(axes: Sequence[Axes], study: xr.Dataset, names: Mapping[str, str]) -> None:
-    """Set limits, labels and scales of shared axes; a logarithmic scale with a 0 is linear up to the second value."""
+    """Set limits, labels and scales of shared axes; a logarithmic scale with a 0 is linear up to
+    the second value."""
     for which, name in names.items():
         label, factor = drawing.axis_of(name)
         values = study[name].values * factor
@@ -419,7 +562,11 @@ def _set_scales(axes: Sequence[Axes], study: xr.Dataset, names: Mapping[str, str
         if (scale := scale_of(name, values)) != "linear":
             start = {"linthresh": values[1], "linscale": 0.4} if scale == "symlog" else {}
             getattr(axes[0], f"set_{which}scale")(scale, **start)
-            ticks = [x for x in drawing.DECADES if 0.999 * values[values > 0][0] <= x <= 1.001 * values[-1]]
+            ticks = [
+                x
+                for x in drawing.DECADES
+                if 0.999 * values[values > 0][0] <= x <= 1.001 * values[-1]
+            ]
             axis.set_major_locator(mpl.ticker.FixedLocator([0.0] * (scale == "symlog") + ticks))
             axis.set_major_formatter("{x:g}")
             axis.set_minor_formatter(mpl.ticker.NullFormatter())
@@ -437,8 +584,17 @@ def _set_scales(axes: Sequence[Axes], study: xr.Dataset, names: Mapping[str, str
 # ---- Onset and end of separation over speed and preload
 CYCLE, BASINS = Role("regions", ("N", "Omega")), Role("basins", ("Omega",))
 ONSET, END = SEPARATED, drawing.BLUE  # speeds at which separation begins, and at which it ends
-CONTACT = OUTCOME_LOOKS["growing"]._replace(label="oscillations grow, or another\ncycle is reached, in contact")
-ONSETS: dict[str, Any] = {"c": "white", "marker": "o", "ms": 2.4, "mec": BLACK, "mew": 0.5, "zorder": 1.9}
+CONTACT = OUTCOME_LOOKS["growing"]._replace(
+    label="oscillations grow, or another\ncycle is reached, in contact"
+)
+ONSETS: dict[str, Any] = {
+    "c": "white",
+    "marker": "o",
+    "ms": 2.4,
+    "mec": BLACK,
+    "mew": 0.5,
+    "zorder": 1.9,
+}
 """Look of onsets, seen on any area by their black edges, below the curves."""
 
 
@@ -446,12 +602,18 @@ class CriticalSpeed(Plot):
     """Speeds at which separation begins or ends against the preload, for several horizons."""
 
     needs = ("N",)
-    roles: ClassVar[Roles] = {"hysteresis": Role("hysteresis"), "cycle": CYCLE, "curves": CURVES, "basins": BASINS}
+    roles: ClassVar[Roles] = {
+        "hysteresis": Role("hysteresis"),
+        "cycle": CYCLE,
+        "curves": CURVES,
+        "basins": BASINS,
+    }
     kind: Literal["critical_speed"] = "critical_speed"
     paper_points: dict[str, tuple[Finite, Finite]] = Field({})
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw (a) where separation begins from the static start, over a map, and (b) sweeps of the speed."""
+        """Draw (a) where separation begins from the static start, over a map, and (b) sweeps of the
+        speed."""
         lost = drawing.failed(study).values
         sweep, cycle = overlays.get("hysteresis"), overlays.get("cycle")
         speeds, loads = study["scan_Omega"].values, study["N"].values
@@ -478,8 +640,14 @@ class CriticalSpeed(Plot):
         if self.paper_points:
             load, speed = np.transpose([*self.paper_points.values()])
             # hollow, as marks lie below
-            hollow: dict[str, Any] = {"mfc": "none", "mec": PAPER, "path_effects": drawing.halo(2.1, BLACK)}
-            axes[0].plot(speed, load, "*", ms=10, mew=1.1, zorder=5, clip_on=False, label="paper", **hollow)
+            hollow: dict[str, Any] = {
+                "mfc": "none",
+                "mec": PAPER,
+                "path_effects": drawing.halo(2.1, BLACK),
+            }
+            axes[0].plot(
+                speed, load, "*", ms=10, mew=1.1, zorder=5, clip_on=False, label="paper", **hollow
+            )
         titles = ["from the static start"]
         if sweep is not None:
             _onsets(axes[1], study, horizon, label="_nolegend_", **ONSETS)
@@ -489,37 +657,67 @@ class CriticalSpeed(Plot):
             ax.set_xlabel(SPEED)
             handles += ax.get_legend_handles_labels()[0]
         axes[0].set_ylabel(LOAD)
-        figure.legend(handles=handles, loc="outside lower center", ncols=3 if len(axes) > 1 else 1, columnspacing=1.0)
+        figure.legend(
+            handles=handles,
+            loc="outside lower center",
+            ncols=3 if len(axes) > 1 else 1,
+            columnspacing=1.0,
+        )
         return figure
 
 
 def speeds_of(study: xr.Dataset, horizon: float, kind: str = "begins") -> list[Array]:
-    """Rising speeds, rad/s, at which separation begins (or the scan begins with it), or ends, for each load."""
+    """Rising speeds, rad/s, at which separation begins (or the scan begins with it), or ends, for
+    each load."""
     of_horizon = study.sel(horizon=horizon).transpose("N", ..., "crossing_number")
-    speeds = np.where(flag_names(of_horizon["crossing_kind"]) == kind, of_horizon["crossing"].values, np.nan)
+    speeds = np.where(
+        flag_names(of_horizon["crossing_kind"]) == kind, of_horizon["crossing"].values, np.nan
+    )
     rows = np.column_stack([of_horizon["critical_speed"].where(kind == "begins"), speeds])
     return [np.unique(row[np.isfinite(row)]) for row in rows]
 
 
-def branches(speeds: Sequence[Array], ends: Sequence[Iterable[float]]) -> list[tuple[int, float, float]]:
-    """Nearest crossings at neighbouring loads, if no end is between: index of the lower load, speed there, and next."""
+def branches(
+    speeds: Sequence[Array], ends: Sequence[Iterable[float]]
+) -> list[tuple[int, float, float]]:
+    """Nearest crossings at neighbouring loads, if no end is between: index of the lower load, speed
+    there, and next."""
     links = []
     for i, (current, ahead) in enumerate(pairwise(speeds)):
         if current.size and ahead.size:
             apart = np.abs(current[:, None] - ahead[None, :])
             # speeds are rounded, so that two may be as near
-            nearest = np.isclose(apart, apart.min(0), rtol=1e-9) & np.isclose(apart, apart.min(1)[:, None], rtol=1e-9)
+            nearest = np.isclose(apart, apart.min(0), rtol=1e-9) & np.isclose(
+                apart, apart.min(1)[:, None], rtol=1e-9
+            )
             pairs = [(float(current[j]), float(ahead[k])) for j, k in np.argwhere(nearest)]
-            links += [(i, a, b) for a, b in pairs if not any((end - a) * (end - b) < 0 for end in ends[i + (a > b)])]
+            links += [
+                (i, a, b)
+                for a, b in pairs
+                if not any((end - a) * (end - b) < 0 for end in ends[i + (a > b)])
+            ]
     return links
 
 
 def _onsets(ax: Axes, study: xr.Dataset, horizon: float, **look: Any) -> None:
     """Draw onsets of separation, joined along their branches."""
-    loads, speeds, ends = study["N"].values, speeds_of(study, horizon), speeds_of(study, horizon, "ends")
+    loads, speeds, ends = (
+        study["N"].values,
+        speeds_of(study, horizon),
+        speeds_of(study, horizon, "ends"),
+    )
     gap = (np.nan, np.nan)
-    points = [point for i, a, b in branches(speeds, ends) for point in ((a, loads[i]), (b, loads[i + 1]), gap)]
-    points += [at for load, row in zip(loads, speeds, strict=True) for speed in row for at in ((speed, load), gap)]
+    points = [
+        point
+        for i, a, b in branches(speeds, ends)
+        for point in ((a, loads[i]), (b, loads[i + 1]), gap)
+    ]
+    points += [
+        at
+        for load, row in zip(loads, speeds, strict=True)
+        for speed in row
+        for at in ((speed, load), gap)
+    ]
     ax.plot(*np.reshape(points, (-1, 2)).T, path_effects=drawing.halo(1.3, BLACK), **look)
 
 
@@ -534,57 +732,101 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
     return patches(looks, words)
 
 
-def _beside(ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset | None, basins: xr.Dataset | None) -> str:
-    """Draw sweeps of the speed, and shade where some motions stay quiet and others separate; returns a title."""
+def _beside(
+    ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset | None, basins: xr.Dataset | None
+) -> str:
+    """Draw sweeps of the speed, and shade where some motions stay quiet and others separate;
+    returns a title."""
     N, lost = sweep["N"].values, drawing.failed(sweep).values
-    look: dict[str, Any] = {"markersize": 4, "markerfacecolor": "none", "linestyle": "", "clip_on": False}
-    onset, end = (np.where(lost, np.nan, sweep[name].values) for name in ("onset_speed", "offset_speed"))
+    look: dict[str, Any] = {
+        "markersize": 4,
+        "markerfacecolor": "none",
+        "linestyle": "",
+        "clip_on": False,
+    }
+    onset, end = (
+        np.where(lost, np.nan, sweep[name].values) for name in ("onset_speed", "offset_speed")
+    )
     ax.plot(onset, N, color=ONSET, marker="^", label="sweep up: separation begins", **look)
     ax.plot(end, N, color=END, marker="v", label="sweep down: separation ends", **look)
     drawing.mark_failed(ax, N[lost], on="y")
     if basins is not None:
         # by the starts: both fractions exceed zero with their intervals; a single speed is a line
         load, speeds = stated_in(basins, "base")["N"], basins["Omega"].values
-        quiet, apart = basins["basin_fraction_low"].sel(attractor_class="quiet"), basins["separating_fraction_low"]
+        quiet, apart = (
+            basins["basin_fraction_low"].sel(attractor_class="quiet"),
+            basins["separating_fraction_low"],
+        )
         height = 20.0  # N, well within a step of the sweeps
         for i, (first, after) in enumerate(drawing.stretches(((quiet > 0) & (apart > 0)).values)):
             label = "_nolegend_" if i else f"quiet or separating,\ncomputed at {load:g} N"
             width = speeds[after - 1] - speeds[first]
-            ax.barh(load, width, height, speeds[first], label=label, color=ORANGE, ec=ORANGE, alpha=0.6, lw=0.8)
+            ax.barh(
+                load,
+                width,
+                height,
+                speeds[first],
+                label=label,
+                color=ORANGE,
+                ec=ORANGE,
+                alpha=0.6,
+                lw=0.8,
+            )
     elif cycle is not None:
-        # by the multipliers, as short dwells only delay a sweep up; without loads between whose neighbours of the sweep
-        # one never separates
+        # by the multipliers, as short dwells only delay a sweep up; without loads between whose
+        # neighbours of the sweep one never separates
         speeds, loads = cycle["Omega"].values, cycle["N"].values
         lowest = np.interp(loads, N, sweep["offset_speed"].values, left=np.nan, right=np.nan)
         within = (speeds >= lowest[:, None]) & (speeds <= float(sweep["sweep_Omega"].max()))
         stable = (cycle["growth_rate"].values < 0) & within
         cmap, shown = mpl.colors.ListedColormap([ORANGE]), np.ma.masked_where(~stable, stable)
-        ax.pcolormesh(speeds, loads, shown, cmap=cmap, alpha=0.25, shading="nearest", rasterized=True)
+        ax.pcolormesh(
+            speeds, loads, shown, cmap=cmap, alpha=0.25, shading="nearest", rasterized=True
+        )
         label = "the cycle is stable where the\nsweep down still separates"
         ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label=label)
     return f"sweeps in steps of {float(np.diff(sweep['sweep_Omega'].values[:2])[0]):g} rad/s"
 
 
 class RampedSpeeds(Plot):
-    """Where separation begins on the way up and ends on the way down, against the rate of the speed's ramps."""
+    """Where separation begins on the way up and ends on the way down, against the rate of the
+    speed's ramps."""
 
     roles: ClassVar[Roles] = {"curves": CURVES}
     kind: Literal["ramps"] = "ramps"
 
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        """Draw one point; by ``curves``, the highest end of the cycle below all onsets, their limit for slow ramps."""
+        """Draw one point; by ``curves``, the highest end of the cycle below all onsets, their limit
+        for slow ramps."""
         study = study.squeeze()
         options, load = stated_in(study, "options"), float(stated_in(study, "base")["N"])
         rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))
         gone = study["rate_status"].values != 0
         figure, [ax] = panels(drawing.COLUMN, 3.4)
-        ax.plot(rates, onset, "^-", color=ONSET, markersize=4, linewidth=0.8, label="onset, rising ramp")
+        ax.plot(
+            rates, onset, "^-", color=ONSET, markersize=4, linewidth=0.8, label="onset, rising ramp"
+        )
         ax.plot(rates, end, "v-", color=END, markersize=4, linewidth=0.8, label="end, falling ramp")
         if (late := rates[np.isnan(onset) & ~gone]).size:
-            look: dict[str, Any] = {"color": ONSET, "markersize": 4, "markerfacecolor": "white", "clip_on": False}
-            ax.plot(late, np.full(late.size, options["high"]), "^", label="none up to the highest speed", **look)
+            look: dict[str, Any] = {
+                "color": ONSET,
+                "markersize": 4,
+                "markerfacecolor": "white",
+                "clip_on": False,
+            }
+            ax.plot(
+                late,
+                np.full(late.size, options["high"]),
+                "^",
+                label="none up to the highest speed",
+                **look,
+            )
         if "curves" in overlays:
-            folds = [crossings(curve, load) for curve in curves_of(overlays["curves"]) if curve.kind == "fold"]
+            folds = [
+                crossings(curve, load)
+                for curve in curves_of(overlays["curves"])
+                if curve.kind == "fold"
+            ]
             if below := [speed for speed in chain(*folds) if speed <= np.fmin.reduce(onset)]:
                 ax.axhline(max(below), **drawing.BORDERS["fold"], zorder=0)
                 drawing.say_beside(ax, max(below), f"{max(below):.2f}", fontsize=6, color=GREY)

@@ -1,9 +1,16 @@
-"""The paper's claims as data and checks: `ledger.check_claims`. Here are names that the workflow reads."""
+"""The paper's claims as data and checks: `ledger.check_claims`. Here are names that the workflow
+reads."""
 
 _MAPS = (f"map_{name}" for name in ("D_star", "E", "N", "c_p", "k", "k_p", "m"))
 SCANS = ("basins", "bonded", "critical_speed", "hysteresis", *_MAPS)
 """Grid studies that rows of the ledger use."""
-SURVIVAL_GRIDS = ("survival_growth", "survival_outcome", "survival_speed", "survival_curves", "survival_damping")
+SURVIVAL_GRIDS = (
+    "survival_growth",
+    "survival_outcome",
+    "survival_speed",
+    "survival_curves",
+    "survival_damping",
+)
 """Grid studies of config/survival.yaml, by which `survival` judges the conclusions under other models."""
 TABLE_CASES = {
     "table1": ("F13",),

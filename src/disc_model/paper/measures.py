@@ -15,7 +15,14 @@ from disc_model.analysis.classify import FEWEST, Motion, Settled, Settling, moti
 from disc_model.analysis.spectra import Line
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import EVENT_KINDS, PHASES, STATUSES, flag_names, stated_in, values_text
+from disc_model.data.variables import (
+    EVENT_KINDS,
+    PHASES,
+    STATUSES,
+    flag_names,
+    stated_in,
+    values_text,
+)
 from disc_model.display import counted
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -26,7 +33,10 @@ Array = NDArray[np.float64]
 SEPARATION = PHASES.index("separation")
 STRETCHES, STRETCH = 3, 20.0  # number and length of the last stretches of a case, s
 STEADY = 3e-4  # 1/s: a motion is steady if its ranges of contact force and disc change more slowly
-LOW, HIGH = 20.0, 700.0  # Hz: above the drive's line and its multiples; above the disc's highest natural frequency
+LOW, HIGH = (
+    20.0,
+    700.0,
+)  # Hz: above the drive's line and its multiples; above the disc's highest natural frequency
 
 
 class Absent(Missing):
@@ -49,7 +59,8 @@ class Range(NamedTuple):
 
 @dataclass(frozen=True)
 class CaseView:
-    """View of one case, or of a grid study; raises `Missing` where the case does not hold what is asked for."""
+    """View of one case, or of a grid study; raises `Missing` where the case does not hold what is
+    asked for."""
 
     name: str
     node: xr.DataTree
@@ -99,12 +110,20 @@ class CaseView:
     def contact(self) -> str:
         """For how long contact is kept, in words."""
         time, end = self["first_separation"], self["time_reached"]
-        return f"contact is kept for {end:g} s" if math.isnan(time) else f"contact is lost at {time:.2f} s"
+        return (
+            f"contact is kept for {end:g} s"
+            if math.isnan(time)
+            else f"contact is lost at {time:.2f} s"
+        )
 
     @property
     def contact_and_growth(self) -> str:
         """The same, and how disturbances of its cycle grow."""
-        growth = rate_text(self.growth_rate, "/s", "not defined, because no cycle was found near static equilibrium")
+        growth = rate_text(
+            self.growth_rate,
+            "/s",
+            "not defined, because no cycle was found near static equilibrium",
+        )
         return f"{self.contact}, and growth is {growth}"
 
     @property
@@ -122,11 +141,15 @@ class CaseView:
         """The same in words."""
         times, motion = self.intervals(), self.late_motion
         if not motion.period:
-            most = f"{motion}: it does not repeat after any number of releases up to {times.size // 2}"
+            most = (
+                f"{motion}: it does not repeat after any number of releases up to {times.size // 2}"
+            )
             return f"{most}, and the 0-1 test for chaos gives {motion.chaos:.2f}"
         length = float(times[: motion.period].sum())
         apart = round(self.rate_of("separation") * length)
-        after = counted(motion.period, "release") + (f" and {counted(apart, 'separation')}" if apart else "")
+        after = counted(motion.period, "release") + (
+            f" and {counted(apart, 'separation')}" if apart else ""
+        )
         return f"periodic: it repeats after {after}, every {length:.6g} s"
 
     @property
@@ -180,7 +203,9 @@ class CaseView:
     def range_of(self, name: str, start: float, stop: float) -> Range:
         """Range of a variable from the whole bins of the history between two times, s."""
         time = self.history["time"].values
-        half = (time[1] - time[0]) / 2 if time.size > 1 else np.inf  # the width of a single bin is unknown
+        half = (
+            (time[1] - time[0]) / 2 if time.size > 1 else np.inf
+        )  # the width of a single bin is unknown
         inside = (time >= start + 0.99 * half) & (time <= stop - 0.99 * half)
         if not inside.any():
             raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
@@ -192,21 +217,30 @@ class CaseView:
         return self.range_of(name, self["time_reached"] - STRETCH, self["time_reached"])
 
     def last_widths(self, name: str, length: float, count: int) -> list[float]:
-        """Widths of a variable's ranges over stretches of a length, s, up to the end, the last one first."""
+        """Widths of a variable's ranges over stretches of a length, s, up to the end, the last one
+        first."""
         end = self["time_reached"]
-        return [self.range_of(name, end - (i + 1) * length, end - i * length).width for i in range(count)]
+        return [
+            self.range_of(name, end - (i + 1) * length, end - i * length).width
+            for i in range(count)
+        ]
 
     def last_quarters(self, name: str) -> list[float]:
         """Widths over the last two quarters of the time after the first separation."""
         return self.last_widths(name, (self["time_reached"] - self["first_separation"]) / 4, 2)
 
     def settling(self) -> Settling:
-        """Whether the ranges of contact force and disc have settled, over the run and over its last stretches, in which
-        alone a change that has just begun shows."""
+        """Whether the ranges of contact force and disc have settled, over the run and over its last
+        stretches, in which alone a change that has just begun shows."""
         whole = self.history.isel(time=slice(None, -1))  # the last bin is cut
         late = whole.sel(time=slice(self["time_reached"] - STRETCHES * STRETCH, None))
         whole_and_late = [
-            settling(part["time"].values, (part[f"{name}_max"] - part[f"{name}_min"]).values, STEADY, still=1.0)
+            settling(
+                part["time"].values,
+                (part[f"{name}_max"] - part[f"{name}_min"]).values,
+                STEADY,
+                still=1.0,
+            )
             for part in (whole, late)
             for name in ("P", "w_point")
         ]
@@ -236,11 +270,14 @@ class CaseView:
     def kept_span(self) -> Range:
         """Span of time for which a case stores its events, s."""
         attrs = self.events.attrs
-        return Range(float(attrs["kept_from"]), min(float(attrs["kept_until"]), self["time_reached"]))
+        return Range(
+            float(attrs["kept_from"]), min(float(attrs["kept_until"]), self["time_reached"])
+        )
 
     @property
     def longest_separation(self) -> float:
-        """Longest of the separations that begin within the stored events, s; one that lasts counts to their end."""
+        """Longest of the separations that begin within the stored events, s; one that lasts counts
+        to their end."""
         apart, together = self.times_of("separation"), self.times_of("reattachment")
         ends = np.searchsorted(together, apart, side="right")
         whole = ends < together.size
@@ -253,13 +290,19 @@ class CaseView:
         """Fraction of time spent in a phase, within the stored events."""
         lasting = np.diff(np.append(self.events["time"].values, self.kept_span.high))
         spent = lasting[self.events["phase"].values == PHASES.index(phase)]
-        return ratio(float(spent.sum()), float(lasting.sum()), f"the time that events of case {self.name} cover")
+        return ratio(
+            float(spent.sum()),
+            float(lasting.sum()),
+            f"the time that events of case {self.name} cover",
+        )
 
     def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> "Signal":
         """A variable between two times, from the samples of a window."""
         samples = self.samples(window).sel(time=slice(start, stop))
         if samples.sizes["time"] < 100:
-            raise Missing(f"case {self.name} has no samples in {window} from {start:g} to {stop:g} s")
+            raise Missing(
+                f"case {self.name} has no samples in {window} from {start:g} to {stop:g} s"
+            )
         return Signal(self.name, window, samples["time"].values, samples[name].values)
 
     def slope(self, name: str, start: float, stop: float) -> float:
@@ -269,12 +312,15 @@ class CaseView:
             raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
         width = part[f"{name}_max"].values - part[f"{name}_min"].values
         if not width.min() > 0:
-            raise Missing(f"case {self.name} has no vibration in {name} from {start:g} to {stop:g} s")
+            raise Missing(
+                f"case {self.name} has no vibration in {name} from {start:g} to {stop:g} s"
+            )
         return float(np.polyfit(part["time"].values, np.log(width), 1)[0])
 
 
 class Signal(NamedTuple):
-    """Samples of a case between two times, s; fractions are comparable for stretches of equal length only."""
+    """Samples of a case between two times, s; fractions are comparable for stretches of equal
+    length only."""
 
     case: str
     window: str
@@ -283,16 +329,19 @@ class Signal(NamedTuple):
 
     @property
     def filled(self) -> float:
-        """Fraction of 20..300 Hz where the amplitude exceeds 1e-4 of the strongest: fuzz fills it, lines do not."""
+        """Fraction of 20..300 Hz where the amplitude exceeds 1e-4 of the strongest: fuzz fills it,
+        lines do not."""
         return spectra.coverage(self.time, self.values, LOW, 300.0, floor=1e-4)
 
     def power_above(self, frequency: float) -> float:
-        """Ratio of the power above a frequency in Hz to that above `LOW`; raises `Missing` without any line."""
+        """Ratio of the power above a frequency in Hz to that above `LOW`; raises `Missing` without
+        any line."""
         self.lines(above=LOW)
         return spectra.power_share(self.time, self.values, frequency, LOW)
 
     def lines(self, count: int | None = None, **options: float) -> list[Line]:
-        """Lines, as by `disc_model.analysis.spectra`, the strongest ones of a count; raises `Missing` without any."""
+        """Lines, as by `disc_model.analysis.spectra`, the strongest ones of a count; raises
+        `Missing` without any."""
         peaks = spectra.lines(self.time, self.values, **options)
         if not peaks:
             raise Missing(f"case {self.case} has no line in the spectrum of {self.window}")
@@ -313,11 +362,16 @@ def views(trees: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
 
 
 def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
-    """Cases with separation, each with the case that ignores separation; raises `Missing` if one has no such case."""
+    """Cases with separation, each with the case that ignores separation; raises `Missing` if one
+    has no such case."""
     bonded = {case.parameters: case for case in cases if case.bonded}
-    free = [(case, case.parameters.replace(contact="bilateral")) for case in cases if not case.bonded]
+    free = [
+        (case, case.parameters.replace(contact="bilateral")) for case in cases if not case.bonded
+    ]
     if alone := [case.name for case, p in free if p not in bonded]:
-        raise Missing(f"without separation there is no case with the parameters of {', '.join(alone)}")
+        raise Missing(
+            f"without separation there is no case with the parameters of {', '.join(alone)}"
+        )
     return [(case, bonded[p]) for case, p in free]
 
 
@@ -348,8 +402,11 @@ def sound(study: xr.Dataset) -> xr.Dataset:
 
 
 def facts(study: xr.Dataset) -> dict[str, Any]:
-    """What sentences say of a grid study: its base values, its options, and how far each axis of numbers extends."""
-    axes = {str(name): extent(axis) for name, axis in study.indexes.items() if axis.dtype.kind in "if"}
+    """What sentences say of a grid study: its base values, its options, and how far each axis of
+    numbers extends."""
+    axes = {
+        str(name): extent(axis) for name, axis in study.indexes.items() if axis.dtype.kind in "if"
+    }
     return stated_in(study, "base") | stated_in(study, "options") | axes
 
 
@@ -381,17 +438,21 @@ def rate_text(rate: float, unit: str = "", without: str = "no cycle") -> str:
 # ---- Computed for the rows
 @cache
 def growth_of(p: Parameters) -> float:
-    """Largest growth rate of small disturbances of the stick-slip cycle near the static start, 1/s; nan without one."""
+    """Largest growth rate of small disturbances of the stick-slip cycle near the static start, 1/s;
+    nan without one."""
     return floquet(p).growth_rate
 
 
 @cache
 def sliding_growth(p: Parameters) -> float:
-    """Largest growth rate of small disturbances of steady sliding, 1/s; nan without an equilibrium."""
+    """Largest growth rate of small disturbances of steady sliding, 1/s; nan without an
+    equilibrium."""
     return steady_sliding(p).growth_rate
 
 
 @cache
 def separates_within(p: Parameters, until: float) -> bool:
     """Whether the static start separates before a time in s, in a simulation of its own."""
-    return math.isfinite(simulate(p, until, stop_at="first_separation").raise_for_status().first_separation)
+    return math.isfinite(
+        simulate(p, until, stop_at="first_separation").raise_for_status().first_separation
+    )

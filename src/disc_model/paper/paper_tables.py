@@ -1,4 +1,5 @@
-"""Tables 1 and 2 of the paper beside ours; periods under other tolerances and modes; impacts with more modes."""
+"""Tables 1 and 2 of the paper beside ours; periods under other tolerances and modes; impacts with
+more modes."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -18,7 +19,9 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State
 
-TEXTS: dict[str, Any] = yaml.safe_load(Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8"))
+TEXTS: dict[str, Any] = yaml.safe_load(
+    Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8")
+)
 TABLE_1: dict[str, float] = TEXTS["table_1"]  # base values of the paper, SI units
 TABLE_2 = pd.DataFrame(TEXTS["table_2"])
 COLUMNS = ["symbol", "paper_Hz", "ours_Hz", "level_dB", "ours_is", "predicted_Hz", "paper_says"]
@@ -31,13 +34,15 @@ UNNAMED = "no n f_s + m f_Ω"
 def table_1(p: Parameters) -> pd.DataFrame:
     """Table 1: symbol, meaning, unit, the paper's value and the value used here."""
     meanings = {name: Parameters.model_fields[name].description or name for name in TABLE_1}
-    rows = [(x, meanings[x], Parameters.unit(x), value, getattr(p, x)) for x, value in TABLE_1.items()]
+    rows = [
+        (x, meanings[x], Parameters.unit(x), value, getattr(p, x)) for x, value in TABLE_1.items()
+    ]
     return pd.DataFrame(rows, columns=["symbol", "quantity", "unit", "paper", "ours"])
 
 
 def table_2(case: CaseView) -> pd.DataFrame:
-    """Table 2: the lines of the disc's displacement at r_0, theta = 1 during the first 10 s, with `COLUMNS`: level_dB
-    is relative to the drive's line, predicted_Hz of the nearest combination."""
+    """Table 2: the lines of the disc's displacement at r_0, theta = 1 during the first 10 s, with
+    `COLUMNS`: level_dB is relative to the drive's line, predicted_Hz of the nearest combination."""
     rate, lines = stick_slip_rate(case), table_2_lines(case)
     names = [spectra.identify(line.frequency, rate, case.drive) for line in lines]
     return TABLE_2.assign(
@@ -55,7 +60,8 @@ def table_2_lines(case: CaseView) -> list[spectra.Line]:
 
 
 def stick_slip_rate(case: CaseView) -> float:
-    """Stick-slip frequency in the first 10 s, Hz: the strongest line of psi, in the slider's own frame."""
+    """Stick-slip frequency in the first 10 s, Hz: the strongest line of psi, in the slider's own
+    frame."""
     (line,) = case.signal("spectrum_a", 0, 10, "psi").lines(1, above=20.0)
     return line.frequency
 
@@ -66,20 +72,28 @@ VARIED: dict[str, tuple[float, dict[str, int]]] = {
     "8 nodal diameters": (1e-10, {"n_diameters": 8}), "one nodal circle": (1e-10, {"n_circles": 1}),
 }  # fmt: skip
 """Tolerance and numbers of modes of further runs."""
-RECORD = 60.0  # length of the record from which a motion is classified, s: four of the longest periods
+RECORD = (
+    60.0  # length of the record from which a motion is classified, s: four of the longest periods
+)
 SETTLE = 150.0  # time to settle before it after a small change of the speed, s
 
 
-def motion_to(p: Parameters, t_end: float, tol: float = 1e-10, start: State | None = None) -> tuple[Motion, State]:
-    """Class of a motion by its releases in the last `RECORD` s before t_end, undecided if few; and the state there."""
+def motion_to(
+    p: Parameters, t_end: float, tol: float = 1e-10, start: State | None = None
+) -> tuple[Motion, State]:
+    """Class of a motion by its releases in the last `RECORD` s before t_end, undecided if few; and
+    the state there."""
     run = simulate(p, t_end, tol=tol, initial_state=start)
     times = run.events.loc[run.events["kind"] == "stick_to_slip", "time"].to_numpy()
     intervals = np.diff(times[times > t_end - RECORD])
-    return motion_of(intervals) if intervals.size >= FEWEST else Motion(Outcome.UNDECIDED), run.final_state
+    return motion_of(intervals) if intervals.size >= FEWEST else Motion(
+        Outcome.UNDECIDED
+    ), run.final_state
 
 
 def locked(p: Parameters, start: State, period: int, sign: int) -> float:
-    """How far the speed may rise (sign 1) or fall (-1) until the motion has another period, rad/s, to an eighth."""
+    """How far the speed may rise (sign 1) or fall (-1) until the motion has another period, rad/s,
+    to an eighth."""
 
     def holds(change: float) -> bool:
         changed = p.replace(Omega=p.Omega + sign * change)
@@ -95,14 +109,22 @@ def locked(p: Parameters, start: State, period: int, sign: int) -> float:
 
 
 def periods(cases: Mapping[str, CaseView]) -> pd.DataFrame:
-    """Releases after which cases repeat, under `VARIED`, and the interval of speeds with the same period."""
+    """Releases after which cases repeat, under `VARIED`, and the interval of speeds with the same
+    period."""
     rows = []
     for name in TABLE_CASES["periods"]:
         case = cases[name]
         p = case.parameters
-        runs = {words: motion_to(p.replace(**changed), case["t_end"], tol) for words, (tol, changed) in VARIED.items()}
+        runs = {
+            words: motion_to(p.replace(**changed), case["t_end"], tol)
+            for words, (tol, changed) in VARIED.items()
+        }
         (motion, state), *_ = runs.values()
-        width = sum(locked(p, state, motion.period, sign) for sign in (-1, 1)) if motion.period else np.nan
+        width = (
+            sum(locked(p, state, motion.period, sign) for sign in (-1, 1))
+            if motion.period
+            else np.nan
+        )
         stated = place(p.N, p.Omega) + (f", k_p = {1e-3 * p.k_p:g} kN/m" if name == "F22" else "")
         found = {words: str(each.period or each.kind) for words, (each, _) in runs.items()}
         rows.append({"case": stated, **found, "width": width})
@@ -110,17 +132,31 @@ def periods(cases: Mapping[str, CaseView]) -> pd.DataFrame:
 
 
 def impact_law(cases: Mapping[str, CaseView]) -> pd.DataFrame:
-    """What follows the first separation at 385 N, 15.1 rad/s with other modes, in the last 20 s of each run."""
+    """What follows the first separation at 385 N, 15.1 rad/s with other modes, in the last 20 s of
+    each run."""
     rows = []
     for name, words in zip(TABLE_CASES["impact_law"], TEXTS["impact_law"], strict=True):
         case = cases[name]
         try:
-            row = [case["first_separation"], case.rate_of("separation"), 1e3 * case.longest_separation]
+            row = [
+                case["first_separation"],
+                case.rate_of("separation"),
+                1e3 * case.longest_separation,
+            ]
             row += [100 * case.phase_share("separation"), 100 * case.stick, 1e3 * case.disc.width]
             rows.append([words, *row, str(case.late_motion)])
         except Missing as reason:
             rows.append([words, *[np.nan] * 6, str(reason)])
-    columns = ["modes", "first_s", "rate_Hz", "longest_ms", "separated_%", "stick_%", "range_mm", "releases"]
+    columns = [
+        "modes",
+        "first_s",
+        "rate_Hz",
+        "longest_ms",
+        "separated_%",
+        "stick_%",
+        "range_mm",
+        "releases",
+    ]
     return pd.DataFrame(rows, columns=columns)
 
 

@@ -1,4 +1,5 @@
-"""Rows on the abstract, Sections 2 to 4 and the precursor: scale and number of modes, disc and slider at rest."""
+"""Rows on the abstract, Sections 2 to 4 and the precursor: scale and number of modes, disc and
+slider at rest."""
 
 from collections.abc import Mapping, Sequence
 from functools import cache
@@ -40,8 +41,11 @@ def separating_points(maps: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
 
 
 def first_separations(points: Mapping[str, xr.Dataset]) -> pd.DataFrame:
-    """Times of the first separation at the points of `SEPARATING`, s, nan for none: a column for each normalization."""
-    return pd.DataFrame({figure: point["first_separation"].to_series() for figure, point in points.items()}).T
+    """Times of the first separation at the points of `SEPARATING`, s, nan for none: a column for
+    each normalization."""
+    return pd.DataFrame(
+        {figure: point["first_separation"].to_series() for figure, point in points.items()}
+    ).T
 
 
 def survive(*maps: xr.Dataset, share: float) -> Answer:
@@ -49,19 +53,41 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
     apart = flag_names(plane["outcome"]) == "separation"
     lowest = [np.min(plane["Omega"].values[each.any(axis=1)], initial=np.inf) for each in apart]
     points = separating_points({study.attrs["study"]: study for study in maps})
-    times, horizons = first_separations(points), {x: stated_in(points[x], "options")["horizon"] for x in points}
-    kinds = {x: str(flag_names(point.sel(normalization="orthonormal")["outcome"])) for x, point in points.items()}
-    quiet = {x: parameters_of(SEPARATING[x][1], "orthonormal") for x in points if kinds[x] != "separation"}
+    times, horizons = (
+        first_separations(points),
+        {x: stated_in(points[x], "options")["horizon"] for x in points},
+    )
+    kinds = {
+        x: str(flag_names(point.sel(normalization="orthonormal")["outcome"]))
+        for x, point in points.items()
+    }
+    quiet = {
+        x: parameters_of(SEPARATING[x][1], "orthonormal")
+        for x in points
+        if kinds[x] != "separation"
+    }
     kept = [x for x, p in quiet.items() if not measures.separates_within(p, horizons[x])]
     grow = [horizons[figure] for figure in kept if kinds[figure] == "growing"]
-    counts = (len(times), times["as_published"].count(), len(times) - len(kept), len(kept) - len(grow), len(grow))
-    verdict, until = graded(speed < share * critical for speed in lowest), extent(grow) if grow else None
+    counts = (
+        len(times),
+        times["as_published"].count(),
+        len(times) - len(kept),
+        len(kept) - len(grow),
+        len(grow),
+    )
+    verdict, until = (
+        graded(speed < share * critical for speed in lowest),
+        extent(grow) if grow else None,
+    )
     return Answer(verdict, counts=counts, until=until, lowest=lowest, critical=critical)
 
 
 def norms(p: Parameters) -> Array:
-    """Left side of the first relation of Eq. (17), which should be 1, for the modes of 0, 1, ... nodal diameters."""
-    pairs = np.where(plate_modes(p)["diameters"] > 0, 2.0, 1.0)  # whose two modes have one amplitude in `plate_modes`
+    """Left side of the first relation of Eq. (17), which should be 1, for the modes of 0, 1, ...
+    nodal diameters."""
+    pairs = np.where(
+        plate_modes(p)["diameters"] > 0, 2.0, 1.0
+    )  # whose two modes have one amplitude in `plate_modes`
     square, _ = fixed_quad(lambda r: mode_shapes(p, r) ** 2 * r, p.a, p.b, n=40)
     return np.asarray(2 * np.pi * p.rho * p.h * square / pairs)
 
@@ -73,7 +99,9 @@ def normalised(*, within: float) -> Answer:
 
 def second_relation(*, within: float) -> Answer:
     p = NORMALISED
-    second = norms(p) * plate_modes(p)["omega"].to_numpy() ** 2 / p.D  # of the biharmonic: rho h omega^2/D
+    second = (
+        norms(p) * plate_modes(p)["omega"].to_numpy() ** 2 / p.D
+    )  # of the biharmonic: rho h omega^2/D
     return Answer(np.max(np.abs(second - 1)) <= within, second=[*second])
 
 
@@ -90,11 +118,17 @@ def slip_condition(*cases: CaseView) -> Answer:
 
 
 def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
-    """Whether more modes change nothing: cases with 4, 5, 6 and 8 diameters, and with one and two circles."""
+    """Whether more modes change nothing: cases with 4, 5, 6 and 8 diameters, and with one and two
+    circles."""
     first = [case["first_separation"] for case in evidence]
-    soon, all_soon = np.ptp(first[:4]) <= seconds, np.ptp(first) <= seconds  # nan if one does not separate
+    soon, all_soon = (
+        np.ptp(first[:4]) <= seconds,
+        np.ptp(first) <= seconds,
+    )  # nan if one does not separate
     shown = (evidence[0], *evidence[3:])
-    rows = [(case.rate_of("separation"), case.phase_share("separation"), case.stick) for case in shown]
+    rows = [
+        (case.rate_of("separation"), case.phase_share("separation"), case.stick) for case in shown
+    ]
     more, *circles = [bool(np.allclose(row, rows[0], rtol=share)) for row in rows[1:]]
     verdict = TRUE if all_soon and more and all(circles) else PART if soon and more else FALSE
     change = ["hardly change" if same else "change" for same in (more, all(circles))]
@@ -109,7 +143,11 @@ def attached_frequencies(*, printed: Sequence[float], within: float) -> Answer:
 def moving_load(*, printed: float, within: float) -> Answer:
     ours, modes = moving_load_speed(BASE), plate_modes(BASE)
     holds = abs(ours - printed) <= within
-    return Answer(holds, ours=ours, shifted="" if holds else float(np.min(modes["omega"] / (modes["diameters"] + 1))))
+    return Answer(
+        holds,
+        ours=ours,
+        shifted="" if holds else float(np.min(modes["omega"] / (modes["diameters"] + 1))),
+    )
 
 
 def moving_load_speed(p: Parameters) -> float:
@@ -119,7 +157,8 @@ def moving_load_speed(p: Parameters) -> float:
 
 
 def different(*cases: CaseView, factor: float, share: float = 0.0, both: bool = False) -> Answer:
-    """Whether separation changes range of the disc or share of stick, or both, in a pair or in a share of the pairs."""
+    """Whether separation changes range of the disc or share of stick, or both, in a pair or in a
+    share of the pairs."""
     rows, differ = [], 0
     for case, other in pairs(cases):
         ratio, sticks = measures.width_ratio(case, other), (case.stick, other.stick)
@@ -129,13 +168,15 @@ def different(*cases: CaseView, factor: float, share: float = 0.0, both: bool = 
     return Answer(differ >= max(1, share * len(rows)), rows=rows, differ=differ)
 
 
-# ---- The abstract of the model's precursor, J. Sound Vib. 209 (1998): steady sliding where friction falls
+# ---- The abstract of the model's precursor, J. Sound Vib. 209 (1998): steady sliding where
+# friction falls
 SPEEDS = np.arange(5.0, 1501.0, 5.0)  # rad/s, up to where all speeds are unstable without friction
 
 
 @cache
 def growths(loads: tuple[float, ...], c: float, **friction: float) -> Array:
-    """Largest growth rates of sliding, 1/s: without friction, with it, and with a damper too: (3, load, speed)."""
+    """Largest growth rates of sliding, 1/s: without friction, with it, and with a damper too: (3,
+    load, speed)."""
     p = BASE.replace(contact="bilateral", **friction)
     points = product((p.replace(mu_s=0.0, mu_k=0.0), p, p.replace(c=c)), loads, SPEEDS)
     growth = [sliding_growth(each.replace(N=N, Omega=speed)) for each, N, speed in points]
@@ -143,7 +184,8 @@ def growths(loads: tuple[float, ...], c: float, **friction: float) -> Array:
 
 
 def additional(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
-    """Whether friction makes speeds unstable that are stable without, and the damper raises growth at all of them."""
+    """Whether friction makes speeds unstable that are stable without, and the damper raises growth
+    at all of them."""
     alone, both, damped = growths(tuple(loads), c, **friction)
     critical, new = moving_load_speed(BASE), (both > 0) & ~(alone > 0)
     raised = new & (damped > both)

@@ -1,4 +1,5 @@
-"""Model sensitivity: the paper's main conclusions, judged like rows of the ledger under five models."""
+"""Model sensitivity: the paper's main conclusions, judged like rows of the ledger under five
+models."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -31,13 +32,17 @@ MODELS = {
 
 
 def by_model(cases: Mapping[str, CaseView]) -> dict[str, dict[str, CaseView]]:
-    """The cases and grid studies of each model; of the grid studies the points that belong to it."""
+    """The cases and grid studies of each model; of the grid studies the points that belong to
+    it."""
     models: dict[str, dict[str, CaseView]] = {name: {} for name in MODELS}
     for name, case in cases.items():
         study = case.node.to_dataset()
         holds = study.variables if case.is_grid else vars(case.parameters)
         varied = [np.atleast_1d(holds[parameter]).tolist() for parameter in CHANGED]
-        points = [(scale, give != 0, force, offset != 0) for scale, give, force, offset in zip(*varied, strict=True)]
+        points = [
+            (scale, give != 0, force, offset != 0)
+            for scale, give, force, offset in zip(*varied, strict=True)
+        ]
         for model in (model for model, values in MODELS.items() if points.count(values) == 1):
             models[model][name] = case
             if case.is_grid:
@@ -51,40 +56,66 @@ SLOW = 1e-3  # growth rate below which a cycle counts as neither stable nor unst
 
 def onset(points: xr.Dataset, rates: xr.Dataset, curves: xr.Dataset, *, beside: float) -> Answer:
     try:
-        growth = rates["growth_rate"].sel(N=points["N"], Omega=points["Omega"]).transpose("N", "Omega").values
+        growth = (
+            rates["growth_rate"]
+            .sel(N=points["N"], Omega=points["Omega"])
+            .transpose("N", "Omega")
+            .values
+        )
     except KeyError as error:
         raise Missing(f"study survival_growth lacks points of survival_outcome: {error}") from None
     outcome = flag_names(sound(points)["outcome"].transpose("N", "Omega"))
     apart, stable = outcome == "separation", growth < -SLOW
     unstable, without = (int((apart & kind).sum()) for kind in (growth > SLOW, np.isnan(growth)))
-    early = [(float(points["N"][i]), float(points["Omega"][j])) for i, j in np.argwhere(apart & stable)]
+    early = [
+        (float(points["N"][i]), float(points["Omega"][j])) for i, j in np.argwhere(apart & stable)
+    ]
     # where a stable cycle ends at a fold just above a speed, small disturbances suffice to leave it
-    soon = all(any(0 <= fold - speed <= beside for fold in _folds_at(curves, load)) for load, speed in early)
+    soon = all(
+        any(0 <= fold - speed <= beside for fold in _folds_at(curves, load))
+        for load, speed in early
+    )
     compared = unstable > 0 and bool(stable.any())
-    verdict, places = soon if compared or not soon else NOT_COMPUTED, [measures.place(*x) for x in early if soon]
-    size, kinds, keep = (int(apart.sum()), apart.size), (unstable, without, len(early)), int((stable & ~apart).sum())
+    verdict, places = (
+        soon if compared or not soon else NOT_COMPUTED,
+        [measures.place(*x) for x in early if soon],
+    )
+    size, kinds, keep = (
+        (int(apart.sum()), apart.size),
+        (unstable, without, len(early)),
+        int((stable & ~apart).sum()),
+    )
     return Answer(verdict, points=size, kinds=kinds, keep=keep, early=places)
 
 
-def fold(curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: float, within: float) -> Answer:
+def fold(
+    curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, *, load: float, within: float
+) -> Answer:
     folds = np.array(sorted(_folds_at(curves, load)))
     one = sound(speed.sel(N=load).isel(horizon=0))
     highs = one["crossing"].values[flag_names(one["crossing_kind"]) == "begins"]
     width = float(stated_in(speed, "options")["precision"])
-    off = [np.min(np.maximum(high - width - folds, folds - high), initial=math.inf) for high in highs]
+    off = [
+        np.min(np.maximum(high - width - folds, folds - high), initial=math.inf) for high in highs
+    ]
     if not off or min(off) <= within:
         return Answer(TRUE if off else NOT_COMPUTED, folds=folds, highs=highs, growth=[], missed=0)
     # at the map's nearest speeds below and above each interval; nan without a cycle
     at_load = rates["growth_rate"].sel(N=load)
     try:
-        before, after = at_load.sel(Omega=highs - width, method="pad"), at_load.sel(Omega=highs, method="backfill")
+        before, after = (
+            at_load.sel(Omega=highs - width, method="pad"),
+            at_load.sel(Omega=highs, method="backfill"),
+        )
     except KeyError:
         raise Missing("study survival_growth does not reach as far as survival_speed") from None
     beside = list(zip(before.values.tolist(), after.values.tolist(), strict=True))
     growth = [f"{rate_text(low, '/s')} to {rate_text(high, '/s')}" for low, high in beside]
     # one of the curves that could not be followed may be the fold
     missed = 0 if np.all(np.array(beside) > SLOW) else int(curves["n_continuation_failures"])
-    return Answer(NOT_COMPUTED if missed else FALSE, folds=folds, highs=highs, growth=growth, missed=missed)
+    return Answer(
+        NOT_COMPUTED if missed else FALSE, folds=folds, highs=highs, growth=growth, missed=missed
+    )
 
 
 def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
@@ -101,12 +132,20 @@ def _folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
 def below_critical(*cases: CaseView, share: float) -> Answer:
     apart, critical = _separating(cases), moving_load_speed(cases[0].parameters)
     rows = [(case.place, part) for case in apart if (part := case["Omega"] / critical) < share]
-    return Answer(bool(rows) or NOT_COMPUTED, "" if rows else "No case separates.", rows=rows, critical=critical)
+    return Answer(
+        bool(rows) or NOT_COMPUTED,
+        "" if rows else "No case separates.",
+        rows=rows,
+        critical=critical,
+    )
 
 
 def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
-    """Cases that lose contact; raises `Missing` if there is none, or if one did not reach its end."""
-    for case in cases:  # bilateral contact may end in Painlevé's paradox, when the disc has grown so steep
+    """Cases that lose contact; raises `Missing` if there is none, or if one did not reach its
+    end."""
+    for (
+        case
+    ) in cases:  # bilateral contact may end in Painlevé's paradox, when the disc has grown so steep
         if case.status != "ok" and not (case.bonded and case.status == "paradox"):
             raise Missing(f"{case.status} (case {case.name})")
     if not (apart := [case for case in cases if not case.bonded and case.separates]):
@@ -117,7 +156,9 @@ def _separating(cases: Sequence[CaseView]) -> list[CaseView]:
 def falls_then_rises(speed: xr.Dataset, *, depth: float) -> Answer:
     study = sound(speed.isel(horizon=0))
     verdict, words = lowest_speeds(study, depth)
-    return Answer(NOT_COMPUTED if np.isfinite(study["critical_speed"].values).sum() < 3 else verdict, words)
+    return Answer(
+        NOT_COMPUTED if np.isfinite(study["critical_speed"].values).sum() < 3 else verdict, words
+    )
 
 
 def smaller_vibration(*cases: CaseView, wider: float) -> Answer:
@@ -145,8 +186,12 @@ def stick_vanishes(*cases: CaseView, share: float) -> Answer:
 def normal_damping(study: xr.Dataset) -> Answer:
     without, damped, _ = _damped(study, "c")
     compared = (without > SLOW) & np.isfinite(damped)
-    lowered, stable, every = (int((compared & each).sum()) for each in (damped < without, damped < 0, compared))
-    return Answer(lowered == every if every else NOT_COMPUTED, lowered=lowered, compared=every, stable=stable)
+    lowered, stable, every = (
+        int((compared & each).sum()) for each in (damped < without, damped < 0, compared)
+    )
+    return Answer(
+        lowered == every if every else NOT_COMPUTED, lowered=lowered, compared=every, stable=stable
+    )
 
 
 def inplane_damping(study: xr.Dataset, *, large: float, fewest: float) -> Answer:
@@ -155,7 +200,9 @@ def inplane_damping(study: xr.Dataset, *, large: float, fewest: float) -> Answer
     both = np.isfinite(without) & np.isfinite(damped)
     higher = both & (damped > 0) & (damped > without + SLOW)
     ended = int(((without < -SLOW) & np.isin(status, ("no_cycle", "separates")) & heavy).sum())
-    (above, of), (below, of_below) = ((int((higher & at).sum()), int((both & at).sum())) for at in (heavy, ~heavy))
+    (above, of), (below, of_below) = (
+        (int((higher & at).sum()), int((both & at).sum())) for at in (heavy, ~heavy)
+    )
     verdict = NOT_COMPUTED if not above + ended and of < fewest else above + ended > 0
     told, few = counted(ended, "stable cycle"), 0 < 10 * (above + ended) <= of
     return Answer(verdict, ended=told, higher=(above, of, below, of_below), few=few)
@@ -192,7 +239,8 @@ def _repeats(case: CaseView) -> tuple[Outcome, str]:
 
 
 def _all_cases(holds: Sequence[bool | None]) -> bool | str:
-    """The verdict on a statement about every case: one counterexample refutes it, an open case (None) keeps it open."""
+    """The verdict on a statement about every case: one counterexample refutes it, an open case
+    (None) keeps it open."""
     return False if False in holds else NOT_COMPUTED if None in holds else True
 
 

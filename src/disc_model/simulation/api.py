@@ -1,4 +1,5 @@
-"""`simulate`, the one function that runs the engine; states at chosen times; a case of a study as a dataset."""
+"""`simulate`, the one function that runs the engine; states at chosen times; a case of a study as a
+dataset."""
 
 from __future__ import annotations
 
@@ -20,14 +21,41 @@ from disc_model.data.variables import PHASES
 from disc_model.engine import audit, dense_output, event_loop, layout, transitions
 from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import DiscModelError, Fault, ParameterError, Status, as_text, raise_faults, require, violations
+from disc_model.errors import (
+    DiscModelError,
+    Fault,
+    ParameterError,
+    Status,
+    as_text,
+    raise_faults,
+    require,
+    violations,
+)
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation import states
-from disc_model.simulation.case import CaseSpec, Poincare, Ramp, Start, Windows, pieces, ramp_faults, resolved_windows
+from disc_model.simulation.case import (
+    CaseSpec,
+    Poincare,
+    Ramp,
+    Start,
+    Windows,
+    pieces,
+    ramp_faults,
+    resolved_windows,
+)
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import Array, State
 from disc_model.sources import git_commit, source_hash, versions
-from disc_model.units import TOLERANCES, Count, Strict, content_key, in_si, is_number, limits_faults, number
+from disc_model.units import (
+    TOLERANCES,
+    Count,
+    Strict,
+    content_key,
+    in_si,
+    is_number,
+    limits_faults,
+    number,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -35,7 +63,9 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
-STEPS_PER_PAUSE = 100_000  # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
+STEPS_PER_PAUSE = (
+    100_000  # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
+)
 
 _EXITS = (  # in the order of `Status`
     transitions.TIME_OVER, transitions.STOPPED, transitions.STEP_LIMIT, transitions.NO_SOLUTION, transitions.STALLED,
@@ -45,7 +75,8 @@ _STATUS = dict(zip(_EXITS, Status, strict=True))
 
 
 class Execution(Strict):
-    """How a run is carried out. No setting changes the motion, but a run ends early after `max_steps`.
+    """How a run is carried out. No setting changes the motion, but a run ends early after
+    `max_steps`.
 
     Attributes
     ----------
@@ -83,7 +114,8 @@ def simulate(  # noqa: PLR0913
     ramps: Ramp | tuple[Ramp, ...] = (),
     execution: Execution = _PLAIN,
 ) -> Result:
-    """Simulate from the static start (or ``initial_state``) to the time ``t_end``, or for a ``duration``.
+    """Simulate from the static start (or ``initial_state``) to the time ``t_end``, or for a
+    ``duration``.
 
     Parameters
     ----------
@@ -120,7 +152,11 @@ def simulate(  # noqa: PLR0913
     (Frozen({'time': 2001}), 'N')
     """
     if (t_end is None) == (duration is None):
-        rule = "is required, or duration instead of it" if t_end is None else f"must be left out beside {duration=!s}"
+        rule = (
+            "is required, or duration instead of it"
+            if t_end is None
+            else f"must be left out beside {duration=!s}"
+        )
         raise ParameterError(Fault(("t_end",), "" if t_end is None else as_text(t_end), rule))
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
     time: Any = initial_state.time if isinstance(initial_state, State) else 0.0
@@ -132,11 +168,20 @@ def simulate(  # noqa: PLR0913
         end = time + end
     begin = time if states.is_finite(time) else 0.0
     later = is_number(end) and begin < end < math.inf
-    rule = "" if later else f"must be finite, in s or as '2 min', and > {as_text(begin)}, the time of the initial state"
+    rule = (
+        ""
+        if later
+        else f"must be finite, in s or as '2 min', and > {as_text(begin)}, the time of the initial state"
+    )
     stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
     rules = violations(
         (isinstance(events, bool), "events", events, "must be True or False"),
-        (initial_state is None or isinstance(initial_state, State), "initial_state", initial_state, "must be a State"),
+        (
+            initial_state is None or isinstance(initial_state, State),
+            "initial_state",
+            initial_state,
+            "must be a State",
+        ),
         (states.is_finite(time), "initial_state.time", time, "must be finite"),
         (later, "t_end" if duration is None else "duration", end, rule),
         (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
@@ -147,7 +192,13 @@ def simulate(  # noqa: PLR0913
     start, end = float(time), float(end)
     windows = {} if windows is None else resolved_windows(windows, start, end)
     if not isinstance(ramps, tuple) or ramps:
-        raise_faults([*ramp_faults(p, ramps, poincare=any(isinstance(x, Poincare) for x in windows.values()))])
+        raise_faults(
+            [
+                *ramp_faults(
+                    p, ramps, poincare=any(isinstance(x, Poincare) for x in windows.values())
+                )
+            ]
+        )
     run = _Run(p, end, float(tol), initial_state, windows, events, stop_at, ramps, execution)
     code = run.advance()
     tell = execution.progress or (lambda _: None)
@@ -196,19 +247,27 @@ def snapshots(
     )
     raise_faults(foreign_case(p) + wrong)
     wanted: list[float] = [] if numbers is None else numbers.tolist()
-    state, reached = states.static_start(p) if initial_state is None else initial_state, list[State]()
+    state, reached = (
+        states.static_start(p) if initial_state is None else initial_state,
+        list[State](),
+    )
     rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
     require(*((time >= state.time, "times", time, rule) for time in wanted[:1]))
     for time in wanted:
         if time > state.time:
-            state = simulate(p, time, tol=tol, events=False, initial_state=state).raise_for_status().final_state
+            state = (
+                simulate(p, time, tol=tol, events=False, initial_state=state)
+                .raise_for_status()
+                .final_state
+            )
         reached.append(state)
     return tuple(reached)
 
 
 @dataclass(eq=False)
 class _Run:
-    """One run: the checked arguments of `simulate`, the engine's arrays, and the buffers that collect rows."""
+    """One run: the checked arguments of `simulate`, the engine's arrays, and the buffers that
+    collect rows."""
 
     p: Parameters
     t_end: float
@@ -229,7 +288,9 @@ class _Run:
         at_switch = state is not None and states.write_state(case, state, self.state, self.key)
         most: float | None = self.execution.max_steps
         start, every_step = self.time, self.execution.audit_every_step
-        if most is None:  # twenty for each radian of the highest mode, far more than any of the published cases takes
+        if (
+            most is None
+        ):  # twenty for each radian of the highest mode, far more than any of the published cases takes
             most = 10_000 + 20 * (self.t_end - start) / model.unit
         longest = event_loop.LONGEST_STICK * model.unit
         self.collector = Collector(self.p, self.windows, self.events, start, self.t_end, longest)
@@ -240,12 +301,18 @@ class _Run:
             self.t_end,
             self.stop_at is None,
             int(min(most, MOST_STEPS)),
-            # pauses serve progress and Ctrl-C; there are fewer steps between them where a step costs more
-            max(1, STEPS_PER_PAUSE // (len(model.shift) // layout.WIDTH * (6 if every_step else 1))),
-            1 if every_step else 256,  # a compliant contact takes about four times as many steps per second
+            # pauses serve progress and Ctrl-C; there are fewer steps between them where a step
+            # costs more
+            max(
+                1, STEPS_PER_PAUSE // (len(model.shift) // layout.WIDTH * (6 if every_step else 1))
+            ),
+            1
+            if every_step
+            else 256,  # a compliant contact takes about four times as many steps per second
         )
         self.pieces = pieces(self.p, self.ramps)
-        # in reverse order, so that the first piece is current at the end; compiling here keeps it out of the wall time
+        # in reverse order, so that the first piece is current at the end; compiling here keeps it
+        # out of the wall time
         for index, piece in reversed(tuple(enumerate(self.pieces))):
             if start < piece.end and piece.begin < self.t_end:
                 self._enter(index)
@@ -260,19 +327,26 @@ class _Run:
         if index > 0:  # the first piece has the Omega and N of the case
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
             self.model = layout.on_ramp(self.model, piece.begin, piece.angle, **rates)
-        kind = tuple(flag for flag in self.model if type(flag) is tuple)  # they determine the types of all arguments
+        kind = tuple(
+            flag for flag in self.model if type(flag) is tuple
+        )  # they determine the types of all arguments
         if kind not in _ENGINES:
             with compiling():
                 _ENGINES[kind] = compiled_for(event_loop.run, self._arguments())
         self.engine = _ENGINES[kind]
 
     def _begin_at_switch(self) -> None:
-        """Let the engine determine the phase at this instant, by a run of zero duration that records nothing."""
+        """Let the engine determine the phase at this instant, by a run of zero duration that
+        records nothing."""
         model, series, state, probe, limits, buffers = self._arguments()
         low, state.x[layout.TIME_LOW] = float(state.x[layout.TIME_LOW]), 0.0
         buffers = buffers._replace(samplers=buffers.samplers[:0], sampled=buffers.sampled[:0])
         self.engine(model, series, state, probe, limits._replace(t_end=self.time), buffers)
-        state.x[layout.TIME_LOW], state.x[layout.PROPAGATED], state.x[layout.IN_A_ROW] = low, 0.0, 0.0
+        state.x[layout.TIME_LOW], state.x[layout.PROPAGATED], state.x[layout.IN_A_ROW] = (
+            low,
+            0.0,
+            0.0,
+        )
         for sums in (buffers.counters, buffers.phase_times, buffers.audit):
             sums.fill(0)
 
@@ -282,7 +356,8 @@ class _Run:
         return float(self.state.x[layout.TIME])
 
     def advance(self) -> int:
-        """Compute until the engine pauses or ends, and empty its buffers.  Returns the exit code."""
+        """Compute until the engine pauses or ends, and empty its buffers.  Returns the exit
+        code."""
         began = clock.perf_counter()
         code = self.engine(*self._arguments())
         if code == transitions.TIME_OVER and self.limits.t_end < self.t_end:
@@ -296,7 +371,8 @@ class _Run:
         return self.model, self.series, self.state, self.probe, self.limits, self.collector.buffers
 
     def result(self, status: Status) -> Result:
-        """Assemble the result of the run, which ends here: other runs of the case may use its arrays."""
+        """Assemble the result of the run, which ends here: other runs of the case may use its
+        arrays."""
         x = self.state.x
         message = f"{status.value}: at t = {self.time:.9g} s in {PHASES[int(x[layout.PHASE])]}"
         if status is Status.PARADOX:
@@ -327,16 +403,27 @@ class _Run:
             size = total[scale] + total[turnover] if every_step else math.nan
             return abs(total[residual]) / size if size else 0.0
 
-        buffers, every_step, coupled = self.collector.buffers, self.execution.audit_every_step, bool(self.model.coupled)
+        buffers, every_step, coupled = (
+            self.collector.buffers,
+            self.execution.audit_every_step,
+            bool(self.model.coupled),
+        )
         count, total = buffers.counters.tolist(), buffers.audit.tolist()
         return {
             "steps": count[event_loop.STEPS],
             "events": count[event_loop.EVENTS],
             "separations": count[event_loop.SEPARATIONS],
-            **{f"time_{phase}": time for phase, time in zip(PHASES, buffers.phase_times.tolist(), strict=True)},
+            **{
+                f"time_{phase}": time
+                for phase, time in zip(PHASES, buffers.phase_times.tolist(), strict=True)
+            },
             "energy_residual": total[audit.WORST] if total[audit.STEPS] else math.nan,
-            "energy_residual_transverse": relative(audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
-            "energy_residual_inplane": relative(audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
+            "energy_residual_transverse": relative(
+                audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER
+            ),
+            "energy_residual_inplane": relative(
+                audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER
+            ),
             "audited_steps": int(total[audit.STEPS]),
             "couple_work": total[audit.COUPLE] if coupled and every_step else math.nan,
             "surface_speed": total[audit.SURFACE] if coupled else math.nan,
@@ -344,22 +431,35 @@ class _Run:
         }
 
 
-_ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}  # compiled, by blocks of lanes, laws of contact and ramp
+_ENGINES: dict[
+    tuple[Any, ...], Callable[..., int]
+] = {}  # compiled, by blocks of lanes, laws of contact and ramp
 
 
 # ---- Recorded rows of a run: buffers between the engine and the arrays of a result
 
-BUFFER = 1 << 15  # rows of samples between two pauses: large enough for cheap draining, small enough for the cache
-EVENT_BUFFER = 1 << 10  # events between two pauses: a larger buffer takes longer to make than a short simulation
+BUFFER = (
+    1 << 15
+)  # rows of samples between two pauses: large enough for cheap draining, small enough for the cache
+EVENT_BUFFER = (
+    1 << 10
+)  # events between two pauses: a larger buffer takes longer to make than a short simulation
 _FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 _FOLDED_ROW = ("time", *(f"{name}_{end}" for name in _FOLDED for end in ("min", "max")))
 
 
 class Collector:
-    """Provides the engine's `buffers`, empties them at each pause, and assembles the recorded arrays."""
+    """Provides the engine's `buffers`, empties them at each pause, and assembles the recorded
+    arrays."""
 
     def __init__(
-        self, p: Parameters, windows: Windows, events: bool, start: float, t_end: float, longest_step: float
+        self,
+        p: Parameters,
+        windows: Windows,
+        events: bool,
+        start: float,
+        t_end: float,
+        longest_step: float,
     ) -> None:
         grids = {name: window.grid(p, start, t_end) for name, window in windows.items()}
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
@@ -403,7 +503,8 @@ class Collector:
 
 
 class _Samples:
-    """Samples of a window, or bins of an envelope, in columns for as many as there may be, of which some are filled."""
+    """Samples of a window, or bins of an envelope, in columns for as many as there may be, of which
+    some are filled."""
 
     def __init__(self, count: int, fold: int) -> None:
         names = dense_output.ROW[1:] if fold == 1 else _FOLDED_ROW
@@ -427,7 +528,8 @@ class _Samples:
 
 
 def _fold(cells: Array) -> Array:
-    """Rows of mean time and (min, max) of each folded column, from cells of shape (n, samples, columns)."""
+    """Rows of mean time and (min, max) of each folded column, from cells of shape (n, samples,
+    columns)."""
     columns = [cells[:, :, dense_output.ROW.index(name)] for name in ("time", *_FOLDED)]
     ranges = [bound for column in columns[1:] for bound in (column.min(axis=1), column.max(axis=1))]
     return np.stack([columns[0].mean(axis=1), *ranges], axis=1)
@@ -445,17 +547,29 @@ def _memory() -> float:
 
 
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
-    """The initial state of a motion of case `p`, at time 0; None is the static start. Raises `SimulationError` if the
-    preceding motion ends early, `ParameterError` if its disc has another number of modes."""
+    """The initial state of a motion of case `p`, at time 0; None is the static start. Raises
+    `SimulationError` if the preceding motion ends early, `ParameterError` if its disc has another
+    number of modes."""
     kick = {name: value for name, value in start.perturbation.items() if value}
     state = None
     if start.prerun is not None:
         other = p.replace(**start.prerun.parameters)
-        sizes = [(name, getattr(other, name), getattr(p, name)) for name in ("n_diameters", "n_circles")]
+        sizes = [
+            (name, getattr(other, name), getattr(p, name)) for name in ("n_diameters", "n_circles")
+        ]
         path, rule = "start.prerun.parameters.", "must be that of the case, "
-        require(*((count == needed, path + name, count, f"{rule}{needed}") for name, count, needed in sizes))
+        require(
+            *(
+                (count == needed, path + name, count, f"{rule}{needed}")
+                for name, count, needed in sizes
+            )
+        )
         state = states.transfer_state(p, _end_of(other, start.prerun.time, tol))
-    return states.perturb(p, states.static_start(p) if state is None else state, **kick) if kick else state
+    return (
+        states.perturb(p, states.static_start(p) if state is None else state, **kick)
+        if kick
+        else state
+    )
 
 
 def state_after(p: Parameters, start: Start, time: float, tol: float) -> State:
@@ -470,8 +584,9 @@ def _end_of(p: Parameters, time: float, tol: float) -> State:
 
 
 def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
-    """Simulate a named case of a study, in the layout of `disc_model.data.dataset`; a failure is recorded as a status.
-    `choose` is `disc_model.mode_choice.choose_when_run`, which only a case with `modes` needs."""
+    """Simulate a named case of a study, in the layout of `disc_model.data.dataset`; a failure is
+    recorded as a status. `choose` is `disc_model.mode_choice.choose_when_run`, which only a case
+    with `modes` needs."""
     import xarray as xr
 
     from disc_model.data.dataset import json_attribute, scalars_dataset
@@ -493,7 +608,12 @@ def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
         known = {"t_end": spec.t_end, "tol": spec.tol}
         tree = xr.DataTree(scalars_dataset(p, known, "failed", f"{type(error).__name__}: {error}"))
     else:
-        log.info("%s, first separation %s s, %s", result.status.value, result.first_separation, result.statistics)
+        log.info(
+            "%s, first separation %s s, %s",
+            result.status.value,
+            result.first_separation,
+            result.statistics,
+        )
         tree = result.to_tree()
         events, within, span = tree["events"].to_dataset(), slice(0), {}
         if spec.events is not None:

@@ -1,4 +1,5 @@
-"""Requests to a simulation: recorded quantities, ramps, initial state, and a case of a study as a text."""
+"""Requests to a simulation: recorded quantities, ramps, initial state, and a case of a study as a
+text."""
 
 from __future__ import annotations
 
@@ -15,7 +16,17 @@ from pydantic import Field, create_model, field_validator, model_serializer, mod
 from disc_model.data.variables import BESIDE_WINDOWS
 from disc_model.errors import Fault, ParameterError, as_text, require
 from disc_model.parameters import AUTO, Parameters
-from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit, canonical_json, content_key
+from disc_model.units import (
+    Count,
+    Finite,
+    Positive,
+    Real,
+    Seconds,
+    Strict,
+    Unit,
+    canonical_json,
+    content_key,
+)
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
 Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]
@@ -33,7 +44,8 @@ class Interval(Strict):
 
 
 class Span(Interval):
-    """A stretch of time: from `start` to `stop`, over the `last` seconds of the run, or over all of it."""
+    """A stretch of time: from `start` to `stop`, over the `last` seconds of the run, or over all of
+    it."""
 
     start: Time = 0.0
     stop: Annotated[Real, Field(ge=0), Unit("s")] = math.inf
@@ -48,16 +60,25 @@ class Span(Interval):
     @model_serializer(mode="wrap")
     def _plain(self, handler: Any) -> dict[str, Any]:
         """Leave out an absent ``last``, so that older content addresses stay valid."""
-        return {name: value for name, value in handler(self).items() if name != "last" or value is not None}
+        return {
+            name: value
+            for name, value in handler(self).items()
+            if name != "last" or value is not None
+        }
 
     def resolved(self, start: float, t_end: float) -> Self:
-        """The same span with absolute times, for a run from ``start`` to ``t_end``. Raises `ParameterError` if it has
-        no stop time and begins at the end of the run or later."""
+        """The same span with absolute times, for a run from ``start`` to ``t_end``. Raises
+        `ParameterError` if it has no stop time and begins at the end of the run or later."""
         first, stop = self.ends(start, t_end)
-        return self if (first, stop) == (self.start, self.stop) else self.replace(start=first, stop=stop, last=None)
+        return (
+            self
+            if (first, stop) == (self.start, self.stop)
+            else self.replace(start=first, stop=stop, last=None)
+        )
 
     def ends(self, start: float, t_end: float) -> tuple[float, float]:
-        """Absolute times of its ends, s, for a run from ``start`` to ``t_end``, even if they are not within the run."""
+        """Absolute times of its ends, s, for a run from ``start`` to ``t_end``, even if they are
+        not within the run."""
         first = self.start if self.last is None else max(t_end - self.last, start)
         return first, self.stop if self.stop < math.inf else self._end(first, t_end)
 
@@ -66,11 +87,13 @@ class Span(Interval):
 
 
 class Window(Span):
-    """Samples at a fixed rate: from `start` to `stop`, over the `last` seconds of the run, or over all of it.
+    """Samples at a fixed rate: from `start` to `stop`, over the `last` seconds of the run, or over
+    all of it.
 
-    What jumps at a switch (phase and P; velocities of slider and disc at an impact) is at that very instant what it was
-    before.  So it is 6e-14 of the time later, because the time of an event is rounded.  A sample at the start of a run
-    shows the state from which the run starts.  Of a window that reaches beyond the run there is what the run covers.
+    What jumps at a switch (phase and P; velocities of slider and disc at an impact) is at that very
+    instant what it was before.  So it is 6e-14 of the time later, because the time of an event is
+    rounded.  A sample at the start of a run shows the state from which the run starts.  Of a window
+    that reaches beyond the run there is what the run covers.
 
     Parameters
     ----------
@@ -94,7 +117,8 @@ class Window(Span):
     envelope: Annotated[Count, Field(ge=2, le=2**53)] | None = None
 
     def _end(self, first: float, t_end: float) -> float:
-        """End of the span; an envelope up to ``t_end`` excludes that instant, which would be a bin of its own."""
+        """End of the span; an envelope up to ``t_end`` excludes that instant, which would be a bin
+        of its own."""
         if self.envelope is None:
             return t_end
         return min(max(t_end - 0.5 / self.rate, first + 0.25 / self.rate), t_end)
@@ -106,22 +130,31 @@ class Window(Span):
 
     @property
     def last_sample(self) -> float:
-        """Index of the last sample, from 0 on, before rounding down; infinite beyond the range of floats."""
+        """Index of the last sample, from 0 on, before rounding down; infinite beyond the range of
+        floats."""
         return (self.stop - self.start) * self.rate * (1 + 1e-15) + 1e-9
 
     def grid(self, p: Parameters, start: float, t_end: float) -> tuple[float, ...]:
-        """Samples in a run: time of the first, interval and number of all, angle, and the run's end."""
+        """Samples in a run: time of the first, interval and number of all, angle, and the run's
+        end."""
         interval = min(1 / self.rate, sys.float_info.max)
         skipped = max(0.0, (start - self.start) * self.rate - 1e-9)
         reached = min(self.last_sample, (t_end - self.start) * self.rate + 1e-9)
         if not skipped <= reached < math.inf:
             return start, interval, 0, self.theta, t_end
         index = math.ceil(skipped)
-        return self.start + index * interval, interval, math.floor(reached) - index + 1, self.theta, t_end
+        return (
+            self.start + index * interval,
+            interval,
+            math.floor(reached) - index + 1,
+            self.theta,
+            t_end,
+        )
 
 
 class Poincare(Interval):
-    """One sample per turn of the drive, at t = i 2 pi/Omega, from `start` to `stop`, of the disc point at `theta`.
+    """One sample per turn of the drive, at t = i 2 pi/Omega, from `start` to `stop`, of the disc
+    point at `theta`.
 
     Examples
     --------
@@ -146,28 +179,57 @@ class Poincare(Interval):
 
 
 Windows = Mapping[str, Window | Poincare]  # samples to keep, by their names
-_GROUP = re.compile(r"\w([^/]{0,58}[^/\s])?")  # readable names of groups that netCDF accepts, however long in bytes
+_GROUP = re.compile(
+    r"\w([^/]{0,58}[^/\s])?"
+)  # readable names of groups that netCDF accepts, however long in bytes
 
 
 def resolved_windows(windows: object, start: float, t_end: float) -> Windows:
-    """Windows by name with absolute times, for a run from ``start`` to ``t_end``, by `Span.resolved`. Each becomes a
-    group of a file, beside others. One may end before the run starts, as parts of a run may share windows, but not
-    begin after its end. Raises `ParameterError`."""
+    """Windows by name with absolute times, for a run from ``start`` to ``t_end``, by
+    `Span.resolved`. Each becomes a group of a file, beside others. One may end before the run
+    starts, as parts of a run may share windows, but not begin after its end. Raises
+    `ParameterError`."""
     by_name = isinstance(windows, Mapping)
-    require((by_name, "windows", windows, "must be windows by name, such as {'late': Window(last=1, rate=1000)}"))
+    require(
+        (
+            by_name,
+            "windows",
+            windows,
+            "must be windows by name, such as {'late': Window(last=1, rate=1000)}",
+        )
+    )
     resolved: dict[str, Window | Poincare] = {}
     for name, window in dict(windows).items():  # type: ignore[call-overload]
-        good = isinstance(name, str) and _GROUP.fullmatch(name) and name.isprintable() and name not in BESIDE_WINDOWS
+        good = (
+            isinstance(name, str)
+            and _GROUP.fullmatch(name)
+            and name.isprintable()
+            and name not in BESIDE_WINDOWS
+        )
         rule = "the name of a window must be at most 60 printable characters, a letter, digit or _ first, no / and no "
         require(
             (good, "windows", name, f"{rule}space last, and not that of a variable"),
-            (isinstance(window, Window | Poincare), f"windows.{name}", window, "must be a Window, or Poincare"),
+            (
+                isinstance(window, Window | Poincare),
+                f"windows.{name}",
+                window,
+                "must be a Window, or Poincare",
+            ),
         )
         try:
             resolved[name] = window.resolved(start, t_end) if isinstance(window, Window) else window
-            require((window.start <= t_end, "start", window.start, f"must be <= {as_text(t_end)}, where the run ends"))
+            require(
+                (
+                    window.start <= t_end,
+                    "start",
+                    window.start,
+                    f"must be <= {as_text(t_end)}, where the run ends",
+                )
+            )
         except ParameterError as error:
-            raise ParameterError(*(fault.inside(("windows", name)) for fault in error.faults)) from None
+            raise ParameterError(
+                *(fault.inside(("windows", name)) for fault in error.faults)
+            ) from None
     return resolved
 
 
@@ -177,7 +239,8 @@ RAMPED = ("Omega", "N")
 
 
 class Ramp(Interval):
-    """A slow change of the drive speed or the preload: linear from `start` to `end`, and constant afterwards.
+    """A slow change of the drive speed or the preload: linear from `start` to `end`, and constant
+    afterwards.
 
     The slider's spring k is held where it was: N is the load beside it.
 
@@ -203,7 +266,8 @@ class Ramp(Interval):
 
 
 class Piece(NamedTuple):
-    """An interval of time (s) over which Omega (rad/s) and N (N) change at constant rates; values are at ``begin``."""
+    """An interval of time (s) over which Omega (rad/s) and N (N) change at constant rates; values
+    are at ``begin``."""
 
     begin: float
     end: float
@@ -215,14 +279,17 @@ class Piece(NamedTuple):
 
 
 def ramp_faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
-    """Faults of the ramps of a case; ``poincare``: whether samples at the drive's period are requested."""
+    """Faults of the ramps of a case; ``poincare``: whether samples at the drive's period are
+    requested."""
     if not isinstance(ramps, tuple) or not all(isinstance(ramp, Ramp) for ramp in ramps):
         yield Fault(("ramps",), as_text(ramps), "must be a Ramp or a tuple of them")
         return
     for name in RAMPED if ramps else ():
         if not getattr(p, name) > 0:
             yield Fault.of((name,), getattr(p, name), "must be > 0 where there are ramps")
-        of_name = [(ramp.start, i, ramp.end) for i, ramp in enumerate(ramps) if ramp.parameter == name]
+        of_name = [
+            (ramp.start, i, ramp.end) for i, ramp in enumerate(ramps) if ramp.parameter == name
+        ]
         for (_, _, end), (start, i, _) in pairwise(sorted(of_name)):
             if start < end:
                 rule = f"must be >= {as_text(end)}, where the ramp of {name} before it ends"
@@ -233,7 +300,8 @@ def ramp_faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]
 
 
 def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
-    """The intervals of constant rates, in order, the first before any ramp; ramps to the present value do not count."""
+    """The intervals of constant rates, in order, the first before any ramp; ramps to the present
+    value do not count."""
     steady = Piece(-math.inf, math.inf, 0.0, p.Omega, 0.0, p.N, 0.0)
     if not ramps:  # as in most cases, which are short
         return (steady,)
@@ -244,19 +312,25 @@ def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
     for begin, end in pairwise(knots):
         (Omega, Omega_rate), (N, N_rate) = (_at(lines[name], begin) for name in RAMPED)
         parts.append(Piece(begin, end, angle, Omega, Omega_rate, N, N_rate))
-        angle += (Omega + 0.5 * Omega_rate * (end - begin)) * (end - begin) if end < math.inf else 0.0
+        angle += (
+            (Omega + 0.5 * Omega_rate * (end - begin)) * (end - begin) if end < math.inf else 0.0
+        )
     return tuple(parts)
 
 
 def line(p: Parameters, ramps: Iterable[Ramp], name: str) -> list[tuple[float, float, float]]:
-    """Times at which the rate of Omega or N changes, with value and rate from then on; the first time is -inf."""
+    """Times at which the rate of Omega or N changes, with value and rate from then on; the first
+    time is -inf."""
     value = getattr(p, name)
     knots = [(-math.inf, value, 0.0)]
     for ramp in sorted(ramps, key=lambda ramp: ramp.start):
         if ramp.parameter == name and ramp.to != value:
             if knots[-1][0] == ramp.start:  # one ramp continues where another ends
                 knots.pop()
-            knots += [(ramp.start, value, (ramp.to - value) / (ramp.end - ramp.start)), (ramp.end, ramp.to, 0.0)]
+            knots += [
+                (ramp.start, value, (ramp.to - value) / (ramp.end - ramp.start)),
+                (ramp.end, ramp.to, 0.0),
+            ]
             value = ramp.to
     return knots
 
@@ -269,13 +343,16 @@ def _at(knots: list[tuple[float, float, float]], time: float) -> tuple[float, fl
 
 # ---- Initial states
 
-_OPTIONAL: Any = {name: (Annotated[x.annotation, x], None) for name, x in Parameters.model_fields.items()}
+_OPTIONAL: Any = {
+    name: (Annotated[x.annotation, x], None) for name, x in Parameters.model_fields.items()
+}
 SomeParameters = create_model("SomeParameters", __base__=Parameters, **_OPTIONAL)
 """Parameters of which any may be absent; rules between several are checked if all of them are present."""
 
 
 class Prerun(Strict):
-    """Another case that is simulated first, from the static start: the motion starts from its last state.
+    """Another case that is simulated first, from the static start: the motion starts from its last
+    state.
 
     parameters : those that differ from the motion's own
     time : s
@@ -288,7 +365,14 @@ class Prerun(Strict):
     @classmethod
     def _checked(cls, values: dict[str, Any]) -> dict[str, Any]:
         """The values as `Parameters` converts them: floats, whole numbers, words."""
-        require((values.get("n_diameters") != AUTO, "n_diameters", AUTO, "must be a whole number, that of the points"))
+        require(
+            (
+                values.get("n_diameters") != AUTO,
+                "n_diameters",
+                AUTO,
+                "must be a whole number, that of the points",
+            )
+        )
         checked = SomeParameters(**values)
         return {name: getattr(checked, name) for name in values}
 
@@ -303,7 +387,8 @@ class Start(Strict):
 
     prerun: Prerun | None = None
     perturbation: Annotated[
-        dict[Literal["u", "u_velocity", "f"], Finite], Unit({"u": "m", "u_velocity": "m/s", "f": "rad/s"})
+        dict[Literal["u", "u_velocity", "f"], Finite],
+        Unit({"u": "m", "u_velocity": "m/s", "f": "rad/s"}),
     ] = Field({})
 
 
@@ -330,19 +415,27 @@ class CaseSpec(Strict):
     @property
     def sections(self) -> dict[str, Window | Poincare]:
         """Windows by name, and the Poincare section as ``poincare``, if it is recorded."""
-        return {**dict(self.windows), **({} if self.poincare is None else {"poincare": self.poincare})}
+        return {
+            **dict(self.windows),
+            **({} if self.poincare is None else {"poincare": self.poincare}),
+        }
 
     @property
     def canonical(self) -> str:
-        """JSON text that is equal for equal cases, however they were written; `model_validate_json` reads it."""
+        """JSON text that is equal for equal cases, however they were written; `model_validate_json`
+        reads it."""
         fields = type(self).model_fields
         defaults = {name for name in _LATER if getattr(self, name) == fields[name].default}
-        return canonical_json(self.model_dump(exclude=defaults) | {"parameters": self.parameters.canonical})
+        return canonical_json(
+            self.model_dump(exclude=defaults) | {"parameters": self.parameters.canonical}
+        )
 
     @property
     def beside(self) -> str:
         """JSON text of all fields but the parameters."""
-        return canonical_json({name: x for name, x in json.loads(self.canonical).items() if name != "parameters"})
+        return canonical_json(
+            {name: x for name, x in json.loads(self.canonical).items() if name != "parameters"}
+        )
 
     @property
     def key(self) -> str:

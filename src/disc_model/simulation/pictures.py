@@ -28,9 +28,9 @@ FINE = 4000  # samples of the last cycles
 
 
 class Pictures:
-    """What a `disc_model.Result` can draw. Where no window is named, the run is simulated once more, with the samples
-    that the picture needs, which takes as long as the run itself. All return matplotlib axes, in a new figure or those
-    given as `ax`."""
+    """What a `disc_model.Result` can draw. Where no window is named, the run is simulated once
+    more, with the samples that the picture needs, which takes as long as the run itself. All return
+    matplotlib axes, in a new figure or those given as `ax`."""
 
     def plot(
         self,
@@ -39,7 +39,8 @@ class Pictures:
         variables: Sequence[str] = ("P", "w", "psi_velocity"),
         ax: Axes | Sequence[Axes] | None = None,
     ) -> Axes | NDArray[Any]:
-        """Draw variables against time: the range in the whole run, and its last cycles over stick and separation.
+        """Draw variables against time: the range in the whole run, and its last cycles over stick
+        and separation.
 
         Parameters
         ----------
@@ -65,17 +66,26 @@ class Pictures:
         (3, 2)
         """
         if windows is not None:
-            names = [windows] if isinstance(windows, str) or not np.iterable(windows) else list(windows)
+            names = (
+                [windows] if isinstance(windows, str) or not np.iterable(windows) else list(windows)
+            )
             return draw("plot_run", self._case(), names, variables, ax=ax)
         names = ["run", "end"] if self._span > 1.5 * self._last_cycles else ["end"]
         return draw("plot_run", self._case(*names), names, variables, ax=ax)
 
     def plot_phase_portrait(
-        self, window: str | None = None, *, x: str = "psi", y: str = "psi_velocity", ax: Axes | None = None
+        self,
+        window: str | None = None,
+        *,
+        x: str = "psi",
+        y: str = "psi_velocity",
+        ax: Axes | None = None,
     ) -> Axes:
-        """Draw one variable over another, coloured by phase; of the last cycles if no window is named.
+        """Draw one variable over another, coloured by phase; of the last cycles if no window is
+        named.
 
-        Returns the axes. Raises `ParameterError` as `plot`, and for a window that holds ranges instead of samples.
+        Returns the axes. Raises `ParameterError` as `plot`, and for a window that holds ranges
+        instead of samples.
 
         Examples
         --------
@@ -93,12 +103,13 @@ class Pictures:
         highest: float | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Draw the amplitude of a variable over the frequency, up to the highest in Hz, 1000 or half the window's rate.
+        """Draw the amplitude of a variable over the frequency, up to the highest in Hz, 1000 or
+        half the window's rate.
 
-        Without a named window it is that of the last 8 s, or of the second half of a shorter run, with 16 samples in a
-        period of the highest mode. What vibrates faster than half a window's rate appears at wrong frequencies.
-        Returns the axes. Raises `ParameterError` as `plot_phase_portrait`, and if the window is too short or nothing
-        vibrates in it.
+        Without a named window it is that of the last 8 s, or of the second half of a shorter run,
+        with 16 samples in a period of the highest mode. What vibrates faster than half a window's
+        rate appears at wrong frequencies. Returns the axes. Raises `ParameterError` as
+        `plot_phase_portrait`, and if the window is too short or nothing vibrates in it.
 
         Examples
         --------
@@ -109,7 +120,8 @@ class Pictures:
         return draw("plot_spectrum", *self._of(window, "late"), variable, highest, ax=ax)
 
     def plot_poincare(self, *, ax: Sequence[Axes] | None = None) -> NDArray[Any]:
-        """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes, which it returns.
+        """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes,
+        which it returns.
 
         Raises `ParameterError` unless `ax` is two axes.
 
@@ -122,9 +134,15 @@ class Pictures:
         return draw("plot_poincare", self._case("poincare"), ax=ax)
 
     def animate(
-        self, path: str | Path | None = None, *, window: str | None = None, frames: int = 60, fps: int = 12
+        self,
+        path: str | Path | None = None,
+        *,
+        window: str | None = None,
+        frames: int = 60,
+        fps: int = 12,
     ) -> FuncAnimation:
-        """Make a film of the disc from above, its deflection under the slider, and the contact force beside it.
+        """Make a film of the disc from above, its deflection under the slider, and the contact
+        force beside it.
 
         Parameters
         ----------
@@ -151,7 +169,9 @@ class Pictures:
         samples = draw("window_of", *self._of(window, "end"))
         times = np.linspace(float(samples["time"][0]), float(samples["time"][-1]), frames)
         api = import_module("disc_model.simulation.api")
-        states = api.snapshots(result.parameters, times, tol=result.tol, initial_state=result.initial_state)
+        states = api.snapshots(
+            result.parameters, times, tol=result.tol, initial_state=result.initial_state
+        )
         return draw("animate", result.parameters, states, samples, path, fps)
 
     def _of(self, window: str | None, otherwise: str) -> tuple[xr.DataTree, str]:
@@ -174,7 +194,8 @@ class Pictures:
         return min(lengths)
 
     def _case(self: Any, *names: str) -> xr.DataTree:
-        """The run as a tree of windows: those that were recorded, or others, for which it is simulated once more."""
+        """The run as a tree of windows: those that were recorded, or others, for which it is
+        simulated once more."""
         if not names:
             return self.to_tree()
         end, span = float(self.final_state.time), self._span
@@ -182,11 +203,15 @@ class Pictures:
         omega = import_module("disc_model.disc.plate").mode_arrays(self.parameters).omega
         highest = float(omega.max(initial=0.0)) / math.tau
         windows = {
-            "run": Window(start=end - span, rate=rate, envelope=max(2, math.ceil(rate * span / BINS))),
+            "run": Window(
+                start=end - span, rate=rate, envelope=max(2, math.ceil(rate * span / BINS))
+            ),
             "end": Window(start=end - self._last_cycles, rate=FINE / self._last_cycles),
             "late": Window(start=end - late, rate=max(RATE, FOLDED * highest)),
             "poincare": Poincare(start=end - span),
         }
         how = {"tol": self.tol, "ramps": self.ramps, "initial_state": self.initial_state}
         simulate = import_module("disc_model.simulation.api").simulate
-        return simulate(self.parameters, end, {name: windows[name] for name in names}, **how).to_tree()
+        return simulate(
+            self.parameters, end, {name: windows[name] for name in names}, **how
+        ).to_tree()

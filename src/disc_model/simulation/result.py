@@ -85,20 +85,28 @@ class Result(Summarised, Pictures):
     @property
     def _event_columns(self) -> dict[str, Array]:
         """The columns of `events`, with kind and phase as in `event_rows`."""
-        return {name: x for name, x in zip(EVENT_ROW, self.event_rows.T, strict=True) if name != "direction"}
+        return {
+            name: x
+            for name, x in zip(EVENT_ROW, self.event_rows.T, strict=True)
+            if name != "direction"
+        }
 
     @cached_property
     def events(self) -> pd.DataFrame:
-        """The events as a table, made at its first use, because making it takes longer than a short simulation."""
+        """The events as a table, made at its first use, because making it takes longer than a short
+        simulation."""
         import pandas as pd
 
         columns: dict[str, Any] = self._event_columns
         for name, words in (("kind", EVENT_KINDS), ("phase", PHASES)):
-            columns[name] = pd.Categorical.from_codes(columns[name].astype(np.int64), categories=pd.Index(list(words)))
+            columns[name] = pd.Categorical.from_codes(
+                columns[name].astype(np.int64), categories=pd.Index(list(words))
+            )
         return pd.DataFrame(columns)
 
     def value_at(self, name: str, times: ArrayLike) -> Array:
-        """Values of Omega (rad/s) or N (N) at given times (s), ramps included, in an array of the shape of `times`.
+        """Values of Omega (rad/s) or N (N) at given times (s), ramps included, in an array of the
+        shape of `times`.
 
         Raises
         ------
@@ -106,24 +114,36 @@ class Result(Summarised, Pictures):
             If the name is another one, or a time is not a finite number.
         """
         require(
-            (isinstance(name, str) and name in RAMPED, "name", name, f"must be one of {', '.join(RAMPED)}"),
+            (
+                isinstance(name, str) and name in RAMPED,
+                "name",
+                name,
+                f"must be one of {', '.join(RAMPED)}",
+            ),
             (is_finite_array(times, flat=False), "times", times, "must be finite numbers"),
         )
         knots, values, _ = zip(*line(self.parameters, self.ramps, name), strict=True)
         return np.asarray(np.interp(np.asarray(times, dtype=float), knots, values))
 
     def __getitem__(self, name: str) -> xr.Dataset:
-        """The samples of a window along `time`, with units, by the window's name; raises `ParameterError`."""
+        """The samples of a window along `time`, with units, by the window's name; raises
+        `ParameterError`."""
         from disc_model.data.dataset import series_dataset
 
         if not isinstance(name, str) or name not in self.samples:
-            raise ParameterError(Fault.of(("name",), name, f"no such window{suggestion(name, self.samples)}"))
-        return series_dataset(self.samples[name], "time").assign_attrs(theta=self.windows[name].theta)
+            raise ParameterError(
+                Fault.of(("name",), name, f"no such window{suggestion(name, self.samples)}")
+            )
+        return series_dataset(self.samples[name], "time").assign_attrs(
+            theta=self.windows[name].theta
+        )
 
     def to_tree(self) -> xr.DataTree:
-        """Return the result in the layout of files, with CF attributes; see `disc_model.data.dataset`.
+        """Return the result in the layout of files, with CF attributes; see
+        `disc_model.data.dataset`.
 
-        Its root holds the scalars, and its groups are "events" (along `event`), and each window (along `time`).
+        Its root holds the scalars, and its groups are "events" (along `event`), and each window
+        (along `time`).
         """
         import xarray as xr
 
@@ -139,7 +159,9 @@ class Result(Summarised, Pictures):
         """Values of `disc_model.data.variables.SCALARS`, but for the status."""
         values = {name: self.statistics[name] for name in SCALARS if name in self.statistics}
         values |= {name: self.statistics[key] for name, key in COUNTS.items()}
-        values |= {name: getattr(self, name) for name in ("first_separation", "t_end", "tol", "u_0")}
+        values |= {
+            name: getattr(self, name) for name in ("first_separation", "t_end", "tol", "u_0")
+        }
         return values | {"time_reached": self.final_state.time}
 
     def save(self, path: str | Path) -> None:
@@ -174,18 +196,31 @@ class Result(Summarised, Pictures):
         described = {
             "parameters": in_words(self.parameters.canonical),
             **{which: values for which, (values, _) in states.items()},
-            "windows": {name: [type(window).__name__, window.model_dump()] for name, window in self.windows.items()},
+            "windows": {
+                name: [type(window).__name__, window.model_dump()]
+                for name, window in self.windows.items()
+            },
             "ramps": [ramp.model_dump() for ramp in self.ramps],
-            "statistics": {name: value for name, value in self.statistics.items() if name != "wall_time"},
-            **{name: getattr(self, name) for name in ("t_end", "tol", "status", "message", "first_separation", "u_0")},
+            "statistics": {
+                name: value for name, value in self.statistics.items() if name != "wall_time"
+            },
+            **{
+                name: getattr(self, name)
+                for name in ("t_end", "tol", "status", "message", "first_separation", "u_0")
+            },
         }
         events = dict(zip(EVENT_ROW, self.event_rows.T, strict=True))
-        tables = {"events": events, **{which: arrays for which, (_, arrays) in states.items()}, **self.samples}
+        tables = {
+            "events": events,
+            **{which: arrays for which, (_, arrays) in states.items()},
+            **self.samples,
+        }
         dataset.save_tables(tables, json.dumps(described, default=float), path, self.to_tree())
 
     @classmethod
     def load(cls, path: str | Path) -> Result:
-        """Return what `save` has written to a file, to the last bit, but for the `wall_time`, which is nan.
+        """Return what `save` has written to a file, to the last bit, but for the `wall_time`, which
+        is nan.
 
         Raises
         ------
@@ -199,15 +234,25 @@ class Result(Summarised, Pictures):
         text, tables = dataset.load_tables(path)
         whole = text and {"events", "final_state"} <= tables.keys()
         require((whole, "path", str(path), "must be a file written by Result.save"))
-        values, events, kinds = json.loads(text), tables.pop("events"), {"Window": Window, "Poincare": Poincare}
+        values, events, kinds = (
+            json.loads(text),
+            tables.pop("events"),
+            {"Window": Window, "Poincare": Poincare},
+        )
         for which in values.keys() & {"final_state", "initial_state"}:
             values[which] = State(**values[which], **tables.pop(which))
         values["parameters"] = Parameters(**values["parameters"])
         values["status"] = Status(values["status"])
-        values["windows"] = {name: kinds[kind](**window) for name, (kind, window) in values["windows"].items()}
+        values["windows"] = {
+            name: kinds[kind](**window) for name, (kind, window) in values["windows"].items()
+        }
         values["ramps"] = tuple(Ramp(**ramp) for ramp in values["ramps"])
         values["statistics"]["wall_time"] = math.nan
-        return cls(**values, event_rows=np.stack([events[name] for name in EVENT_ROW], axis=1), samples=tables)
+        return cls(
+            **values,
+            event_rows=np.stack([events[name] for name in EVENT_ROW], axis=1),
+            samples=tables,
+        )
 
     def __repr__(self) -> str:
         p, first = self.parameters, self.first_separation
@@ -226,12 +271,25 @@ class Result(Summarised, Pictures):
         yield "time reached", f"{reached:.9g} s of {self.t_end:g} s"
         yield "first separation", number_text(self.first_separation, "s", 9) or "none"
         yield "events", s["events"]
-        yield from ((f"  {kind}", count) for kind, count in self.events["kind"].value_counts().items() if count)
+        yield from (
+            (f"  {kind}", count)
+            for kind, count in self.events["kind"].value_counts().items()
+            if count
+        )
         for phase in PHASES:
-            yield f"time in {phase}", f"{s[f'time_{phase}']:.6g} s ({s[f'time_{phase}'] / (reached or 1.0):.2%})"
+            yield (
+                f"time in {phase}",
+                f"{s[f'time_{phase}']:.6g} s ({s[f'time_{phase}'] / (reached or 1.0):.2%})",
+            )
         yield "steps", s["steps"]
-        yield "energy residual", f"{s['energy_residual']:.2e} (largest of {s['audited_steps']} steps, relative)"
-        yield "surface speed", number_text(s["surface_speed"], "(largest, over that of the drive)", 3)
+        yield (
+            "energy residual",
+            f"{s['energy_residual']:.2e} (largest of {s['audited_steps']} steps, relative)",
+        )
+        yield (
+            "surface speed",
+            number_text(s["surface_speed"], "(largest, over that of the drive)", 3),
+        )
         yield "windows", ", ".join(self.samples)
 
     def raise_for_status(self) -> Result:

@@ -1,5 +1,5 @@
-"""States of motions, the disc's deflection in them, and those of the engine: a case's constants, states written and
-read, order and tolerance of series."""
+"""States of motions, the disc's deflection in them, and those of the engine: a case's constants,
+states written and read, order and tolerance of series."""
 
 from __future__ import annotations
 
@@ -18,7 +18,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.disc.plate import modal_damping, mode_arrays, mode_shapes, radial_range, tangential_amplitudes
+from disc_model.disc.plate import (
+    modal_damping,
+    mode_arrays,
+    mode_shapes,
+    radial_range,
+    tangential_amplitudes,
+)
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.engine import layout
 from disc_model.engine.series import Series, build_series
@@ -32,11 +38,24 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 MODAL = ("a", "b", "alpha", "beta")
 """Names of the variables of a state with one value a mode."""
-PLAIN = ("time", "time_low", "psi", "f", "u", "u_velocity")  # names of its scalars, and their places in the engine's
+PLAIN = (
+    "time",
+    "time_low",
+    "psi",
+    "f",
+    "u",
+    "u_velocity",
+)  # names of its scalars, and their places in the engine's
 _PLACES = dict(
-    zip(PLAIN, (layout.TIME, layout.TIME_LOW, layout.PSI, layout.F, layout.U, layout.U_VELOCITY), strict=True)
+    zip(
+        PLAIN,
+        (layout.TIME, layout.TIME_LOW, layout.PSI, layout.F, layout.U, layout.U_VELOCITY),
+        strict=True,
+    )
 )
-SAME_HEIGHT = 1e-9  # relative to the disc's deflection: far above rounding, far below any intended difference
+SAME_HEIGHT = (
+    1e-9  # relative to the disc's deflection: far above rounding, far below any intended difference
+)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -86,19 +105,34 @@ class State:
     time_low: float = 0.0
     case_key: str = ""
     mode_amplitudes: Array | None = None
-    _roots: tuple[int, int] = (0, 0)  # multiplicity at this instant, `layout.KNOWN` and `KNOWN_FORCE`
+    _roots: tuple[int, int] = (
+        0,
+        0,
+    )  # multiplicity at this instant, `layout.KNOWN` and `KNOWN_FORCE`
 
     def replace(self, **changes: Any) -> State:
-        """Return a copy with some values changed; raises `ParameterError` for names and numbers that no state has.
+        """Return a copy with some values changed; raises `ParameterError` for names and numbers
+        that no state has.
 
-        A new time is exact and sets `time_low` to 0.  Any other change separates the state from the case in which it
-        was computed, and empties `case_key`.
+        A new time is exact and sets `time_low` to 0.  Any other change separates the state from the
+        case in which it was computed, and empties `case_key`.
         """
         implied: dict[str, Any] = {"time_low": 0.0} if "time" in changes else {}
         implied |= {} if changes.keys() <= {"time", "time_low"} else {"case_key": ""}
         known = [each.name for each in dataclasses.fields(self)]
-        require(*((x in known, x, value, f"is not of a state{suggestion(x, known)}") for x, value in changes.items()))
-        require(*((is_finite(x), name, x, "must be finite") for name, x in changes.items() if name in PLAIN))
+        require(
+            *(
+                (x in known, x, value, f"is not of a state{suggestion(x, known)}")
+                for x, value in changes.items()
+            )
+        )
+        require(
+            *(
+                (is_finite(x), name, x, "must be finite")
+                for name, x in changes.items()
+                if name in PLAIN
+            )
+        )
         return dataclasses.replace(self, **implied | changes)
 
     def __repr__(self) -> str:
@@ -112,10 +146,13 @@ class State:
         """What files hold of it: values for JSON text, and arrays with one value a mode."""
         values = {each.name: getattr(self, each.name) for each in dataclasses.fields(self)}
         modal = {name: values.pop(name) for name in (*MODAL, "mode_amplitudes")}
-        return values, {name: np.asarray(array, float) for name, array in modal.items() if array is not None}
+        return values, {
+            name: np.asarray(array, float) for name, array in modal.items() if array is not None
+        }
 
     def save(self, path: str | Path) -> None:
-        """Write the state in one of the forms of `Result.save`, such as netCDF; `load` reads back the same bits.
+        """Write the state in one of the forms of `Result.save`, such as netCDF; `load` reads back
+        the same bits.
 
         Raises
         ------
@@ -143,17 +180,27 @@ class State:
         from disc_model.data import dataset
 
         text, tables = dataset.load_tables(path)
-        require((text and [*tables] == ["state"], "path", str(path), "must be a file written by State.save"))
+        require(
+            (
+                text and [*tables] == ["state"],
+                "path",
+                str(path),
+                "must be a file written by State.save",
+            )
+        )
         return cls(**json.loads(text), **tables["state"])
 
 
 def static_start(p: Parameters) -> State:
-    """The static start: static equilibrium under the preload, in stick, spring relaxed, at time 0."""
+    """The static start: static equilibrium under the preload, in stick, spring relaxed, at time
+    0."""
     case = engine_case(p)
     return read_state(case, case.start)
 
 
-def perturb(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0, f: float = 0.0) -> State:
+def perturb(
+    p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0, f: float = 0.0
+) -> State:
     """A state with perturbed coordinates of the slider; the disc under the slider moves with it.
 
     u : m, with the disc's deflection under a steady force: a_l increases by u (psi_l/omega_l^2) / sum psi^2/omega^2
@@ -178,8 +225,9 @@ def perturb(p: Parameters, state: State, u: float = 0.0, u_velocity: float = 0.0
 
 
 def transfer_state(p: Parameters, state: State) -> State:
-    """A state of another case at time 0 of case `p`, with the same modal coordinates and distance of slider and disc,
-    which is zero in rigid contact. A state with another number of modes is passed on, and `simulate` refuses it."""
+    """A state of another case at time 0 of case `p`, with the same modal coordinates and distance
+    of slider and disc, which is zero in rigid contact. A state with another number of modes is
+    passed on, and `simulate` refuses it."""
     psi, amplitudes = mode_arrays(p).psi, state.mode_amplitudes
     if len(psi) != len(state.a):
         return state.replace(time=0.0)
@@ -191,7 +239,9 @@ def transfer_state(p: Parameters, state: State) -> State:
     return state.replace(time=0.0, u=u, u_velocity=velocity, mode_amplitudes=psi)
 
 
-def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, theta: ArrayLike) -> xr.DataArray:
+def deflection(
+    p: Parameters, states: State | Iterable[State], r: ArrayLike, theta: ArrayLike
+) -> xr.DataArray:
     """Displacement w(r, theta, t) of the whole disc, upward, Eq. (15).
 
     Parameters
@@ -223,10 +273,17 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
     import xarray as xr
 
     raise_faults(foreign_case(p))
-    modes, (low, high), radii, angles = mode_arrays(p), radial_range(p), finite_numbers(r), finite_numbers(theta)
+    modes, (low, high), radii, angles = (
+        mode_arrays(p),
+        radial_range(p),
+        finite_numbers(r),
+        finite_numbers(theta),
+    )
     states_in_order: list[Any] = list(states) if np.iterable(states) else [states]
     within = radii is not None and radii.size and np.all((radii >= low) & (radii <= high))
-    fits = [isinstance(state, State) and len(state.a) == len(modes.psi) for state in states_in_order]
+    fits = [
+        isinstance(state, State) and len(state.a) == len(modes.psi) for state in states_in_order
+    ]
     require(
         (within, "r", r, f"must be within {as_text(low)} and {as_text(high)}"),
         (angles is not None, "theta", theta, "must be finite"),
@@ -235,7 +292,12 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
             for i, fit in enumerate(fits)
         ),
     )
-    require(*(amplitude_rule(state, modes.psi, f"states.{i}.") for i, state in enumerate(states_in_order)))
+    require(
+        *(
+            amplitude_rule(state, modes.psi, f"states.{i}.")
+            for i, state in enumerate(states_in_order)
+        )
+    )
     assert radii is not None
     assert angles is not None
     shapes = mode_shapes(p, radii)
@@ -245,7 +307,11 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
         turn = np.multiply.outer(modes.diameters, angles - (p.Omega * state.time - state.psi))
         w[i] = shapes.T @ (state.a[:, None] * np.cos(turn) + state.b[:, None] * np.sin(turn))
     coords = {
-        "time": ("time", [state.time for state in states_in_order], {"units": "s", "long_name": "time"}),
+        "time": (
+            "time",
+            [state.time for state in states_in_order],
+            {"units": "s", "long_name": "time"},
+        ),
         "r": ("r", radii, {"units": "m", "long_name": "radius"}),
         "theta": ("theta", angles, {"units": "rad", "long_name": "angle fixed to the disc"}),
     }
@@ -255,7 +321,8 @@ def deflection(p: Parameters, states: State | Iterable[State], r: ArrayLike, the
 
 # ---- Conversion of `Parameters` and `State` to the engine's lanes and back
 
-# Arrays to which the engine writes in one run: its state, the state at a trial time ahead, Taylor series of one step
+# Arrays to which the engine writes in one run: its state, the state at a trial time ahead, Taylor
+# series of one step
 Workspace = tuple[layout.EngineState, layout.EngineState, Series]
 
 
@@ -267,10 +334,16 @@ class EngineCase:
     model: layout.Model
     start: layout.EngineState  # the static start
     amplitudes: np.ndarray  # `State.mode_amplitudes`
-    present: np.ndarray  # indices in a, b, alpha, beta of all modes of what exists: no b, beta without nodal diameter
+    present: (
+        np.ndarray
+    )  # indices in a, b, alpha, beta of all modes of what exists: no b, beta without nodal diameter
     places: np.ndarray  # their indices in `layout.EngineState.disc`
-    point: np.ndarray  # matrix from there to u, u' (without the slope's share) and slope B under the slider
-    idle: defaultdict[int, list[Workspace]]  # workspaces that no run uses at present, by the order of their series
+    point: (
+        np.ndarray
+    )  # matrix from there to u, u' (without the slope's share) and slope B under the slider
+    idle: defaultdict[
+        int, list[Workspace]
+    ]  # workspaces that no run uses at present, by the order of their series
 
 
 @lru_cache(maxsize=32)  # with their workspaces tens of kilobytes each, megabytes with 1000 modes
@@ -283,7 +356,11 @@ def engine_case(p: Parameters) -> EngineCase:
         modes.omega,
         modes.psi,
         modal_damping(p),
-        {name: getattr(p, name) for name in layout.Model._fields if name in Parameters.model_fields},
+        {
+            name: getattr(p, name)
+            for name in layout.Model._fields
+            if name in Parameters.model_fields
+        },
         tangential=tangential_amplitudes(p),
         bonded=p.contact == "bilateral",
         compliance=contact_compliance(p),
@@ -299,22 +376,30 @@ def engine_case(p: Parameters) -> EngineCase:
     point = np.zeros((3, len(start.disc)))
     point[0, places[0]] = point[1, places[2]] = modes.psi
     point[2, places[1, pairs]] = (modes.diameters * modes.psi)[pairs]
-    return EngineCase(p.key, model, start, modes.psi, present, places.ravel()[present], point, defaultdict(list))
+    return EngineCase(
+        p.key, model, start, modes.psi, present, places.ravel()[present], point, defaultdict(list)
+    )
 
 
 def take_workspace(case: EngineCase, order: int) -> Workspace:
-    """A workspace at the static start; the run gives it back to `EngineCase.idle`, as making one takes 30 steps."""
+    """A workspace at the static start; the run gives it back to `EngineCase.idle`, as making one
+    takes 30 steps."""
     try:  # in one step: several threads may take one
         workspace = case.idle[order].pop()
     except IndexError:
-        return layout.build_state(case.model), layout.build_state(case.model), build_series(case.model, order)
+        return (
+            layout.build_state(case.model),
+            layout.build_state(case.model),
+            build_series(case.model, order),
+        )
     for state in workspace[:2]:
         state.disc[:], state.x[:] = case.start.disc, case.start.x
     return workspace
 
 
 def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> State:
-    """The engine's state as a `State`; key: the `case_key` if it differs from the case's own, as on ramps."""
+    """The engine's state as a `State`; key: the `case_key` if it differs from the case's own, as on
+    ramps."""
     modal = np.zeros(4 * len(case.amplitudes))
     modal[case.present] = state.disc[case.places]
     modal.setflags(write=False)
@@ -335,32 +420,43 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
 
 
 def write_state(case: EngineCase, source: State, state: layout.EngineState, key: str = "") -> bool:
-    """Write ``source`` to the engine's state; key as in `read_state`. Returns whether the engine has to determine the
-    phase at this instant first: the state lies at an event of another case. Raises `ParameterError`."""
+    """Write ``source`` to the engine's state; key as in `read_state`. Returns whether the engine
+    has to determine the phase at this instant first: the state lies at an event of another case.
+    Raises `ParameterError`."""
     _check(source, case)
     state.disc.fill(0.0)
     state.x.fill(0.0)
-    state.disc[case.places] = np.concatenate((source.a, source.b, source.alpha, source.beta))[case.present]
+    state.disc[case.places] = np.concatenate((source.a, source.b, source.alpha, source.beta))[
+        case.present
+    ]
     x, row = state.x, case.point[0]
-    if source.phase != "separation" and not case.model.compliant:  # the disc determines u, which would be ignored
+    if (
+        source.phase != "separation" and not case.model.compliant
+    ):  # the disc determines u, which would be ignored
         w = float(row.dot(state.disc))
         off = abs(source.u - w)
         # the cheap comparison with w itself nearly always suffices
-        if off > SAME_HEIGHT * abs(w) and off > SAME_HEIGHT * float(np.abs(row).dot(np.abs(state.disc))):
+        if off > SAME_HEIGHT * abs(w) and off > SAME_HEIGHT * float(
+            np.abs(row).dot(np.abs(state.disc))
+        ):
             rule = (
-                f"must be the disc's displacement under the slider in contact, {w:.9g}; change a with it, or the phase"
+                f"must be the disc's displacement under the slider in contact, {w:.9g}; "
+                "change a with it, or the phase"
             )
             raise ParameterError(Fault.of(("initial_state", "u"), source.u, rule))
     x[[*_PLACES.values()]] = [getattr(source, name) for name in _PLACES]
     x[layout.PHASE] = PHASES.index(source.phase)
     x[layout.DIRECTION] = source.direction if source.phase == "slip" else 0.0
     x[layout.KNOWN], x[layout.KNOWN_FORCE] = source._roots
-    return any(source._roots) and source.case_key != (key or case.key) and _forget_switch(case, state)
+    return (
+        any(source._roots) and source.case_key != (key or case.key) and _forget_switch(case, state)
+    )
 
 
 def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
-    """Adapt a state at an event of another case: an event function that vanishes there need not vanish here. Returns
-    whether the engine must determine if contact lasts: a slider that rests on the disc is put into contact."""
+    """Adapt a state at an event of another case: an event function that vanishes there need not
+    vanish here. Returns whether the engine must determine if contact lasts: a slider that rests on
+    the disc is put into contact."""
     x, sizes = state.x, np.abs(case.point).dot(np.abs(state.disc))
     w, velocity, slope = case.point.dot(state.disc)
     f, begins = x[layout.F], bool(x[layout.KNOWN_FORCE])
@@ -386,8 +482,14 @@ def _check(state: State, case: EngineCase) -> None:
     known = isinstance(state.phase, str) and state.phase in PHASES
     signed = is_number(state.direction) and (state.direction in (-1, 1) or state.phase != "slip")
     require(
-        *((is_finite_array(x := getattr(state, name), n_modes), path + name, x, rule) for name in MODAL),
-        *((is_finite(x := getattr(state, name)), path + name, x, "must be finite") for name in PLAIN),
+        *(
+            (is_finite_array(x := getattr(state, name), n_modes), path + name, x, rule)
+            for name in MODAL
+        ),
+        *(
+            (is_finite(x := getattr(state, name)), path + name, x, "must be finite")
+            for name in PLAIN
+        ),
         (known, path + "phase", state.phase, f"must be one of {', '.join(PHASES)}"),
         (signed, path + "direction", state.direction, "must be -1 or 1 in slip"),
     )
@@ -407,13 +509,21 @@ def _check(state: State, case: EngineCase) -> None:
 
 
 def amplitude_rule(state: State, amplitudes: Array, path: str) -> tuple[bool, str, object, str]:
-    """The rule, for `require`, that a state's `mode_amplitudes` are those of a case, shape (n_modes,)."""
+    """The rule, for `require`, that a state's `mode_amplitudes` are those of a case, shape
+    (n_modes,)."""
     stated, same = state.mode_amplitudes, True
     if stated is not None and stated is not amplitudes:
         # modes from two processors differ by at most 1e-13 (measured)
         within = 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
-        same = is_finite_array(stated, len(amplitudes)) and bool(np.all(np.abs(stated - amplitudes) <= within))
-    return same, path + "mode_amplitudes", stated, "must be psi of plate_modes: the state belongs to other modes"
+        same = is_finite_array(stated, len(amplitudes)) and bool(
+            np.all(np.abs(stated - amplitudes) <= within)
+        )
+    return (
+        same,
+        path + "mode_amplitudes",
+        stated,
+        "must be psi of plate_modes: the state belongs to other modes",
+    )
 
 
 def is_finite(value: object) -> bool:
@@ -421,7 +531,8 @@ def is_finite(value: object) -> bool:
 
 
 def is_finite_array(values: object, size: int | None = None, *, flat: bool = True) -> bool:
-    """Whether values are finite real numbers, `size` of them if it is given, and one-dimensional if `flat`."""
+    """Whether values are finite real numbers, `size` of them if it is given, and one-dimensional if
+    `flat`."""
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):
@@ -436,9 +547,10 @@ def finite_numbers(values: ArrayLike) -> Array | None:
     return np.asarray(several, dtype=float) if is_finite_array(several) else None
 
 
-# Local truncation error for a tolerance of 1, on rigid and on compliant contact. With it the errors of event times over
-# a second equal the tolerance, as measured against the long-double references (docs/accuracy.md). Compliant contact
-# takes three times as many steps, and errors accumulate in the weakly damped vibration of the slider on it.
+# Local truncation error for a tolerance of 1, on rigid and on compliant contact. With it the errors
+# of event times over a second equal the tolerance, as measured against the long-double references
+# (docs/accuracy.md). Compliant contact takes three times as many steps, and errors accumulate in
+# the weakly damped vibration of the slider on it.
 LOCAL = (80.0, 5.0)
 LOOSEST = 1e-5  # looser is no cheaper, because the series must reach from event to event anyway, and may miss events
 
@@ -450,6 +562,7 @@ def series_tolerance(tol: float, compliant: bool = False) -> float:
 
 @cache
 def series_order(tol: float) -> int:
-    """Degree of the Taylor series, an even number: the cheapest one for the tolerance, as measured (20 at 1e-10)."""
+    """Degree of the Taylor series, an even number: the cheapest one for the tolerance, as measured
+    (20 at 1e-10)."""
     digits = -math.log10(series_tolerance(tol))
     return min(max(2 * round(digits + 1.6), 18), 28)

@@ -1,1 +1,2 @@
-"""Stability of motions: limit cycles and their multipliers, steady sliding, Lyapunov exponents, outcomes."""
+"""Stability of motions: limit cycles and their multipliers, steady sliding, Lyapunov exponents,
+outcomes."""

@@ -1,8 +1,10 @@
-"""Continuation of a cycle in one parameter, and of its stability borders in two, by pseudo-arclength.
+"""Continuation of a cycle in one parameter, and of its stability borders in two, by
+pseudo-arclength.
 
-A cycle is a zero of F(x, q) = R(x, q) - x.  R is the return map, x the point of the section and q the free parameters;
-the Jacobian of F by both comes from the variational equations.  A fold, where two cycles meet, is a regular point of
-the curve F = 0.  Distances mix x, over the norm of the static deflection, with q, over the parameters' scales.
+A cycle is a zero of F(x, q) = R(x, q) - x.  R is the return map, x the point of the section and q
+the free parameters; the Jacobian of F by both comes from the variational equations.  A fold, where
+two cycles meet, is a regular point of the curve F = 0.  Distances mix x, over the norm of the
+static deflection, with q, over the parameters' scales.
 """
 
 from __future__ import annotations
@@ -24,8 +26,26 @@ from disc_model.errors import Fault, ParameterError, raise_faults, require, sugg
 from disc_model.parameters import DEFAULTS, Parameters, Quantity, foreign_case
 from disc_model.simulation.states import State, is_finite_array
 from disc_model.stability.cycle import FloquetResult, find_cycle, guess_faults, multipliers
-from disc_model.stability.return_map import ENDS, PARAMETERS, Array, Counts, Flight, ReturnMap, newton_step, rounding
-from disc_model.units import CYCLE_TOLERANCES, Count, Finite, Positive, Strict, in_si, is_number, limits_faults
+from disc_model.stability.return_map import (
+    ENDS,
+    PARAMETERS,
+    Array,
+    Counts,
+    Flight,
+    ReturnMap,
+    newton_step,
+    rounding,
+)
+from disc_model.units import (
+    CYCLE_TOLERANCES,
+    Count,
+    Finite,
+    Positive,
+    Strict,
+    in_si,
+    is_number,
+    limits_faults,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,8 +59,9 @@ DIFFERENCE = 1e-5  # over a parameter's scale: flights are accurate to 1e-13, th
 
 @dataclass(frozen=True)
 class Place:
-    """A point z of the surface F = 0, with F's derivative `by` z; of a curve also its unit tangent; of a border the
-    multiplier `mu` that is followed, and the gradients of the test function and of `mu` within the surface."""
+    """A point z of the surface F = 0, with F's derivative `by` z; of a curve also its unit tangent;
+    of a border the multiplier `mu` that is followed, and the gradients of the test function and of
+    `mu` within the surface."""
 
     z: Array
     residual: Array
@@ -54,24 +75,33 @@ class Place:
 
     @cached_property
     def basis(self) -> Array:
-        """Orthonormal basis of the null space of `by`: (number of parameters, n + number of parameters)."""
+        """Orthonormal basis of the null space of `by`: (number of parameters, n + number of
+        parameters)."""
         return np.asarray(np.linalg.svd(self.by)[2][len(self.residual) :], dtype=float)
 
 
 class CycleProblem:
-    """F(x, q) in unknowns z = (x / size, q / scales); a `scale` replaces a parameter's value, or a fifth of a typical
-    one. With an `order` cycles may lose contact, and must have these numbers of events: elsewhere the map has a corner.
+    """F(x, q) in unknowns z = (x / size, q / scales); a `scale` replaces a parameter's value, or a
+    fifth of a typical one. With an `order` cycles may lose contact, and must have these numbers of
+    events: elsewhere the map has a corner.
     """
 
     def __init__(
-        self, p: Parameters, names: tuple[str, ...], scale: float | None, tol: float, order: Counts | None = None
+        self,
+        p: Parameters,
+        names: tuple[str, ...],
+        scale: float | None,
+        tol: float,
+        order: Counts | None = None,
     ) -> None:
         self.base, self.names, self.tol, self.order = p, names, tol, order
         self._analytic = tuple(name for name in names if name in PARAMETERS)
         self._reference = reference = ReturnMap(p, tol)
         self.n, self.scale, self.size = reference.size, reference.scale, reference.deflection
         usual = DEFAULTS | USUAL
-        self.scales = np.array([scale or max(abs(p.numbers[name]), 0.2 * usual.get(name, 0.0)) for name in names])
+        self.scales = np.array(
+            [scale or max(abs(p.numbers[name]), 0.2 * usual.get(name, 0.0)) for name in names]
+        )
 
     def case(self, z: Array) -> Parameters:
         values = (z[self.n :] * self.scales).tolist()
@@ -84,10 +114,18 @@ class CycleProblem:
         flight, turn, residual = self._fly(p, z, self._analytic)
         if self.order and flight.counts != self.order:
             counts = zip(Counts._fields, self.order, flight.counts, strict=True)
-            changes = (f"{name.replace('_', ' ')} {before} to {now}" for name, before, now in counts if before != now)
+            changes = (
+                f"{name.replace('_', ' ')} {before} to {now}"
+                for name, before, now in counts
+                if before != now
+            )
             raise ParameterError(f"the order of events changes: {', '.join(changes)}")
         jacobian = flight.jacobian * turn[:, None] / turn[None, :]
-        if not (np.all(np.isfinite(jacobian)) and np.all(np.isfinite(flight.by)) and np.all(np.isfinite(residual))):
+        if not (
+            np.all(np.isfinite(jacobian))
+            and np.all(np.isfinite(flight.by))
+            and np.all(np.isfinite(residual))
+        ):
             raise ParameterError("the variational equations are singular: a switch is grazed")
         parameters = np.zeros((self.n, len(self.names)))
         known = [name in self._analytic for name in self.names]
@@ -96,19 +134,26 @@ class CycleProblem:
             move = DIFFERENCE * np.eye(len(z))[self.n + i]
             ends = [self._fly(self.case(z + side * move), z, tangent=False)[2] for side in (1, -1)]
             parameters[:, i] = (ends[0] - ends[1]) / (2 * DIFFERENCE)
-        return Place(z, residual, np.hstack([jacobian - np.eye(self.n), parameters]), flight, jacobian)
+        return Place(
+            z, residual, np.hstack([jacobian - np.eye(self.n), parameters]), flight, jacobian
+        )
 
     def _fly(
         self, p: Parameters, z: Array, names: tuple[str, ...] = (), *, tangent: bool = True
     ) -> tuple[Flight, Array, Array]:
-        """The flight from the point of z, the factor to the reference's coordinates, and the residual in these."""
+        """The flight from the point of z, the factor to the reference's coordinates, and the
+        residual in these."""
         map_ = ReturnMap(p, self.tol, names, patient=self.order is not None)
         x = z[: self.n] * self.size / self.scale * map_.scale
         releases = self.order.releases if self.order else 1
-        flight = map_.evaluate(x, releases=releases, tangent=tangent, may_separate=self.order is not None)
+        flight = map_.evaluate(
+            x, releases=releases, tangent=tangent, may_separate=self.order is not None
+        )
         if not flight.returned:
             raise ParameterError(f"the motion does not return: {ENDS[flight.outcome]}")
-        turn = self.scale / map_.scale  # they differ where frequencies of the disc are not those of the reference
+        turn = (
+            self.scale / map_.scale
+        )  # they differ where frequencies of the disc are not those of the reference
         return flight, turn, (flight.end - x) * turn / self.size
 
     def correct(self, z: Array, rows: Array, targets: Array) -> Place:
@@ -135,14 +180,20 @@ class CycleProblem:
 
     def start(self, cycle: FloquetResult) -> Place:
         """A cycle as a point of the curve; raises `ParameterError` if it cannot be followed."""
-        start = "guess: must lie near a cycle" if self.order else "p: must have a cycle of one release"
+        start = (
+            "guess: must lie near a cycle" if self.order else "p: must have a cycle of one release"
+        )
         try:
             if cycle.state is None or (cycle.releases > 1 and not self.order):
                 raise ParameterError(cycle.message)
             q = np.array([self.base.numbers[name] for name in self.names]) / self.scales
-            return self.evaluate(np.concatenate([self._reference.point(cycle.state) / self.size, q]))
+            return self.evaluate(
+                np.concatenate([self._reference.point(cycle.state) / self.size, q])
+            )
         except ParameterError as lost:
-            raise ParameterError(f"{start} that can be followed, but the search ended with {lost}") from None
+            raise ParameterError(
+                f"{start} that can be followed, but the search ended with {lost}"
+            ) from None
 
     def branch(self, points: Sequence[Place], folds: Array, ended: str) -> Branch:
         values = [multipliers(point.jacobian) for point in points]
@@ -164,7 +215,8 @@ class CycleProblem:
     def follow(
         self, point: Place, span: tuple[float, float], steps: StepControl, tangent: Array
     ) -> tuple[list[Place], list[float], str]:
-        """The cycles along a tangent until the parameter leaves the span, the folds between them, and why they end."""
+        """The cycles along a tangent until the parameter leaves the span, the folds between them,
+        and why they end."""
         (name,), scale = self.names, self.scales[0]
         low, high = (bound / scale for bound in span)
         left, folds = f"{name} has left {span[0]:g} .. {span[1]:g}", list[float]()
@@ -178,7 +230,9 @@ class CycleProblem:
             return "" if low <= new.z[-1] <= high else left
 
         points, ended = follow_curve(replace(point, tangent=tangent), self.next_place, steps, leave)
-        if ended == left and not steps.beyond:  # the last cycle is that at the bound, if it is found
+        if (
+            ended == left and not steps.beyond
+        ):  # the last cycle is that at the bound, if it is found
             beyond = points.pop().z
             z, tangent = points[-1].z, points[-1].tangent
             along = tangent if low <= beyond[-1] <= high else beyond - z  # the former after a fold
@@ -196,13 +250,16 @@ class CycleProblem:
         return replace(new, tangent=new.basis[0])
 
     def _locate_fold(self, before: Place, after: Place) -> float:
-        """Scaled parameter at the fold between two points, where the tangent has no component along the parameter."""
+        """Scaled parameter at the fold between two points, where the tangent has no component along
+        the parameter."""
         start, tangent = before.z, before.tangent
         length = float(tangent @ (after.z - start))
         chord = (after.z - start) / length
 
         def point_at(s: float) -> Place:
-            return self.correct(start + s * chord, tangent[None, :], np.array([tangent @ start + s]))
+            return self.correct(
+                start + s * chord, tangent[None, :], np.array([tangent @ start + s])
+            )
 
         def turned(s: float) -> float:
             tangent_there = point_at(s).basis[0]
@@ -220,7 +277,10 @@ class CycleProblem:
 def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
     known = p.numbers
     wrong = [name for name in names if not isinstance(name, str) or name not in known]
-    return [Fault.of(("name",), name, f"must be a number of the case{suggestion(name, known)}") for name in wrong]
+    return [
+        Fault.of(("name",), name, f"must be a number of the case{suggestion(name, known)}")
+        for name in wrong
+    ]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -263,10 +323,11 @@ class Branch:
         return f"Branch({len(self)} cycles, {spanned}, {folds}; ended: {self.ended})"
 
     def plot(self, y: str = "growth_rate", *, ax: Axes | None = None) -> Axes:
-        """Draw growth_rate, period or stick_fraction over the parameter, thick where the cycle is stable.
+        """Draw growth_rate, period or stick_fraction over the parameter, thick where the cycle is
+        stable.
 
-        A branch in two parameters is drawn as the second over the first. Returns the axes; raises `ParameterError` if
-        `y` is another name, or `ax` no axes.
+        A branch in two parameters is drawn as the second over the first. Returns the axes; raises
+        `ParameterError` if `y` is another name, or `ax` no axes.
 
         Examples
         --------
@@ -278,7 +339,8 @@ class Branch:
 
 
 def interval_in_si(name: Any, bounds: Any) -> Any:
-    """Bounds of a parameter in SI units, from texts with units too; None unless they are two ascending numbers."""
+    """Bounds of a parameter in SI units, from texts with units too; None unless they are two
+    ascending numbers."""
     ends = in_si(bounds, Parameters.unit(name) if isinstance(name, str) else "", [], ())
     return ends if is_finite_array(ends, 2) and ends[0] < ends[1] else None
 
@@ -313,8 +375,9 @@ def follow_curve(
     steps: StepControl,
     leave: Callable[[list[Place], Place, float], str],
 ) -> tuple[list[Place], str]:
-    """Places along a curve, and why they end. `take` finds the next one at an arclength, with either sign of the
-    tangent; from the places before it and the length of the step to it, `leave` tells why it is the last, or ""."""
+    """Places along a curve, and why they end. `take` finds the next one at an arclength, with
+    either sign of the tangent; from the places before it and the length of the step to it, `leave`
+    tells why it is the last, or ""."""
     points, ds = [start], steps.step
     try:
         while len(points) < steps.max_points:
@@ -343,9 +406,13 @@ def follow_curve(
 # ---- One parameter
 
 CYCLE = StepControl()
-BORDER = StepControl(step=0.01, longest=0.05, shortest=1e-6, max_points=400, growth=1.4, easy=0.98, sharpest=0.8)
+BORDER = StepControl(
+    step=0.01, longest=0.05, shortest=1e-6, max_points=400, growth=1.4, easy=0.98, sharpest=0.8
+)
 """Steps along borders, where each point costs several cycles."""
-UNLOCATED = "a fold that cannot be located"  # beginning of one of the reasons for which a branch ends
+UNLOCATED = (
+    "a fold that cannot be located"  # beginning of one of the reasons for which a branch ends
+)
 
 
 @compiling()
@@ -362,9 +429,10 @@ def continue_cycle(
 ) -> Branch:
     """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
 
-    The branch goes both ways from the case. From a state `guess` the cycle may lose contact; with its impacts it is
-    followed as long as its events keep their order. Where an event would appear or vanish, the return map has a corner:
-    the branch ends and says how the numbers of events change.
+    The branch goes both ways from the case. From a state `guess` the cycle may lose contact; with
+    its impacts it is followed as long as its events keep their order. Where an event would appear
+    or vanish, the return map has a corner: the branch ends and says how the numbers of events
+    change.
 
     Parameters
     ----------
@@ -396,15 +464,32 @@ def continue_cycle(
     Branch(17 cycles, Omega from 14.8 to 15.0949, 1 fold; ended: Omega has left 14.8 .. 15.2)
     """
     wrong = violations(
-        ((span := interval_in_si(name, bounds)) is not None, "bounds", bounds, "must be two ascending finite numbers"),
+        (
+            (span := interval_in_si(name, bounds)) is not None,
+            "bounds",
+            bounds,
+            "must be two ascending finite numbers",
+        ),
         (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
-        (is_number(direction) and direction in (-1, 0, 1), "direction", direction, "must be -1, 0 or 1"),
+        (
+            is_number(direction) and direction in (-1, 0, 1),
+            "direction",
+            direction,
+            "must be -1, 0 or 1",
+        ),
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases)
     raise_faults(foreign_case(p) or wrong + free_faults(p, [name]))
     start, slack = p.numbers[name], 1e-9 * (span[1] - span[0])  # ratios are rounded
     within = span[0] - slack <= start <= span[1] + slack
-    require((within, name, start, f"must lie within the bounds, {span[0]:g} to {span[1]:g}, to start from there"))
+    require(
+        (
+            within,
+            name,
+            start,
+            f"must lie within the bounds, {span[0]:g} to {span[1]:g}, to start from there",
+        )
+    )
     cycle = find_cycle(p, tol, guess, releases)
     order = None if guess is None else Counts(*(getattr(cycle, name) for name in Counts._fields))
     problem = CycleProblem(p, (name,), steps.scale, tol, order)
@@ -415,7 +500,11 @@ def continue_cycle(
         points, folds, ended = follow(direction * tangent)
     else:
         (down, below, first), (up, above, last) = follow(-tangent), follow(tangent)
-        points, folds, ended = down[::-1] + up[1:], below[::-1] + above, first if first == last else f"{first}; {last}"
+        points, folds, ended = (
+            down[::-1] + up[1:],
+            below[::-1] + above,
+            first if first == last else f"{first}; {last}",
+        )
     return problem.branch(points, np.array(folds).reshape(-1, 1), ended)
 
 
@@ -423,14 +512,17 @@ def continue_cycle(
 
 Kind = Literal["neutral", "fold"]
 CLOSED = "the curve is closed"
-_DIFFERENCE = 1e-4  # arclength of the finite difference for a multiplier's gradient along the surface
-# on the way to a curve: longest step, largest change of the multiplier in a step, and number of steps
+_DIFFERENCE = (
+    1e-4  # arclength of the finite difference for a multiplier's gradient along the surface
+)
+# on the way to a curve: longest step, largest change of the multiplier in a step, and number of
+# steps
 LONGEST_REACH, LARGEST_TURN, REACHES = 0.1, 0.1, 60
 
 
 class BorderProblem(CycleProblem):
-    """With a test function that vanishes on the border: the logarithm of a multiplier's modulus on a neutral curve, a
-    real multiplier less one on a fold."""
+    """With a test function that vanishes on the border: the logarithm of a multiplier's modulus on
+    a neutral curve, a real multiplier less one on a fold."""
 
     def __init__(self, kind: Kind, p: Parameters, names: tuple[str, ...], tol: float) -> None:
         super().__init__(p, names, None, tol)
@@ -447,11 +539,15 @@ class BorderProblem(CycleProblem):
         return (mu.real - 1.0 if self.kind == "fold" else math.log(abs(mu))), mu
 
     def _place(self, point: Place, mu: complex) -> Place:
-        """A cycle on the surface, with the tangent of the curve on which the test function keeps its value."""
+        """A cycle on the surface, with the tangent of the curve on which the test function keeps
+        its value."""
         basis = point.basis
         slopes, turns = np.zeros(2), np.zeros(2, complex)
         for i, unit in enumerate(basis):
-            ends = [self._evaluate_test(self.evaluate(point.z + s * _DIFFERENCE * unit).jacobian, mu) for s in (-1, 1)]
+            ends = [
+                self._evaluate_test(self.evaluate(point.z + s * _DIFFERENCE * unit).jacobian, mu)
+                for s in (-1, 1)
+            ]
             slopes[i] = (ends[1][0] - ends[0][0]) / (2 * _DIFFERENCE)
             turns[i] = (ends[1][1] - ends[0][1]) / (2 * _DIFFERENCE)
         size = float(np.linalg.norm(slopes))
@@ -459,7 +555,9 @@ class BorderProblem(CycleProblem):
             raise ParameterError("the multiplier does not depend on the parameters")
         along = np.array([-slopes[1], slopes[0]]) / size
         turning = np.asarray(turns @ basis, dtype=complex)
-        return replace(point, tangent=along @ basis, mu=mu, gradient=slopes @ basis, turning=turning)
+        return replace(
+            point, tangent=along @ basis, mu=mu, gradient=slopes @ basis, turning=turning
+        )
 
     def reach(self, point: Place, mu: complex) -> Place:
         """Move from a cycle near the curve onto the curve, by the shortest way on the surface."""
@@ -470,7 +568,9 @@ class BorderProblem(CycleProblem):
                 return new
             move = -value * new.gradient / (new.gradient @ new.gradient)
             turn = abs(complex(new.turning @ move))
-            move *= min(1.0, LONGEST_REACH / float(np.linalg.norm(move)), LARGEST_TURN / max(turn, 1e-300))
+            move *= min(
+                1.0, LONGEST_REACH / float(np.linalg.norm(move)), LARGEST_TURN / max(turn, 1e-300)
+            )
             rows = np.vstack([new.tangent, new.gradient / np.linalg.norm(new.gradient)])
             for halvings in range(6):
                 step = move * 0.5**halvings
@@ -485,7 +585,8 @@ class BorderProblem(CycleProblem):
         raise ParameterError("no point of the curve was found near the first cycle")
 
     def next_place(self, start: Place, ds: float) -> Place:
-        """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the tangent."""
+        """The curve's place at arclength ds: F = 0, test = 0, and the plane normal to the
+        tangent."""
         expected = start.mu + complex(start.turning @ (ds * start.tangent))
         if abs(expected - start.mu) > 2 * LARGEST_TURN:
             raise ParameterError("the multiplier turns too fast")
@@ -500,7 +601,9 @@ class BorderProblem(CycleProblem):
             if errors[-1] > 0.9 * errors[-3]:
                 break
             before, last = point, value
-            point = self.evaluate(before.z - newton_step(np.vstack([before.by, gradient, rows]), right))
+            point = self.evaluate(
+                before.z - newton_step(np.vstack([before.by, gradient, rows]), right)
+            )
             value, mu = self._evaluate_test(point.jacobian, mu)
             # Broyden's update: a gradient by differences would take four flights at each correction
             move = point.z - before.z
@@ -518,17 +621,22 @@ def continue_border(
     tol: float = 1e-12,
     steps: StepControl = BORDER,
 ) -> Branch:
-    """Follow a border of stability in two parameters from the cycle of a case near the point `guess` of the section,
-    both ways until it leaves the bounds, closes or ends; raises `ParameterError` if no cycle, or no curve, is near, or
-    no step along it succeeds.
+    """Follow a border of stability in two parameters from the cycle of a case near the point
+    `guess` of the section, both ways until it leaves the bounds, closes or ends; raises
+    `ParameterError` if no cycle, or no curve, is near, or no step along it succeeds.
 
-    A "neutral" border is one of the first cycle's leading multiplier; a "fold" starts from a branch's point next to it.
+    A "neutral" border is one of the first cycle's leading multiplier; a "fold" starts from a
+    branch's point next to it.
     """
     problem = BorderProblem(kind, p, names, tol)
     point = problem.start(find_cycle(p, tol, guess))
     mu = complex(multipliers(point.jacobian)[0]) if kind == "neutral" else 1.0 + 0j
     first = problem.reach(point, mu)
-    lead = first.tangent[problem.n] if abs(first.tangent[problem.n]) > 1e-12 else first.tangent[problem.n + 1]
+    lead = (
+        first.tangent[problem.n]
+        if abs(first.tangent[problem.n]) > 1e-12
+        else first.tangent[problem.n + 1]
+    )
     onward = first.tangent * math.copysign(1.0, lead)
     low, high = np.array([bounds[name] for name in names]).T / problem.scales
 
@@ -538,7 +646,10 @@ def continue_border(
             return f"{' or '.join(names)} has left the bounds"
         return CLOSED if len(points) >= 8 and np.linalg.norm(new.z - first.z) < 0.6 * ds else ""
 
-    ways = (follow_curve(replace(first, tangent=way), problem.next_place, steps, leave) for way in (-onward, onward))
+    ways = (
+        follow_curve(replace(first, tangent=way), problem.next_place, steps, leave)
+        for way in (-onward, onward)
+    )
     points, ended = next(ways)
     if ended != CLOSED:
         ahead, ended = next(ways)

@@ -1,4 +1,5 @@
-"""Curves in the plane of two parameters on which the cycle loses stability or ceases to exist; see docs/method.md."""
+"""Curves in the plane of two parameters on which the cycle loses stability or ceases to exist; see
+docs/method.md."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -58,7 +59,8 @@ class StabilityCurve:
 
 @dataclass(frozen=True, repr=False)
 class NeutralCurves(Drawn):
-    """Curves in the plane of two parameters; iterating yields them, `plot` draws them, thick beside a stable cycle.
+    """Curves in the plane of two parameters; iterating yields them, `plot` draws them, thick beside
+    a stable cycle.
 
     Attributes
     ----------
@@ -80,7 +82,9 @@ class NeutralCurves(Drawn):
         return len(self.curves)
 
     def __repr__(self) -> str:
-        plane = " and ".join(f"{name} from {low:g} to {high:g}" for name, (low, high) in self.bounds.items())
+        plane = " and ".join(
+            f"{name} from {low:g} to {high:g}" for name, (low, high) in self.bounds.items()
+        )
         return f"NeutralCurves({counted(len(self), 'curve')} over {plane}, {len(self.failures)} not followed)"
 
 
@@ -140,7 +144,12 @@ def neutral_curves(
     within = free and all(ends is not None for ends in plane.values())
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
-        (within, "bounds", bounds, "must be two ascending finite numbers, by the names of two parameters"),
+        (
+            within,
+            "bounds",
+            bounds,
+            "must be two ascending finite numbers, by the names of two parameters",
+        ),
         (is_finite_array(lines), "lines", lines, "must be finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
@@ -154,9 +163,13 @@ def neutral_curves(
             point = np.array([seed.case.numbers[name] for name in names])
             if _known(curves, seed.kind, point, seed.period, span):
                 continue
-            where = ", ".join(f"{name}={value:.6g}" for name, value in zip(names, point, strict=True))
+            where = ", ".join(
+                f"{name}={value:.6g}" for name, value in zip(names, point, strict=True)
+            )
             try:
-                branch = continue_border(seed.kind, seed.case, names, plane, guess=seed.point, tol=tol, steps=steps)
+                branch = continue_border(
+                    seed.kind, seed.case, names, plane, guess=seed.point, tol=tol, steps=steps
+                )
             except ParameterError as error:
                 notes.append(f"{seed.kind} near {where}: {error}")
                 continue
@@ -169,7 +182,8 @@ def neutral_curves(
 
 
 def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str]) -> Iterator[_Seed]:
-    """Places along a line where the cycle changes stability or ends, found by continuation from both neighbours."""
+    """Places along a line where the cycle changes stability or ends, found by continuation from
+    both neighbours."""
     growth = np.array([find_cycle(case, tol).growth_rate for case in cases])
     for i, (before, two) in enumerate(pairwise(growth)):
         if (np.isnan(before) and np.isnan(two)) or before * two > 0:
@@ -183,8 +197,11 @@ def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str])
                     break
 
 
-def _first_event(case: Parameters, name: str, end: float, tol: float, notes: list[str]) -> _Seed | None:
-    """The first fold or crossing of the unit circle between a case and another value of a parameter."""
+def _first_event(
+    case: Parameters, name: str, end: float, tol: float, notes: list[str]
+) -> _Seed | None:
+    """The first fold or crossing of the unit circle between a case and another value of a
+    parameter."""
     begin = case.numbers[name]
     bounds, direction = (min(begin, end), max(begin, end)), 1 if begin < end else -1
     try:
@@ -210,18 +227,25 @@ def _first_event(case: Parameters, name: str, end: float, tol: float, notes: lis
     moved = case.replace(**{name: float(values[j])})
     point = branch.points[j]
     scale, new = (ReturnMap(each, tol).scale for each in (case, moved))
-    if not np.array_equal(scale, new):  # frequencies scale the coordinates, and the branch uses those of its first case
+    if not np.array_equal(
+        scale, new
+    ):  # frequencies scale the coordinates, and the branch uses those of its first case
         point = point / scale * new
     return _Seed(kind, moved, point, float(branch.period[j]))
 
 
-def _known(curves: Sequence[StabilityCurve], kind: str, point: Array, period: float, span: Array) -> bool:
-    """Whether a known curve of this kind, with cycles of this period, passes through a place of the plane."""
+def _known(
+    curves: Sequence[StabilityCurve], kind: str, point: Array, period: float, span: Array
+) -> bool:
+    """Whether a known curve of this kind, with cycles of this period, passes through a place of the
+    plane."""
     for curve in (curve for curve in curves if curve.kind == kind):
         corners = (curve.values - point) / span
         steps = np.diff(corners, axis=0)
         size = np.sum(steps**2, axis=1)
-        share = np.clip(-np.sum(corners[:-1] * steps, axis=1) / np.where(size > 0, size, 1.0), 0.0, 1.0)
+        share = np.clip(
+            -np.sum(corners[:-1] * steps, axis=1) / np.where(size > 0, size, 1.0), 0.0, 1.0
+        )
         distance = np.linalg.norm(corners[:-1] + share[:, None] * steps, axis=1)
         i = int(np.argmin(distance))
         period_there = curve.period[i] + share[i] * (curve.period[i + 1] - curve.period[i])
@@ -234,24 +258,31 @@ def _known(curves: Sequence[StabilityCurve], kind: str, point: Array, period: fl
 def _curve(seed: _Seed, branch: Branch) -> StabilityCurve:
     border = branch.growth_rate < 1e-3  # 1/s; no other multiplier grows
     middle = int(np.flatnonzero(border)[border.sum() // 2]) if border.any() else len(branch) // 2
-    case = seed.case.replace(**dict(zip(branch.parameters, map(float, branch.values[middle]), strict=True)))
+    case = seed.case.replace(
+        **dict(zip(branch.parameters, map(float, branch.values[middle]), strict=True))
+    )
     leading = branch.multipliers[:, 0]
     mu = 1.0 + 0j if seed.kind == "fold" else complex(leading[middle])
-    resonance = nearest_resonance(case, float(branch.period[middle]), mu, int(branch.diameters[middle]))
+    resonance = nearest_resonance(
+        case, float(branch.period[middle]), mu, int(branch.diameters[middle])
+    )
     return StabilityCurve(seed.kind, branch.values, border, branch.period, leading, resonance)
 
 
 # ---- One parameter
 
 ROUNDS = 5  # number of times that places of resonance are predicted anew, from the multipliers beside them
-STRONGLY_DAMPED = 0.5  # modulus below which a multiplier takes part in no resonance that could make it one
+STRONGLY_DAMPED = (
+    0.5  # modulus below which a multiplier takes part in no resonance that could make it one
+)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Critical(Drawn):
     """Values of a parameter at which the motion near the static start gains or loses stability.
 
-    `plot` draws the growth rate of the cycle over the parameter, with the intervals in which that motion is unstable.
+    `plot` draws the growth rate of the cycle over the parameter, with the intervals in which that
+    motion is unstable.
 
     Attributes
     ----------
@@ -281,9 +312,13 @@ class Critical(Drawn):
 
     @property
     def unstable(self) -> Array:
-        """The intervals in which that motion is unstable, shape (n_intervals, 2). Another one may be stable there."""
+        """The intervals in which that motion is unstable, shape (n_intervals, 2). Another one may
+        be stable there."""
         edges = np.array([self.values[0], *self.crossings, self.values[-1]])
-        grows = [not self.unstable_above[0] if len(self.crossings) else math.isfinite(self.value), *self.unstable_above]
+        grows = [
+            not self.unstable_above[0] if len(self.crossings) else math.isfinite(self.value),
+            *self.unstable_above,
+        ]
         return np.column_stack([edges[:-1], edges[1:]])[np.array(grows)]
 
 
@@ -297,11 +332,13 @@ def critical(
     precision: float | None = None,
     tol: float = 1e-12,
 ) -> Critical:
-    """The least parameter value with unstable motion near the static start, and all stability changes above it.
+    """The least parameter value with unstable motion near the static start, and all stability
+    changes above it.
 
-    That motion is the stick-slip cycle, or steady sliding or rest if there is no cycle. Instability often lies in
-    narrow tongues, where multipliers meet on the unit circle. Their angles change smoothly, so that these places are
-    predicted from the multipliers of neighbouring values, and computed, until the predictions no longer move.
+    That motion is the stick-slip cycle, or steady sliding or rest if there is no cycle. Instability
+    often lies in narrow tongues, where multipliers meet on the unit circle. Their angles change
+    smoothly, so that these places are predicted from the multipliers of neighbouring values, and
+    computed, until the predictions no longer move.
 
     Parameters
     ----------
@@ -332,7 +369,12 @@ def critical(
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
     good = precision is None or (is_number(precision) and precision > 0)
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
-        ((ends := interval_in_si(name, bounds)) is not None, "bounds", bounds, "must be two ascending finite numbers"),
+        (
+            (ends := interval_in_si(name, bounds)) is not None,
+            "bounds",
+            bounds,
+            "must be two ascending finite numbers",
+        ),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
         (good, "precision", precision, "must be a number > 0"),
     )
@@ -360,8 +402,14 @@ def critical(
     resolution = math.inf
     for _ in range(ROUNDS):
         gaps = [(a, b, _resonances(cycles[a], cycles[b])) for a, b in pairwise(sorted(cycles))]
-        new = {a + share * (b - a): min(share, 1 - share) * (b - a) for a, b, shares in gaps for share in shares}
-        resolution = max([shortest, *new.values(), *(b - a for a, b, shares in gaps if shares is NO_CYCLES)])
+        new = {
+            a + share * (b - a): min(share, 1 - share) * (b - a)
+            for a, b, shares in gaps
+            for share in shares
+        }
+        resolution = max(
+            [shortest, *new.values(), *(b - a for a, b, shares in gaps if shares is NO_CYCLES)]
+        )
         far = sorted(x for x, distance in new.items() if distance > shortest)
         if not far:
             break
@@ -385,11 +433,14 @@ def critical(
     )
 
 
-NO_CYCLES: tuple[float, ...] = (0.5,)  # of an interval one of whose ends has no cycle the middle is computed
+NO_CYCLES: tuple[float, ...] = (
+    0.5,
+)  # of an interval one of whose ends has no cycle the middle is computed
 
 
 def _resonances(first: FloquetResult, second: FloquetResult) -> Sequence[float]:
-    """Shares of the way from one cycle to another at which multipliers are predicted to meet on the unit circle."""
+    """Shares of the way from one cycle to another at which multipliers are predicted to meet on the
+    unit circle."""
     if not (len(first.multipliers) and len(second.multipliers)):
         return NO_CYCLES if len(first.multipliers) != len(second.multipliers) else ()
     distance = np.abs(first.multipliers[:, None] - second.multipliers[None, :])
@@ -400,9 +451,12 @@ def _resonances(first: FloquetResult, second: FloquetResult) -> Sequence[float]:
     chosen = (before.imag > 0) & (np.minimum(abs(before), abs(after)) > STRONGLY_DAMPED)
     angle, turn = np.angle(before[chosen]), np.angle(after[chosen] / before[chosen])
     i, j = np.triu_indices(len(angle))
-    # a multiplier that comes to the real axis meets its conjugate, as the sum of an angle with itself comes to 2 pi
+    # a multiplier that comes to the real axis meets its conjugate, as the sum of an angle with
+    # itself comes to 2 pi
     begin = np.concatenate([angle[i] + angle[j], (angle[i] - angle[j])[i != j]]) / math.tau
     end = begin + np.concatenate([turn[i] + turn[j], (turn[i] - turn[j])[i != j]]) / math.tau
     meets = np.floor(begin) != np.floor(end)
     level = np.maximum(np.floor(begin), np.floor(end))
-    return [float(share) for share in ((level - begin)[meets] / (end - begin)[meets]) if 0 < share < 1]
+    return [
+        float(share) for share in ((level - begin)[meets] / (end - begin)[meets]) if 0 < share < 1
+    ]

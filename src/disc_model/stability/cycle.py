@@ -1,6 +1,8 @@
-"""`floquet`: the stick-slip cycle as a fixed point of `disc_model.stability.return_map`, and its stability.
+"""`floquet`: the stick-slip cycle as a fixed point of `disc_model.stability.return_map`, and its
+stability.
 
-Two multipliers of the full system are left out: 1, along the orbit, and 0, of f, because stick resets f to 0.
+Two multipliers of the full system are left out: 1, along the orbit, and 0, of f, because stick
+resets f to 0.
 """
 
 from __future__ import annotations
@@ -19,8 +21,23 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, raise_faults, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.return_map import ENDS, RETURNED, Array, ComplexArray, Flight, ReturnMap, case_faults, newton
-from disc_model.stability.sliding import SlidingModes, SteadySliding, sliding_modes, split_rows, steady_sliding
+from disc_model.stability.return_map import (
+    ENDS,
+    RETURNED,
+    Array,
+    ComplexArray,
+    Flight,
+    ReturnMap,
+    case_faults,
+    newton,
+)
+from disc_model.stability.sliding import (
+    SlidingModes,
+    SteadySliding,
+    sliding_modes,
+    split_rows,
+    steady_sliding,
+)
 from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
 
 RETURNS_TRIED = (1, 2, 3)  # numbers of releases in a period of the cycles that are sought
@@ -33,7 +50,8 @@ class CycleError(DiscModelError):
 
 @dataclass(frozen=True, eq=False)
 class FloquetResult(Summarised, Drawn):
-    """The stick-slip cycle of a case; `plot` draws the multipliers in the complex plane, and the unit circle.
+    """The stick-slip cycle of a case; `plot` draws the multipliers in the complex plane, and the
+    unit circle.
 
     Attributes
     ----------
@@ -74,7 +92,11 @@ class FloquetResult(Summarised, Drawn):
 
     def __repr__(self) -> str:
         p, exists = self.parameters, self.status is CycleStatus.OK
-        summary = f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s" if exists else self.status.value
+        summary = (
+            f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s"
+            if exists
+            else self.status.value
+        )
         return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {summary}, {len(self.multipliers)} multipliers)"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
@@ -84,9 +106,14 @@ class FloquetResult(Summarised, Drawn):
         yield "advice", "" if self.status is CycleStatus.OK else self.status.advice
         yield "growth rate", number_text(self.growth_rate, verdict)
         yield "share of stick", number_text(self.stick_fraction, "", 3)
-        yield from (("leading multiplier", f"{x:.6g}, modulus {abs(x):.9g}") for x in self.multipliers[:1])
+        yield from (
+            ("leading multiplier", f"{x:.6g}, modulus {abs(x):.9g}") for x in self.multipliers[:1]
+        )
         rate = self.sliding.growth_rate
-        yield "steady sliding", self.sliding.message if math.isnan(rate) else f"growth rate {rate:.6g} 1/s"
+        yield (
+            "steady sliding",
+            self.sliding.message if math.isnan(rate) else f"growth rate {rate:.6g} 1/s",
+        )
 
     @cached_property
     def sliding(self) -> SteadySliding:
@@ -100,8 +127,8 @@ class FloquetResult(Summarised, Drawn):
 
     @property
     def motion(self) -> str:
-        """What is near the start of the search: a cycle, "stable" or "unstable", "steady_sliding" or
-        "unstable_sliding", or else the status."""
+        """What is near the start of the search: a cycle, "stable" or "unstable", "steady_sliding"
+        or "unstable_sliding", or else the status."""
         if self.status is CycleStatus.OK:
             return "stable" if self.stable else "unstable"
         if self.status is CycleStatus.NO_STICK_SLIP:
@@ -122,7 +149,9 @@ class FloquetResult(Summarised, Drawn):
 
 
 @compiling()
-def floquet(p: Parameters, *, tol: float = 1e-12, guess: State | None = None, releases: int = 1) -> FloquetResult:
+def floquet(
+    p: Parameters, *, tol: float = 1e-12, guess: State | None = None, releases: int = 1
+) -> FloquetResult:
     """Find the stick-slip cycle near the static start, or near a given state, and its multipliers.
 
     Parameters
@@ -161,15 +190,21 @@ def guess_faults(guess: object, releases: object) -> list[str]:
     counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or releases == 1)
     return violations(
         (isinstance(guess, State | None), "guess", guess, "must be a State"),
-        (counts, "releases", releases, "must be a whole number >= 1, and 1 without a state to look near"),
+        (
+            counts,
+            "releases",
+            releases,
+            "must be a whole number >= 1, and 1 without a state to look near",
+        ),
     )
 
 
 def find_cycle(
     p: Parameters, tol: float = 1e-12, guess: State | Array | None = None, releases: int = 1
 ) -> FloquetResult:
-    """The cycle that Newton's method finds from `guess`, a point of the section; the static equilibrium by default.
-    Near the next release after a state the cycle has `releases` releases, and may lose contact."""
+    """The cycle that Newton's method finds from `guess`, a point of the section; the static
+    equilibrium by default. Near the next release after a state the cycle has `releases` releases,
+    and may lose contact."""
     if not may_stick_and_slip(p):
         if never_pulls(p):
             return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
@@ -181,18 +216,26 @@ def find_cycle(
     if isinstance(guess, State):
         outcome, x = map_.next_release(guess)
         if outcome != RETURNED:
-            status = CycleStatus.NO_STICK_SLIP if ENDS[outcome] == "time_over" else CycleStatus.NO_CYCLE
-            return _none(p, tol, status, f"the motion from the given state does not return: {ENDS[outcome]}")
+            status = (
+                CycleStatus.NO_STICK_SLIP if ENDS[outcome] == "time_over" else CycleStatus.NO_CYCLE
+            )
+            return _none(
+                p, tol, status, f"the motion from the given state does not return: {ENDS[outcome]}"
+            )
     else:
         x = guess
     solution = newton(map_, x, releases=releases, may_separate=near_state)
     without = f"no cycle with {counted(releases, 'release')} near the given state"
-    return _none(p, tol, CycleStatus.NO_CYCLE, without) if solution is None else cycle_of(map_, solution)
+    return (
+        _none(p, tol, CycleStatus.NO_CYCLE, without)
+        if solution is None
+        else cycle_of(map_, solution)
+    )
 
 
 def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
-    """The cycle that Newton's method finds from the static equilibrium, or else after some returns of the motion from
-    there; without one, the status is the kind of that motion."""
+    """The cycle that Newton's method finds from the static equilibrium, or else after some returns
+    of the motion from there; without one, the status is the kind of that motion."""
     p, tol, x = map_.parameters, map_.tol, map_.static
     solution = newton(map_, x)
     if solution is not None:
@@ -218,17 +261,23 @@ _WITHOUT_RETURN = {
     "off_section": _LOST,
     "non_finite": (CycleStatus.NON_FINITE, "the motion from the static start overflows"),
     "stalled": (CycleStatus.NO_CYCLE, "switches follow each other without the clock moving"),
-    "paradox": (CycleStatus.PARADOX, "the motion from the static start runs into Painleve's paradox"),
+    "paradox": (
+        CycleStatus.PARADOX,
+        "the motion from the static start runs into Painleve's paradox",
+    ),
 }
 """Status and message for a transient's flight that ends in these ways; braces stand for its duration."""
 
 
 def run_through_once(map_: ReturnMap, flight: Flight) -> Flight:
-    """A cycle with its shortest period: one that is traversed several times is reduced to a single pass."""
+    """A cycle with its shortest period: one that is traversed several times is reduced to a single
+    pass."""
     times, x = flight.counts.releases, flight.start
     for releases in (n for n in range(1, times) if times % n == 0):
         once = newton(map_, x, releases=releases, may_separate=flight.counts.separations > 0)
-        if once is not None and np.allclose(once.start, x, rtol=0, atol=1e-7 * np.linalg.norm(once.start)):
+        if once is not None and np.allclose(
+            once.start, x, rtol=0, atol=1e-7 * np.linalg.norm(once.start)
+        ):
             return once
     return flight
 
@@ -239,7 +288,8 @@ def may_stick_and_slip(p: Parameters) -> bool:
 
 
 def never_pulls(p: Parameters) -> bool:
-    """Whether a sticking slider never slips, because spring and damper cannot reach the limit of friction."""
+    """Whether a sticking slider never slips, because spring and damper cannot reach the limit of
+    friction."""
     return p.Omega == 0 or (p.k_p == 0 and p.r_0 * p.c_p * p.Omega < p.mu_s * p.N)
 
 
@@ -253,7 +303,11 @@ def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
     leading = complex(values[0])
     with np.errstate(divide="ignore", invalid="ignore"):
         exponents = np.asarray(np.log(values) / flight.period, dtype=complex)
-    named = zip(flight.counts[:-1], ("release", "backward release", "slip reversal", "separation"), strict=True)
+    named = zip(
+        flight.counts[:-1],
+        ("release", "backward release", "slip reversal", "separation"),
+        strict=True,
+    )
     events = ", ".join(counted(count, name) for count, name in named if count)
     return FloquetResult(
         parameters=map_.parameters,
@@ -273,7 +327,8 @@ def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
 
 
 def multipliers(jacobian: Array) -> ComplexArray:
-    """Eigenvalues of the return map's Jacobian, largest modulus first; positive imaginary parts first in each pair."""
+    """Eigenvalues of the return map's Jacobian, largest modulus first; positive imaginary parts
+    first in each pair."""
     values = np.linalg.eigvals(jacobian).astype(complex)
     return values[np.lexsort((-values.imag, -values.real, -np.round(np.abs(values), 14)))]
 
@@ -293,9 +348,9 @@ def bifurcation_type(multiplier: complex) -> str:
 
 @compiling()
 def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, SlidingModes, Array]:
-    """The stick-slip cycle near the static start, and the modes of steady sliding. Of the multipliers matched to each
-    mode, (3, n): frequency (Hz), larger growth rate of two (1/s) and MAC of the shapes; nan without a cycle, and for
-    the slider's in-plane motion."""
+    """The stick-slip cycle near the static start, and the modes of steady sliding. Of the
+    multipliers matched to each mode, (3, n): frequency (Hz), larger growth rate of two (1/s) and
+    MAC of the shapes; nan without a cycle, and for the slider's in-plane motion."""
     cycle = floquet(p, tol=tol)
     modes = sliding_modes(p, cycle.sliding)
     columns, disc = np.full((3, len(modes.frequency)), math.nan), modes.diameters >= 0
@@ -309,7 +364,10 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, Sl
     shapes = np.array([_on_section(map_, cycle.state, shape) for shape in shapes.T]).T
     shapes = shapes / np.linalg.norm(shapes, axis=0)
     # two multipliers may match a mode: one resembles its shape, one the conjugate
-    mac = np.abs(np.hstack([shapes.conj(), shapes]).T @ (vectors / np.linalg.norm(vectors, axis=0))) ** 2
+    mac = (
+        np.abs(np.hstack([shapes.conj(), shapes]).T @ (vectors / np.linalg.norm(vectors, axis=0)))
+        ** 2
+    )
     from scipy.optimize import linear_sum_assignment
 
     rows, assigned = linear_sum_assignment(-mac)
@@ -321,7 +379,9 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, Sl
     with np.errstate(divide="ignore"):
         growth = np.log(np.abs(multipliers)) * rate
     frequency = (angle + np.round(modes.frequency[disc] / rate - angle)) * rate
-    values = np.array([frequency, np.maximum(growth[first], growth[other]), mac[np.arange(len(first)), first]])
+    values = np.array(
+        [frequency, np.maximum(growth[first], growth[other]), mac[np.arange(len(first)), first]]
+    )
     # with fewer multipliers than shapes, some modes have none
     values[:, (first < 0) | (other < 0)] = math.nan
     columns[:, disc] = values
@@ -334,6 +394,8 @@ def _on_section(map_: ReturnMap, state: State, shape: ComplexArray) -> ComplexAr
     for part in (shape.real, shape.imag):
         a, alpha, b, beta = part[:-2].reshape(4, -1)
         # in separation, because in contact the height would be the disc's
-        separated = state.replace(phase="separation", direction=0, a=a, b=b, alpha=alpha, beta=beta, _roots=(0, 0))
+        separated = state.replace(
+            phase="separation", direction=0, a=a, b=b, alpha=alpha, beta=beta, _roots=(0, 0)
+        )
         parts.append(map_.point(separated.replace(u=float(part[-2]), u_velocity=float(part[-1]))))
     return np.asarray(parts[0] + 1j * parts[1], dtype=complex)

@@ -1,6 +1,8 @@
-"""Motions near a cycle, or near steady sliding: whether they depart or approach as its multipliers predict.
+"""Motions near a cycle, or near steady sliding: whether they depart or approach as its multipliers
+predict.
 
-That is tested over some seconds: near repetition alone proves nothing, because a torus shows it as well.
+That is tested over some seconds: near repetition alone proves nothing, because a torus shows it as
+well.
 """
 
 import math
@@ -31,8 +33,9 @@ from disc_model.stability.sliding import SteadySliding, energy_weights, join_row
 
 @dataclass(frozen=True, eq=False)
 class NearCycle:
-    """A cycle, a motion's distance from it and the Jacobian, on the section of `map`; whether the motion follows the
-    linear map, and the time waited (s) until it does, at which the distance is taken."""
+    """A cycle, a motion's distance from it and the Jacobian, on the section of `map`; whether the
+    motion follows the linear map, and the time waited (s) until it does, at which the distance is
+    taken."""
 
     cycle: FloquetResult
     follows_cycle: bool
@@ -48,14 +51,17 @@ class NearCycle:
 
     @property
     def kind(self) -> Outcome:
-        """Outcome of a motion on the cycle: quiet if the cycle is that of the static start, or near it."""
+        """Outcome of a motion on the cycle: quiet if the cycle is that of the static start, or near
+        it."""
         if self.cycle.separations:
             return Outcome.SEPARATING
         if np.linalg.norm(self.x - self.map.static) <= thresholds.NEAR * self.map.deflection:
             return Outcome.QUIET
         cycle = find_cycle(self.cycle.parameters)
         same = math.isclose(cycle.period, self.cycle.period, rel_tol=thresholds.ARRIVED)
-        return Outcome.QUIET if same and cycle.releases == self.cycle.releases else Outcome.OTHER_CYCLE
+        return (
+            Outcome.QUIET if same and cycle.releases == self.cycle.releases else Outcome.OTHER_CYCLE
+        )
 
     @property
     def lingers(self) -> bool:
@@ -66,10 +72,15 @@ class NearCycle:
     def advance(self, x: Array, periods: int, *, coarse: bool = True) -> Flight:
         """The motion from a point of the section over some periods of the cycle."""
         n, separates = periods * self.cycle.releases, self.cycle.separations > 0
-        return self.map.evaluate(x, releases=n, tangent=False, may_separate=separates, coarse=coarse)
+        return self.map.evaluate(
+            x, releases=n, tangent=False, may_separate=separates, coarse=coarse
+        )
 
-    def flights(self, x: Array, times: Sequence[float], coarse: bool = True) -> Iterator[tuple[int, Flight]]:
-        """The motion from a point of the section to about these times (s): periods since the last, and the flight."""
+    def flights(
+        self, x: Array, times: Sequence[float], coarse: bool = True
+    ) -> Iterator[tuple[int, Flight]]:
+        """The motion from a point of the section to about these times (s): periods since the last,
+        and the flight."""
         done = 0
         for i, time in enumerate(times, 1):
             count = max(i, round(time / self.cycle.period))
@@ -78,28 +89,36 @@ class NearCycle:
             x, done = flight.end, count
 
     def follows_multipliers(self, x: Array) -> bool:
-        """Whether the motion at a point of the section departs or approaches as the multipliers predict."""
+        """Whether the motion at a point of the section departs or approaches as the multipliers
+        predict."""
         return any(self._is_linear(x - self.x, times) for times in thresholds.TEST_TIMES)
 
     def stays_linear_until(self, horizon: float) -> bool:
-        """Whether the static start, near an unstable cycle, follows the linear map until the horizon (s)."""
+        """Whether the static start, near an unstable cycle, follows the linear map until the
+        horizon (s)."""
         room = self.periods_left(first_release(self.cycle.parameters), horizon)
         # the leading part alone excludes most motions
         right = _left_vector(self.jacobian.T)
         part = float(abs(self.leading @ self.distance)) / float(abs(self.leading @ right))
-        grown = math.log(max(part / self.map.deflection, 1e-300)) + room * math.log(abs(self.cycle.multipliers[0]))
+        grown = math.log(max(part / self.map.deflection, 1e-300)) + room * math.log(
+            abs(self.cycle.multipliers[0])
+        )
         if not grown <= math.log(2 * thresholds.AMPLITUDES[0]):
             return False
         departure = self.extrapolate_departure(room)
-        return room <= 1 or (departure is not None and departure[0] >= (room - 1) * self.cycle.period)
+        return room <= 1 or (
+            departure is not None and departure[0] >= (room - 1) * self.cycle.period
+        )
 
     def periods_left(self, time: float, horizon: float) -> int:
-        """Periods of a cycle until the horizon (s), for a motion that follows it `waited` after a time (s)."""
+        """Periods of a cycle until the horizon (s), for a motion that follows it `waited` after a
+        time (s)."""
         return max(0, math.ceil((horizon - (time + self.waited)) / self.cycle.period))
 
     @np.errstate(over="ignore", invalid="ignore")  # powers of a strongly unstable cycle's Jacobian
     def _is_linear(self, distance: Array, times: tuple[float, float]) -> bool:
-        """Whether the motion at that distance departs from the cycle, or approaches it, as its multipliers predict."""
+        """Whether the motion at that distance departs from the cycle, or approaches it, as its
+        multipliers predict."""
         cycle, deflection = self.cycle, self.map.deflection
         least = thresholds.ARRIVED * deflection if cycle.stable else 0.0
         # the errors of coarse flights would matter at a smaller distance
@@ -114,8 +133,11 @@ class NearCycle:
             parts.append(float(abs(self.leading @ (flight.end - self.x))))
         return _grows_at_rate(parts, periods * cycle.period, cycle.growth_rate, least)
 
-    def extrapolate_departure(self, room: int, furthest: float = thresholds.NEAR) -> tuple[float, Array] | None:
-        """Time (s) over which multipliers represent the departure, at most `room` periods, and distance at its end."""
+    def extrapolate_departure(
+        self, room: int, furthest: float = thresholds.NEAR
+    ) -> tuple[float, Array] | None:
+        """Time (s) over which multipliers represent the departure, at most `room` periods, and
+        distance at its end."""
         period = self.cycle.period
         powers = [self.jacobian]
         most = math.log(1e100) / max(math.log(abs(self.cycle.multipliers[0])), 1e-300)
@@ -131,7 +153,8 @@ class NearCycle:
                 break
             excess = self._excess_rate(distance)
             if excess is not None and abs(excess) <= thresholds.LARGEST_OUTSIDE:
-                # the rate changes with the square of the amplitude: a' = rate a (1 + excess a^2 / amplitude^2)
+                # the rate changes with the square of the amplitude: a' = rate a (1 + excess a^2 /
+                # amplitude^2)
                 sooner = math.log1p(excess) / (2 * self.cycle.growth_rate)
                 return max(n * period - sooner, period), distance
             if self._is_linear(distance, thresholds.TEST_TIMES[0]):
@@ -139,8 +162,9 @@ class NearCycle:
         return None
 
     def _excess_rate(self, distance: Array) -> float | None:
-        """Relative excess of the growth rate over the leading multiplier's; None unless the motion departs. Its phase,
-        which drifts with the amplitude long before the growth rate does and matters only near borders, is ignored."""
+        """Relative excess of the growth rate over the leading multiplier's; None unless the motion
+        departs. Its phase, which drifts with the amplitude long before the growth rate does and
+        matters only near borders, is ignored."""
         right = _left_vector(self.jacobian.T)
         right = right / (self.leading @ right)
         real = self.cycle.multipliers[0].imag == 0
@@ -152,13 +176,18 @@ class NearCycle:
             apart, count = flight.end - self.x, count + periods
             part = self.leading @ apart
             plane = np.real(part * right) * (1 if real else 2)
-            if not np.linalg.norm(apart - plane) <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(apart):
+            if not np.linalg.norm(apart - plane) <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(
+                apart
+            ):
                 return None
-        return float(math.log(abs(part) / before) / (count * self.cycle.period) / self.cycle.growth_rate - 1)
+        return float(
+            math.log(abs(part) / before) / (count * self.cycle.period) / self.cycle.growth_rate - 1
+        )
 
 
 def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
-    """The cycle near the static start, and whether the start follows it; without a cycle, the result of the search."""
+    """The cycle near the static start, and whether the start follows it; without a cycle, the
+    result of the search."""
     if not may_stick_and_slip(p):
         return find_cycle(p)
     map_ = ReturnMap(p)
@@ -169,8 +198,8 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
 def find_cycle_near(
     map_: ReturnMap, x: Array, near_return: tuple[float, int] | None, unstable: Sequence[float] = ()
 ) -> NearCycle | None:
-    """The cycle near a motion at a point of the section, and whether the motion follows it. If the cycle is unstable,
-    tests for that begin at the times `unstable`, s."""
+    """The cycle near a motion at a point of the section, and whether the motion follows it. If the
+    cycle is unstable, tests for that begin at the times `unstable`, s."""
     change, releases = near_return or (math.inf, 0)
     if not change <= thresholds.NEAR / 2:
         return None
@@ -181,13 +210,17 @@ def find_cycle_near(
     return _relate(map_, cycle, x, thresholds.WAITS if cycle.stable else unstable)
 
 
-def find_near_return(map_: ReturnMap, x: Array, most: int = thresholds.LARGEST_PERIOD) -> tuple[float, int] | None:
-    """Least change from a release of a motion to a later one, over the static deflection, and the number of releases
-    between them; None if the motion does not return to the section at all."""
+def find_near_return(
+    map_: ReturnMap, x: Array, most: int = thresholds.LARGEST_PERIOD
+) -> tuple[float, int] | None:
+    """Least change from a release of a motion to a later one, over the static deflection, and the
+    number of releases between them; None if the motion does not return to the section at all."""
     later = map_.returns(x, most, may_separate=map_.patient, coarse=True)
     changes = [float(np.linalg.norm(point - x) / map_.deflection) for point in later]
     # the shortest of those with about the least change
-    return next(((change, i) for i, change in enumerate(changes, 1) if change <= 2 * min(changes)), None)
+    return next(
+        ((change, i) for i, change in enumerate(changes, 1) if change <= 2 * min(changes)), None
+    )
 
 
 def first_release(p: Parameters) -> float:
@@ -195,7 +228,9 @@ def first_release(p: Parameters) -> float:
     return max((p.mu_s * p.N / p.r_0 - p.c_p * p.Omega) / (p.k_p * p.Omega), 0.0)
 
 
-def _relate(map_: ReturnMap, cycle: FloquetResult, x: Array, waits: Sequence[float] = thresholds.WAITS) -> NearCycle:
+def _relate(
+    map_: ReturnMap, cycle: FloquetResult, x: Array, waits: Sequence[float] = thresholds.WAITS
+) -> NearCycle:
     """The motion at a point of the section in relation to a cycle."""
     assert cycle.state is not None
     fixed_point = map_.point(cycle.state)
@@ -214,14 +249,18 @@ def _relate(map_: ReturnMap, cycle: FloquetResult, x: Array, waits: Sequence[flo
 
 
 def _grows_at_rate(parts: Sequence[float], time: float, rate: float, least: float) -> bool:
-    """Whether the leading part grows at a rate (1/s) between two times, or has fallen to `least`."""
+    """Whether the leading part grows at a rate (1/s) between two times, or has fallen to
+    `least`."""
     if not min(parts) > 0 or parts[1] <= least:
         return parts[1] <= least
-    return abs(math.log(parts[1] / parts[0]) / time - rate) <= thresholds.LARGEST_RATE_ERROR * abs(rate)
+    return abs(math.log(parts[1] / parts[0]) / time - rate) <= thresholds.LARGEST_RATE_ERROR * abs(
+        rate
+    )
 
 
 def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs) -> ComplexArray:
-    """Left eigenvector of the eigenvalue of most `size`: its product with a distance is the eigenvalue's part of it."""
+    """Left eigenvector of the eigenvalue of most `size`: its product with a distance is the
+    eigenvalue's part of it."""
     values, vectors = np.linalg.eig(jacobian.T)
     return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
 
@@ -230,10 +269,14 @@ _sliding = lru_cache(maxsize=1)(steady_sliding)  # asked at the end of each leg 
 
 
 def approaches_sliding(p: Parameters, state: State, tol: float) -> bool:
-    """Whether a slipping motion approaches stable steady sliding as the eigenvalues there predict."""
+    """Whether a slipping motion approaches stable steady sliding as the eigenvalues there
+    predict."""
     if state.phase != "slip" or p.n_diameters < 0 or not (sliding := _sliding(p)).stable:
         return False
-    modes, scale = mode_arrays(p), np.sqrt(energy_weights(p))  # by it the norm of rows is that of the energy
+    modes, scale = (
+        mode_arrays(p),
+        np.sqrt(energy_weights(p)),
+    )  # by it the norm of rows is that of the energy
     jacobian = scale[:, None] * sliding.jacobian / scale
     expected = scale * _from_sliding(p, sliding, state)
     static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
@@ -263,6 +306,8 @@ def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:
     modes, give = mode_arrays(p), contact_compliance(p)
     disc = [getattr(state, name) - getattr(sliding, name) for name in ("a", "alpha", "b", "beta")]
     # the contact's force is that of the slider's spring: (w - u) / give = N + k (u - u_0)
-    rest = (modes.psi @ sliding.a - give * (p.N - p.k * engine_case(p).model.u_0)) / (1 + p.k * give)
+    rest = (modes.psi @ sliding.a - give * (p.N - p.k * engine_case(p).model.u_0)) / (
+        1 + p.k * give
+    )
     height = [float(state.u - rest), float(state.u_velocity)] if give else []
     return join_rows(modes, disc, (state.psi - sliding.psi, state.f - p.Omega), height)

@@ -1,8 +1,9 @@
 """Lyapunov exponents of a motion through all its events, in particular after a loss of contact.
 
-Columns of the variational equations are orthonormalised at equal intervals (Benettin's method).  Columns turn slowly
-towards the motion, whose exponent is zero unless it comes to rest.  To leave it out, the first column is the motion's
-velocity, which stays so, and the others are kept orthogonal to it.
+Columns of the variational equations are orthonormalised at equal intervals (Benettin's method).
+Columns turn slowly towards the motion, whose exponent is zero unless it comes to rest.  To leave it
+out, the first column is the motion's velocity, which stays so, and the others are kept orthogonal
+to it.
 """
 
 import math
@@ -18,14 +19,33 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.engine.series import build_series
 from disc_model.errors import Status, as_text, raise_faults, violations
 from disc_model.parameters import Parameters
-from disc_model.simulation.states import State, engine_case, read_state, series_order, series_tolerance, write_state
-from disc_model.stability.return_map import ENDS, Array, case_faults, coordinate_rows, energy_scale, longest_step
+from disc_model.simulation.states import (
+    State,
+    engine_case,
+    read_state,
+    series_order,
+    series_tolerance,
+    write_state,
+)
+from disc_model.stability.return_map import (
+    ENDS,
+    Array,
+    case_faults,
+    coordinate_rows,
+    energy_scale,
+    longest_step,
+)
 from disc_model.units import TOLERANCES, is_number, is_whole, limits_faults
 
 _BLOCKS = 16
-MOST_INTERVALS = 10_000_000  # orthonormalisations in the averaging time: hours of work, and 600 MB of logarithms
+MOST_INTERVALS = (
+    10_000_000  # orthonormalisations in the averaging time: hours of work, and 600 MB of logarithms
+)
 CLEAR = 4.0  # an exponent differs from zero if it exceeds this many of its errors
-CONVERGED = 0.05, 0.002  # share of an exponent, or difference in 1/s, to which both halves of the time agree
+CONVERGED = (
+    0.05,
+    0.002,
+)  # share of an exponent, or difference in 1/s, to which both halves of the time agree
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -107,15 +127,27 @@ def lyapunov_exponents(
     """
     raise_faults(case_faults(p, "lyapunov_exponents"))
     leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
-    most = min(layout.WIDTH, len(coordinate_rows(engine_case(p).model))) - (leaves_out and bool(leave_out_trivial))
+    most = min(layout.WIDTH, len(coordinate_rows(engine_case(p).model))) - (
+        leaves_out and bool(leave_out_trivial)
+    )
     lasts = is_number(duration) and sys.float_info.min <= duration < math.inf
     shortest = max(duration / MOST_INTERVALS if lasts else 0.0, sys.float_info.min)
     fits = is_number(interval) and shortest <= interval < math.inf
     faults = limits_faults("tol", tol, TOLERANCES) + violations(
         (lasts, "duration", duration, "must be finite and > 0"),
-        (is_whole(count) and 1 <= count <= most, "count", count, f"must be a whole number from 1 to {most}"),
+        (
+            is_whole(count) and 1 <= count <= most,
+            "count",
+            count,
+            f"must be a whole number from 1 to {most}",
+        ),
         (fits, "interval", interval, f"must be finite and >= {as_text(shortest)}"),
-        (isinstance(initial_state, State | None), "initial_state", initial_state, "must be a State"),
+        (
+            isinstance(initial_state, State | None),
+            "initial_state",
+            initial_state,
+            "must be a State",
+        ),
         (leaves_out, "leave_out_trivial", leave_out_trivial, "must be True or False"),
     )
     raise_faults(faults)
@@ -143,7 +175,9 @@ def lyapunov_exponents(
             columns[:, 0] = along
     steps = max(_BLOCKS, math.ceil(duration / interval))
     longest, length = longest_step(model, order, 10 * tolerance), duration / steps
-    course = event_loop.IntegrationLimits(order, tolerance, longest, length, 0, may_separate=True, tangent=True)
+    course = event_loop.IntegrationLimits(
+        order, tolerance, longest, length, 0, may_separate=True, tangent=True
+    )
     logs, status, done = np.full((steps, count), -math.inf), Status.OK, 0
     for i in range(-steps, steps):
         if i == 0:
@@ -158,14 +192,21 @@ def lyapunov_exponents(
         if i >= 0:
             logs[i, remaining] = growth
             done = i + 1
-    return _averaged(status, logs[:done], length, wanted, t.log, read_state(case, state), leave_out_trivial)
+    return _averaged(
+        status, logs[:done], length, wanted, t.log, read_state(case, state), leave_out_trivial
+    )
 
 
 def _orthonormalise(
-    columns: Array, rows: NDArray[np.intp], metric: Array, remaining: NDArray[np.intp], vanished: float
+    columns: Array,
+    rows: NDArray[np.intp],
+    metric: Array,
+    remaining: NDArray[np.intp],
+    vanished: float,
 ) -> tuple[Array, NDArray[np.intp]]:
-    """Orthonormalise the columns of indices `remaining`, whose `rows` (n,) have the `metric` (n, 1), and set those to
-    zero whose orthogonal part is shorter than `vanished` of their own; logarithms of growth, and what remains."""
+    """Orthonormalise the columns of indices `remaining`, whose `rows` (n,) have the `metric` (n,
+    1), and set those to zero whose orthogonal part is shorter than `vanished` of their own;
+    logarithms of growth, and what remains."""
     while True:
         q, r = np.linalg.qr(columns[np.ix_(rows, remaining)] * metric)
         lengths = np.abs(np.diag(r))
@@ -173,20 +214,30 @@ def _orthonormalise(
         if not dependent.size:
             columns[np.ix_(rows, remaining)] = q / metric
             return np.log(lengths), remaining
-        # one at a time, because later columns were made orthogonal to a direction that is mere rounding
+        # one at a time, because later columns were made orthogonal to a direction that is mere
+        # rounding
         columns[:, remaining[dependent[0]]] = 0.0
         remaining = np.delete(remaining, dependent[0])
 
 
 def _averaged(
-    status: Status, logs: Array, interval: float, count: int, log: Array, end: State, leave_out_trivial: bool
+    status: Status,
+    logs: Array,
+    interval: float,
+    count: int,
+    log: Array,
+    end: State,
+    leave_out_trivial: bool,
 ) -> Lyapunov:
-    """The `count` largest exponents from logarithms of growth over equal times, shape (n, count or one more)."""
+    """The `count` largest exponents from logarithms of growth over equal times, shape (n, count or
+    one more)."""
     covered = len(logs) * interval
     if len(logs) < _BLOCKS:  # too little time was covered
         nan = np.full(count, math.nan)
         return Lyapunov(status, nan, nan, covered, 0, np.zeros(count, bool), end)
-    history = np.array([np.mean(block, axis=0) / interval for block in np.array_split(logs, _BLOCKS)])
+    history = np.array(
+        [np.mean(block, axis=0) / interval for block in np.array_split(logs, _BLOCKS)]
+    )
     exponents, trivial = np.sum(logs, axis=0) / covered, math.nan
     with np.errstate(invalid="ignore"):  # of -inf
         drift = np.abs(np.subtract(*(np.mean(half, axis=0) for half in np.split(history, 2))))
@@ -195,8 +246,20 @@ def _averaged(
     converged = np.isfinite(exponents) & (drift <= np.maximum(share * np.abs(exponents), least))
     order = np.argsort(-exponents, kind="stable")
     # a motion at rest or in steady sliding has no trivial exponent
-    if leave_out_trivial and log[tangent.RELEASES] + log[tangent.STICKS] + log[tangent.SEPARATIONS] > 0:
+    if (
+        leave_out_trivial
+        and log[tangent.RELEASES] + log[tangent.STICKS] + log[tangent.SEPARATIONS] > 0
+    ):
         trivial = float(np.sum(logs[:, 0]) / covered)
         order = order[order != 0]
     order, separations = order[:count], int(log[tangent.SEPARATIONS])
-    return Lyapunov(status, exponents[order], errors[order], covered, separations, converged[order], end, trivial)
+    return Lyapunov(
+        status,
+        exponents[order],
+        errors[order],
+        covered,
+        separations,
+        converged[order],
+        end,
+        trivial,
+    )

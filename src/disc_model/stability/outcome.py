@@ -1,7 +1,9 @@
-"""The outcome of one motion within a horizon: from multipliers if they prove it, otherwise by simulation.
+"""The outcome of one motion within a horizon: from multipliers if they prove it, otherwise by
+simulation.
 
-The search is a machine whose `Stage` says what is known of the motion; docs/study_method.md, Regions, describes it. The
-static start is a point of the section of the return map, and usually lies near the cycle that Newton's method finds.
+The search is a machine whose `Stage` says what is known of the motion; docs/study_method.md,
+Regions, describes it. The static start is a point of the section of the return map, and usually
+lies near the cycle that Newton's method finds.
 """
 
 import math
@@ -34,7 +36,8 @@ from disc_model.stability.return_map import RETURNED, Array, ReturnMap
 
 @dataclass(frozen=True)
 class Segment:
-    """Ranges of contact force (N) and height over static equilibrium (m); shares of time; separations per s."""
+    """Ranges of contact force (N) and height over static equilibrium (m); shares of time;
+    separations per s."""
 
     P_min: float
     P_max: float
@@ -52,8 +55,8 @@ class Segment:
 
 @dataclass(frozen=True, eq=False)
 class Attractor:
-    """Outcome of motions on an attractor, and a segment of one; of a periodic one also period (s), releases in it,
-    growth rate (1/s) and points on the section, shape (releases, n)."""
+    """Outcome of motions on an attractor, and a segment of one; of a periodic one also period (s),
+    releases in it, growth rate (1/s) and points on the section, shape (releases, n)."""
 
     kind: Outcome
     segment: Segment
@@ -64,7 +67,8 @@ class Attractor:
 
 
 class Stage(Enum):
-    """Stage of a search for the outcome of a motion: what is known of it. From `SETTLED` on, the search has ended."""
+    """Stage of a search for the outcome of a motion: what is known of it. From `SETTLED` on, the
+    search has ended."""
 
     START = "at its initial state"
     NEAR_CYCLE = "follows the linear map near a cycle"
@@ -144,7 +148,9 @@ def find_outcome(
     late : s, length of the segment before the horizon that is described
     """
     if isinstance(near, NearCycle):
-        map_: ReturnMap | None = near.map  # a new one takes as long as a return to the section ten times over
+        map_: ReturnMap | None = (
+            near.map
+        )  # a new one takes as long as a return to the section ten times over
     else:
         map_ = ReturnMap(p) if p.n_diameters >= 0 and may_stick_and_slip(p) else None
     if not early or start is not None or map_ is None:
@@ -157,7 +163,8 @@ def find_outcome(
 
 @dataclass
 class _OutcomeSearch:
-    """A search with one method a stage, which returns the next one; `start_cycle` may decide about the static start."""
+    """A search with one method a stage, which returns the next one; `start_cycle` may decide about
+    the static start."""
 
     p: Parameters
     horizon: float
@@ -188,7 +195,9 @@ class _OutcomeSearch:
         self.result = OutcomeResult(state=self.start)
         self.leg = thresholds.FIRST_LEG
         self.departed_from: NearCycle | None = None  # the last unstable cycle that it followed
-        self.cycle_to_come: NearCycle | None = None  # an unstable one near the start, until the motion follows it
+        self.cycle_to_come: NearCycle | None = (
+            None  # an unstable one near the start, until the motion follows it
+        )
         self.angles: list[Array] = []
         if self.start_cycle is None:
             return Stage.ON_ITS_WAY
@@ -217,7 +226,9 @@ class _OutcomeSearch:
         self.departed_from = near
         if result.time >= self.horizon:
             return Stage.ON_ITS_WAY
-        departure = near.extrapolate_departure(near.periods_left(result.time, self.horizon), self.furthest)
+        departure = near.extrapolate_departure(
+            near.periods_left(result.time, self.horizon), self.furthest
+        )
         time, distance = departure or (0.0, near.distance)
         slowest = result.extrapolated
         if departure and (slowest is None or near.cycle.growth_rate < slowest.cycle.growth_rate):
@@ -248,15 +259,21 @@ class _OutcomeSearch:
         if x is not None and examined and (near := self._find_followed_cycle(x)) is not None:
             self.cycle = near
             return Stage.NEAR_CYCLE
-        if self.early and result.time < self.horizon and self._grows:  # has growth ended in contact, by the record?
+        if (
+            self.early and result.time < self.horizon and self._grows
+        ):  # has growth ended in contact, by the record?
             settled = settling(*np.hstack(self.angles))
-            if settled.answer is Settled.SETTLED and result.time - settled.since >= thresholds.STEADY_FOR:
+            if (
+                settled.answer is Settled.SETTLED
+                and result.time - settled.since >= thresholds.STEADY_FOR
+            ):
                 result.outcome = Outcome.GROWING
                 return Stage.STEADY
         return Stage.ON_ITS_WAY
 
     def _simulate_leg(self) -> Result:
-        """Simulate a leg to its end or the first separation; the segment to be described is a leg of its own."""
+        """Simulate a leg to its end or the first separation; the segment to be described is a leg
+        of its own."""
         result = self.result
         marks = (self.horizon - self.late, self.horizon)
         stop = next(min(result.time + self.leg, mark) for mark in marks if result.time < mark)
@@ -264,7 +281,14 @@ class _OutcomeSearch:
         windows = {}
         if self.late and stop == self.horizon:
             windows = {"late": Window(start=result.time, stop=stop, rate=thresholds.SAMPLING_RATE)}
-        leg = simulate(self.p, stop, windows, tol=self.tol, initial_state=result.state, stop_at="first_separation")
+        leg = simulate(
+            self.p,
+            stop,
+            windows,
+            tol=self.tol,
+            initial_state=result.state,
+            stop_at="first_separation",
+        )
         self.angles.append(switch_angles(leg))
         if windows and leg.status.complete:
             result.segment = segment_of(leg)
@@ -273,7 +297,8 @@ class _OutcomeSearch:
         return leg
 
     def _next_section_point(self, state: State) -> Array | None:
-        """Where the motion comes to the section again, if it does; its nearest return to there is then measured."""
+        """Where the motion comes to the section again, if it does; its nearest return to there is
+        then measured."""
         code, x = self.map.next_release(state) if self.map is not None else (None, None)
         if self.map is None or x is None or code != RETURNED:
             return None
@@ -283,7 +308,8 @@ class _OutcomeSearch:
         return x
 
     def _find_followed_cycle(self, x: Array) -> NearCycle | None:
-        """The cycle that the motion follows linearly: the one near its start, if it comes back to that, or another."""
+        """The cycle that the motion follows linearly: the one near its start, if it comes back to
+        that, or another."""
         near = self.cycle_to_come
         assert self.map is not None
         if self.departed_from is not None:
@@ -296,9 +322,12 @@ class _OutcomeSearch:
             ):
                 self.cycle_to_come = self.result.near = None
                 return replace(near, follows_cycle=True, distance=x - near.x)
-            # a motion that comes near a cycle then changes less and less, down to errors of the simulation
+            # a motion that comes near a cycle then changes less and less, down to errors of the
+            # simulation
             known = [change for change in self.result.changes if not math.isnan(change)]
-            if known and known[-1] > max(known[-2:][0], thresholds.ARRIVED, thresholds.ERROR_OF_TOL * self.tol):
+            if known and known[-1] > max(
+                known[-2:][0], thresholds.ARRIVED, thresholds.ERROR_OF_TOL * self.tol
+            ):
                 return None
         waits = thresholds.WAITS if self.departed_from is None else thresholds.WAITS[:1]
         near = find_cycle_near(self.map, x, self.near_return, unstable=waits)
@@ -310,14 +339,16 @@ class _OutcomeSearch:
 
 
 def find_calm(p: Parameters, leg: Result, tol: float) -> Outcome | None:
-    """At rest if the slider sticks for good, steady sliding if the motion approaches it; None if neither is shown."""
+    """At rest if the slider sticks for good, steady sliding if the motion approaches it; None if
+    neither is shown."""
     if shares(leg)[0] == 1 and never_pulls(p):
         return Outcome.AT_REST
     return Outcome.STEADY_SLIDING if approaches_sliding(p, leg.final_state, tol) else None
 
 
 def growing(changes: Sequence[float]) -> bool:
-    """Whether two successive changes have risen above an earlier one: an instability, even if it is bounded later."""
+    """Whether two successive changes have risen above an earlier one: an instability, even if it is
+    bounded later."""
     d = np.array(changes)
     if len(d) < 3:
         return False
@@ -329,7 +360,8 @@ def growing(changes: Sequence[float]) -> bool:
 def final_segment(
     p: Parameters, state: State | None, duration: float, late: float, tol: float
 ) -> tuple[Result, Segment | None]:
-    """Simulate from a state (None: the static start) for a duration (s); its last segment, if it is complete."""
+    """Simulate from a state (None: the static start) for a duration (s); its last segment, if it is
+    complete."""
     begin = 0.0 if state is None else state.time
     stop = begin + duration
     if stop - late > begin:
@@ -351,12 +383,19 @@ def segment_of(result: Result) -> Segment:
 def shares(result: Result) -> tuple[float, float, float, float]:
     """Shares of a result's time in stick, slip and separation, and separations per second."""
     statistics = result.statistics
-    stick, slip, separation = (statistics[f"time_{phase}"] for phase in ("stick", "slip", "separation"))
+    stick, slip, separation = (
+        statistics[f"time_{phase}"] for phase in ("stick", "slip", "separation")
+    )
     total = stick + slip + separation
     return stick / total, slip / total, separation / total, statistics["separations"] / total
 
 
 def switch_angles(leg: Result) -> Array:
-    """Times of releases and losses of contact of a leg, s, and the slider's angles, rad: shape (2, n)."""
+    """Times of releases and losses of contact of a leg, s, and the slider's angles, rad: shape (2,
+    n)."""
     events = leg.events
-    return events.loc[events["kind"].isin(["stick_to_slip", "separation"]), ["time", "psi"]].to_numpy(dtype=float).T
+    return (
+        events.loc[events["kind"].isin(["stick_to_slip", "separation"]), ["time", "psi"]]
+        .to_numpy(dtype=float)
+        .T
+    )

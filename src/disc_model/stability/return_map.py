@@ -1,8 +1,9 @@
 """The return map of the stick-slip cycle, and its fixed points.
 
-The section is the instant before a forward release: f = 0 and r_0 F = mu_s P.  A point of it consists of the modal
-coordinates alone, because psi follows from the release condition, scaled to the norm of the disc's energy: omega a,
-omega b, alpha, beta.  Derivatives come from the variational equations (`disc_model.engine.event_loop`).
+The section is the instant before a forward release: f = 0 and r_0 F = mu_s P.  A point of it
+consists of the modal coordinates alone, because psi follows from the release condition, scaled to
+the norm of the disc's energy: omega a, omega b, alpha, beta.  Derivatives come from the variational
+equations (`disc_model.engine.event_loop`).
 """
 
 import math
@@ -20,12 +21,29 @@ from disc_model.engine import tangent as columns
 from disc_model.engine.series import build_series
 from disc_model.errors import raise_faults, violations
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
-from disc_model.simulation.states import State, engine_case, read_state, series_order, series_tolerance, write_state
+from disc_model.simulation.states import (
+    State,
+    engine_case,
+    read_state,
+    series_order,
+    series_tolerance,
+    write_state,
+)
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-PARAMETERS = ("Omega", "N", "D_star", "c", "c_p", "k", "k_p", "E", "m")  # by which the map can be differentiated
+PARAMETERS = (
+    "Omega",
+    "N",
+    "D_star",
+    "c",
+    "c_p",
+    "k",
+    "k_p",
+    "E",
+    "m",
+)  # by which the map can be differentiated
 RETURNED = transitions.RETURNED
 ENDS = {
     transitions.RETURNED: "returned",
@@ -39,16 +57,24 @@ ENDS = {
 
 
 def case_faults(p: Any, analysis: str) -> list[str]:
-    """Faults of a case for ``analysis``: it must be `Parameters`, and have modes, which alone can become unstable."""
+    """Faults of a case for ``analysis``: it must be `Parameters`, and have modes, which alone can
+    become unstable."""
     rule = f"must be >= 0: {analysis} needs modes of the disc"
     return foreign_case(p) or violations((p.n_diameters >= 0, "n_diameters", p.n_diameters, rule))
 
 
 def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
-    """As `columns.longest_step`, but shorter where dampers, springs together or a fast drive oscillate faster."""
-    damping = max(model.damping.max(), model.damping0.max(initial=0.0), max(model.c, model.c_p) / model.m)
-    contact = (1 / model.m + model.inverse_effective_mass) / model.compliance if model.compliant else 0.0
-    stiffness = max((model.unit * model.free_unit) ** -2, max(model.k, model.k_p) / model.m) + contact
+    """As `columns.longest_step`, but shorter where dampers, springs together or a fast drive
+    oscillate faster."""
+    damping = max(
+        model.damping.max(), model.damping0.max(initial=0.0), max(model.c, model.c_p) / model.m
+    )
+    contact = (
+        (1 / model.m + model.inverse_effective_mass) / model.compliance if model.compliant else 0.0
+    )
+    stiffness = (
+        max((model.unit * model.free_unit) ** -2, max(model.k, model.k_p) / model.m) + contact
+    )
     fastest = damping / 2 + math.sqrt(damping**2 / 4 + stiffness) + model.shift.max() * model.Omega
     rate = fastest * model.unit
     # all published cases are below 1.25, where steps are not shortened
@@ -56,7 +82,8 @@ def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
 
 
 def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
-    """Derivative of the equations with respect to one of `PARAMETERS`: a column of `Tangent.parameters`."""
+    """Derivative of the equations with respect to one of `PARAMETERS`: a column of
+    `Tangent.parameters`."""
     width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
     change = np.zeros(columns.N_SCALARS + 2 * width + 2 * n0)
     ends = columns.N_SCALARS + np.cumsum([0, width, width, n0])
@@ -70,13 +97,16 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
     elif name == "N":  # u_0 is proportional to N
         scalars[columns.LOAD] = 1.0 - model.k * model.u_0 / model.N
     elif name == "E":
-        # omega^2 is proportional to E; the damping (D_star / D) omega^2 does not depend on it, but 2 xi omega does
+        # omega^2 is proportional to E; the damping (D_star / D) omega^2 does not depend on it, but
+        # 2 xi omega does
         stiffness[:], stiffness0[:] = model.stiffness / p.E, model.stiffness0 / p.E
         if p.damping_ratio is not None:
             damping[:], damping0[:] = model.damping / (2 * p.E), model.damping0 / (2 * p.E)
         # u_0 and the residual flexibility are proportional to 1 / E
         residual = p.contact_compliance == RESIDUAL
-        scalars[columns.LOAD] = model.k * (model.u_0 + (0.0 if residual else model.N * model.compliance)) / p.E
+        scalars[columns.LOAD] = (
+            model.k * (model.u_0 + (0.0 if residual else model.N * model.compliance)) / p.E
+        )
         scalars[columns.D_COMPLIANCE] = -1.0 / p.E if residual else 0.0
     elif name == "D_star":
         damping[:], damping0[:] = model.stiffness / p.D, model.stiffness0 / p.D
@@ -84,7 +114,8 @@ def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
 
 
 def coordinate_rows(model: layout.Model) -> NDArray[np.intp]:
-    """Rows of a column without those of empty lanes, in which rounding errors would stay for ever."""
+    """Rows of a column without those of empty lanes, in which rounding errors would stay for
+    ever."""
     lanes, width = np.flatnonzero(model.shift), len(model.mode_amplitude)
     return np.concatenate([lanes, width + lanes, np.arange(2 * width, columns.n_rows(model))])
 
@@ -96,7 +127,9 @@ def energy_scale(model: layout.Model) -> Array:
     contact = 1 / model.compliance if model.compliant else 0.0
     height = [math.sqrt(model.k + contact or model.m), math.sqrt(model.m)]
     stiffness = np.where(model.stiffness > 0, model.stiffness, 1.0)
-    return np.concatenate([np.sqrt(stiffness), ones, np.sqrt(model.stiffness0), ones0, slider, height])
+    return np.concatenate(
+        [np.sqrt(stiffness), ones, np.sqrt(model.stiffness0), ones0, slider, height]
+    )
 
 
 class Counts(NamedTuple):
@@ -111,8 +144,9 @@ class Counts(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Flight:
-    """The motion between two returns to the section: exit code, durations (s), and derivatives of the end by the start,
-    (n, n), and the map's parameters, (n, their number). Without a return, or tangents, these mean nothing."""
+    """The motion between two returns to the section: exit code, durations (s), and derivatives of
+    the end by the start, (n, n), and the map's parameters, (n, their number). Without a return, or
+    tangents, these mean nothing."""
 
     outcome: int
     period: float
@@ -135,7 +169,8 @@ class Flight:
 
 
 class ReturnMap:
-    """The return map of one case; it owns the engine's arrays, so that one object serves one thread.
+    """The return map of one case; it owns the engine's arrays, so that one object serves one
+    thread.
 
     size : dimension n of the section: four for each pair of modes, two for each axisymmetric one, and on a compliant
         contact two for the slider's u, u'
@@ -147,14 +182,20 @@ class ReturnMap:
     """
 
     def __init__(
-        self, p: Parameters, tol: float = 1e-12, parameters: tuple[str, ...] = (), *, patient: bool = False
+        self,
+        p: Parameters,
+        tol: float = 1e-12,
+        parameters: tuple[str, ...] = (),
+        *,
+        patient: bool = False,
     ) -> None:
         raise_faults(case_faults(p, "the return map"))
         self.tol = tol = float(tol)  # kernels are compiled for the types of their arguments
         self.parameters, self.patient = p, patient
         self._case = engine_case(p)
         self.model = model = self._case.model
-        # the Jacobian needs a finer series than event times do, and no rougher one could reach a residual of 1e-8
+        # the Jacobian needs a finer series than event times do, and no rougher one could reach a
+        # residual of 1e-8
         flights = 1 / 20 * min(tol, 1e-10)
         self.order = series_order(flights)
         self.tolerance = series_tolerance(flights, compliant=p.contact_compliance != 0)
@@ -162,15 +203,21 @@ class ReturnMap:
         modes, slider = np.split(coordinate_rows(model), [-layout.SLIDER])
         self._slider = int(slider[0])
         l = np.abs(model.shift).astype(np.int64)
-        self.diameters = np.concatenate([l, l, np.zeros(2 * len(model.mode_amplitude0), np.int64)])[modes]
+        self.diameters = np.concatenate([l, l, np.zeros(2 * len(model.mode_amplitude0), np.int64)])[
+            modes
+        ]
         height = slider[[layout.U, layout.U_VELOCITY]]
         rows = np.append(modes, height) if model.compliant else modes
         self.scale = energy_scale(model)[rows]
         self.size = n = len(rows)
         self._first = layout.WIDTH * -(-n // layout.WIDTH)
         self._names = parameters
-        self._tangent = columns.build_tangent(model, self._first + len(parameters), self.order, self._first)
-        changes = self._tangent.parameters.reshape(self._tangent.columns // layout.WIDTH, -1, layout.WIDTH)
+        self._tangent = columns.build_tangent(
+            model, self._first + len(parameters), self.order, self._first
+        )
+        changes = self._tangent.parameters.reshape(
+            self._tangent.columns // layout.WIDTH, -1, layout.WIDTH
+        )
         for i, name in enumerate(parameters, self._first):
             changes[i // layout.WIDTH, :, i % layout.WIDTH] = parameter_change(p, model, name)
         jacobian = np.zeros((n, self._tangent.columns))
@@ -179,29 +226,49 @@ class ReturnMap:
         self.deflection = max(float(np.linalg.norm(self.static)), sys.float_info.min)
 
     def _coordinates(self) -> Array:
-        column = np.append(self._state.disc[: self._slider], self._state.x[layout.PSI : layout.U_VELOCITY + 1])
+        column = np.append(
+            self._state.disc[: self._slider], self._state.x[layout.PSI : layout.U_VELOCITY + 1]
+        )
         return np.asarray(column[self._section.rows] * self.scale, dtype=float)
 
     @property
     def longest(self) -> float:
-        """Time allowed for a return, s: several times that of the rigid disc, whatever the speed."""
+        """Time allowed for a return, s: several times that of the rigid disc, whatever the
+        speed."""
         p = self.parameters
         stuck = 2 * (p.mu_s - p.mu_k) * p.N / (p.r_0 * p.k_p * p.Omega)
-        return (60.0 if self.patient else 1.0) * (4 * (stuck + 2 * math.pi * math.sqrt(p.m / p.k_p)) + 0.01)
+        return (60.0 if self.patient else 1.0) * (
+            4 * (stuck + 2 * math.pi * math.sqrt(p.m / p.k_p)) + 0.01
+        )
 
     def evaluate(
-        self, x: Array, *, releases: int = 1, tangent: bool = True, may_separate: bool = False, coarse: bool = False
+        self,
+        x: Array,
+        *,
+        releases: int = 1,
+        tangent: bool = True,
+        may_separate: bool = False,
+        coarse: bool = False,
     ) -> Flight:
-        """Follow the motion from `x` to the `releases`-th next release; `coarse` suffices for a direction."""
+        """Follow the motion from `x` to the `releases`-th next release; `coarse` suffices for a
+        direction."""
         t, start = self._tangent, np.array(x, dtype=float)
         order, tolerance, of_columns = self.order, self.tolerance, 10 * self.tolerance
         if coarse:
             order, tolerance, of_columns = min(20, order), 1e-9, 1e-5
         longest = longest_step(self.model, order, of_columns) if tangent else math.inf
         course = event_loop.IntegrationLimits(
-            order, tolerance, longest, int(releases) * self.longest, int(releases), bool(may_separate), bool(tangent)
+            order,
+            tolerance,
+            longest,
+            int(releases) * self.longest,
+            int(releases),
+            bool(may_separate),
+            bool(tangent),
         )
-        code = event_loop.integrate(self.model, self._series, self._state, t, course, self._section, start)
+        code = event_loop.integrate(
+            self.model, self._series, self._state, t, course, self._section, start
+        )
         whole, stick = t.log[[columns.DURATION, columns.STICK_TIME]].tolist()
         counts = Counts(*t.log[columns.RELEASES : columns.STICKS + 1].astype(int).tolist())
         jacobian, last = self._section.jacobian, self._first + len(self._names)
@@ -209,11 +276,14 @@ class ReturnMap:
         return Flight(code, whole, stick, counts, start, self._section.end.copy(), by_start, by)
 
     def next_release(self, start: State) -> tuple[int, Array]:
-        """Exit code (`RETURNED` on success) and the first point of the section that the motion from `start` reaches."""
+        """Exit code (`RETURNED` on success) and the first point of the section that the motion from
+        `start` reaches."""
         write_state(self._case, start, self._state)
         limits = self.order, self.tolerance, math.inf, self.longest, 1
         course = event_loop.IntegrationLimits(*limits, may_separate=True, tangent=False)
-        code: int = event_loop.integrate(self.model, self._series, self._state, self._tangent, course)
+        code: int = event_loop.integrate(
+            self.model, self._series, self._state, self._tangent, course
+        )
         return code, self._coordinates()
 
     def point(self, state: State) -> Array:
@@ -226,13 +296,18 @@ class ReturnMap:
         state, column = self._state, np.zeros(self._slider + layout.SLIDER)
         column[self._section.rows] = x / self.scale
         state.disc[:], state.x[:] = 0.0, 0.0
-        state.disc[: self._slider], state.x[layout.PSI : layout.U_VELOCITY + 1] = np.split(column, [self._slider])
+        state.disc[: self._slider], state.x[layout.PSI : layout.U_VELOCITY + 1] = np.split(
+            column, [self._slider]
+        )
         state.x[layout.PHASE] = layout.STICK
         state.x[layout.PSI] = event_loop.release_angle(self.model, state)
         return read_state(self._case, state)
 
-    def returns(self, x: Array, most: int, *, may_separate: bool = False, coarse: bool = False) -> Iterator[Array]:
-        """Points of the motion from `x` at its next releases, at most `most`, as long as it returns."""
+    def returns(
+        self, x: Array, most: int, *, may_separate: bool = False, coarse: bool = False
+    ) -> Iterator[Array]:
+        """Points of the motion from `x` at its next releases, at most `most`, as long as it
+        returns."""
         for _ in range(most):
             flight = self.evaluate(x, tangent=False, may_separate=may_separate, coarse=coarse)
             if not flight.returned:
@@ -241,15 +316,20 @@ class ReturnMap:
 
 
 def rounding(tol: float, factor: float) -> float:
-    """Relative residual accepted when it stops decreasing; a rough `tol` does not allow more than 1e-8."""
+    """Relative residual accepted when it stops decreasing; a rough `tol` does not allow more than
+    1e-8."""
     return max(tol, min(factor * tol, 1e-8))
 
 
-def newton(map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool = False) -> Flight | None:
-    """The flight from a fixed point of the map, by Newton's method with a line search; None if it finds none.
+def newton(
+    map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool = False
+) -> Flight | None:
+    """The flight from a fixed point of the map, by Newton's method with a line search; None if it
+    finds none.
 
-    The residual must fall below the map's `tol`, over its deflection. If rounding stops it earlier, up to ten thousand
-    times as much is accepted, but never more than 1e-8.  Jacobians are reused; the result has that of the fixed point.
+    The residual must fall below the map's `tol`, over its deflection. If rounding stops it earlier,
+    up to ten thousand times as much is accepted, but never more than 1e-8.  Jacobians are reused;
+    the result has that of the fixed point.
     """
     follow = partial(map_.evaluate, releases=releases, may_separate=may_separate)
     goal, identity = map_.tol * map_.deflection, np.eye(map_.size)
@@ -271,7 +351,9 @@ def newton(map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool =
                 break
             if fresh:
                 return None
-        if flight.residual > goal and ratio > 0.05:  # a better step is followed by another with its Jacobian
+        if (
+            flight.residual > goal and ratio > 0.05
+        ):  # a better step is followed by another with its Jacobian
             if used >= 14:  # Jacobians
                 return None
             again = follow(flight.start, coarse=used < 3)  # the first ones only give a direction
@@ -284,7 +366,8 @@ def newton(map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool =
 
 
 def newton_step(matrix: Array, right: Array) -> Array:
-    """A step of Newton's method; if the matrix is singular, the least-squares solution of least norm."""
+    """A step of Newton's method; if the matrix is singular, the least-squares solution of least
+    norm."""
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=float)
     except np.linalg.LinAlgError:

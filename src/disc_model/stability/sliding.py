@@ -1,13 +1,15 @@
-"""Steady sliding, f = Omega: equilibrium of the equations of slip (docs/model.md, Slip), its eigenvalues and modes.
+"""Steady sliding, f = Omega: equilibrium of the equations of slip (docs/model.md, Slip), its
+eigenvalues and modes.
 
 With d = 2 xi omega the disc's response to the force P that rotates over it is
 
     a_l = (gap psi_l V + lag t_l T) / (gap^2 + lag^2),  gap = l^2 Omega^2 - omega^2,
     b_l = (lag psi_l V - gap t_l T) / (gap^2 + lag^2),  lag = d l Omega,
 
-with V for the vertical force, T = mu R for friction (mu = mu_k, unless it falls with the speed) and t_l for the
-tangential amplitude of a mode where friction acts.  With C for the contact's compliance, V = N + k (w - C V - u_0).
-R = V; under the normal force, with beta = B / r_0, V = R (1 - mu beta) and r_0 F = (mu + beta) R.
+with V for the vertical force, T = mu R for friction (mu = mu_k, unless it falls with the speed) and
+t_l for the tangential amplitude of a mode where friction acts.  With C for the contact's
+compliance, V = N + k (w - C V - u_0). R = V; under the normal force, with beta = B / r_0, V = R (1
+- mu beta) and r_0 F = (mu + beta) R.
 """
 
 import math
@@ -30,9 +32,12 @@ from disc_model.stability.return_map import Array, ComplexArray, case_faults
 
 
 def _in_python(module: ModuleType) -> Any:
-    """The compiled functions of a module as functions of Python, which need no compilation for complex arrays."""
+    """The compiled functions of a module as functions of Python, which need no compilation for
+    complex arrays."""
     names = {**vars(module)}
-    compiled = {name: law.py_func.__code__ for name, law in names.items() if hasattr(law, "py_func")}
+    compiled = {
+        name: law.py_func.__code__ for name, law in names.items() if hasattr(law, "py_func")
+    }
     names |= {name: FunctionType(code, names) for name, code in compiled.items()}
     return SimpleNamespace(**names)
 
@@ -44,10 +49,19 @@ class SlidingStatus(StatusBase):
     """Whether steady sliding exists; `advice` says what that means."""
 
     OK = "ok", "Steady sliding exists; its growth rate says whether it is stable."
-    NO_CONTACT = "no_contact", "The equilibrium would need a contact force that is not positive: lower Omega."
+    NO_CONTACT = (
+        "no_contact",
+        "The equilibrium would need a contact force that is not positive: lower Omega.",
+    )
     AT_REST = "at_rest", "The disc is not driven (Omega = 0): nothing slides."
-    NO_SPRING = "no_spring", "Without the spring in the plane (k_p = 0) nothing balances friction on a slider at rest."
-    PARADOX = "paradox", "Painleve's paradox: rigid friction on this slope has no solution; lower mu_k or N."
+    NO_SPRING = (
+        "no_spring",
+        "Without the spring in the plane (k_p = 0) nothing balances friction on a slider at rest.",
+    )
+    PARADOX = (
+        "paradox",
+        "Painleve's paradox: rigid friction on this slope has no solution; lower mu_k or N.",
+    )
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -76,7 +90,9 @@ class SteadySliding(Summarised, Drawn):
     b: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     alpha: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     beta: Array = field(default_factory=lambda: np.zeros(0), repr=False)
-    eigenvalues: NDArray[np.complex128] = field(default_factory=lambda: np.zeros(0, complex), repr=False)
+    eigenvalues: NDArray[np.complex128] = field(
+        default_factory=lambda: np.zeros(0, complex), repr=False
+    )
     growth_rate: float = math.nan
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
 
@@ -90,22 +106,28 @@ class SteadySliding(Summarised, Drawn):
         yield "angle psi", number_text(self.psi, "rad")
         yield "growth rate", number_text(self.growth_rate, "1/s")
         yield "unstable modes", self.growing.size if self.eigenvalues.size else ""
-        yield "growing frequencies", ", ".join(number_text(value.imag / math.tau, "Hz") for value in self.growing)
+        yield (
+            "growing frequencies",
+            ", ".join(number_text(value.imag / math.tau, "Hz") for value in self.growing),
+        )
 
     @property
     def stable(self) -> bool:
-        """Whether the growth rate is negative, so that small disturbances decay; if neutral, rounding decides."""
+        """Whether the growth rate is negative, so that small disturbances decay; if neutral,
+        rounding decides."""
         return self.growth_rate < 0
 
     @property
     def growing(self) -> ComplexArray:
-        """Eigenvalues of modes that grow by more than rounding, 1/s, (n,); of a conjugate pair the upper one."""
+        """Eigenvalues of modes that grow by more than rounding, 1/s, (n,); of a conjugate pair the
+        upper one."""
         grows = self.eigenvalues.real > _rounding(self.eigenvalues)
         return self.eigenvalues[grows & (self.eigenvalues.imag >= 0)]
 
 
 def _rounding(eigenvalues: ComplexArray) -> float:
-    """Error of eigenvalues, 1/s: a solver rounds relative to the largest, once for each of n rows."""
+    """Error of eigenvalues, 1/s: a solver rounds relative to the largest, once for each of n
+    rows."""
     return float(np.finfo(float).eps * np.abs(eigenvalues).max(initial=0) * eigenvalues.size)
 
 
@@ -162,9 +184,17 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     eigenvalues = np.linalg.eigvals(jacobian).astype(complex)
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
     growth = float(eigenvalues[0].real)
-    verdict = "neutral" if abs(growth) <= _rounding(eigenvalues) else "stable" if growth < 0 else "not stable"
+    verdict = (
+        "neutral"
+        if abs(growth) <= _rounding(eigenvalues)
+        else "stable"
+        if growth < 0
+        else "not stable"
+    )
     message = f"steady sliding with {'R' if p.contact_force == 'normal' else 'P'} = {force:.6g} N, {verdict}"
-    return SteadySliding(SlidingStatus.OK, message, force, psi, a, b, alpha, beta, eigenvalues, growth, jacobian)
+    return SteadySliding(
+        SlidingStatus.OK, message, force, psi, a, b, alpha, beta, eigenvalues, growth, jacobian
+    )
 
 
 def _absent(status: SlidingStatus) -> SteadySliding:
@@ -176,20 +206,27 @@ def _equilibrium(p: Parameters, modes: Modes, compliance: float) -> tuple[Array,
     turned = modes.diameters * p.Omega
     gap, lag = turned**2 - modes.omega**2, modal_damping(p) * turned
     with np.errstate(divide="ignore", invalid="ignore"):
-        along, across = (modes.psi * part / (gap**2 + lag**2) for part in (gap, lag))  # a, b under V = 1 N
+        along, across = (
+            modes.psi * part / (gap**2 + lag**2) for part in (gap, lag)
+        )  # a, b under V = 1 N
         static = float(np.sum(modes.psi**2 / modes.omega**2)) + compliance
         load = p.N * (1 + p.k * static)  # N - k u_0
         force = load / (1 - p.k * (float(np.sum(modes.psi * along)) - compliance))
         if not (arm := tangential_amplitudes(p)).any():
             return along * force, across * force, force
         twist = arm * lag / (gap**2 + lag**2), -arm * gap / (gap**2 + lag**2)  # a, b under T = 1 N
-        slope = modes.diameters * modes.psi / p.r_0 if p.contact_force == "normal" else np.zeros_like(modes.psi)
+        slope = (
+            modes.diameters * modes.psi / p.r_0
+            if p.contact_force == "normal"
+            else np.zeros_like(modes.psi)
+        )
         # V = start + rise R, and V = R (1 - mu beta) with beta = lean_0 V + lean_1 R
         share = 1 - p.k * (float(modes.psi @ along) - compliance)
         mu = float(_LAWS.friction_coefficient(engine_case(p).model, 1.0, p.Omega))
         start, rise = load / share, p.k * mu * float(modes.psi @ twist[0]) / share
         lean = mu * float(slope @ across), mu**2 * float(slope @ twist[1])
-        # start + rise R = R (1 - lean_0 (start + rise R) - lean_1 R): the root that is start / (1 - rise) if it is flat
+        # start + rise R = R (1 - lean_0 (start + rise R) - lean_1 R): the root that is start / (1 -
+        # rise) if it is flat
         square, linear = lean[0] * rise + lean[1], 1 - rise - lean[0] * start
         R = 2 * start / (linear + math.sqrt(max(linear**2 - 4 * square * start, 0.0)))
         V = start + rise * R
@@ -198,10 +235,13 @@ def _equilibrium(p: Parameters, modes: Modes, compliance: float) -> tuple[Array,
 
 
 def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
-    """Arguments of the laws of contact, and rates of slip, at states in the rows of `SteadySliding.jacobian`."""
+    """Arguments of the laws of contact, and rates of slip, at states in the rows of
+    `SteadySliding.jacobian`."""
     modes, model = mode_arrays(p), engine_case(p).model
     (a, alpha, b, beta), (psi, f), height = split_rows(modes, rows)
-    l, weight, w2, d = (each[:, None] for each in (modes.diameters, modes.psi, modes.omega**2, modal_damping(p)))
+    l, weight, w2, d = (
+        each[:, None] for each in (modes.diameters, modes.psi, modes.omega**2, modal_damping(p))
+    )
     rate_a, rate_b = alpha + l * f * b, beta - l * f * a
     free_along, free_across = l * f * beta - d * alpha - w2 * a, -l * f * alpha - d * beta - w2 * b
     parts = (a, rate_a, l * b, free_along + l * f * rate_b)
@@ -215,11 +255,14 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     V, rate_f = _LAWS.slip_rates(model, i, friction, force)
     free_across = free_across + tangential_amplitudes(p)[:, None] * (friction * force)
     lift = (v, (V - p.N - p.k * (u - model.u_0) - p.c * v) / p.m)[: len(height)]
-    return i, join_rows(modes, (rate_a, free_along - weight * V, rate_b, free_across), (p.Omega - f, rate_f), lift)
+    return i, join_rows(
+        modes, (rate_a, free_along - weight * V, rate_b, free_across), (p.Omega - f, rate_f), lift
+    )
 
 
 def split_rows(modes: Modes, rows: Any) -> tuple[Any, Any, Any]:
-    """Rows of steady sliding's Jacobian as a, alpha, b, beta of all modes; psi, f; u, u' on a compliant contact."""
+    """Rows of steady sliding's Jacobian as a, alpha, b, beta of all modes; psi, f; u, u' on a
+    compliant contact."""
     pairs = np.flatnonzero(modes.diameters > 0)
     n, m = len(modes.omega), len(pairs)
     a, alpha, b_pairs, beta_pairs, slider, height = np.split(rows, np.cumsum([n, n, m, m, 2]))
@@ -228,11 +271,15 @@ def split_rows(modes: Modes, rows: Any) -> tuple[Any, Any, Any]:
     return (a, alpha, b, beta), slider, height
 
 
-def join_rows(modes: Modes, disc: Sequence[Any], slider: Sequence[Any], height: Sequence[Any]) -> Any:
+def join_rows(
+    modes: Modes, disc: Sequence[Any], slider: Sequence[Any], height: Sequence[Any]
+) -> Any:
     """Rows of steady sliding's Jacobian from the parts that `split_rows` returns."""
     a, alpha, b, beta = disc
     pairs = modes.diameters > 0
-    return np.concatenate([a, alpha, b[pairs], beta[pairs], slider, *([height] if len(height) else [])])
+    return np.concatenate(
+        [a, alpha, b[pairs], beta[pairs], slider, *([height] if len(height) else [])]
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -257,7 +304,8 @@ class SlidingModes:
 
 
 def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> SlidingModes:
-    """Modes of steady sliding by ascending frequency; none without steady sliding, which is computed if not given."""
+    """Modes of steady sliding by ascending frequency; none without steady sliding, which is
+    computed if not given."""
     sliding = steady_sliding(p) if sliding is None else sliding
     values, vectors = np.linalg.eig(sliding.jacobian)
     order = [i for i in np.argsort(values.imag, kind="stable") if values[i].imag > 0]
@@ -268,8 +316,12 @@ def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> Slidin
     modes = mode_arrays(p)
     l, omega = modes.diameters, modes.omega[:, None]
     (a, alpha, b, beta), (psi, f), _ = split_rows(modes, vectors)
-    energy = np.abs(omega * a) ** 2 + np.abs(alpha) ** 2 + np.abs(omega * b) ** 2 + np.abs(beta) ** 2
-    by_l = np.array([energy[l == each_l].sum(axis=0) for each_l in range(int(l.max(initial=0)) + 1)])
+    energy = (
+        np.abs(omega * a) ** 2 + np.abs(alpha) ** 2 + np.abs(omega * b) ** 2 + np.abs(beta) ** 2
+    )
+    by_l = np.array(
+        [energy[l == each_l].sum(axis=0) for each_l in range(int(l.max(initial=0)) + 1)]
+    )
     diameters = by_l.argmax(axis=0)
     of_l = l[:, None] == diameters
     # a + i b and a - i b are the waves that travel in opposite directions
@@ -292,8 +344,9 @@ HALVINGS = 6
 
 
 class FollowedModes(NamedTuple):
-    """Steady sliding of a case and its modes; their numbers, and likeness (modal assurance criterion, the squared
-    cosine of shapes) to the modes of the case before that have them, nan for new ones, both (n,)."""
+    """Steady sliding of a case and its modes; their numbers, and likeness (modal assurance
+    criterion, the squared cosine of shapes) to the modes of the case before that have them, nan for
+    new ones, both (n,)."""
 
     sliding: SteadySliding
     modes: SlidingModes
@@ -304,20 +357,28 @@ class FollowedModes(NamedTuple):
 def follow_modes(cases: Sequence[Parameters]) -> list[FollowedModes]:
     """Steady sliding and its modes along cases that differ in numbers.
 
-    Modes keep the numbers that they have by frequency, from 0 on, in the first case; modes that appear later have the
-    next ones. Further cases between two are computed until it is clear which mode is which.
+    Modes keep the numbers that they have by frequency, from 0 on, in the first case; modes that
+    appear later have the next ones. Further cases between two are computed until it is clear which
+    mode is which.
     """
     followed, shapes = list[FollowedModes](), list[ComplexArray]()  # of each number, the last one
     for before, p in zip([None, *cases], cases, strict=False):
         modes = sliding_modes(p, sliding := steady_sliding(p))
-        followed.append(FollowedModes(sliding, modes, *_numbered(shapes, before, p, modes, HALVINGS)))
+        followed.append(
+            FollowedModes(sliding, modes, *_numbered(shapes, before, p, modes, HALVINGS))
+        )
     return followed
 
 
 def _numbered(
-    shapes: list[ComplexArray], before: Parameters | None, p: Parameters, modes: SlidingModes, halvings: int
+    shapes: list[ComplexArray],
+    before: Parameters | None,
+    p: Parameters,
+    modes: SlidingModes,
+    halvings: int,
 ) -> tuple[NDArray[np.int64], Array]:
-    """Numbers and likeness of the modes of a case; `shapes`, by number, become those of this case."""
+    """Numbers and likeness of the modes of a case; `shapes`, by number, become those of this
+    case."""
     from scipy.optimize import linear_sum_assignment  # steady sliding alone does without
 
     if not len(modes.frequency):
@@ -328,7 +389,11 @@ def _numbered(
     numbers, places = linear_sum_assignment(-mac)
     if before is not None and halvings and mac[numbers, places].min(initial=1) < ALIKE:
         values, ends = dict(before), dict(p)
-        changed = [name for name, value in values.items() if isinstance(value, float) and value != ends[name]]
+        changed = [
+            name
+            for name, value in values.items()
+            if isinstance(value, float) and value != ends[name]
+        ]
         between = p.replace(**{name: (values[name] + ends[name]) / 2 for name in changed})
         if changed and len((half := sliding_modes(between)).frequency):
             _numbered(shapes, before, between, half, halvings - 1)
@@ -347,4 +412,6 @@ def energy_weights(p: Parameters) -> Array:
     stiffness, ones = modes.omega**2, np.ones(len(modes.omega))
     slider = [p.r_0**2 * p.k_p, p.r_0**2 * p.m]
     height = [p.k + 1 / compliance, p.m] if compliance else []
-    return np.asarray(join_rows(modes, (stiffness, ones, stiffness, ones), slider, height), np.float64)
+    return np.asarray(
+        join_rows(modes, (stiffness, ones, stiffness, ones), slider, height), np.float64
+    )

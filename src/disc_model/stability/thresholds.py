@@ -1,6 +1,7 @@
 """All thresholds of the search for the outcome of a motion, with their reasons.
 
-Distances and changes are on the section of the return map, relative to the norm of the static deflection.
+Distances and changes are on the section of the return map, relative to the norm of the static
+deflection.
 """
 
 # ---- Simulated legs
@@ -13,31 +14,62 @@ SAMPLING_RATE = 4000.0  # Hz, of described segments: above twice the highest mod
 
 # distances from the cycle up to which multipliers may represent a departure
 AMPLITUDES = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
-NEAR = AMPLITUDES[0]  # distance from a cycle within which a motion counts as near it: none is linear beyond
-SAME_POINT = 1e-4  # nearer fixed points are the same: known cycles differ by 0.1, and residuals are 1e-10
-ARRIVED = 1e-8  # a motion as near to a stable cycle is on it: the limit is 10,000 times the rounding
+NEAR = AMPLITUDES[
+    0
+]  # distance from a cycle within which a motion counts as near it: none is linear beyond
+SAME_POINT = (
+    1e-4  # nearer fixed points are the same: known cycles differ by 0.1, and residuals are 1e-10
+)
+ARRIVED = (
+    1e-8  # a motion as near to a stable cycle is on it: the limit is 10,000 times the rounding
+)
 ERROR_OF_TOL = 100  # errors of a long simulation, over its tolerance: 12 were seen on a cycle that attracts at 0.008/s
-# s, at which a motion is compared with the linear one; if the first test fails, the longer one resolves slower rates
+# s, at which a motion is compared with the linear one; if the first test fails, the longer one
+# resolves slower rates
 TEST_TIMES = ((0.3, 1.2), (1.5, 6.0))
-WAITS = (0.0, 1.5, 6.0, 15.0)  # s, at which tests begin: near a resonance the strongly damped modes must decay first
-LARGEST_ERROR = 0.1  # of the linear motion, relative to it: second order in the distance, at most a tenth
-LARGEST_RATE_ERROR = 0.5  # of the growth rate, relative to the linear motion's: it decides the sign of the rate
-# largest share of a departure outside the leading eigenspace, and difference of growth rates for which it is corrected
+WAITS = (
+    0.0,
+    1.5,
+    6.0,
+    15.0,
+)  # s, at which tests begin: near a resonance the strongly damped modes must decay first
+LARGEST_ERROR = (
+    0.1  # of the linear motion, relative to it: second order in the distance, at most a tenth
+)
+LARGEST_RATE_ERROR = (
+    0.5  # of the growth rate, relative to the linear motion's: it decides the sign of the rate
+)
+# largest share of a departure outside the leading eigenspace, and difference of growth rates for
+# which it is corrected
 LARGEST_OUTSIDE = 0.25
-# distance from which a departure that came to a stable cycle is simulated: beyond, its phase may lead to separation
+# distance from which a departure that came to a stable cycle is simulated: beyond, its phase may
+# lead to separation
 CERTAIN = 0.02
 LINGERS = 1e-3  # largest change over a period of a motion that stays near an unstable cycle: on a torus it would move
-LARGEST_PERIOD = 8  # releases in a period of cycles that are sought from the section alone, to limit the time
+LARGEST_PERIOD = (
+    8  # releases in a period of cycles that are sought from the section alone, to limit the time
+)
 RISE = 1.5  # factor between changes of periods that shows growth: rounding and beats with decaying modes cause less
-# s, settled in contact, until a motion is left: 2 of 186 on a finer grid separated later, by 1000 s; with 200 s, 5 do
+# s, settled in contact, until a motion is left: 2 of 186 on a finer grid separated later, by 1000
+# s; with 200 s, 5 do
 STEADY_FOR = 360.0
 
 # ---- Attractors of many motions of a case
 
-NEARING, SETTLING = 4, 8  # legs over which a motion approaches a known attractor, and is steady on another one
+NEARING, SETTLING = (
+    4,
+    8,
+)  # legs over which a motion approaches a known attractor, and is steady on another one
 STEADY = 1e-3  # largest relative change of the range over these without a drift: a periodic one's is a tenth of it
-# largest relative change of ranges, rates and shares over 40 s of a settled motion: aperiodic ones vary by half of it
+# largest relative change of ranges, rates and shares over 40 s of a settled motion: aperiodic ones
+# vary by half of it
 VARIATION = 0.01
 SAME = 0.05  # segments that differ by less are of one attractor; the extrapolated rest of a drift may reach half of it
 SMALLEST = 1e-3  # range, over the static deflection, below which ranges count as equal: the slider's height is constant
-OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)  # downward, over the static deflection, from which attractors are sought
+OWN_STARTS = (
+    0.0,
+    0.25,
+    0.5,
+    1.0,
+    2.0,
+)  # downward, over the static deflection, from which attractors are sought

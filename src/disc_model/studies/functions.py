@@ -1,4 +1,5 @@
-"""What studies compute, as functions: a quantity of one case, a sweep of any function, and a whole study."""
+"""What studies compute, as functions: a quantity of one case, a sweep of any function, and a whole
+study."""
 
 from __future__ import annotations
 
@@ -33,20 +34,29 @@ from disc_model.units import Finite, Strict, canonical_json, is_whole
 # ---- Quantities of one case
 
 
-def _quantity(name: str, case: Parameters, start: Mapping[str, float] | None = None, **options: Any) -> xr.Dataset:
-    """The variables of a quantity for a case, flags as words; what went wrong is the attribute `message`."""
+def _quantity(
+    name: str, case: Parameters, start: Mapping[str, float] | None = None, **options: Any
+) -> xr.Dataset:
+    """The variables of a quantity for a case, flags as words; what went wrong is the attribute
+    `message`."""
     faults, arguments = foreign_case(case, "case"), {"perturbation": "start", "horizons": "horizon"}
     try:
         begin = Start.model_validate({} if start is None else {"perturbation": start})
         quantity = quantity_of(name).model_validate(options)
     except ParameterError as error:
         for fault in error.faults:
-            faults.append(Fault(tuple(arguments.get(part, part) for part in fault.path), fault.value, fault.rule))
+            faults.append(
+                Fault(
+                    tuple(arguments.get(part, part) for part in fault.path), fault.value, fault.rule
+                )
+            )
     raise_faults(faults)
     row, message = quantity.compute_point(Point(case, begin))
     coordinates = coordinates_of(quantity.COORDINATES, quantity)
     columns = variables_of(quantity.COLUMNS, coordinates, [row], {POINT: 1})
-    dataset = xr.Dataset(columns, coordinates, {"parameters": case.json_in_words, "message": message}).isel({POINT: 0})
+    dataset = xr.Dataset(
+        columns, coordinates, {"parameters": case.json_in_words, "message": message}
+    ).isel({POINT: 0})
     for flag in [flag for flag, variable in dataset.items() if "flag_meanings" in variable.attrs]:
         words = flag_names(dataset[flag])
         dataset[flag] = (dataset[flag].dims, words, {"long_name": dataset[flag].attrs["long_name"]})
@@ -55,7 +65,14 @@ def _quantity(name: str, case: Parameters, start: Mapping[str, float] | None = N
 
 def _scan(ends: Any, step: Any) -> Any:
     """The range of a scan as an option of a quantity, which says what is wrong with it."""
-    require((np.shape(ends) == (2,), "scan", ends, "must be two numbers in rad/s, the lowest and the highest speed"))
+    require(
+        (
+            np.shape(ends) == (2,),
+            "scan",
+            ends,
+            "must be two numbers in rad/s, the lowest and the highest speed",
+        )
+    )
     return {"start": ends[0], "stop": ends[1], "step": step}
 
 
@@ -69,7 +86,8 @@ def outcome(
     early_end: bool = True,
     tol: float = 1e-10,
 ) -> xr.Dataset:
-    """Long-term behaviour within a horizon, such as "quiet" or "separation", with ranges and phases late in the run.
+    """Long-term behaviour within a horizon, such as "quiet" or "separation", with ranges and phases
+    late in the run.
 
     Parameters
     ----------
@@ -98,7 +116,11 @@ def outcome(
     >>> print(reached["outcome"].item(), f"{reached['first_separation'].item():.1f} s")
     separation 54.4 s
     """
-    options = {"horizon": horizon, "evaluation_time": evaluation_time, "after_separation": after_separation}
+    options = {
+        "horizon": horizon,
+        "evaluation_time": evaluation_time,
+        "after_separation": after_separation,
+    }
     return _quantity("outcome", case, start, **options, early_end=early_end, tol=tol)
 
 
@@ -112,7 +134,8 @@ def critical_speed(
     early_end: bool = True,
     tol: float = 1e-10,
 ) -> xr.Dataset:
-    """The lowest speed of a scan with separation within a horizon, and all speeds where separation begins or ends.
+    """The lowest speed of a scan with separation within a horizon, and all speeds where separation
+    begins or ends.
 
     Separation in a range of speeds narrower than `step` can be overlooked.
 
@@ -162,7 +185,8 @@ def basins(  # noqa: PLR0913
     n_bisection_directions: int = 1,
     tol: float = 1e-10,
 ) -> xr.Dataset:
-    """Attractors of a case, the share of starts that comes to each, and the least energy that leads to separation.
+    """Attractors of a case, the share of starts that comes to each, and the least energy that leads
+    to separation.
 
     Parameters
     ----------
@@ -195,8 +219,17 @@ def basins(  # noqa: PLR0913
     [['quiet', 'quiet', 'quiet'], ['separating', 'separating', 'separating']]
     >>> axes = dm.plot_sweep(found)
     """
-    options: dict[str, Any] = {"energies": np.atleast_1d(energies).tolist(), "n_starts": n_starts, "horizon": horizon}
-    more = {"seed": seed, "attractor_tol": attractor_tol, "n_bisection_directions": n_bisection_directions, "tol": tol}
+    options: dict[str, Any] = {
+        "energies": np.atleast_1d(energies).tolist(),
+        "n_starts": n_starts,
+        "horizon": horizon,
+    }
+    more = {
+        "seed": seed,
+        "attractor_tol": attractor_tol,
+        "n_bisection_directions": n_bisection_directions,
+        "tol": tol,
+    }
     return _quantity("basins", case, start, **options, **more)
 
 
@@ -246,7 +279,12 @@ def hysteresis(
 
 
 def sweep(
-    function: Callable[..., Any], case: Parameters, *, workers: int = 1, processes: bool = False, **named: Any
+    function: Callable[..., Any],
+    case: Parameters,
+    *,
+    workers: int = 1,
+    processes: bool = False,
+    **named: Any,
 ) -> xr.Dataset:
     """Call a function for each combination of values of parameters, and gather the results.
 
@@ -282,27 +320,49 @@ def sweep(
     ['ok', 'ok']
     """
     rule = "must be a function, such as disc_model.floquet"
-    raise_faults(faults := foreign_case(case, "case") + violations((callable(function), "function", function, rule)))
+    raise_faults(
+        faults := foreign_case(case, "case")
+        + violations((callable(function), "function", function, rule))
+    )
     numbers = case.numbers.keys() | Parameters.model_fields.keys() | RATIOS.keys()
     arguments = inspect.signature(function).parameters
     takes_all = any(argument.kind is argument.VAR_KEYWORD for argument in arguments.values())
-    axes = {x: _values(x, values, faults) for x, values in named.items() if x in numbers and x not in arguments}
+    axes = {
+        x: _values(x, values, faults)
+        for x, values in named.items()
+        if x in numbers and x not in arguments
+    }
     options = {name: value for name, value in named.items() if name not in axes}
     unknown = [name for name in options if name not in arguments and not takes_all]
     rule = "is no number of the case, and no argument of the function"
-    faults += [Fault.of((name,), named[name], f"{rule}{suggestion(name, case.numbers)}") for name in unknown]
-    further = [each for each in [*arguments.values()][1:] if each.kind not in (each.VAR_POSITIONAL, each.VAR_KEYWORD)]
+    faults += [
+        Fault.of((name,), named[name], f"{rule}{suggestion(name, case.numbers)}")
+        for name in unknown
+    ]
+    further = [
+        each
+        for each in [*arguments.values()][1:]
+        if each.kind not in (each.VAR_POSITIONAL, each.VAR_KEYWORD)
+    ]
     title = getattr(function, "__name__", type(function).__name__)
-    needed = [each.name for each in further if each.default is each.empty and each.name not in named]
+    needed = [
+        each.name for each in further if each.default is each.empty and each.name not in named
+    ]
     faults += [Fault((name,), "", f"is required by {title}") for name in needed]
     raise_faults(faults)
     points = [dict(zip(axes, values, strict=True)) for values in product(*axes.values())]
-    call = partial(_row, partial(function, **options), case, frozenset(each.name for each in further))
+    call = partial(
+        _row, partial(function, **options), case, frozenset(each.name for each in further)
+    )
     rows = _in_parallel(call, [*enumerate(points)], workers, processes)
     coordinates = {}
     for name, values in axes.items():
         attrs = describe(name) if name in (*Parameters.model_fields, *RATIOS) else {}
-        coordinates[name] = (name, [float(value) if isinstance(value, int) else value for value in values], attrs)
+        coordinates[name] = (
+            name,
+            [float(value) if isinstance(value, int) else value for value in values],
+            attrs,
+        )
     variables, fixed = _stacked(rows, {name: len(values) for name, values in axes.items()})
     base = canonical_json(case.stated | {"disc": case.canonical.get("disc")})
     attrs = {"function": title, "parameters": case.json_in_words, "base": base}
@@ -310,22 +370,33 @@ def sweep(
 
 
 def _values(name: str, values: Any, faults: list[str]) -> list[Any]:
-    """The values of an axis in SI units; what is wrong with them, each by itself, is added to the faults."""
+    """The values of an axis in SI units; what is wrong with them, each by itself, is added to the
+    faults."""
     several = np.iterable(values) and not isinstance(values, str | Mapping | Disc)
     raw, checked = [*values] if several else [values], []
     if not raw:
         faults.append(Fault.of((name,), values, "must have one value or more"))
     number: dict[str, Any] = {name: Finite}  # a ratio, or a number of a disc's mode
-    model = SomeParameters if name in Parameters.model_fields else create_model("Number", __base__=Strict, **number)
+    model = (
+        SomeParameters
+        if name in Parameters.model_fields
+        else create_model("Number", __base__=Strict, **number)
+    )
     for value in raw:
         try:
-            checked.append(getattr(model(**{name: value.item() if isinstance(value, np.generic) else value}), name))
+            checked.append(
+                getattr(
+                    model(**{name: value.item() if isinstance(value, np.generic) else value}), name
+                )
+            )
         except ParameterError as error:
             faults += [Fault((name,), fault.value, fault.rule) for fault in error.faults]
     return checked
 
 
-def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: int, processes: bool) -> list[Any]:
+def _in_parallel(
+    call: Callable[[Any], Any], arguments: Sequence[Any], workers: int, processes: bool
+) -> list[Any]:
     """The results of the calls, in order."""
     require(
         (is_whole(workers) and workers >= 1, "workers", workers, "must be a whole number >= 1"),
@@ -336,30 +407,47 @@ def _in_parallel(call: Callable[[Any], Any], arguments: Sequence[Any], workers: 
         return [*(map(call, arguments) if pool is None else pool.map(call, arguments))]
 
 
-def _row(function: Any, case: Parameters, names: frozenset[str], numbered: tuple[int, Any]) -> dict[str, xr.Variable]:
-    """The variables of one call; a fault of the function's own arguments at the first point is that of all."""
+def _row(
+    function: Any, case: Parameters, names: frozenset[str], numbered: tuple[int, Any]
+) -> dict[str, xr.Variable]:
+    """The variables of one call; a fault of the function's own arguments at the first point is that
+    of all."""
     number, point = numbered
     try:
         result = function(case.replace(**point))
     except NUMERICAL as error:
-        if number == 0 and names & {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}:
+        if number == 0 and names & {
+            re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())
+        }:
             raise
-        return {"status": xr.Variable((), "failed"), "message": xr.Variable((), f"{type(error).__name__}: {error}")}
-    words = {"status": str(getattr(result, "status", "ok")), "message": getattr(result, "message", "")}
+        return {
+            "status": xr.Variable((), "failed"),
+            "message": xr.Variable((), f"{type(error).__name__}: {error}"),
+        }
+    words = {
+        "status": str(getattr(result, "status", "ok")),
+        "message": getattr(result, "message", ""),
+    }
     return {name: xr.Variable((), word) for name, word in words.items()} | _variables(result)
 
 
 @cache
 def _known() -> dict[str, Variable]:
     """Units and names of the variables of all quantities and of simulations."""
-    quantities = [quantity_of(name).COLUMNS for name in sorted(quantity_names(), key="floquet".__eq__)]
+    quantities = [
+        quantity_of(name).COLUMNS for name in sorted(quantity_names(), key="floquet".__eq__)
+    ]
     return {name: column for columns in (*quantities, SCALARS) for name, column in columns.items()}
 
 
 def _variables(result: Any) -> dict[str, xr.Variable]:
     """Numbers, words and one-dimensional arrays of a result."""
     if isinstance(result, xr.Dataset):
-        message = {"message": xr.Variable((), result.attrs["message"])} if "message" in result.attrs else {}
+        message = (
+            {"message": xr.Variable((), result.attrs["message"])}
+            if "message" in result.attrs
+            else {}
+        )
         return {str(name): variable for name, variable in result.variables.items()} | message
     if isinstance(result, Result):
         values: Mapping[str, Any] = result.scalars()
@@ -381,22 +469,31 @@ def _variables(result: Any) -> dict[str, xr.Variable]:
 def _stacked(
     rows: Sequence[dict[str, xr.Variable]], sizes: Mapping[str, int]
 ) -> tuple[dict[str, xr.Variable], dict[str, xr.Variable]]:
-    """Variables along the dimensions of a sweep, and the function's own coordinates; nan or "" where one is missing."""
+    """Variables along the dimensions of a sweep, and the function's own coordinates; nan or ""
+    where one is missing."""
     first = {name: variable for row in reversed(rows) for name, variable in row.items()}
     fixed = {name: variable for name, variable in first.items() if variable.dims == (name,)}
     stacked = {}
-    for name, variable in [(name, variable) for name, variable in first.items() if name not in fixed]:
+    for name, variable in [
+        (name, variable) for name, variable in first.items() if name not in fixed
+    ]:
         present = [(i, row[name].values) for i, row in enumerate(rows) if name in row]
         shape = np.max([values.shape for _, values in present], axis=0) if variable.ndim else ()
         kinds = {values.dtype.kind for _, values in present}
-        whole = len(present) == len(rows) and all(values.shape == tuple(shape) for _, values in present)
+        whole = len(present) == len(rows) and all(
+            values.shape == tuple(shape) for _, values in present
+        )
         number: tuple[Any, Any] = (False, bool) if kinds <= {"b"} and whole else (math.nan, float)
-        missing, dtype = ("", object) if kinds <= {"U"} else (math.nan, complex) if "c" in kinds else number
+        missing, dtype = (
+            ("", object) if kinds <= {"U"} else (math.nan, complex) if "c" in kinds else number
+        )
         array: Any = np.full((len(rows), *shape), missing, dtype)
         for i, values in present:
             array[(i, *map(slice, values.shape))] = values
         array = array.astype(str) if array.dtype == object else array
-        stacked[name] = xr.Variable((*sizes, *variable.dims), array.reshape((*sizes.values(), *shape)), variable.attrs)
+        stacked[name] = xr.Variable(
+            (*sizes, *variable.dims), array.reshape((*sizes.values(), *shape)), variable.attrs
+        )
     return stacked, fixed
 
 
@@ -432,7 +529,10 @@ def run_study(
     >>> dm.run_study(study)["growth_rate"].sizes
     Frozen({'mu_s': 2, 'mu_k': 1})
     """
-    from disc_model.studies.study import load_study, parse_study  # needs yaml, of the extra `workflow`
+    from disc_model.studies.study import (
+        load_study,
+        parse_study,
+    )  # needs yaml, of the extra `workflow`
 
     named = isinstance(source, str | Path | Mapping)
     require((named, "source", source, "must be the path of a study file, or a mapping"))

@@ -1,7 +1,7 @@
 """A grid study: its axes, their points and batches, and the rules between its parts.
 
-The hash of a batch's text is its name. Blocks of values are cut into batches of similar cost, only inside a block: a
-finer axis adds batches and keeps the others.
+The hash of a batch's text is its name. Blocks of values are cut into batches of similar cost, only
+inside a block: a finer axis adds batches and keeps the others.
 """
 
 import math
@@ -22,10 +22,28 @@ from disc_model.figures.general import General
 from disc_model.figures.kind import Kind, Plot
 from disc_model.figures.maps import RegionMap
 from disc_model.mode_choice import asked_modes
-from disc_model.parameters import AUTO, PLATE, RATIOS, RELATED, RESIDUAL, SURFACE, Parameters, case_of
+from disc_model.parameters import (
+    AUTO,
+    PLATE,
+    RATIOS,
+    RELATED,
+    RESIDUAL,
+    SURFACE,
+    Parameters,
+    case_of,
+)
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.quantity import WORK, Blocks, Quantity, Range, Value, compiled_rule, holds
-from disc_model.units import Count, Finite, Positive, Strict, canonical_json, content_key, given_values, is_number
+from disc_model.units import (
+    Count,
+    Finite,
+    Positive,
+    Strict,
+    canonical_json,
+    content_key,
+    given_values,
+    is_number,
+)
 
 if TYPE_CHECKING:
     from disc_model.studies.study import Study
@@ -42,7 +60,8 @@ NumberOrUnit = Annotated[Any, WithJsonSchema({"type": ["number", "string"]})]
 
 
 class AxisRange(Range):
-    """Evenly spaced values along an axis, and `extra` ones, whose batches leave those of the range unchanged."""
+    """Evenly spaced values along an axis, and `extra` ones, whose batches leave those of the range
+    unchanged."""
 
     extra: list[NumberOrUnit] = Field([])
 
@@ -54,21 +73,31 @@ def _axis_kind(raw: Any) -> str | None:
 
 
 _NO_AXIS = "must be a list of values, or a range {start, stop, count or step}"
-_BY_KIND = pydantic.Discriminator(_axis_kind, custom_error_type="axis", custom_error_message=_NO_AXIS)
+_BY_KIND = pydantic.Discriminator(
+    _axis_kind, custom_error_type="axis", custom_error_message=_NO_AXIS
+)
 Listed = Annotated[list[NumberOrUnit], Field(min_length=1), Tag("a list")]
 Block = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")], _BY_KIND]
 
 
 class BlocksOf(Strict):
-    """Values in blocks, each with batches of its own; a value in several blocks belongs to the first."""
+    """Values in blocks, each with batches of its own; a value in several blocks belongs to the
+    first."""
 
     blocks: Annotated[list[Block], Field(min_length=1)]
 
 
-Axis = Annotated[Listed | Annotated[AxisRange, Tag("AxisRange")] | Annotated[BlocksOf, Tag("BlocksOf")], _BY_KIND]
+Axis = Annotated[
+    Listed | Annotated[AxisRange, Tag("AxisRange")] | Annotated[BlocksOf, Tag("BlocksOf")], _BY_KIND
+]
 
 
-VARIED = (*Parameters.model_fields, *RATIOS, START, *PERTURBATIONS)  # what a grid may vary, in this order
+VARIED = (
+    *Parameters.model_fields,
+    *RATIOS,
+    START,
+    *PERTURBATIONS,
+)  # what a grid may vary, in this order
 
 
 class _Columns(Strict):
@@ -83,22 +112,28 @@ def described(name: str) -> dict[str, Any]:
 
 
 _columns: dict[str, Any] = {name: (Axis, Field(None, **described(name))) for name in VARIED}
-Columns = create_model("Columns", __base__=_Columns, **_columns)  # an axis for each of several names of `VARIED`
+Columns = create_model(
+    "Columns", __base__=_Columns, **_columns
+)  # an axis for each of several names of `VARIED`
 
 
 class BatchSpec(Strict):
     """Division of the points of a grid into jobs."""
 
-    # dimensions that are cut, where each value of the others has batches of its own; if not given, the first ones are,
-    # as far as `size` requires. For a plane at once: its two, by default the only ones that are numbers, then those
-    # whose values share a batch, by default all others
+    # dimensions that are cut, where each value of the others has batches of its own; if not given,
+    # the first ones are, as far as `size` requires. For a plane at once: its two, by default the
+    # only ones that are numbers, then those whose values share a batch, by default all others
     over: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
-    size: Annotated[Count, Field(ge=1)] | None = None  # most points in a batch; if not given, about 20 s of work
+    size: Annotated[Count, Field(ge=1)] | None = (
+        None  # most points in a batch; if not given, about 20 s of work
+    )
 
 
 # ---- The grid
 
-_OTHERS: dict[str, Any] = dict.fromkeys(PERTURBATIONS, (Finite, 0.0)) | dict.fromkeys(RATIOS, (Positive, 1.0))
+_OTHERS: dict[str, Any] = dict.fromkeys(PERTURBATIONS, (Finite, 0.0)) | dict.fromkeys(
+    RATIOS, (Positive, 1.0)
+)
 _Varied = create_model("_Varied", __base__=SomeParameters, **_OTHERS)
 
 
@@ -116,9 +151,12 @@ class Dimension:
         self.values = tuple(sorted(known))
 
     def thinned(self, most: int) -> "Dimension":
-        """A dimension of at most `most` values, evenly spaced by place and including both ends; words are all kept."""
+        """A dimension of at most `most` values, evenly spaced by place and including both ends;
+        words are all kept."""
         values = self.values
-        if len(values) > most and not any(isinstance(part, str) for value in values for part in value):
+        if len(values) > most and not any(
+            isinstance(part, str) for value in values for part in value
+        ):
             last = len(values) - 1
             values = tuple(values[round(i * last / max(most - 1, 1))] for i in range(most))
         return Dimension(self.names, [values])
@@ -141,14 +179,23 @@ class GridStudy:
     def __init__(self, file: "Study", plots: Mapping[str, Plot]) -> None:
         self.file, self.plots = file, plots
         self.name, self.title, self.quantity = file.name, file.title, str(file.quantity)
-        self.where, self.discs, self.starts = file.where, file.discs, {STATIC: Start(), **file.starts}
+        self.where, self.discs, self.starts = (
+            file.where,
+            file.discs,
+            {STATIC: Start(), **file.starts},
+        )
         self.options: Quantity = file.options
         try:  # what does not vary, and a choice of modes at each point
             self.base, self.mode_request = asked_modes(given_values(file.base))
         except ParameterError as error:
             raise ParameterError(*(fault.inside(("base",)) for fault in error.faults)) from None
-        of_options = [Dimension([name], map(zip, blocks)) for name, blocks in self.options.dimensions.items()]
-        self.dims = (*sorted(self._read_dimensions(), key=lambda dim: VARIED.index(dim.names[0])), *of_options)
+        of_options = [
+            Dimension([name], map(zip, blocks)) for name, blocks in self.options.dimensions.items()
+        ]
+        self.dims = (
+            *sorted(self._read_dimensions(), key=lambda dim: VARIED.index(dim.names[0])),
+            *of_options,
+        )
         self.varied = [name for dim in self.dims for name in dim.names]
         raise_faults([*self._wrong_names(), *self._wrong_starts()])
         raise_faults([*self._wrong_extent()])
@@ -164,38 +211,70 @@ class GridStudy:
         batch = self.file.batch
         if self.options.tiled:
             maps = [plot for plot in self.plots.values() if isinstance(plot, RegionMap)]
-            marked = [{plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()]
+            marked = [
+                {plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()
+            ]
             return self._texts(_tiles(self.dims, batch, marked))
-        size, cut = batch.size or max(1, round(WORK / self.options.cost())), batch.over or self.values
+        size, cut = (
+            batch.size or max(1, round(WORK / self.options.cost())),
+            batch.over or self.values,
+        )
         # a dimension that is not cut is taken as blocks of one value each
-        blocks = [dim.blocks if dim.name in cut else [(value,) for value in dim.values] for dim in self.dims]
-        return self._texts({"points": part} for chosen in product(*blocks) for part in _parts(chosen, size))
+        blocks = [
+            dim.blocks if dim.name in cut else [(value,) for value in dim.values]
+            for dim in self.dims
+        ]
+        return self._texts(
+            {"points": part} for chosen in product(*blocks) for part in _parts(chosen, size)
+        )
 
     @cached_property
     def motions(self) -> dict[str, str]:
-        """JSON text, by its name, of the batch of points whose motions are stored; empty for some quantities."""
+        """JSON text, by its name, of the batch of points whose motions are stored; empty for some
+        quantities."""
         few = [dim.thinned(self.options.motions) for dim in self.dims]
-        return self._texts([{"points": product(*(dim.values for dim in few))}]) if self.options.motions else {}
+        return (
+            self._texts([{"points": product(*(dim.values for dim in few))}])
+            if self.options.motions
+            else {}
+        )
 
     def _texts(self, parts: Iterable[dict[str, Any]]) -> dict[str, str]:
-        """Parts of the grid that have points left, each as a text with everything that its result depends on."""
-        shared = {"quantity": self.quantity, "options": self.options.model_dump(), "base": self.base}
+        """Parts of the grid that have points left, each as a text with everything that its result
+        depends on."""
+        shared = {
+            "quantity": self.quantity,
+            "options": self.options.model_dump(),
+            "base": self.base,
+        }
         texts = []
         for part in parts:
             points = [*self.points_along(self.dims, part["points"])]
             named: dict[str, Any] = {"names": self.varied}
-            for name, kind, known in ((START, "starts", self.starts), ("disc", "discs", self.discs)):
+            for name, kind, known in (
+                (START, "starts", self.starts),
+                ("disc", "discs", self.discs),
+            ):
                 if name in self.varied:
-                    named[kind] = {word: known[word].model_dump() for word in {str(point[name]) for point in points}}
+                    named[kind] = {
+                        word: known[word].model_dump()
+                        for word in {str(point[name]) for point in points}
+                    }
             if points:
                 content = part | {
-                    "points": [[*parameters.in_words(point, parameters.IDENTITIES).values()] for point in points]
+                    "points": [
+                        [*parameters.in_words(point, parameters.IDENTITIES).values()]
+                        for point in points
+                    ]
                 }
                 texts.append(canonical_json(shared | named | content))
         return {content_key(text): text for text in texts}
 
-    def points_along(self, dims: Sequence[Dimension], every: Iterable[Any] | None = None) -> Iterator[dict[str, Any]]:
-        """The varying values, by name, at every point along some dimensions that keeps the file's rules."""
+    def points_along(
+        self, dims: Sequence[Dimension], every: Iterable[Any] | None = None
+    ) -> Iterator[dict[str, Any]]:
+        """The varying values, by name, at every point along some dimensions that keeps the file's
+        rules."""
         names = [name for dim in dims for name in dim.names]
         for point in product(*(dim.values for dim in dims)) if every is None else every:
             values = dict(zip(names, chain.from_iterable(point), strict=True))
@@ -203,7 +282,8 @@ class GridStudy:
                 yield values
 
     def points_of(self, names: Iterable[str]) -> Iterator[dict[str, Value]]:
-        """Points that keep the file's rules, along the dimensions of some names and those that the rules compare."""
+        """Points that keep the file's rules, along the dimensions of some names and those that the
+        rules compare."""
         wanted = {*names, *chain(*(compiled_rule(rule).co_names for rule in self.where))}
         ratios = [(name, *RATIOS[name]) for name in RATIOS.keys() & self.varied]
         wanted |= {*chain(*(related for related in ratios if not wanted.isdisjoint(related)))}
@@ -211,8 +291,11 @@ class GridStudy:
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """Modules by which its points are computed and that are loaded by name, as `disc_model.sources` has them."""
-        return f"studies.quantities.{self.quantity}", *["mode_choice"] * (self.mode_request is not None)
+        """Modules by which its points are computed and that are loaded by name, as
+        `disc_model.sources` has them."""
+        return f"studies.quantities.{self.quantity}", *["mode_choice"] * (
+            self.mode_request is not None
+        )
 
     @property
     def grid(self) -> list[dict[str, Any]]:
@@ -236,7 +319,11 @@ class GridStudy:
     @property
     def doubts(self) -> Iterator[str]:
         """Warnings about implausible corners of the grid, one by each rule."""
-        base = {name: value for name, value in self.base.items() if name not in parameters.CHOOSING and value != AUTO}
+        base = {
+            name: value
+            for name, value in self.base.items()
+            if name not in parameters.CHOOSING and value != AUTO
+        }
         corners = self.points_along([dim.thinned(2) for dim in self.dims])
         cases = (Parameters(**case_of(base | point, self.discs)) for point in corners)
         yield from ChainMap(*map(doubts, cases)).values()
@@ -250,7 +337,10 @@ class GridStudy:
             dims.append(Dimension([name], map(zip, blocks)))
         for i, group in enumerate(self.file.zip):
             path = ("zip", str(i))
-            columns = {name: [*chain(*blocks)] for name, blocks in self._columns(group, path, faults).items()}
+            columns = {
+                name: [*chain(*blocks)]
+                for name, blocks in self._columns(group, path, faults).items()
+            }
             if len({len(column) for column in columns.values()}) > 1:
                 lengths = ", ".join(f"{name}: {len(column)}" for name, column in columns.items())
                 faults.append(Fault(path, "", f"must have columns of equal length, not {lengths}"))
@@ -267,7 +357,9 @@ class GridStudy:
             for part in axis.blocks if isinstance(axis, BlocksOf) else [axis]:
                 blocks += [part.values, part.extra] if isinstance(part, AxisRange) else [part]
             try:
-                columns[name] = tuple(tuple(self._value(name, value) for value in block) for block in blocks)
+                columns[name] = tuple(
+                    tuple(self._value(name, value) for value in block) for block in blocks
+                )
             except ParameterError as error:
                 faults += [Fault((*path, name), fault.value, fault.rule) for fault in error.faults]
         return columns
@@ -277,17 +369,28 @@ class GridStudy:
         if name in (START, "disc"):
             known = [*(self.starts if name == START else self.discs)]
             if value not in known:
-                raise ParameterError(Fault.of((), value, f"no such {name}{suggestion(value, known)}"))
+                raise ParameterError(
+                    Fault.of((), value, f"no such {name}{suggestion(value, known)}")
+                )
             return value
         if (name, value) in (("contact_compliance", RESIDUAL), ("friction_offset", SURFACE)):
-            raise ParameterError(Fault.of((), value, "must be a number along an axis: give it in base, for all points"))
+            raise ParameterError(
+                Fault.of(
+                    (), value, "must be a number along an axis: give it in base, for all points"
+                )
+            )
         return getattr(_Varied.model_validate({name: value}), name)  # type: ignore[no-any-return]
 
     # ---- rules between its parts
 
     def _wrong_names(self) -> Iterator[Fault]:
-        """Each parameter must be given once: along an axis, in base, by a ratio, or by the quantity."""
-        in_base, scanned, quantity = self.file.base.model_fields_set, self.options.scanned, f"quantity {self.quantity}"
+        """Each parameter must be given once: along an axis, in base, by a ratio, or by the
+        quantity."""
+        in_base, scanned, quantity = (
+            self.file.base.model_fields_set,
+            self.options.scanned,
+            f"quantity {self.quantity}",
+        )
         given = defaultdict[str, list[tuple[str, ...]]](list)
         for part, names in (("axes", self.varied), ("base", sorted(in_base)), (quantity, scanned)):
             for name in names:
@@ -296,7 +399,9 @@ class GridStudy:
             given["n_circles"].append(("base", "n_diameters"))
         for path, *others in given.values():
             for other in others:
-                yield Fault(path, "", f"is given by {' '.join(other)} as well, and must be given once")
+                yield Fault(
+                    path, "", f"is given by {' '.join(other)} as well, and must be given once"
+                )
         for name in self.varied:
             upper, lower = RATIOS.get(name, (name, ""))
             if "disc" in given and not {upper, lower}.isdisjoint((*PLATE, "damping_ratio")):
@@ -308,43 +413,73 @@ class GridStudy:
         if not self.dims:
             yield Fault(("axes",), "", "is required: at least one axis or zip")
         if self.options.over and self.options.over not in self.values:
-            yield Fault(("axes", self.options.over), "", f"is required: the {quantity} looks along it")
+            yield Fault(
+                ("axes", self.options.over), "", f"is required: the {quantity} looks along it"
+            )
         for name in sorted({*(self.file.batch.over or ())}.difference(self.values)):
-            yield Fault.of(("batch", "over"), name, f"must name dimensions (known: {', '.join(self.values)})")
+            yield Fault.of(
+                ("batch", "over"), name, f"must name dimensions (known: {', '.join(self.values)})"
+            )
 
     def _wrong_starts(self) -> Iterator[Fault]:
-        """Only some quantities accept another start, and the file must give it in one place only."""
+        """Only some quantities accept another start, and the file must give it in one place
+        only."""
         for name in {START, *PERTURBATIONS}.intersection(self.varied):
             coordinate = name.removeprefix("perturbation_")
             if "perturbation" not in type(self.options).model_fields:
-                yield Fault(("axes", name), "", f"the quantity {self.quantity} follows no motion from a start")
+                yield Fault(
+                    ("axes", name),
+                    "",
+                    f"the quantity {self.quantity} follows no motion from a start",
+                )
             elif coordinate in self.options.perturbation:  # type: ignore[attr-defined]
-                yield Fault(("options", "perturbation", coordinate), "", f"is given, and varies as axes.{name}")
+                yield Fault(
+                    ("options", "perturbation", coordinate),
+                    "",
+                    f"is given, and varies as axes.{name}",
+                )
             elif name == START:
                 for key in self.options.model_fields_set & {"prerun", "perturbation"}:
-                    yield Fault(("options", key), "", "must not be given where the start varies: say it under starts")
+                    yield Fault(
+                        ("options", key),
+                        "",
+                        "must not be given where the start varies: say it under starts",
+                    )
 
     def _wrong_extent(self) -> Iterator[Fault]:
-        over, known = self.file.batch.over, [*dict.fromkeys((*Parameters.model_fields, *self.varied))]
+        over, known = (
+            self.file.batch.over,
+            [*dict.fromkeys((*Parameters.model_fields, *self.varied))],
+        )
         if self.options.tiled and len(_plane(self.dims, over)) != 2:
             rule = f"must name the two dimensions, single numbers, of {self.quantity}'s plane first"
             yield Fault.of(("batch", "over"), over and list(over), rule)
         if (size := math.prod(len(dim.values) for dim in self.dims)) > MOST_POINTS:
             yield Fault(("axes",), "", f"must make at most {MOST_POINTS} points, and not {size}")
-        unknown = [(name, rule) for rule in self.where for name in compiled_rule(rule).co_names if name not in known]
+        unknown = [
+            (name, rule)
+            for rule in self.where
+            for name in compiled_rule(rule).co_names
+            if name not in known
+        ]
         for name, rule in unknown:
-            yield Fault.of(("where",), rule, f"{name} is no value of a point{suggestion(name, known, False)}")
+            yield Fault.of(
+                ("where",), rule, f"{name} is no value of a point{suggestion(name, known, False)}"
+            )
         if self.where and not unknown and next(self.points_of(()), None) is None:
             yield Fault(("where",), "", "leaves no point")
 
     def _base_of_points(self) -> dict[str, Any]:
-        """All values that do not vary; raises `ParameterError` with the rules that the first such point breaks."""
+        """All values that do not vary; raises `ParameterError` with the rules that the first such
+        point breaks."""
         unused = {name: 0.0 for name in self.options.scanned if name in REQUIRED}
         first = next(self.points_along(self.dims))
         ratios = {RATIOS[name][0]: name for name in self.varied if name in RATIOS}
         for point in self.points_of(RELATED):
             try:
-                whole = Parameters(**unused | case_of({**self.base, **first, **point}, self.discs)).canonical
+                whole = Parameters(
+                    **unused | case_of({**self.base, **first, **point}, self.discs)
+                ).canonical
             except ParameterError as error:
                 raise_faults([self._located(fault, ratios) for fault in error.faults])
         dropped = {*first, *(RATIOS[name][0] for name in (first | self.base).keys() & RATIOS)}
@@ -359,14 +494,20 @@ class GridStudy:
         name, *rest = fault.path
         if name not in ratios and name not in self.varied:
             return fault.inside(("base",))
-        return Fault(("axes", ratios.get(name, name), *rest), fault.value, f"{fault.rule}, or `where` must exclude it")
+        return Fault(
+            ("axes", ratios.get(name, name), *rest),
+            fault.value,
+            f"{fault.rule}, or `where` must exclude it",
+        )
 
     # ---- its figures
 
     def faults_of(self, plot: Plot) -> Iterable[Fault]:
-        """What keeps a figure from showing this study; general ones look at the quantity's variables and dimensions."""
+        """What keeps a figure from showing this study; general ones look at the quantity's
+        variables and dimensions."""
         values: dict[str, list[Any]] = {
-            name: [value[0] if len(value) == 1 else value for value in along] for name, along in self.values.items()
+            name: [value[0] if len(value) == 1 else value for value in along]
+            for name, along in self.values.items()
         }
         if not isinstance(plot, General):
             quantities = plot.quantities or (plot.kind,)
@@ -376,9 +517,14 @@ class GridStudy:
         quantity, variables = self.options, dict[str, Any]()
         of_points = quantity.COLUMNS, quantity.COORDINATES, [*values]
         others = [name for name in values if name != quantity.over]
-        for columns, coordinates, dims in (of_points, (quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others)):
+        for columns, coordinates, dims in (
+            of_points,
+            (quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others),
+        ):
             variables |= {name: (*dims, *column.dims) for name, column in columns.items()}
-            values |= {name: [*coordinate.values(quantity)] for name, coordinate in coordinates.items()}
+            values |= {
+                name: [*coordinate.values(quantity)] for name, coordinate in coordinates.items()
+            }
         return plot.faults_among(values, variables)
 
     def entry_of(self, name: str, plot: Plot) -> FigureEntry:
@@ -393,32 +539,51 @@ class GridStudy:
 
 
 def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[Any, ...]]]:
-    """The product of blocks in parts of at most `size`; each holds whole values of a block, and all of later blocks.
-    Thus a further value of a dimension that is cut into single values adds parts and keeps the others."""
+    """The product of blocks in parts of at most `size`; each holds whole values of a block, and all
+    of later blocks. Thus a further value of a dimension that is cut into single values adds parts
+    and keeps the others."""
     first, *others = blocks
     within = math.prod(map(len, others))
     if within > size:
-        yield from ([(value, *rest) for rest in part] for value in first for part in _parts(others, size))
+        yield from (
+            [(value, *rest) for rest in part] for value in first for part in _parts(others, size)
+        )
     else:
         count = size // within
         yield from ([*product(first[i : i + count], *others)] for i in range(0, len(first), count))
 
 
-def _tiles(dims: Sequence[Dimension], batch: BatchSpec, marks: list[dict[str, float]]) -> Iterator[dict[str, Any]]:
-    """Points of each tile, and the values along its sides, with those of the next tiles that bound its last cells."""
+def _tiles(
+    dims: Sequence[Dimension], batch: BatchSpec, marks: list[dict[str, float]]
+) -> Iterator[dict[str, Any]]:
+    """Points of each tile, and the values along its sides, with those of the next tiles that bound
+    its last cells."""
 
     def index_of(value: float, side: Sequence[Value]) -> int | None:
-        return next((i for i, other in enumerate(side) if math.isclose(value, float(other), rel_tol=1e-12)), None)
+        return next(
+            (i for i, other in enumerate(side) if math.isclose(value, float(other), rel_tol=1e-12)),
+            None,
+        )
 
     plane = _plane(dims, batch.over)
     others = [dim for dim in dims if dim not in plane]
     names = [dim.name for dim in plane]
     gathered = batch.over or [dim.name for dim in others]
-    shares = [[dim.values] if dim.name in gathered else [(value,) for value in dim.values] for dim in others]
-    for chosen, tile in product(product(*shares), product(*(_cuts(dim.values, TILE) for dim in plane))):
+    shares = [
+        [dim.values] if dim.name in gathered else [(value,) for value in dim.values]
+        for dim in others
+    ]
+    for chosen, tile in product(
+        product(*shares), product(*(_cuts(dim.values, TILE) for dim in plane))
+    ):
         along, within_tile = zip(*tile, strict=True)
-        values = dict(zip([dim.name for dim in (*others, *plane)], [*chosen, *within_tile], strict=True))
-        indices = [[index_of(mark[name], side) for name, side in zip(names, along, strict=True)] for mark in marks]
+        values = dict(
+            zip([dim.name for dim in (*others, *plane)], [*chosen, *within_tile], strict=True)
+        )
+        indices = [
+            [index_of(mark[name], side) for name, side in zip(names, along, strict=True)]
+            for mark in marks
+        ]
         inside = sorted(index for index in indices if None not in index)
         points = product(*(values[dim.name] for dim in dims))
         yield {"points": points, "tile": {"names": names, "along": along, "sampled": inside}}
@@ -430,9 +595,14 @@ def _plane(dims: Sequence[Dimension], over: Sequence[str] | None) -> list[Dimens
     return [dim for dim in numbers if over is None or dim.name in over[:2]]
 
 
-def _cuts(values: Sequence[tuple[Value, ...]], size: int) -> list[tuple[list[Value], Sequence[tuple[Value, ...]]]]:
+def _cuts(
+    values: Sequence[tuple[Value, ...]], size: int
+) -> list[tuple[list[Value], Sequence[tuple[Value, ...]]]]:
     """Stretches of about `size` intervals, and the part of each that no later stretch contains."""
     n = len(values) - 1
     count = max(1, round(n / size))
     edges = [round(i * n / count) for i in range(count + 1)]
-    return [([value for (value,) in values[a : b + 1]], values[a : b + (b == n)]) for a, b in pairwise(edges)]
+    return [
+        ([value for (value,) in values[a : b + 1]], values[a : b + (b == n)])
+        for a, b in pairwise(edges)
+    ]

@@ -1,4 +1,5 @@
-"""Short histories of the motion at a few points of a grid, for the explorer page. They begin at `Quantity.state_at`."""
+"""Short histories of the motion at a few points of a grid, for the explorer page. They begin at
+`Quantity.state_at`."""
 
 import math
 from typing import Any, ClassVar
@@ -14,7 +15,9 @@ from disc_model.studies.run import run_batch
 
 SAMPLES = 256  # of a history: nearly four per oscillation of the fastest mode of the paper's disc in the longest one
 CYCLES_SHOWN = 2  # number of stick-slip cycles in a history
-LONGEST = 0.05  # greatest length of a cycle, s, where stick is very long or nothing pulls the slider back
+LONGEST = (
+    0.05  # greatest length of a cycle, s, where stick is very long or nothing pulls the slider back
+)
 SHOWN = ("P", "u", "psi")
 
 
@@ -27,27 +30,33 @@ class Motions:
         **{name: SERIES[name]._replace(dims=("sample",)) for name in SHOWN},
         "phase": Variable("1", "phase of the motion", ("none", *PHASES), dims=("sample",)),
     }
-    COORDINATES: ClassVar = {"sample": Coordinate("1", "number of the sample", lambda o: range(SAMPLES))}
+    COORDINATES: ClassVar = {
+        "sample": Coordinate("1", "number of the sample", lambda o: range(SAMPLES))
+    }
 
     def __init__(self, quantity: Quantity) -> None:
         self.quantity = quantity
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         start, p = self.quantity.state_at(point).replace(time=0.0, time_low=0.0), point.parameters
-        # of a cycle: the mean time between releases, at least the free period, which stands for it without releases
+        # of a cycle: the mean time between releases, at least the free period, which stands for it
+        # without releases
         free = 2 * math.pi * math.sqrt(p.m / p.k_p) if p.k_p > 0 else LONGEST
         events = simulate(p, 0.5, initial_state=start).events
         released = events["time"][events["kind"] == "stick_to_slip"].to_numpy()
         between = np.ptp(released) / (len(released) - 1) if len(released) > 1 else 0.0
         length = CYCLES_SHOWN * min(max(float(between), free), LONGEST)
         window = Window(start=0.0, stop=length, rate=(SAMPLES - 1) / length)
-        result = simulate(p, length, {"history": window}, events=False, initial_state=start).raise_for_status()
+        result = simulate(
+            p, length, {"history": window}, events=False, initial_state=start
+        ).raise_for_status()
         samples = result.samples["history"]
         values = {"status": "ok", "length": length, "phase": samples["phase"] + 1}
         return values | {name: samples[name] for name in SHOWN}, ""
 
 
 def run_motions(text: str) -> xr.Dataset:
-    """Histories along `point` and `sample`, for a text from `disc_model.studies.grid.GridStudy.motions`."""
+    """Histories along `point` and `sample`, for a text from
+    `disc_model.studies.grid.GridStudy.motions`."""
     histories = run_batch(text, Motions)
     return histories.assign({name: histories[name].astype(np.float32) for name in SHOWN})

@@ -52,7 +52,8 @@ class Ruled(Strict):
 
 
 class Range(Ruled):
-    """Evenly spaced values from `start` to `stop`, both included: `count` of them, or one each `step`."""
+    """Evenly spaced values from `start` to `stop`, both included: `count` of them, or one each
+    `step`."""
 
     start: Finite
     stop: Finite
@@ -64,9 +65,15 @@ class Range(Ruled):
         (lambda r: r.start < r.stop, "start={0.start:g} must be < stop={0.stop:g}"),
         (lambda r: math.isfinite(r.stop - r.start), "stop - start must be finite"),
         (lambda r: (r.count is None) != (r.step is None), "must give either count or step"),
-        (lambda r: r.scale == "linear" or (r.count and r.start > 0), "a logarithmic range needs count and start > 0"),
+        (
+            lambda r: r.scale == "linear" or (r.count and r.start > 0),
+            "a logarithmic range needs count and start > 0",
+        ),
         (lambda r: r._steps < MOST, f"must be at most {MOST} values"),
-        (lambda r: math.isclose(r._steps, r.intervals), "stop - start must be a multiple of step={0.step:g}"),
+        (
+            lambda r: math.isclose(r._steps, r.intervals),
+            "stop - start must be a multiple of step={0.step:g}",
+        ),
     )
 
     @property
@@ -98,11 +105,14 @@ _MADE_OF = (
 
 @cache
 def compiled_rule(rule: str) -> CodeType:
-    """A rule such as ``0.5 < a/b < 0.8``, with floats only: a whole number could repeat a word without end."""
+    """A rule such as ``0.5 < a/b < 0.8``, with floats only: a whole number could repeat a word
+    without end."""
     try:
         tree = ast.parse(rule.strip(), mode="eval")
         nodes = list(ast.walk(tree.body))
-        if not isinstance(tree.body, ast.Compare | ast.BoolOp) or not all(isinstance(node, _MADE_OF) for node in nodes):
+        if not isinstance(tree.body, ast.Compare | ast.BoolOp) or not all(
+            isinstance(node, _MADE_OF) for node in nodes
+        ):
             raise ValueError
         for node in nodes:
             if isinstance(node, ast.Constant) and not isinstance(node.value, str):
@@ -113,8 +123,12 @@ def compiled_rule(rule: str) -> CodeType:
 
 
 def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
-    """Whether all rules hold at a point; a rule that cannot be evaluated, such as a division by zero, does not."""
-    floats = {name: float(x) if isinstance(x, int) else x for name, x in (DEFAULTS | with_ratios(values)).items()}
+    """Whether all rules hold at a point; a rule that cannot be evaluated, such as a division by
+    zero, does not."""
+    floats = {
+        name: float(x) if isinstance(x, int) else x
+        for name, x in (DEFAULTS | with_ratios(values)).items()
+    }
     try:
         return all(eval(compiled_rule(rule), {"__builtins__": {}}, floats) for rule in rules)
     except (ArithmeticError, TypeError):
@@ -127,11 +141,16 @@ STATUS = Variable("1", "what became of the computation", STATUSES)
 
 Row = Mapping[str, Any]
 Made = Parameters | DiscModelError  # parameters, or the error in their place
-NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)  # errors that make a point fail
+NUMERICAL = (
+    DiscModelError,
+    ArithmeticError,
+    np.linalg.LinAlgError,
+)  # errors that make a point fail
 
 
 class Point(NamedTuple):
-    """A point of a grid: its parameters, the start of its motion, and its sample number, if it is a sample."""
+    """A point of a grid: its parameters, the start of its motion, and its sample number, if it is a
+    sample."""
 
     parameters: Parameters
     start: Start = Start()
@@ -139,7 +158,8 @@ class Point(NamedTuple):
 
 
 class Coordinate(NamedTuple):
-    """A dimension of a quantity's own: unit, name in words, which may show options, and values for given options."""
+    """A dimension of a quantity's own: unit, name in words, which may show options, and values for
+    given options."""
 
     units: str
     long_name: str
@@ -154,10 +174,15 @@ def failed(error: Exception, flag: str = "status") -> tuple[Row, str]:
     return {flag: "failed"}, f"{type(error).__name__}: {error}"
 
 
-def tried(flag: str, compute: Callable[..., tuple[Row, str]], subject: Any, *options: Any) -> tuple[Row, str]:
-    """Values and message that a function returns, or those of an error, which the subject may be already."""
+def tried(
+    flag: str, compute: Callable[..., tuple[Row, str]], subject: Any, *options: Any
+) -> tuple[Row, str]:
+    """Values and message that a function returns, or those of an error, which the subject may be
+    already."""
     try:
-        return failed(subject, flag) if isinstance(subject, Exception) else compute(subject, *options)
+        return (
+            failed(subject, flag) if isinstance(subject, Exception) else compute(subject, *options)
+        )
     except NUMERICAL as error:
         return failed(error, flag)
 
@@ -173,21 +198,29 @@ def with_ends(name: str, values: Iterable[Any]) -> dict[str, Any]:
 
 
 def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
-    """Columns of the rows along a quantity's own dimension; None, which is missing, where rows lack a value."""
+    """Columns of the rows along a quantity's own dimension; None, which is missing, where rows lack
+    a value."""
     names = dict.fromkeys(name for row in rows for name in row)
     return {name: [row.get(name) for row in rows] for name in names}
 
 
 WORK = 20.0  # processor time of a batch, s: its job costs about 1 s in itself. Three times as much does no harm.
-# Measured costs, s. A new value changes the batches of all studies of a quantity without `batch.size`.
+# Measured costs, s. A new value changes the batches of all studies of a quantity without
+# `batch.size`.
 SIMULATED = 7e-4  # cost of a simulated second, s: 3e-4 in contact, two or three times as much with repeated separation
 CYCLE = 2.5e-3  # cost of finding a cycle and its multipliers, s
 COME_TO = (
-    "What the motion has come to: a while after the first separation, on the cycle it settled to, or at the horizon."
+    "What the motion has come to: a while after the first separation, on the cycle it settled to, "
+    "or at the horizon."
 )
-NUMBERS = tuple(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_"))
+NUMBERS = tuple(
+    name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_")
+)
 _FREE = re.compile("|".join([*NUMBERS, *RATIOS, r"(omega|amplitude|damping_ratio)_\d+_\d+"]))
-Free = Annotated[str, AfterValidator(must(lambda name: bool(_FREE.fullmatch(name)), "must be a number of the case"))]
+Free = Annotated[
+    str,
+    AfterValidator(must(lambda name: bool(_FREE.fullmatch(name)), "must be a number of the case")),
+]
 """A number along which cycles are continued: a parameter, a ratio, or one of a disc's modes."""
 
 
@@ -195,17 +228,27 @@ class Quantity(Ruled):
     """A quantity of grid studies: its fields are its options."""
 
     COLUMNS: ClassVar[Mapping[str, Variable]] = {}
-    COORDINATES: ClassVar[Mapping[str, Coordinate]] = {}  # its own dimensions, beyond those of the grid
+    COORDINATES: ClassVar[
+        Mapping[str, Coordinate]
+    ] = {}  # its own dimensions, beyond those of the grid
     SUMMARY_COLUMNS: ClassVar[Mapping[str, Variable]] = {}
     SUMMARY_COORDINATES: ClassVar[Mapping[str, Coordinate]] = {}
-    scans: ClassVar[tuple[str, ...]] = ()  # parameters that it varies by itself, or the options that name them
-    motions: ClassVar[int] = 0  # number of values of each axis for which a motion is stored, fewer if it is expensive
+    scans: ClassVar[
+        tuple[str, ...]
+    ] = ()  # parameters that it varies by itself, or the options that name them
+    motions: ClassVar[int] = (
+        0  # number of values of each axis for which a motion is stored, fewer if it is expensive
+    )
     motion: ClassVar[str] = ""  # description of these motions, which begin at `state_at`
-    tiled: ClassVar[bool] = False  # whether `compute_tile`, as of `Regions`, computes a whole tile of a plane at once
-    # the required dimension over which `summarise`, as of `Campbell`, makes a row of a merged study; a rule of the file
-    # may have left out some points, or all
+    tiled: ClassVar[bool] = (
+        False  # whether `compute_tile`, as of `Regions`, computes a whole tile of a plane at once
+    )
+    # the required dimension over which `summarise`, as of `Campbell`, makes a row of a merged
+    # study; a rule of the file may have left out some points, or all
     over: ClassVar[str] = ""
-    cost: ClassVar[Callable[[Any], float]]  # processor time of a point, s, measured at points of the paper's study
+    cost: ClassVar[
+        Callable[[Any], float]
+    ]  # processor time of a point, s, measured at points of the paper's study
 
     @property
     def scanned(self) -> tuple[str, ...]:
@@ -221,11 +264,13 @@ class Quantity(Ruled):
         return ()
 
     def compute_point(self, point: Point) -> tuple[Row, str]:
-        """Values at one point by column, flags as words, and a message. Too short lists are padded, long ones cut."""
+        """Values at one point by column, flags as words, and a message. Too short lists are padded,
+        long ones cut."""
         raise NotImplementedError
 
     def state_at(self, point: Point) -> State:
-        """The state in which the motions of a point begin; raises `DiscModelError` if there is none."""
+        """The state in which the motions of a point begin; raises `DiscModelError` if there is
+        none."""
         raise NotImplementedError
 
 
@@ -236,7 +281,9 @@ def quantity_names() -> list[str]:
 def quantity_of(name: str) -> type[Quantity]:
     """The quantity of a name; raises `ParameterError`."""
     if name not in quantity_names():
-        raise ParameterError(Fault.of((), name, f"unknown quantity{suggestion(name, quantity_names())}"))
+        raise ParameterError(
+            Fault.of((), name, f"unknown quantity{suggestion(name, quantity_names())}")
+        )
     values = vars(import_module(f"{_QUANTITIES}.{name}")).values()
     classes = (value for value in values if isinstance(value, type) and issubclass(value, Quantity))
     return next(each for each in classes if each.__module__.endswith(f".{name}"))

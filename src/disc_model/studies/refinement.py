@@ -1,7 +1,9 @@
-"""Outcome of the static start over two parameters, refined at borders, and the cycle at every point.
+"""Outcome of the static start over two parameters, refined at borders, and the cycle at every
+point.
 
-Multipliers give the outcome where the start stays quiet, or grows too slowly for anything else. Elsewhere it is
-simulated at the corners of coarse cells, which are divided as docs/study_method.md, Regions, describes, or filled.
+Multipliers give the outcome where the start stays quiet, or grows too slowly for anything else.
+Elsewhere it is simulated at the corners of coarse cells, which are divided as docs/study_method.md,
+Regions, describes, or filled.
 """
 
 import math
@@ -29,12 +31,19 @@ CALM = (Outcome.QUIET, Outcome.STEADY_SLIDING, Outcome.AT_REST)
 
 
 class Tile:
-    """A tile of the plane, with the options of `Regions`; the outcome at the places `sampled` is always computed."""
+    """A tile of the plane, with the options of `Regions`; the outcome at the places `sampled` is
+    always computed."""
 
-    def __init__(self, points: Sequence[Sequence[Made]], sampled: Collection[Index], options: Any) -> None:
+    def __init__(
+        self, points: Sequence[Sequence[Made]], sampled: Collection[Index], options: Any
+    ) -> None:
         self.options, self.shape = options, (len(points), len(points[0]))
-        self.points: dict[Index, Any] = {(i, j): p for i, row in enumerate(points) for j, p in enumerate(row)}
-        self.starts = {index: _result_or_error(cycle_of_static_start, p) for index, p in self.points.items()}
+        self.points: dict[Index, Any] = {
+            (i, j): p for i, row in enumerate(points) for j, p in enumerate(row)
+        }
+        self.starts = {
+            index: _result_or_error(cycle_of_static_start, p) for index, p in self.points.items()
+        }
         self.results: dict[Index, OutcomeResult | Exception] = {}
         self.filled: dict[Index, str] = {}
         self.presumed: dict[Index, str] = {}
@@ -43,7 +52,9 @@ class Tile:
             self.outcome(index)
         rows, columns = (_edges(size, options.initial_cell_size) for size in self.shape)
         known = -1
-        while known < len(self.results) or self._confirm():  # a result on its edge may require a cell to be divided
+        while (
+            known < len(self.results) or self._confirm()
+        ):  # a result on its edge may require a cell to be divided
             known = len(self.results)
             self.filled.clear()
             self.presumed.clear()
@@ -57,9 +68,14 @@ class Tile:
         return start if isinstance(start, NearCycle) and start.follows_cycle else None
 
     def _check_what_is_filled(self) -> None:
-        """Compute points whose start follows a growing cycle but counts as calm, or none though most neighbours do."""
+        """Compute points whose start follows a growing cycle but counts as calm, or none though
+        most neighbours do."""
         for (i, j), outcome in (self.presumed | self.filled).items():
-            beside = [index for index in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j)) if index in self.starts]
+            beside = [
+                index
+                for index in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j))
+                if index in self.starts
+            ]
             doubtful = outcome in CALM
             if self._own((i, j)) is None:
                 # the strip of points without a cycle is thinner than the grid
@@ -68,15 +84,22 @@ class Tile:
                 self.outcome((i, j))
 
     def _confirm(self) -> bool:
-        """Whether an outcome changes if its departure, of which multipliers do not keep the phase, is simulated as a
-        whole, where both points beside have another."""
+        """Whether an outcome changes if its departure, of which multipliers do not keep the phase,
+        is simulated as a whole, where both points beside have another."""
         changed = False
         for (i, j), result in list(self.results.items()):
             if not isinstance(result, OutcomeResult) or result.extrapolated is None:
                 continue
             sides = [((i - 1, j), (i + 1, j)), ((i, j - 1), (i, j + 1))]
-            beside = {self._shown(before) for before, after in sides if self._shown(before) == self._shown(after)}
-            if any(both != result.word and {both, result.word} - GROWN == {Outcome.SEPARATION} for both in beside):
+            beside = {
+                self._shown(before)
+                for before, after in sides
+                if self._shown(before) == self._shown(after)
+            }
+            if any(
+                both != result.word and {both, result.word} - GROWN == {Outcome.SEPARATION}
+                for both in beside
+            ):
                 whole = self._result((i, j), furthest=0.0)
                 if isinstance(whole, OutcomeResult):
                     whole.simulated += result.simulated
@@ -98,15 +121,25 @@ class Tile:
         return result.word if isinstance(result, OutcomeResult) else "failed"
 
     def _result(self, index: Index, furthest: float = AMPLITUDES[0]) -> OutcomeResult | Exception:
-        p, horizon, how = self.points[index], self.options.horizon, {"tol": self.options.tol, "furthest": furthest}
-        return _result_or_error(lambda start: find_outcome(p, horizon, near=start, **how), self.starts[index])
+        p, horizon, how = (
+            self.points[index],
+            self.options.horizon,
+            {"tol": self.options.tol, "furthest": furthest},
+        )
+        return _result_or_error(
+            lambda start: find_outcome(p, horizon, near=start, **how), self.starts[index]
+        )
 
     def _trend(self, index: Index) -> str:
         """The outcome at a point from the multipliers, or "" if they leave it open."""
         start = self._own(index)
         if start is not None and start.cycle.stable:
             return Outcome.QUIET
-        return Outcome.GROWING if start is not None and start.stays_linear_until(self.options.horizon) else ""
+        return (
+            Outcome.GROWING
+            if start is not None and start.stays_linear_until(self.options.horizon)
+            else ""
+        )
 
     def _refine(self, rows: Index, columns: Index) -> None:
         """Divide a cell, given by the indices of its edges, or fill it."""
@@ -115,14 +148,19 @@ class Tile:
         if not undecided:
             return
         corners = [corner for corner in product(rows, columns) if not self.trends[corner]]
-        for index in corners or ([] if any(index in self.results for index in undecided) else [_middle(undecided)]):
+        for index in corners or (
+            [] if any(index in self.results for index in undecided) else [_middle(undecided)]
+        ):
             if index not in self.presumed:
                 self.outcome(index)
-        # Between slow growth and separation there may be faster growth, still without separation. If all corners show
-        # only that, stripes of separation may lie between them: these cells are divided once more.
+        # Between slow growth and separation there may be faster growth, still without separation.
+        # If all corners show only that, stripes of separation may lie between them: these cells are
+        # divided once more.
         outcomes = {self.outcome(index) for index in undecided if index in self.results}
         outcomes |= {self.presumed[corner] for corner in corners if corner not in self.results}
-        outcomes |= {self.trends[index] for index in inside if self.trends[index] is Outcome.GROWING}
+        outcomes |= {
+            self.trends[index] for index in inside if self.trends[index] is Outcome.GROWING
+        }
         halves = [_halves(*edges) for edges in (rows, columns)]
         side = max(rows[1] - rows[0], columns[1] - columns[0])
         most = max(1, self.options.initial_cell_size // 2)
@@ -138,25 +176,36 @@ class Tile:
                 self._refine(i, j)
 
     def _presume(self, rows: Index, columns: Index) -> None:
-        """Presume that an edge of a small cell has the outcome of its equal corners; a cell beside it may differ."""
+        """Presume that an edge of a small cell has the outcome of its equal corners; a cell beside
+        it may differ."""
 
         def outcome(corner: Index) -> str:
-            return self.trends[corner] or (self.outcome(corner) if corner in self.results else self.presumed[corner])
+            return self.trends[corner] or (
+                self.outcome(corner) if corner in self.results else self.presumed[corner]
+            )
 
         edges = [((row, columns[0]), (row, columns[1])) for row in rows]
         edges += [((rows[0], column), (rows[1], column)) for column in columns]
         for first, two in edges:
             middle = (first[0] + two[0]) // 2, (first[1] + two[1]) // 2
-            if middle not in (first, two) and not self.trends[middle] and outcome(first) == outcome(two):
+            if (
+                middle not in (first, two)
+                and not self.trends[middle]
+                and outcome(first) == outcome(two)
+            ):
                 self.presumed.setdefault(middle, outcome(first))
 
     def rows(self) -> list[list[tuple[Row, str]]]:
         others = self._others()
         self.followed = {index: self._follow(index) for index in self.starts}
-        return [[self._row((i, j), others[i, j]) for j in range(self.shape[1])] for i in range(self.shape[0])]
+        return [
+            [self._row((i, j), others[i, j]) for j in range(self.shape[1])]
+            for i in range(self.shape[0])
+        ]
 
     def _follow(self, index: Index) -> NearCycle | None:
-        """The cycle that the static start follows at a point, if that is known, before any later one."""
+        """The cycle that the static start follows at a point, if that is known, before any later
+        one."""
         cycle, result = self._own(index), self.results.get(index)
         if not isinstance(result, OutcomeResult):
             return cycle
@@ -174,7 +223,11 @@ class Tile:
         if np.linalg.norm(x - further.x) <= 0.002 * size:  # smoothly
             return "yes"
         orbit = newton(further.map, x, releases=further.cycle.releases)
-        return "yes" if orbit is not None and np.linalg.norm(orbit.start - further.x) <= SAME_POINT * size else "no"
+        return (
+            "yes"
+            if orbit is not None and np.linalg.norm(orbit.start - further.x) <= SAME_POINT * size
+            else "no"
+        )
 
     def _row(self, index: Index, others: int) -> tuple[Row, str]:
         (i, j), start, result = index, self.starts[index], self.results.get(index)
@@ -186,11 +239,18 @@ class Tile:
         row["branch_continues_first"] = self._joined(index, (i + 1, j))
         row["branch_continues_second"] = self._joined(index, (i, j + 1))
         if result is None:
-            row |= {"outcome": self._shown(index), "method": "multipliers" if self.trends[index] else "inferred"}
+            row |= {
+                "outcome": self._shown(index),
+                "method": "multipliers" if self.trends[index] else "inferred",
+            }
         else:
             method = "simulation" if result.simulated else "multipliers"
             row["method"] = "settled" if result.stage is Stage.STEADY else method
-            row |= {"status": result.status, "outcome": result.word, "simulated_time": result.simulated}
+            row |= {
+                "status": result.status,
+                "outcome": result.word,
+                "simulated_time": result.simulated,
+            }
             row["first_separation"] = result.first_separation
         if (followed := self.followed[index]) is None:
             row["cycle"] = "nearby_only" if isinstance(start, NearCycle) else "no_cycle"
@@ -200,29 +260,43 @@ class Tile:
                 row["cycle"] = start.motion
         else:
             cycle = followed.cycle
-            lowest = min(frequency for frequency, _, bound in modes_at_rest(cycle.parameters) if bound)
+            lowest = min(
+                frequency for frequency, _, bound in modes_at_rest(cycle.parameters) if bound
+            )
             row |= {"cycle": "followed", "growth_rate": cycle.growth_rate, "period": cycle.period}
             row |= {"releases": cycle.releases, "period_ratio": cycle.period * lowest}
         return row, "" if result is None else result.message
 
     def _others(self) -> dict[Index, int]:
-        """Number of known cycles at each point besides the one nearest to the start, carried along rows both ways."""
-        known = {index: [start.x] if isinstance(start, NearCycle) else [] for index, start in self.starts.items()}
+        """Number of known cycles at each point besides the one nearest to the start, carried along
+        rows both ways."""
+        known = {
+            index: [start.x] if isinstance(start, NearCycle) else []
+            for index, start in self.starts.items()
+        }
         for i in range(self.shape[0]):
             row = [(i, j) for j in range(self.shape[1])]
             for before, index in (*pairwise(row), *pairwise(row[::-1])):
                 start, last, cycles = self.starts[index], self.starts[before], known[index]
-                if not (isinstance(start, NearCycle) and isinstance(last, NearCycle)) or start.x.shape != last.x.shape:
+                if (
+                    not (isinstance(start, NearCycle) and isinstance(last, NearCycle))
+                    or start.x.shape != last.x.shape
+                ):
                     continue
                 size = start.map.deflection  # the unit of points, which varies with the parameters
                 scale = size / last.map.deflection
                 for cycle in known[before]:
                     if len(cycles) >= 4:  # further ones cost too much
                         break
-                    if min(np.linalg.norm(scale * cycle - x) for x in cycles) <= 0.02 * size:  # not another one
+                    if (
+                        min(np.linalg.norm(scale * cycle - x) for x in cycles) <= 0.02 * size
+                    ):  # not another one
                         continue
                     orbit = newton(start.map, scale * cycle, releases=last.cycle.releases)
-                    if orbit is not None and min(np.linalg.norm(orbit.start - x) for x in cycles) > SAME_POINT * size:
+                    if (
+                        orbit is not None
+                        and min(np.linalg.norm(orbit.start - x) for x in cycles) > SAME_POINT * size
+                    ):
                         cycles.append(orbit.start)
         return {index: max(0, len(cycles) - 1) for index, cycles in known.items()}
 
@@ -242,7 +316,8 @@ def _middle(indices: Sequence[Index]) -> Index:
 
 
 def _edges(size: int, coarse: int) -> list[int]:
-    """Indices of the edges of coarse cells along `size` points; a single point is both edges of its cell."""
+    """Indices of the edges of coarse cells along `size` points; a single point is both edges of its
+    cell."""
     cells = max(1, math.ceil((size - 1) / coarse))
     return [round(i * (size - 1) / cells) for i in range(cells + 1)]
 

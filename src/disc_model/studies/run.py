@@ -23,19 +23,26 @@ POINT = "point"
 
 
 def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Dataset:
-    """Variables along `point` of the batch in a text of `disc_model.studies.grid.GridStudy.batches`: those of the
-    quantity, or of what a function `of` it makes."""
+    """Variables along `point` of the batch in a text of
+    `disc_model.studies.grid.GridStudy.batches`: those of the quantity, or of what a function `of`
+    it makes."""
     data = json.loads(text)
     quantity = quantity_of(data["quantity"]).model_validate(data["options"])
     computed = quantity if of is None else of(quantity)
     names = data["names"]
     varied = [in_words(dict(zip(names, point, strict=True))) for point in data["points"]]
     chosen, tiled = data["base"].get("n_diameters") == AUTO, "tile" in data
-    parameters = [_made(data, values) for values in varied] if chosen or not tiled else []  # a tile makes its own
+    parameters = (
+        [_made(data, values) for values in varied] if chosen or not tiled else []
+    )  # a tile makes its own
     if tiled and of is None:
         results = list(_over_tile(quantity, data))
     else:
-        stated = {None: {name: value for name, value in data["options"].items() if name in Start.model_fields}}
+        stated = {
+            None: {
+                name: value for name, value in data["options"].items() if name in Start.model_fields
+            }
+        }
         starts = {name: Start(**start) for name, start in (stated | data.get("starts", {})).items()}
         points = (_point(*point, starts) for point in zip(parameters, varied, strict=True))
         results = [tried("status", computed.compute_point, point) for point in points]
@@ -44,10 +51,18 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
     variables = variables_of(computed.COLUMNS, coords_of_quantity, rows, {POINT: len(rows)})
     if chosen:
         for name in ("diameters", "circles"):  # -1 without a choice
-            highest = [-1 if isinstance(p, DiscModelError) else getattr(mode_arrays(p), name).max() for p in parameters]
+            highest = [
+                -1 if isinstance(p, DiscModelError) else getattr(mode_arrays(p), name).max()
+                for p in parameters
+            ]
             variables[f"n_{name}"] = xr.Variable(POINT, highest, attributes(f"n_{name}"))
-    variables["message"] = xr.Variable(POINT, np.array(messages, dtype=str), {"long_name": "what went wrong"})
-    coords = {name: xr.Variable(POINT, [values[name] for values in varied], describe(name)) for name in names}
+    variables["message"] = xr.Variable(
+        POINT, np.array(messages, dtype=str), {"long_name": "what went wrong"}
+    )
+    coords = {
+        name: xr.Variable(POINT, [values[name] for values in varied], describe(name))
+        for name in names
+    }
     attrs = {
         "Conventions": CONVENTIONS, "specification": text,
         "source_hash": source_hash(__name__, type(quantity).__module__), "git_commit": git_commit(),
@@ -57,7 +72,8 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
 
 
 def _over_tile(quantity: Any, data: Mapping[str, Any]) -> Iterator[tuple[Row, str]]:
-    """A tile's points in the text's order, without its margin; one tile for each combination of other parameters."""
+    """A tile's points in the text's order, without its margin; one tile for each combination of
+    other parameters."""
     (first, second), (rows, columns) = data["tile"]["names"], data["tile"]["along"]
     tiles: dict[tuple[Any, ...], Sequence[Sequence[tuple[Row, str]]]] = {}
     for point in data["points"]:
@@ -70,8 +86,11 @@ def _over_tile(quantity: Any, data: Mapping[str, Any]) -> Iterator[tuple[Row, st
         yield tiles[key][i][j]
 
 
-def _point(p: Made, varied: Mapping[str, Any], starts: Mapping[str | None, Start]) -> Point | DiscModelError:
-    """A point with its parameters and everything else that varies; the start of None is that of the options."""
+def _point(
+    p: Made, varied: Mapping[str, Any], starts: Mapping[str | None, Start]
+) -> Point | DiscModelError:
+    """A point with its parameters and everything else that varies; the start of None is that of the
+    options."""
     if isinstance(p, DiscModelError):
         return p
     start = starts[varied.get(START)]
@@ -91,7 +110,8 @@ def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
 
 
 def describe(name: str) -> dict[str, Any]:
-    """Attributes of a varying parameter as a coordinate; choices are stored as words, without unit."""
+    """Attributes of a varying parameter as a coordinate; choices are stored as words, without
+    unit."""
     described = attributes(name)
     return {"long_name": described["long_name"]} if name in (*CHOICES, "disc") else described
 
@@ -99,17 +119,25 @@ def describe(name: str) -> dict[str, Any]:
 # ---- Quantities: rows of results, one for each point, as arrays
 
 
-def coordinates_of(coordinates: Mapping[str, Coordinate], quantity: Quantity) -> dict[str, xr.Variable]:
+def coordinates_of(
+    coordinates: Mapping[str, Coordinate], quantity: Quantity
+) -> dict[str, xr.Variable]:
     return {
-        name: xr.Variable(name, np.array(values(quantity)), Variable(units, words.format(quantity)).attributes)
+        name: xr.Variable(
+            name, np.array(values(quantity)), Variable(units, words.format(quantity)).attributes
+        )
         for name, (units, words, values) in coordinates.items()
     }
 
 
 def variables_of(
-    columns: Mapping[str, Variable], coords: Mapping[str, xr.Variable], rows: Sequence[Row], sizes: Mapping[str, int]
+    columns: Mapping[str, Variable],
+    coords: Mapping[str, xr.Variable],
+    rows: Sequence[Row],
+    sizes: Mapping[str, int],
 ) -> dict[str, xr.Variable]:
-    """Rows as variables along dimensions of these sizes, the last one fastest, and along the quantity's own."""
+    """Rows as variables along dimensions of these sizes, the last one fastest, and along the
+    quantity's own."""
     variables = {}
     for name, column in columns.items():
         array = column.empty((len(rows), *(coords[dim].size for dim in column.dims)))

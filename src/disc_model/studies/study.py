@@ -1,6 +1,7 @@
 """Studies: their files are read and checked, and yield named cases and grids.
 
-One `StudyError` lists all faults: those of single values, or those between values once these are right.
+One `StudyError` lists all faults: those of single values, or those between values once these are
+right.
 """
 
 import json
@@ -13,7 +14,14 @@ from typing import Annotated, Any, Literal, Self, Union
 
 import pydantic
 import yaml
-from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, WithJsonSchema, create_model
+from pydantic import (
+    AfterValidator,
+    BeforeValidator,
+    Field,
+    PlainValidator,
+    WithJsonSchema,
+    create_model,
+)
 from yaml.composer import ComposerError
 
 from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, values_text
@@ -24,12 +32,32 @@ from disc_model.errors import DiscModelError, Fault, ParameterError, raise_fault
 from disc_model.figures.kind import NORM, CasePlot, Kind, Plot, kind_of, kinds_in
 from disc_model.mode_choice import CHOSEN_BY, TRUSTED, ModeRequest, read_asked
 from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
-from disc_model.simulation.case import CaseSpec, Poincare, Ramp, SomeParameters, Span, Start, Window, ramp_faults
-from disc_model.studies.grid import GRID_KEYS, STATIC, BatchSpec, Columns, FigureEntry, GridStudy, described
+from disc_model.simulation.case import (
+    CaseSpec,
+    Poincare,
+    Ramp,
+    SomeParameters,
+    Span,
+    Start,
+    Window,
+    ramp_faults,
+)
+from disc_model.studies.grid import (
+    GRID_KEYS,
+    STATIC,
+    BatchSpec,
+    Columns,
+    FigureEntry,
+    GridStudy,
+    described,
+)
 from disc_model.studies.quantity import compiled_rule, quantity_names, quantity_of
 from disc_model.units import Finite, Positive, Seconds, Strict, Tolerance, must
 
-MODES = {"as_published": "modes scaled as in the published results", "orthonormal": "modes normalised as Eq. (17) says"}
+MODES = {
+    "as_published": "modes scaled as in the published results",
+    "orthonormal": "modes normalised as Eq. (17) says",
+}
 
 # ---- Reading
 
@@ -39,7 +67,9 @@ class StudyError(DiscModelError, ValueError):
 
     def __init__(self, *faults: str, source: str = "study") -> None:
         self.faults, self.source = tuple(dict.fromkeys(map(str, faults))), source
-        super().__init__("\n  ".join([f"{source}: {counted(len(self.faults), 'fault')}", *self.faults]))
+        super().__init__(
+            "\n  ".join([f"{source}: {counted(len(self.faults), 'fault')}", *self.faults])
+        )
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (partial(type(self), source=self.source), self.faults)
@@ -49,8 +79,17 @@ def read_file(path: Path) -> Any:
     """A YAML file's content; raises `StudyError` if it cannot be read or gives a key twice."""
     try:
         return yaml.load(path.read_text(encoding="utf-8"), _Loader)
-    except (OSError, yaml.YAMLError, ValueError, RecursionError, AttributeError, KeyError, TypeError) as error:
-        # ValueError and what follows: a value looks like a number or date, or has a tag, that it does not fit
+    except (
+        OSError,
+        yaml.YAMLError,
+        ValueError,
+        RecursionError,
+        AttributeError,
+        KeyError,
+        TypeError,
+    ) as error:
+        # ValueError and what follows: a value looks like a number or date, or has a tag, that it
+        # does not fit
         raise StudyError(
             f"cannot be read as YAML, whose values must fit their tags: {error}", source=str(path)
         ) from None
@@ -99,7 +138,9 @@ def _but(taken: Collection[str], rule: str) -> AfterValidator:
 _LETTERS = pydantic.StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=100)
 Name = Annotated[str, _LETTERS]
 CaseName = Annotated[Name, _but(TAKEN, "must not be the name of a variable")]
-WindowName = Annotated[Name, _but(TAKEN | BESIDE_WINDOWS, "must not be the name of a variable or group")]
+WindowName = Annotated[
+    Name, _but(TAKEN | BESIDE_WINDOWS, "must not be the name of a variable or group")
+]
 StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 
 # ---- Named cases
@@ -113,18 +154,23 @@ class RecordSpec(Strict):
     events: bool | Span = True
 
 
-_ratios: dict[str, Any] = {name: (Positive | None, Field(None, **described(name))) for name in RATIOS}
+_ratios: dict[str, Any] = {
+    name: (Positive | None, Field(None, **described(name))) for name in RATIOS
+}
 _WithRatios = create_model("_WithRatios", __base__=SomeParameters, **_ratios)
 
 
 class GivenParameters(_WithRatios):  # type: ignore[misc, valid-type]
-    """Parameters, or ratios of them, any of which may be left out; the number of modes may be left to each case."""
+    """Parameters, or ratios of them, any of which may be left out; the number of modes may be left
+    to each case."""
 
     n_diameters: Annotated[
         int,
         *Parameters.model_fields["n_diameters"].metadata,
         pydantic.WrapValidator(lambda value, check: value if value == AUTO else check(value)),
-        WithJsonSchema({"anyOf": [{"type": "integer", "minimum": -1, "maximum": 60}, {"const": AUTO}]}),
+        WithJsonSchema(
+            {"anyOf": [{"type": "integer", "minimum": -1, "maximum": 60}, {"const": AUTO}]}
+        ),
     ] = Field(None, **described("n_diameters"))
     truncation_quantity: Literal[*CHOSEN_BY] = Field(  # type: ignore[valid-type]
         None, description="quantity by which n_diameters: auto chooses the modes"
@@ -147,7 +193,9 @@ class NamedCase(Strict):
     reference: str = ""
     parameters: Annotated[
         tuple[Parameters, ModeRequest | None],
-        PlainValidator(lambda raw: read_asked(_mapping(raw)), json_schema_input_type=GivenParameters),
+        PlainValidator(
+            lambda raw: read_asked(_mapping(raw)), json_schema_input_type=GivenParameters
+        ),
     ] = Field({}, validate_default=True)
     t_end: Seconds
     tol: Tolerance = 1e-10
@@ -173,13 +221,21 @@ class NamedCase(Strict):
             else:
                 rule = f"must be within the run: 0 <= start={start:g} < stop={stop:g} <= t_end={self.t_end:g}"
                 faults.append(Fault(("record", *path), "", rule))
-        for fault in ramp_faults(p, self.ramps, poincare=record.poincare is not None) if self.ramps else ():
-            faults.append(fault.inside(("parameters",)) if fault.path[0] in Parameters.model_fields else fault)
+        for fault in (
+            ramp_faults(p, self.ramps, poincare=record.poincare is not None) if self.ramps else ()
+        ):
+            faults.append(
+                fault.inside(("parameters",)) if fault.path[0] in Parameters.model_fields else fault
+            )
         raise_faults(faults)
         events = spans.pop(("events",), None)
         windows = tuple((name, window) for (_, name), window in spans.items())
         rest = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
-        rest |= {"windows": windows, "poincare": record.poincare, "events": events and (events.start, events.stop)}
+        rest |= {
+            "windows": windows,
+            "poincare": record.poincare,
+            "events": events and (events.start, events.stop),
+        }
         # modes that are left to be chosen are chosen when the case runs
         modes = "" if request is None else json.dumps(request.model_dump(), sort_keys=True)
         return CaseSpec(parameters=p, modes=modes, **rest)
@@ -199,15 +255,23 @@ def _figure(raw: Any) -> Kind:
 
 
 _OTHER_NAME = {"kind": {"type": "string", "pattern": r"^\w+\.\w+$"}}
-_OTHER_KIND = Annotated[Any, WithJsonSchema({"type": "object", "properties": _OTHER_NAME, "required": ["kind"]})]
-_KIND: Any = Annotated[Union[*(kind for _, kind in sorted(kinds_in("").items()))], Field(discriminator="kind")]
+_OTHER_KIND = Annotated[
+    Any, WithJsonSchema({"type": "object", "properties": _OTHER_NAME, "required": ["kind"]})
+]
+_KIND: Any = Annotated[
+    Union[*(kind for _, kind in sorted(kinds_in("").items()))], Field(discriminator="kind")
+]
 Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND | _OTHER_KIND)]
 """A figure of any kind; the schema for editors knows the keys of the library's kinds, and not those of the paper's."""
 
 
 def _given_figures(raw: Any) -> Any:
     """Figures by their names, without those that null drops."""
-    return {name: plot for name, plot in raw.items() if plot is not None} if isinstance(raw, Mapping) else raw
+    return (
+        {name: plot for name, plot in raw.items() if plot is not None}
+        if isinstance(raw, Mapping)
+        else raw
+    )
 
 
 def _several(value: Any) -> Any:
@@ -215,7 +279,8 @@ def _several(value: Any) -> Any:
 
 
 def _options(raw: Any, info: pydantic.ValidationInfo) -> Any:
-    """The quantity with its options; what is given for an unknown one is checked once it is known."""
+    """The quantity with its options; what is given for an unknown one is checked once it is
+    known."""
     quantity = info.data.get("quantity")
     return raw if quantity is None else quantity_of(quantity).model_validate(_mapping(raw))
 
@@ -230,11 +295,14 @@ class Study(Strict):
     title: str = ""
     base: GivenParameters = GivenParameters()
     figures: Annotated[
-        dict[Name, Figure], BeforeValidator(_given_figures, json_schema_input_type=dict[Name, Figure | None])
+        dict[Name, Figure],
+        BeforeValidator(_given_figures, json_schema_input_type=dict[Name, Figure | None]),
     ] = Field({})
     tol: Tolerance | None = 1e-10  # of all cases, as `record`
     record: RecordSpec = RecordSpec()
-    cases: Annotated[dict[CaseName, NamedCase], Field(min_length=1)] = Field({}, validate_default=False)
+    cases: Annotated[dict[CaseName, NamedCase], Field(min_length=1)] = Field(
+        {}, validate_default=False
+    )
     claims: bool = False  # whether the paper's claims and tables are checked against the cases
     quantity: Annotated[
         str | None,
@@ -247,12 +315,17 @@ class Study(Strict):
         tuple[Annotated[str, AfterValidator(lambda rule: compiled_rule(rule) and rule)], ...],
         BeforeValidator(_several, json_schema_input_type=str | list[str]),
     ] = ()
-    zip: Annotated[tuple[Columns, ...], BeforeValidator(_several, json_schema_input_type=Columns | list[Columns])] = ()
+    zip: Annotated[
+        tuple[Columns, ...],
+        BeforeValidator(_several, json_schema_input_type=Columns | list[Columns]),
+    ] = ()
     batch: BatchSpec = BatchSpec()
     starts: dict[StartName, Start] = Field({})
     discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
     studies: tuple[str, ...] = ()  # further files of grid studies, * stands for any part of a name
-    overrides: dict[str, dict[str, Any]] = Field({})  # of values in these files, by the name of the study
+    overrides: dict[str, dict[str, Any]] = Field(
+        {}
+    )  # of values in these files, by the name of the study
 
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -260,7 +333,9 @@ class Study(Strict):
         faults: list[Fault] = []
         given = self.model_fields_set
         if self.quantity is None and (given & GRID_KEYS or not given & {"cases", "studies"}):
-            faults.append(Fault(("quantity",), "", "is required, unless the file has cases or studies alone"))
+            faults.append(
+                Fault(("quantity",), "", "is required, unless the file has cases or studies alone")
+            )
         recorded = {name: spec.sections for name, spec in self.specs.items()}
         for name, plot in self.figures.items():
             if isinstance(plot, CasePlot):
@@ -295,10 +370,14 @@ class Study(Strict):
     @property
     def labels(self) -> dict[str, dict[str, str]]:
         """Texts about the cases, which do not change their results."""
-        return {name: {"title": case.title or name, "reference": case.reference} for name, case in self.cases.items()}
+        return {
+            name: {"title": case.title or name, "reference": case.reference}
+            for name, case in self.cases.items()
+        }
 
     def entries(self, grids: Mapping[str, GridStudy]) -> dict[tuple[str, str], FigureEntry]:
-        """All figures of the file and of grids, by the study in whose folder they are and their names."""
+        """All figures of the file and of grids, by the study in whose folder they are and their
+        names."""
         figures = {}
         for name, plot in self.figures.items():
             if isinstance(plot, Plot):
@@ -306,11 +385,15 @@ class Study(Strict):
             elif isinstance(plot, CasePlot):
                 parameters = [self.specs[case].parameters for case in plot.cases]
                 values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in parameters))
-                modes = " and ".join(MODES[mode] for mode in sorted({p.normalization for p in parameters}))
+                modes = " and ".join(
+                    MODES[mode] for mode in sorted({p.normalization for p in parameters})
+                )
                 title, inputs = plot.title or name, {case: case for case in plot.cases}
                 caption = f"{plot.caption or f'{title}:'} {values}; everything else as in Table 1; {modes}."
                 section = plot.section or plot.case
-                figures[self.name, name] = FigureEntry(plot, inputs, "Figures", section, title, caption)
+                figures[self.name, name] = FigureEntry(
+                    plot, inputs, "Figures", section, title, caption
+                )
         for grid in grids.values():
             for name, grid_plot in grid.plots.items():
                 figures.setdefault((grid.name, name), grid.entry_of(name, grid_plot))
@@ -321,17 +404,33 @@ class Study(Strict):
         """Warnings about implausible cases, one by each rule."""
         yield from ChainMap(*(doubts(spec.parameters) for spec in self.specs.values())).values()
 
-    def grids(self, folders: Sequence[Path] = (Path(),)) -> tuple[dict[str, GridStudy], tuple[str, ...]]:
-        """All grids, also those that only figures show, and the names of those of this file and the files it names."""
-        paths = {path.stem: path for pattern in self.studies for path in _matching(pattern, folders)}
+    def grids(
+        self, folders: Sequence[Path] = (Path(),)
+    ) -> tuple[dict[str, GridStudy], tuple[str, ...]]:
+        """All grids, also those that only figures show, and the names of those of this file and the
+        files it names."""
+        paths = {
+            path.stem: path for pattern in self.studies for path in _matching(pattern, folders)
+        }
         grids = {} if self.grid is None else {self.name: self.grid}
         requested = (*grids, *paths)
-        shown = {name for plot in self.plots.values() for name in (plot.study, *plot.overlays.values()) if name}
-        further = [path for name in sorted(shown.difference(requested)) for path in _matching(f"{name}.yaml", folders)]
+        shown = {
+            name
+            for plot in self.plots.values()
+            for name in (plot.study, *plot.overlays.values())
+            if name
+        }
+        further = [
+            path
+            for name in sorted(shown.difference(requested))
+            for path in _matching(f"{name}.yaml", folders)
+        ]
         paths |= {path.stem: path for path in further if path.is_file()}
         grids |= {name: self._grid_of(path) for name, path in paths.items()}
         unknown = sorted(self.overrides.keys() - grids.keys())
-        faults = [f"overrides.{name}: no such study{suggestion(name, sorted(grids))}" for name in unknown]
+        faults = [
+            f"overrides.{name}: no such study{suggestion(name, sorted(grids))}" for name in unknown
+        ]
         figures = [(self.name, name, plot) for name, plot in self.plots.items()]
         for name in sorted({*requested} - {self.name}):
             figures += ((name, figure, plot) for figure, plot in grids[name].plots.items())
@@ -350,7 +449,9 @@ class Study(Strict):
             "must be the name of the file": study.name != path.stem,
             "is the name of another folder of results": study.name == self.name,
             "must be a grid alone": study.grid is None or study.cases or study.studies,
-            "must have no figures of other studies": any(p.study not in ("", study.name) for p in study.plots.values()),
+            "must have no figures of other studies": any(
+                p.study not in ("", study.name) for p in study.plots.values()
+            ),
         }
         if study.grid is None or any(wrong.values()):
             faults = [f"study = {study.name!r}: {rule}" for rule, broken in wrong.items() if broken]
@@ -359,12 +460,16 @@ class Study(Strict):
 
 
 def load_study(*paths: str | Path) -> Study:
-    """Read and check study files, later ones laid over earlier ones, but not the files that they name."""
+    """Read and check study files, later ones laid over earlier ones, but not the files that they
+    name."""
     return study_from_config(read_files(*paths), paths)
 
 
 def read_files(*paths: str | Path) -> Any:
-    return reduce(lambda below, changes: inherit(mapping(below), mapping(changes)), map(read_file, map(Path, paths)))
+    return reduce(
+        lambda below, changes: inherit(mapping(below), mapping(changes)),
+        map(read_file, map(Path, paths)),
+    )
 
 
 def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
@@ -372,7 +477,9 @@ def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
     paths = [Path(file) for file in files]
     for path in paths:
         read_file(path)  # finds duplicate keys, which the mapping no longer shows
-    return parse_study(config, paths[-1].parent if paths else Path(), ", ".join(map(_shown, paths)) or "study")
+    return parse_study(
+        config, paths[-1].parent if paths else Path(), ", ".join(map(_shown, paths)) or "study"
+    )
 
 
 def _shown(path: Path) -> str:
@@ -381,7 +488,8 @@ def _shown(path: Path) -> str:
 
 
 def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> Study:
-    """The study of the mapping that a file holds, with tables of discs from a folder, if it may name any."""
+    """The study of the mapping that a file holds, with tables of discs from a folder, if it may
+    name any."""
     try:
         return Study.model_validate(_inherited(raw if folder is None else _with_discs(raw, folder)))
     except ParameterError as error:
@@ -406,7 +514,8 @@ def _inherited(raw: Any) -> Any:
 
 
 def _with_discs(raw: Any, folder: Path) -> Any:
-    """A file's content with discs in place of the names of their tables: recomputation depends on a table's content."""
+    """A file's content with discs in place of the names of their tables: recomputation depends on a
+    table's content."""
 
     def read(value: Any, path: tuple[str, ...]) -> Any:
         if isinstance(value, Mapping):
@@ -420,37 +529,63 @@ def _with_discs(raw: Any, folder: Path) -> Any:
             raise ParameterError(*(Fault(path, "", str(fault)) for fault in error.faults)) from None
 
     content = mapping(raw)
-    axes = [mapping(group).get("disc") for group in (content.get("axes"), *_several(content.get("zip")))]
-    varied = {name: name for axis in axes if isinstance(axis, list) for name in axis if isinstance(name, str)}
-    return read({**content, "discs": varied | dict(mapping(content.get("discs")))} if varied else raw, ())
+    axes = [
+        mapping(group).get("disc") for group in (content.get("axes"), *_several(content.get("zip")))
+    ]
+    varied = {
+        name: name
+        for axis in axes
+        if isinstance(axis, list)
+        for name in axis
+        if isinstance(name, str)
+    }
+    return read(
+        {**content, "discs": varied | dict(mapping(content.get("discs")))} if varied else raw, ()
+    )
 
 
 def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
-    """Files that match a pattern, in the first folder that has any; the pattern itself if there are none."""
+    """Files that match a pattern, in the first folder that has any; the pattern itself if there are
+    none."""
     matches = (sorted(glob(str(folder / pattern))) for folder in folders)
     return [Path(path) for path in next(filter(None, matches), [pattern])]
 
 
 def _misfits(plot: Plot, owner: str, grids: Mapping[str, GridStudy]) -> list[Fault]:
     """What keeps a figure in the file of a study from showing grids of other files."""
-    named = [(("study",), plot.study or owner), *((("overlays", role), name) for role, name in plot.overlays.items())]
+    named = [
+        (("study",), plot.study or owner),
+        *((("overlays", role), name) for role, name in plot.overlays.items()),
+    ]
     known = sorted(grids)
     if unknown := [(path, name) for path, name in named if name not in known]:
-        return [Fault.of(path, name, f"no such study{suggestion(name, known)}") for path, name in unknown]
+        return [
+            Fault.of(path, name, f"no such study{suggestion(name, known)}")
+            for path, name in unknown
+        ]
     study = grids[plot.study or owner]
     faults = [] if plot.study in ("", owner) else [*study.faults_of(plot)]
     for role in plot.overlays.keys() & plot.roles.keys():
         wanted, other = plot.roles[role], grids[plot.overlays[role]]
         needs = {*(plot.dims if wanted.dims is None else wanted.dims)}
-        norms, same = ({str(x) for (x,) in grid.values.get(NORM, [(grid.base.get(NORM),)])} for grid in (study, other))
+        norms, same = (
+            {str(x) for (x,) in grid.values.get(NORM, [(grid.base.get(NORM),)])}
+            for grid in (study, other)
+        )
         options = {name: getattr(other.options, name, None) for name in wanted.options}
         rules = {
             f"must be a study of the quantity {wanted.quantity}": other.quantity != wanted.quantity,
             f"must have the options {wanted.options}": options != wanted.options,
-            f"must vary {', '.join(sorted(needs)) or 'nothing'} beside {NORM}": other.values.keys() - {NORM} != needs,
+            f"must vary {', '.join(sorted(needs)) or 'nothing'} beside {NORM}": other.values.keys()
+            - {NORM}
+            != needs,
             f"must be computed for the same {NORM}": not norms <= same,
         }
-        faults += [Fault.of(("overlays", role), other.name, rule) for rule, broken in rules.items() if broken][:1]
+        faults += [
+            Fault.of(("overlays", role), other.name, rule)
+            for rule, broken in rules.items()
+            if broken
+        ][:1]
     return faults
 
 

@@ -21,7 +21,8 @@ APART = Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03))
 
 
 class Made:
-    """Of a start i, what is kicked by more than `least` separates, in J; further starts are as said."""
+    """Of a start i, what is kicked by more than `least` separates, in J; further starts are as
+    said."""
 
     classes: ClassVar[dict[int, OutcomeResult]] = {}
 
@@ -43,7 +44,9 @@ class Made:
 @pytest.fixture
 def made(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(attractors, "Basins", Made)
-    monkeypatch.setattr(attractors, "random_perturbation", lambda p, state, energy, key: (energy, key[2]))
+    monkeypatch.setattr(
+        attractors, "random_perturbation", lambda p, state, energy, key: (energy, key[2])
+    )
 
 
 def found(**options):

@@ -19,7 +19,9 @@ APART = {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}
 def at_switches(Omega: float, samples: int = 50, **how: float) -> dict[str, Any]:
     """What the separating motion at 385 N settles to; one that is steady says nothing besides."""
     options = Bifurcation(section="event", samples=samples, **how)
-    values, message = options.compute_point(Point(Parameters(N=385, Omega=Omega), Start(prerun=APART)))
+    values, message = options.compute_point(
+        Point(Parameters(N=385, Omega=Omega), Start(prerun=APART))
+    )
     assert (message == "") == (values["settled"] == "settled")
     return values
 
@@ -35,7 +37,9 @@ def at_switches(Omega: float, samples: int = 50, **how: float) -> dict[str, Any]
         (Parameters(N=800, Omega=40, n_diameters=2), Outcome.SEPARATING, 32.0),
     ],
 )
-def test_a_transient_is_doubled_until_the_motion_has_settled(p: Parameters, kind: Outcome, transient: float) -> None:
+def test_a_transient_is_doubled_until_the_motion_has_settled(
+    p: Parameters, kind: Outcome, transient: float
+) -> None:
     options = Bifurcation(section="event", transient=2, max_transient=600, samples=5)
     values, message = options.compute_point(Point(p))
     assert (values["kind"], values["transient_time"], message) == (kind, transient, "")
@@ -46,12 +50,15 @@ def test_on_a_rigid_disc_the_slider_is_released_where_the_spring_has_friction_s_
     p = Parameters(N=385, Omega=15.1, n_diameters=-1)
     values, _ = Bifurcation(section="event", transient=600, samples=5).compute_point(Point(p))
     assert (values["period_events"], values["settled"]) == (1, "settled")
-    assert values["psi"] == pytest.approx([p.mu_s * p.N / (p.r_0 * p.k_p)] * 5, rel=1e-9)  # at a tolerance of 1e-10
+    assert values["psi"] == pytest.approx(
+        [p.mu_s * p.N / (p.r_0 * p.k_p)] * 5, rel=1e-9
+    )  # at a tolerance of 1e-10
 
 
 @pytest.mark.compiled
 def test_a_motion_on_a_torus_has_no_period() -> None:
-    """At rest there since 220 s, see `tests.stability.test_attractor`: the cycle within the torus is unstable."""
+    """At rest there since 220 s, see `tests.stability.test_attractor`: the cycle within the torus
+    is unstable."""
     options = Bifurcation(transient=600, section="event", max_transient=600, samples=50)
     values, _ = options.compute_point(Point(Parameters(N=516.666666667, Omega=12.734375)))
     assert (values["separations"], values["period_events"], values["settled"]) == (0, 0, "settled")
@@ -61,10 +68,13 @@ def test_a_motion_on_a_torus_has_no_period() -> None:
 @pytest.mark.compiled
 @pytest.mark.parametrize(
     ("Omega", "period", "phase"),
-    # the last one sticks for 1.6 % of the time, with more between two releases than a quiet motion needs for several
+    # the last one sticks for 1.6 % of the time, with more between two releases than a quiet motion
+    # needs for several
     [(9.5, 1, "stick"), (14.5, 2, "separation"), (22.25, 40, "separation")],
 )
-def test_a_periodic_motion_has_as_many_points_as_its_period_has_switches(Omega: float, period: int, phase: str) -> None:
+def test_a_periodic_motion_has_as_many_points_as_its_period_has_switches(
+    Omega: float, period: int, phase: str
+) -> None:
     values = at_switches(Omega, transient=60, samples=100)
     assert (values["settled"], values["period_events"]) == ("settled", period)
     assert len(np.unique(np.round(values["psi"], 5))) == period
@@ -73,15 +83,22 @@ def test_a_periodic_motion_has_as_many_points_as_its_period_has_switches(Omega: 
 
 @pytest.mark.compiled
 @pytest.mark.slow
-@pytest.mark.parametrize("N", np.random.default_rng(55).choice(np.linspace(100, 600, 201), 10, False).tolist())
-def test_2000_seconds_more_change_nothing_where_the_motion_is_said_to_have_settled(N: float) -> None:
-    """Ten points of the diagram over preload: 74 of its 201 were transients, which two stretches of 5 s hid."""
+@pytest.mark.parametrize(
+    "N", np.random.default_rng(55).choice(np.linspace(100, 600, 201), 10, False).tolist()
+)
+def test_2000_seconds_more_change_nothing_where_the_motion_is_said_to_have_settled(
+    N: float,
+) -> None:
+    """Ten points of the diagram over preload: 74 of its 201 were transients, which two stretches of
+    5 s hid."""
     p, start = Parameters(N=N, Omega=15.1), Start(prerun=APART)
     options = Bifurcation(section="event", transient=15, max_transient=1920, samples=200)
     values, _ = options.compute_point(Point(p, start))
     if values["settled"] != "settled":
         return
-    later = simulate(p, values["transient_time"] + 2000, initial_state=make_initial_state(p, start, 1e-10)).final_state
+    later = simulate(
+        p, values["transient_time"] + 2000, initial_state=make_initial_state(p, start, 1e-10)
+    ).final_state
     events = simulate(p, later.time + 5, initial_state=later).events
     kind = {"separation": "separation", "stick": "stick_to_slip"}[values["phase"][0]]
     psi = events["psi"][events["kind"] == kind].to_numpy()[-200:]

@@ -8,7 +8,12 @@ from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantity import Point
 from tests.studies.conftest import Table, compute
 
-OPTIONS = {"scan": {"start": 14.75, "stop": 15.25, "step": 0.25}, "dwell": 60, "evaluation_time": 1, "max_points": 60}
+OPTIONS = {
+    "scan": {"start": 14.75, "stop": 15.25, "step": 0.25},
+    "dwell": 60,
+    "evaluation_time": 1,
+    "max_points": 60,
+}
 
 
 @pytest.fixture(scope="module")
@@ -40,6 +45,10 @@ def test_a_sweep_jumps_to_a_branch_that_separates(table: Table) -> None:
     ranges = [
         np.interp(15.25, *(table.arrays[name][0, i] for name in ("value", "range")))
         for i in separating
-        if np.all(np.diff(table.arrays["value"][0, i][np.isfinite(table.arrays["value"][0, i])]) > 0)
+        if np.all(
+            np.diff(table.arrays["value"][0, i][np.isfinite(table.arrays["value"][0, i])]) > 0
+        )
     ]
-    assert np.min(np.abs(np.array(ranges) / table.arrays["sweep_range"][0, 0, 2] - 1)) < 0.01  # as samples see a range
+    assert (
+        np.min(np.abs(np.array(ranges) / table.arrays["sweep_range"][0, 0, 2] - 1)) < 0.01
+    )  # as samples see a range

@@ -1,4 +1,5 @@
-"""Campbell diagrams: rows of the table, crossings against root finding, and what growth rates do there."""
+"""Campbell diagrams: rows of the table, crossings against root finding, and what growth rates do
+there."""
 
 from typing import Any
 
@@ -22,7 +23,12 @@ def words(study: xr.Dataset, name: str) -> list[str]:
 def test_a_crossing_is_where_root_finding_says() -> None:
     """Between speeds f_s is almost straight."""
     base = {"N": 200, **SMALL}
-    found = computed(quantity="campbell", options={}, base=base, axes={"Omega": {"start": 9, "stop": 13, "step": 0.25}})
+    found = computed(
+        quantity="campbell",
+        options={},
+        base=base,
+        axes={"Omega": {"start": 9, "stop": 13, "step": 0.25}},
+    )
     assert set(words(found, "status")) == {"ok"}
     count = int(found["n_crossings"])
     assert count
@@ -36,13 +42,17 @@ def test_a_crossing_is_where_root_finding_says() -> None:
             return multiple / cycle.period - float(own[mode])
 
         speed = float(one["crossing_Omega"])
-        # the line bends by f_s'' d^2 / 8 between speeds, some 0.05 Hz of a slope of some Hz per rad/s
-        assert speed == pytest.approx(brentq(detuning, speed - 0.25, speed + 0.25, xtol=1e-6), abs=0.02)
+        # the line bends by f_s'' d^2 / 8 between speeds, some 0.05 Hz of a slope of some Hz per
+        # rad/s
+        assert speed == pytest.approx(
+            brentq(detuning, speed - 0.25, speed + 0.25, xtol=1e-6), abs=0.02
+        )
         assert words(one, "crossing_line") == "stick_slip"
 
 
 def made_up(**changes: Any) -> xr.Dataset:
-    """f_s = 10 Omega, a mode at 100 Hz with l = 1: crossings of n f_s at 20 / 2 n, of f_Omega at 200 pi."""
+    """f_s = 10 Omega, a mode at 100 Hz with l = 1: crossings of n f_s at 20 / 2 n, of f_Omega at
+    200 pi."""
     speeds = np.linspace(8, 12, 401)
     rate = -0.2 + 0.1 / (1 + ((speeds - 10) / 0.02) ** 2)
     values = {

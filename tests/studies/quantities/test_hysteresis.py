@@ -13,7 +13,9 @@ from tests.studies.conftest import SCAN, compute
 
 
 @pytest.mark.usefixtures("fake_motions")
-def test_a_stay_is_doubled_until_its_whole_record_has_settled(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_stay_is_doubled_until_its_whole_record_has_settled(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     stays = []
 
     def settles_above_13(p, legs, tol):
@@ -24,15 +26,20 @@ def test_a_stay_is_doubled_until_its_whole_record_has_settled(monkeypatch: pytes
         return attractors.Arrival(Settling(Settled.SETTLED if p.Omega > 13 else Settled.UNDECIDED))
 
     monkeypatch.setattr(attractors, "arrival", settles_above_13)
-    options = Hysteresis.model_validate({"scan": SCAN, "dwell": 60, "max_dwell": 250, "evaluation_time": 2})
+    options = Hysteresis.model_validate(
+        {"scan": SCAN, "dwell": 60, "max_dwell": 250, "evaluation_time": 2}
+    )
     found = compute(options, [Point(Parameters(N=200, Omega=0))]).arrays
-    assert [np.diff(stay).tolist() for stay in stays] == 3 * [[60, 60, 120]] + 8 * [[60]] + 3 * [[60, 60, 120]]
+    assert [np.diff(stay).tolist() for stay in stays] == 3 * [[60, 60, 120]] + 8 * [[60]] + 3 * [
+        [60, 60, 120]
+    ]
     assert found["sweep_settled"][0].tolist() == 2 * [3 * [0] + 4 * [2]]
 
 
 @pytest.mark.compiled
 def test_on_ramps_at_385_N_onset_comes_late_and_the_end_is_far_below() -> None:
-    """The cycle ends at 15.09 rad/s; separation takes some 50 s to grow, and persists to below 10."""
+    """The cycle ends at 15.09 rad/s; separation takes some 50 s to grow, and persists to below
+    10."""
     options = {"low": 8, "high": 22, "dwell": 20, "rates": {"start": 0.05, "stop": 0.1, "count": 2}}
     found = compute(Ramps.model_validate(options), [Point(Parameters(N=385, Omega=1))]).arrays
     onset, end = found["onset_speed"][0], found["offset_speed"][0]

@@ -29,14 +29,18 @@ def test_steps_that_run_out_are_a_status(monkeypatch: pytest.MonkeyPatch) -> Non
 def test_outcomes_of_a_damped_and_of_a_separating_motion() -> None:
     options = {"horizon": 3.0, "evaluation_time": 0.05, "after_separation": 0.05, "tol": 1e-9}
     base = SMALL | {"c": 20.0, "D_star": 1e-3}
-    damped = computed(quantity="outcome", options=options, base=base, axes={"N": [200], "Omega": [20]}).squeeze()
+    damped = computed(
+        quantity="outcome", options=options, base=base, axes={"N": [200], "Omega": [20]}
+    ).squeeze()
     assert flag_names(damped["outcome"]) == "quiet"
     assert damped["settling_time"] == damped["time_reached"] < 3.0
     assert 0 < damped["cycle_distance"] < 0.1
     # the late stretch is the cycle itself
     assert damped["stick_fraction"] + damped["slip_fraction"] == pytest.approx(1)
     base = SMALL | {"mu_s": 1.4, "mu_k": 0.2, "k": 0}
-    apart = computed(quantity="outcome", options=options, base=base, axes={"N": [700], "Omega": [50]}).squeeze()
+    apart = computed(
+        quantity="outcome", options=options, base=base, axes={"N": [700], "Omega": [50]}
+    ).squeeze()
     assert flag_names(apart["outcome"]) == "separation"
     assert apart["time_reached"] == pytest.approx(float(apart["first_separation"]) + 0.05)
     assert np.isnan(apart["settling_time"])

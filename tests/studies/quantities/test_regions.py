@@ -30,18 +30,23 @@ def separates(p: Parameters) -> bool:
 def wrong(study: xr.Dataset) -> np.ndarray:
     """Where a plane says otherwise than the made-up motion does."""
     speeds = study["Omega"].values
-    expected = [[separates(Parameters(N=N, Omega=Omega)) for Omega in speeds] for N in study["N"].values]
+    expected = [
+        [separates(Parameters(N=N, Omega=Omega)) for Omega in speeds] for N in study["N"].values
+    ]
     return (flag_names(study["outcome"].transpose("N", "Omega")) == "separation") != expected
 
 
 @pytest.fixture
 def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
-    """Motions that separate within an ellipse and stay quiet outside, of which multipliers say nothing; those asked."""
+    """Motions that separate within an ellipse and stay quiet outside, of which multipliers say
+    nothing; those asked."""
     asked: list[Parameters] = []
 
     def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
         asked.append(p)
-        return OutcomeResult(Outcome.SEPARATION if separates(p) else Outcome.QUIET, 1.0, None, first_separation=p.N)
+        return OutcomeResult(
+            Outcome.SEPARATION if separates(p) else Outcome.QUIET, 1.0, None, first_separation=p.N
+        )
 
     nothing = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
     monkeypatch.setattr(refinement, "cycle_of_static_start", lambda p: nothing)
@@ -100,7 +105,9 @@ def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
 def test_motions_without_a_cycle_and_points_that_fail_are_named() -> None:
     """At rest, in steady sliding, and a case that cannot be computed."""
     p = Parameters(N=50, Omega=15, c_p=0.5)
-    (rows,) = Regions(horizon=20).compute_tile([[p.replace(Omega=0), p, ParameterError("N=-1: must be >= 0")]], [])
+    (rows,) = Regions(horizon=20).compute_tile(
+        [[p.replace(Omega=0), p, ParameterError("N=-1: must be >= 0")]], []
+    )
     (rest, _), (slides, _), (wrong, message) = rows
     assert (rest["outcome"], rest["cycle"]) == ("at_rest", "at_rest")
     assert (slides["outcome"], slides["cycle"]) == ("steady_sliding", "steady_sliding")
@@ -110,9 +117,13 @@ def test_motions_without_a_cycle_and_points_that_fail_are_named() -> None:
 @pytest.mark.slow
 @pytest.mark.compiled
 def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cells() -> None:
-    """Points drawn of a map in which all outcomes and a fold occur, simulated from the static start throughout."""
+    """Points drawn of a map in which all outcomes and a fold occur, simulated from the static start
+    throughout."""
     horizon = 400
-    axes = {"N": {"start": 100, "stop": 500, "count": 17}, "Omega": {"start": 8, "stop": 24, "count": 17}}
+    axes = {
+        "N": {"start": 100, "stop": 500, "count": 17},
+        "Omega": {"start": 8, "stop": 24, "count": 17},
+    }
     options = {"horizon": horizon, "initial_cell_size": 4}
     study = computed(quantity="regions", options=options, axes=axes, batch={"over": PLANE})
     separates, origin = flag_names(study["outcome"]) == "separation", flag_names(study["method"])

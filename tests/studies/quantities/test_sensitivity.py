@@ -1,4 +1,5 @@
-"""Uncertain parameters: what is drawn, what becomes of it, and probabilities of functions that are known."""
+"""Uncertain parameters: what is drawn, what becomes of it, and probabilities of functions that are
+known."""
 
 from collections.abc import Callable
 from typing import Any
@@ -19,7 +20,12 @@ UNIFORM = {"distribution": "uniform", "low": 0.9, "high": 1.1, "relative": True}
 
 
 def study(distributions: dict[str, Any], **changes: Any) -> dict[str, Any]:
-    options = {"distributions": distributions, "samples": 8, "seed": 3, **changes.pop("options", {})}
+    options = {
+        "distributions": distributions,
+        "samples": 8,
+        "seed": 3,
+        **changes.pop("options", {}),
+    }
     usual = {"axes": {"N": [200, 385]}, "base": {"Omega": 15}, "batch": {"size": 4}}
     return {"study": "s", "quantity": "sensitivity", "options": options, **usual, **changes}
 
@@ -33,7 +39,8 @@ def cycle_row(word: str, growth_rate: float) -> Row:
 
 
 def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Shares and probabilities against counting; what has no cycle is a class, and what failed widens intervals."""
+    """Shares and probabilities against counting; what has no cycle is a class, and what failed
+    widens intervals."""
 
     def function(p: Parameters) -> Row:
         word = SAMPLE_CYCLES[min(int(8 * p.c), 7)]
@@ -56,15 +63,23 @@ def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_more_samples_keep_those_that_there_are() -> None:
     """A batch's name is its content; the number of samples is no part of it."""
-    few, many = (parse_grid(study({"k": UNIFORM}, options={"samples": n})).batches for n in (16, 64))
+    few, many = (
+        parse_grid(study({"k": UNIFORM}, options={"samples": n})).batches for n in (16, 64)
+    )
     assert len(few) == 8
     assert few.items() < many.items()
     both = {"over": ["N", "sample"], "size": 100}
-    few_cut, many_cut = (parse_grid(study({"k": UNIFORM}, options={"samples": n}, batch=both)) for n in (128, 512))
+    few_cut, many_cut = (
+        parse_grid(study({"k": UNIFORM}, options={"samples": n}, batch=both)) for n in (128, 512)
+    )
     assert len(few_cut.batches) == 4
     assert few_cut.batches.items() < many_cut.batches.items()
     assert [value for (value,) in many_cut.values["sample"]] == list(range(512))
-    for change in ({"seed": 4}, {"simulated_samples": 1}, {"distributions": {"k": UNIFORM | {"high": 1.2}}}):
+    for change in (
+        {"seed": 4},
+        {"simulated_samples": 1},
+        {"distributions": {"k": UNIFORM | {"high": 1.2}}},
+    ):
         other = parse_grid(study({"k": UNIFORM}, options={"samples": 16, **change}))
         assert not few.keys() & other.batches.keys()
 
@@ -89,4 +104,6 @@ def made_up(**changes: Any) -> xr.Dataset:
     """A study of two points, without the engine."""
     with pytest.MonkeyPatch.context() as patch:
         evaluating(patch, lambda p: cycle_row("unstable" if p.k > 5e4 else "stable", p.k - 5e4))
-        return computed(**study({"k": UNIFORM, "mu_s": UNIFORM}, options={"samples": 64}, **changes))
+        return computed(
+            **study({"k": UNIFORM, "mu_s": UNIFORM}, options={"samples": 64}, **changes)
+        )

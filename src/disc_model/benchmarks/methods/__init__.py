@@ -1,4 +1,5 @@
-"""The table of methods, from ``rivals.toml``: the package's engine and its rivals, which share only physics, `kernels`.
+"""The table of methods, from ``rivals.toml``: the package's engine and its rivals, which share only
+physics, `kernels`.
 
 This module imports nothing heavy: the workflow reads it at every start.
 """
@@ -18,7 +19,9 @@ if TYPE_CHECKING:
     from disc_model.benchmarks.methods.integrators import MethodResult, Problem
 
 Scene = Literal["stick_slip", "separating", "many_modes", "rigid"]
-SCENES: tuple[str, ...] = get_args(Scene)  # names of the benchmark's scenes, see `disc_model.benchmarks.scenes`
+SCENES: tuple[str, ...] = get_args(
+    Scene
+)  # names of the benchmark's scenes, see `disc_model.benchmarks.scenes`
 
 
 class Method(BaseModel):
@@ -42,15 +45,23 @@ class Method(BaseModel):
         return [name for name in self.requires if find_spec(name) is None]
 
     def economical(self) -> Method:
-        """The variant of the method for maps, where every run has other modes and another setting."""
-        return self if self.map_arguments is None else self.model_copy(update={"arguments": self.map_arguments})
+        """The variant of the method for maps, where every run has other modes and another
+        setting."""
+        return (
+            self
+            if self.map_arguments is None
+            else self.model_copy(update={"arguments": self.map_arguments})
+        )
 
     def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
-        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget`` seconds."""
+        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget``
+        seconds."""
         function = resolve_name(f"{__name__}.integrators:{self.function}")
         result: MethodResult = function(problem, value, budget, *self.arguments)
         return result
 
 
 _DECLARED = tomllib.loads(Path(__file__).with_name("rivals.toml").read_text(encoding="utf-8"))
-METHODS = {name: Method(name=name, **fields) for name, fields in _DECLARED.items()}  # all of them by name
+METHODS = {
+    name: Method(name=name, **fields) for name, fields in _DECLARED.items()
+}  # all of them by name

@@ -1,7 +1,9 @@
-"""The contract of methods, and all of them: the engine, fixed-step Runge-Kutta, scipy's integrators, heyoka and CVODE.
+"""The contract of methods, and all of them: the engine, fixed-step Runge-Kutta, scipy's
+integrators, heyoka and CVODE.
 
-A method is a function ``(problem, value, budget, *arguments)`` that advances a `Problem`, with its one setting equal to
-``value``, for at most about ``budget`` seconds, and returns a `MethodResult`, also if it failed on the way.
+A method is a function ``(problem, value, budget, *arguments)`` that advances a `Problem`, with its
+one setting equal to ``value``, for at most about ``budget`` seconds, and returns a `MethodResult`,
+also if it failed on the way.
 """
 
 from __future__ import annotations
@@ -48,7 +50,9 @@ class Problem:
     start: State
     t_end: float  # s, absolute, greater than start.time
     stop: bool = False  # whether to end at the first separation
-    watched: bool = False  # whether the range of the disc is requested, which costs some methods time
+    watched: bool = (
+        False  # whether the range of the disc is requested, which costs some methods time
+    )
     max_step: float = math.inf  # s, longest step of methods that would miss events with longer ones
 
     @property
@@ -67,8 +71,13 @@ class MethodResult:
     outcome: RunStatus
     message: str = ""
     longest_step: float = math.nan  # s; nan if not known
-    heights: tuple[float, float] = (math.nan, math.nan)  # m, least and greatest w under the slider; nan if not watched
-    glue: float = math.nan  # s of them spent in Python between compiled phases; nan where that was not measured
+    heights: tuple[float, float] = (
+        math.nan,
+        math.nan,
+    )  # m, least and greatest w under the slider; nan if not watched
+    glue: float = (
+        math.nan
+    )  # s of them spent in Python between compiled phases; nan where that was not measured
 
 
 class GaveUp(Exception):
@@ -76,7 +85,8 @@ class GaveUp(Exception):
 
 
 class Meter:
-    """The constants of a run, and what it comes to: right-hand sides, time and, if requested, the disc's range."""
+    """The constants of a run, and what it comes to: right-hand sides, time and, if requested, the
+    disc's range."""
 
     def __init__(self, problem: Problem, budget: float) -> None:
         self.problem, self.physics, self.budget = problem, Physics(problem.parameters), budget
@@ -93,14 +103,19 @@ class Meter:
             self.outcome, self.message = reason.args
         self.seconds, self.wall = clock.thread_time() - self.began, clock.perf_counter() - wall
 
-    def result(self, times: Sequence[float] | Array, kinds: Sequence[str], final: State) -> MethodResult:
+    def result(
+        self, times: Sequence[float] | Array, kinds: Sequence[str], final: State
+    ) -> MethodResult:
         """The result of a method with the meter's counts; times are those from the start on."""
         seconds, work, heights = self.seconds, self.work, (self.low, self.high)
         motion = self.problem.start.time + np.array(times), tuple(kinds), final
-        return MethodResult(*motion, seconds, work, self.outcome, self.message, self.longest_step, heights)
+        return MethodResult(
+            *motion, seconds, work, self.outcome, self.message, self.longest_step, heights
+        )
 
     def steps(self, times: Array, states: Array) -> None:
-        """Record steps of one phase by ``times`` (s, shape (k,)) and states (k, size), and the range of w."""
+        """Record steps of one phase by ``times`` (s, shape (k,)) and states (k, size), and the
+        range of w."""
         if len(times) > 1:
             self.longest_step = float(np.fmax(self.longest_step, np.max(np.diff(times))))
         if not self.problem.watched:
@@ -112,7 +127,10 @@ class Meter:
         if len(steps) > 1:  # w between them is a cubic
             cubics = CubicHermiteSpline(times[steps], w[steps], rate[steps])
             w = np.concatenate([w, cubics(cubics.derivative().roots(extrapolate=False))])
-        self.low, self.high = float(np.fmin.reduce(w, initial=self.low)), float(np.fmax.reduce(w, initial=self.high))
+        self.low, self.high = (
+            float(np.fmin.reduce(w, initial=self.low)),
+            float(np.fmax.reduce(w, initial=self.high)),
+        )
 
     def check(self) -> None:
         if clock.thread_time() - self.began > self.budget:
@@ -175,12 +193,15 @@ def run_phases(advance: Advance, meter: Meter) -> MethodResult:
                 raise GaveUp(RunStatus.STALLED, f"more than {CROWD} events at one instant")
         if not math.isfinite(y.sum()):
             raise GaveUp(RunStatus.NON_FINITE, NOT_FINITE)
-    return meter.result(times, kinds, physics.unpack(problem.start.time + t, PHASES[phase], direction, y))
+    return meter.result(
+        times, kinds, physics.unpack(problem.start.time + t, PHASES[phase], direction, y)
+    )
 
 
 # ---- scipy's integrators, phase by phase
 def solve_by_scipy(problem: Problem, value: float, budget: float, algorithm: str) -> MethodResult:
-    """`scipy.integrate.solve_ivp` with a compiled right-hand side and, where one is used, a compiled Jacobian."""
+    """`scipy.integrate.solve_ivp` with a compiled right-hand side and, where one is used, a
+    compiled Jacobian."""
     meter, margins = Meter(problem, budget), np.empty(3)
     scale, least = meter.physics.scale(), 2.3e-14  # scipy accepts no smaller relative tolerance
 
@@ -201,7 +222,9 @@ def solve_by_scipy(problem: Problem, value: float, budget: float, algorithm: str
             kernels.switch_values(modes, c, phase, direction, y, margins)
             return float(margins[index])
 
-        more = {"jac": slopes} if algorithm in ("LSODA", "Radau") else {"max_step": problem.max_step}
+        more = (
+            {"jac": slopes} if algorithm in ("LSODA", "Radau") else {"max_step": problem.max_step}
+        )
         events = [_event(partial(margin, index), -1, last=True) for index in range(ENDS[phase])]
         with np.errstate(over="ignore", invalid="ignore"):
             solution = solve_ivp(
@@ -218,7 +241,8 @@ def solve_by_scipy(problem: Problem, value: float, budget: float, algorithm: str
 
 
 def _event(function: Callable[[float, Array], float], direction: int, *, last: bool) -> Any:
-    """An event in scipy's form: the sign of the change of ``function`` (0: either), and whether it is terminal."""
+    """An event in scipy's form: the sign of the change of ``function`` (0: either), and whether it
+    is terminal."""
     event: Any = partial(function)
     event.terminal, event.direction = last, direction
     return event
@@ -230,13 +254,20 @@ CREEP = 3.0  # abs(f)/eps below which the slider counts as sticking
 RTOL = 1e-8
 
 
-def solve_regularised(problem: Problem, value: float, budget: float, algorithm: str) -> MethodResult:
-    """An algorithm of scipy on a model without events, one stiff ODE, `kernels.smooth_rate`; ``value`` is eps (rad/s).
-    Its error is about eps^(2/3): stick ends by slow passage through a fold, the maximum of the law of friction."""
+def solve_regularised(
+    problem: Problem, value: float, budget: float, algorithm: str
+) -> MethodResult:
+    """An algorithm of scipy on a model without events, one stiff ODE, `kernels.smooth_rate`;
+    ``value`` is eps (rad/s). Its error is about eps^(2/3): stick ends by slow passage through a
+    fold, the maximum of the law of friction."""
     meter, p, start = Meter(problem, budget), problem.parameters, problem.start
     physics, stiffness = meter.physics, PENALTY / value
     damping = 2.0 * math.sqrt(stiffness / (1.0 / p.m + physics.compliance))
-    case = (physics.modes, physics.c, np.array([value, _excess(p.mu_s, p.mu_k), stiffness, damping]))
+    case = (
+        physics.modes,
+        physics.c,
+        np.array([value, _excess(p.mu_s, p.mu_k), stiffness, damping]),
+    )
 
     def force(_t: float, y: Array) -> float:
         return float(kernels.smooth_force(*case, y))
@@ -252,7 +283,11 @@ def solve_regularised(problem: Problem, value: float, budget: float, algorithm: 
         y[physics.u] -= kernels.contact(physics.modes, physics.c, start.direction, y)[0] / stiffness
     rate(t, y)  # compiles
     creep = _event(lambda _t, y: abs(y[physics.f]) - CREEP * value, 0, last=False)
-    events = [creep, _event(force, 0, last=False), *([_event(force, -1, last=True)] if problem.stop else [])]
+    events = [
+        creep,
+        _event(force, 0, last=False),
+        *([_event(force, -1, last=True)] if problem.stop else []),
+    ]
     switches: list[tuple[float, str]] = []
     with meter.running(), np.errstate(over="ignore", invalid="ignore"):
         solution = solve_ivp(
@@ -280,7 +315,8 @@ def solve_regularised(problem: Problem, value: float, budget: float, algorithm: 
 
 
 def _excess(mu_s: float, mu_k: float) -> float:
-    """Height of the Stribeck peak over kinetic friction for which the law's maximum is the static friction."""
+    """Height of the Stribeck peak over kinetic friction for which the law's maximum is the static
+    friction."""
     x = np.linspace(0.0, 2.0 * kernels.STRIBECK, 20_001)
     rise, fall = np.tanh(x), np.exp(-((x / kernels.STRIBECK) ** 2))
     excess = mu_s - mu_k
@@ -290,32 +326,46 @@ def _excess(mu_s: float, mu_k: float) -> float:
 
 
 def _merged(events: list[tuple[float, str]]) -> list[tuple[float, str]]:
-    """Events in order of time; a stick shorter than a microsecond, in which f only passes zero, is a slip reversal."""
+    """Events in order of time; a stick shorter than a microsecond, in which f only passes zero, is
+    a slip reversal."""
     merged: list[tuple[float, str]] = []
     for t, kind in sorted(events):
-        if kind == "stick_to_slip" and merged and merged[-1][1] == "slip_to_stick" and t - merged[-1][0] < 1e-6:
+        if (
+            kind == "stick_to_slip"
+            and merged
+            and merged[-1][1] == "slip_to_stick"
+            and t - merged[-1][0] < 1e-6
+        ):
             merged[-1] = (merged[-1][0], "slip_reversal")
         else:
             merged.append((t, kind))
     return merged
 
 
-# ---- Whole runs in one compiled call: the package's own engine, and the paper's fixed-step Runge-Kutta
-SERIES_STEPS_PER_SECOND = 300_000  # steps per second of budget: the engine stops by steps, not by the clock
+# ---- Whole runs in one compiled call: the package's own engine, and the paper's fixed-step
+# Runge-Kutta
+SERIES_STEPS_PER_SECOND = (
+    300_000  # steps per second of budget: the engine stops by steps, not by the clock
+)
 WATCH_RATE = 2e4
 """Sampling rate, 1/s: after a separation the disc vibrates by 0.04 rad a sample, and its range is accurate to 2e-4."""
-STABILITY_LIMIT = 2.0 * math.sqrt(2.0)  # largest omega h at which RK4 does not let an undamped oscillation grow
+STABILITY_LIMIT = 2.0 * math.sqrt(
+    2.0
+)  # largest omega h at which RK4 does not let an undamped oscillation grow
 RK4_STEPS_PER_SECOND = 1_000_000
 MAX_EVENTS = 20_000
 
 
 def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResult:
-    """The engine of `disc_model.simulation.api`: Taylor series of high order, events as roots of polynomials."""
+    """The engine of `disc_model.simulation.api`: Taylor series of high order, events as roots of
+    polynomials."""
     steps = int(max(1, min(budget, 1e6) * SERIES_STEPS_PER_SECOND))
     windows = {}
     if problem.watched:  # in one bin over the whole run
         samples = max(2, round(WATCH_RATE * problem.span))
-        window = Window(start=problem.start.time, stop=problem.t_end, rate=WATCH_RATE, envelope=samples)
+        window = Window(
+            start=problem.start.time, stop=problem.t_end, rate=WATCH_RATE, envelope=samples
+        )
         windows = {"whole": window}
     began = clock.thread_time()
     result = simulate(
@@ -329,28 +379,38 @@ def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResu
         times=result.events["time"].to_numpy(),
         kinds=tuple(result.events["kind"]),
         final=result.final_state,
-        # the time of the steps; of a long run, which other processes may have interrupted, that of the call
+        # the time of the steps; of a long run, which other processes may have interrupted, that of
+        # the call
         seconds=min(result.statistics["wall_time"], clock.thread_time() - began),
         work=int(result.statistics["steps"]),
-        outcome=RunStatus.FINISHED if status.complete else failures.get(status) or RunStatus(status.value),
+        outcome=RunStatus.FINISHED
+        if status.complete
+        else failures.get(status) or RunStatus(status.value),
         message=result.message,
-        heights=(float(seen["w_min"].min()), float(seen["w_max"].max())) if reached else (math.nan, math.nan),
+        heights=(float(seen["w_min"].min()), float(seen["w_max"].max()))
+        if reached
+        else (math.nan, math.nan),
     )
 
 
 def solve_with_fewest(problem: Problem, value: float, budget: float) -> MethodResult:
-    """The same engine without the disc's modes, however fast, if they change the answer by less than the tolerance: by
-    about k sum psi^2/omega^2, the disc's deflection over that of the slider's spring."""
+    """The same engine without the disc's modes, however fast, if they change the answer by less
+    than the tolerance: by about k sum psi^2/omega^2, the disc's deflection over that of the
+    slider's spring."""
     physics = Physics(problem.parameters)
     give = problem.parameters.k * float(np.sum(physics.shape**2 / physics.stiffness))
     start = problem.start
     if give > value or start.phase == "separation":
         return solve_by_series(problem, value, budget)
-    rigid = start.replace(u=0.0, u_velocity=0.0, **dict.fromkeys(("a", "b", "alpha", "beta"), np.empty(0)))
+    rigid = start.replace(
+        u=0.0, u_velocity=0.0, **dict.fromkeys(("a", "b", "alpha", "beta"), np.empty(0))
+    )
     case = problem.parameters.replace(n_diameters=-1)
     result = solve_by_series(replace(problem, parameters=case, start=rigid), value, budget)
     end = result.final
-    moved = start.replace(time=end.time, phase=end.phase, direction=end.direction, psi=end.psi, f=end.f)
+    moved = start.replace(
+        time=end.time, phase=end.phase, direction=end.direction, psi=end.psi, f=end.f
+    )
     return replace(result, final=moved)
 
 
@@ -365,19 +425,25 @@ def solve_by_rk4(problem: Problem, value: float, budget: float) -> MethodResult:
     limits = (problem.span, value, steps, problem.stop)
     with meter.running():
         why, t, phase, direction, n, steps = kernels.rk4_run(*case, y, limits, track)
-    meter.outcome = (RunStatus.FINISHED, RunStatus.NON_FINITE, RunStatus.STALLED, RunStatus.TOO_SLOW)[why]
+    meter.outcome = (
+        RunStatus.FINISHED,
+        RunStatus.NON_FINITE,
+        RunStatus.STALLED,
+        RunStatus.TOO_SLOW,
+    )[why]
     meter.work, meter.longest_step, (meter.low, meter.high) = 4 * steps, value, track[2].tolist()
     final = meter.physics.unpack(start.time + t, PHASES[phase], direction, y)
     return meter.result(track[0][:n], [EVENT_KINDS[kind] for kind in track[1][:n]], final)
 
 
-# ---- heyoka's compiled Taylor series, of the extra `bench`. Its equations are arranged for the least work, without an
-# event for loss of contact in stick, which ends before
+# ---- heyoka's compiled Taylor series, of the extra `bench`. Its equations are arranged for the
+# least work, without an event for loss of contact in stick, which ends before
 HEYOKA_STEPS = 100_000  # number of steps between two checks of the clock
 
 
 def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "") -> MethodResult:
-    """heyoka's adaptive Taylor integrator; ``mode`` "compact": it compiles sooner and takes longer."""
+    """heyoka's adaptive Taylor integrator; ``mode`` "compact": it compiles sooner and takes
+    longer."""
     import heyoka as hy
 
     meter, p = Meter(problem, budget), problem.parameters
@@ -393,10 +459,20 @@ def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "
     # called at every step, which takes longer than some steps
     seen = {"callback": note} if problem.watched else {}
     prepared = []
-    for ends, integrator in zip(ENDS, _integrators(p.replace(N=1.0, Omega=1.0), value, mode == "compact"), strict=True):
+    for ends, integrator in zip(
+        ENDS, _integrators(p.replace(N=1.0, Omega=1.0), value, mode == "compact"), strict=True
+    ):
         integrator.pars[:2] = drive
         skipped = ends - len(integrator.t_events)  # with fewer events, the last ones of ENDS
-        prepared.append((integrator, integrator.propagate_until, integrator.state, len(integrator.state), skipped))
+        prepared.append(
+            (
+                integrator,
+                integrator.propagate_until,
+                integrator.state,
+                len(integrator.state),
+                skipped,
+            )
+        )
 
     def advance(phase: int, direction: int, t: float, y: Array, t_end: float) -> Ended:
         nonlocal inside
@@ -430,21 +506,27 @@ def solve_by_heyoka(problem: Problem, value: float, budget: float, mode: str = "
 
 @lru_cache(maxsize=32)
 def _integrators(p: Parameters, tol: float, compact: bool) -> list[Any]:
-    """Compiled integrators by phase; cases that differ in load and speed of the drive share them, see `system`."""
+    """Compiled integrators by phase; cases that differ in load and speed of the drive share them,
+    see `system`."""
     import heyoka as hy
 
     made = []
     for phase in PHASES:
         rows, functions = system(Physics(p), phase)
-        falling = [hy.t_event(g, direction=hy.event_direction.negative, cooldown=0.0) for g in functions]
-        state, options = np.zeros(len(rows)), {"tol": tol, "compact_mode": compact, "fast_math": True}
+        falling = [
+            hy.t_event(g, direction=hy.event_direction.negative, cooldown=0.0) for g in functions
+        ]
+        state, options = (
+            np.zeros(len(rows)),
+            {"tol": tol, "compact_mode": compact, "fast_math": True},
+        )
         made.append(hy.taylor_adaptive(rows, state, t_events=falling, **options))
     return made
 
 
 def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
-    """Equations of a phase as heyoka expressions, in the order of the state vector, and the last of `ENDS`.
-    Parameters at run time: N - k u_0, Omega and, in slip, its direction."""
+    """Equations of a phase as heyoka expressions, in the order of the state vector, and the last of
+    `ENDS`. Parameters at run time: N - k u_0, Omega and, in slip, its direction."""
     import heyoka as hy
 
     p, n, s = physics.p, physics.n, physics.shape
@@ -453,12 +535,18 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
     psi, f, u, v = hy.make_vars("psi", "f", "u", "v")
     fa, fb, falpha, fbeta = ([f * x for x in each] for each in (a, b, alpha, beta))
     sticks, touches = phase == "stick", phase != "separation"
-    l, paired, below = (0.0 if sticks else 1.0) * physics.l, 1.0 * (physics.l > 0), 1.0 + p.m * physics.compliance
+    l, paired, below = (
+        (0.0 if sticks else 1.0) * physics.l,
+        1.0 * (physics.l > 0),
+        1.0 + p.m * physics.compliance,
+    )
     by = s / below
 
     def total(*terms: tuple[Any, Any]) -> Any:
         """Sum of products of factors and variables, without those that vanish."""
-        used = [float(c) * x for factors, xs in terms for c, x in zip(factors, xs, strict=True) if c]
+        used = [
+            float(c) * x for factors, xs in terms for c, x in zip(factors, xs, strict=True) if c
+        ]
         return hy.sum(used) if used else hy.expression(0.0)
 
     def each(*terms: tuple[Any, Any]) -> list[Any]:
@@ -467,7 +555,10 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
     F = total(((p.k_p, p.c_p, 0.0 if sticks else -p.c_p), (psi, drive, f)))
     P, f_rate = hy.expression(0.0), hy.expression(0.0) if sticks else F / p.m
     if touches:
-        held = ((p.k - p.m * physics.stiffness) * by, a), ((p.c - p.m * physics.damping) * by, alpha)
+        held = (
+            ((p.k - p.m * physics.stiffness) * by, a),
+            ((p.c - p.m * physics.damping) * by, alpha),
+        )
         P = total(([1.0 / below], [load]), *held, (2.0 * p.m * l * by, fbeta), (p.c * l * by, fb))
     if touches and l.any():
         tilt = total((l * by, b))
@@ -490,8 +581,9 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
     return rows, [sign * f] if p.contact == "bilateral" else [P, sign * f]
 
 
-# ---- SUNDIALS CVODE, of the extra `bench`, in scikit-sundae's library. It is called directly, with compiled callbacks
-# that use its own memory: scikit-sundae calls Python for every right-hand side, which takes three times as long
+# ---- SUNDIALS CVODE, of the extra `bench`, in scikit-sundae's library. It is called directly, with
+# compiled callbacks that use its own memory: scikit-sundae calls Python for every right-hand side,
+# which takes three times as long
 Pointer = ctypes.c_void_p
 CVODE_STEPS = 5_000  # number of steps between two checks of the clock
 FAMILIES = {"Adams": 1, "BDF": 2}
@@ -501,10 +593,14 @@ HEAD = 3  # number of entries before the scalars in the callbacks' data: phase, 
 
 
 def solve_by_cvode(problem: Problem, value: float, budget: float, family: str) -> MethodResult:
-    """Variable-order multistep methods: Adams with fixed-point iteration, BDF with Newton's where all is stiff."""
+    """Variable-order multistep methods: Adams with fixed-point iteration, BDF with Newton's where
+    all is stiff."""
     meter = Meter(problem, budget)
     physics, n, scale = meter.physics, meter.physics.n, value * meter.physics.scale()
-    state, constants = np.zeros(4 * n + 4), np.concatenate([[0.0, 0.0, n], physics.c, physics.modes.ravel()])
+    state, constants = (
+        np.zeros(4 * n + 4),
+        np.concatenate([[0.0, 0.0, n], physics.c, physics.modes.ravel()]),
+    )
     time, evaluations, roots = ctypes.c_double(), ctypes.c_long(), (ctypes.c_int * 3)()
     falling = (ctypes.c_int * 3)(-1, -1, -1)
     call, switches = _library(), Pointer(_callbacks()[1].address)
@@ -521,7 +617,9 @@ def solve_by_cvode(problem: Problem, value: float, budget: float, family: str) -
             flag = call.CVode(memory, ctypes.c_double(t_end), vector, ctypes.byref(time), how)
             path.append((time.value, state.copy()))
         if problem.watched:
-            meter.steps(np.array([time for time, _ in path]), np.array([state for _, state in path]))
+            meter.steps(
+                np.array([time for time, _ in path]), np.array([state for _, state in path])
+            )
         call.CVodeGetNumRhsEvals(memory, ctypes.byref(evaluations))
         meter.work += evaluations.value
         if flag < 0:
@@ -541,7 +639,13 @@ def _library() -> Any:
     import sksundae._cy_cvode as extension
 
     library = ctypes.CDLL(extension.__file__)
-    for name in ("CVodeCreate", "N_VMake_Serial", "SUNNonlinSol_FixedPoint", "SUNDenseMatrix", "SUNLinSol_Dense"):
+    for name in (
+        "CVodeCreate",
+        "N_VMake_Serial",
+        "SUNNonlinSol_FixedPoint",
+        "SUNDenseMatrix",
+        "SUNLinSol_Dense",
+    ):
         getattr(library, name).restype = Pointer
     return library
 
@@ -549,7 +653,8 @@ def _library() -> Any:
 @cache
 def _callbacks() -> tuple[Any, ...]:
     """Right-hand side, event functions and Jacobian."""
-    # a vector or dense matrix of SUNDIALS begins with a pointer to its content, whose second word is the data pointer
+    # a vector or dense matrix of SUNDIALS begins with a pointer to its content, whose second word
+    # is the data pointer
     owner = types.CPointer(types.CPointer(types.CPointer(types.float64)))
     data, scalars, rows = types.CPointer(types.float64), kernels.SCALARS, len(kernels.ROWS)
 
@@ -572,7 +677,10 @@ def _callbacks() -> tuple[Any, ...]:
         kernels.switch_values(modes, c, phase, direction, carray(y[0][1], size), carray(out, 3))
         return 0
 
-    @numba.cfunc(types.int32(types.float64, owner, owner, owner, data, owner, owner, owner), error_model="numpy")
+    @numba.cfunc(
+        types.int32(types.float64, owner, owner, owner, data, owner, owner, owner),
+        error_model="numpy",
+    )
     def jacobian(_t, y, _dy, J, data, _1, _2, _3):  # type: ignore[no-untyped-def]
         modes, c, phase, direction, size = case(data)
         by_columns = carray(J[0][1], (size, size))
@@ -583,14 +691,19 @@ def _callbacks() -> tuple[Any, ...]:
 
 
 @contextmanager
-def _solver(family: str, y: Array, tol: float, atol: Array, constants: Array) -> Iterator[tuple[Pointer, Pointer]]:
-    """CVODE's memory and the vector over ``y``; tolerances relative and (shape of ``y``) absolute."""
+def _solver(
+    family: str, y: Array, tol: float, atol: Array, constants: Array
+) -> Iterator[tuple[Pointer, Pointer]]:
+    """CVODE's memory and the vector over ``y``; tolerances relative and (shape of ``y``)
+    absolute."""
     call = _library()
     rate, _, jacobian = (Pointer(callback.address) for callback in _callbacks())
     context, size = Pointer(), len(y)
     call.SUNContext_Create(0, ctypes.byref(context))
     call.SUNContext_ClearErrHandlers(context)
-    vector, least = (Pointer(call.N_VMake_Serial(size, x.ctypes.data_as(Pointer), context)) for x in (y, atol))
+    vector, least = (
+        Pointer(call.N_VMake_Serial(size, x.ctypes.data_as(Pointer), context)) for x in (y, atol)
+    )
     memory = Pointer(call.CVodeCreate(FAMILIES[family], context))
     call.CVodeInit(memory, rate, ctypes.c_double(0.0), vector)
     call.CVodeSVtolerances(memory, ctypes.c_double(tol), least)

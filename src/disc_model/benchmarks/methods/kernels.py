@@ -1,7 +1,9 @@
-"""Constants of a case, states as vectors and the compiled equations of motion; no code is shared with the engine.
+"""Constants of a case, states as vectors and the compiled equations of motion; no code is shared
+with the engine.
 
-The state is y = (a, b, alpha, beta, psi, f, u, u'), shape (4 n + 4,), n = number of modes (docs: model, Disc in the
-slider's frame); u and u' are used in separation only. All is in one file because of numba's cache, which sees no other.
+The state is y = (a, b, alpha, beta, psi, f, u, u'), shape (4 n + 4,), n = number of modes (docs:
+model, Disc in the slider's frame); u and u' are used in separation only. All is in one file because
+of numba's cache, which sees no other.
 """
 
 # mypy: disable-error-code="no-untyped-def"
@@ -18,16 +20,27 @@ from disc_model.parameters import DEFAULTS, Parameters
 from disc_model.simulation.states import State
 
 Array = NDArray[np.float64]
-OTHER_LAWS = ("contact_compliance", "contact_force", "friction_decay", "friction_offset")  # parameters of such
+OTHER_LAWS = (
+    "contact_compliance",
+    "contact_force",
+    "friction_decay",
+    "friction_offset",
+)  # parameters of such
 
 
 class Physics:
-    """Constants of a case, in SI units, and as kernels take them: ``c`` and ``modes`` (`ROWS`, a column per mode)."""
+    """Constants of a case, in SI units, and as kernels take them: ``c`` and ``modes`` (`ROWS`, a
+    column per mode)."""
 
     def __init__(self, p: Parameters) -> None:
         rule = "must be {}, because only the engine has other laws of contact than the paper's"
         changed = [name for name in OTHER_LAWS if getattr(p, name) != DEFAULTS[name]]
-        raise_faults([Fault.of((name,), getattr(p, name), rule.format(as_text(DEFAULTS[name]))) for name in changed])
+        raise_faults(
+            [
+                Fault.of((name,), getattr(p, name), rule.format(as_text(DEFAULTS[name])))
+                for name in changed
+            ]
+        )
         modes = mode_arrays(p)
         self.p = p
         self.n = n = len(modes.omega)
@@ -43,19 +56,52 @@ class Physics:
         self.psi, self.f, self.u, self.v = range(4 * n, 4 * n + 4)
         scalars = (p.N, p.Omega, p.k, p.c, p.m, p.k_p, p.c_p, p.mu_s, p.mu_k, p.r_0)
         self.c = np.array([*scalars, self.u_0, self.compliance, float(p.contact == "bilateral")])
-        by_a, by_alpha = (p.k - p.m * self.stiffness) * self.shape, (p.c - p.m * self.damping) * self.shape
+        by_a, by_alpha = (
+            (p.k - p.m * self.stiffness) * self.shape,
+            (p.c - p.m * self.damping) * self.shape,
+        )
         by_beta, bent = 2.0 * p.m * self.l * self.shape, p.m * self.l**2 * self.shape
-        rows = (self.l, self.shape, self.stiffness, self.damping, self.slope, by_a, by_alpha, by_beta, bent)
+        rows = (
+            self.l,
+            self.shape,
+            self.stiffness,
+            self.damping,
+            self.slope,
+            by_a,
+            by_alpha,
+            by_beta,
+            bent,
+        )
         self.modes = np.array(rows)
 
     def pack(self, state: State) -> Array:
-        return np.hstack([state.a, state.b, state.alpha, state.beta, state.psi, state.f, state.u, state.u_velocity])
+        return np.hstack(
+            [
+                state.a,
+                state.b,
+                state.alpha,
+                state.beta,
+                state.psi,
+                state.f,
+                state.u,
+                state.u_velocity,
+            ]
+        )
 
     def unpack(self, time: float, phase: str, direction: int, y: Array) -> State:
         """The `State` of a vector; in contact u and u' are the disc's."""
         u, v = (y[self.u], y[self.v]) if phase == "separation" else self.disc_point(y)
         modal = {name: y[getattr(self, name)].copy() for name in ("a", "b", "alpha", "beta")}
-        return State(time, phase, direction, float(y[self.psi]), float(y[self.f]), float(u), float(v), **modal)
+        return State(
+            time,
+            phase,
+            direction,
+            float(y[self.psi]),
+            float(y[self.f]),
+            float(u),
+            float(v),
+            **modal,
+        )
 
     def disc_point(self, y: Array) -> tuple[float, float]:
         """w and dw/dt of the disc under the moving slider."""
@@ -63,7 +109,8 @@ class Physics:
         return float(self.shape @ y[self.a]), float(self.shape @ y[self.alpha] + y[self.f] * slope)
 
     def scale(self) -> Array:
-        """Scale of each entry of the vector for absolute tolerances: static deflection, and its velocity."""
+        """Scale of each entry of the vector for absolute tolerances: static deflection, and its
+        velocity."""
         p, deflection = self.p, self.p.N * np.abs(self.shape) / self.stiffness
         velocity, angle = deflection * self.omega, p.mu_s * p.N / (p.k_p * p.r_0)
         height = max(abs(self.u_0), 1e-12)
@@ -71,13 +118,18 @@ class Physics:
         return np.concatenate([deflection, deflection, velocity, velocity, tail])
 
     def distance(self, state: State, other: State) -> float:
-        """Energy norm of the difference of two states, that of the slider's height included, over that of ``other``."""
+        """Energy norm of the difference of two states, that of the slider's height included, over
+        that of ``other``."""
         right = self.pack(other)
         return float(np.sqrt(self._energy(self.pack(state) - right) / self._energy(right)))
 
     def _energy(self, y: Array) -> float:
         p, squares = self.p, y**2
-        disc = np.sum(squares[self.alpha] + squares[self.beta] + self.stiffness * (squares[self.a] + squares[self.b]))
+        disc = np.sum(
+            squares[self.alpha]
+            + squares[self.beta]
+            + self.stiffness * (squares[self.a] + squares[self.b])
+        )
         plane = p.r_0**2 * (p.m * squares[self.f] + p.k_p * squares[self.psi])
         height = p.m * squares[self.v] + p.k * squares[self.u]
         return 0.5 * float(disc + plane + height)
@@ -86,7 +138,17 @@ class Physics:
 SCALARS = 13  # length of ``c``
 _N, _OMEGA, _K, _C, _M, _KP, _CP, _MUS, _MUK, _R0, _U0, _S2, _BONDED = range(SCALARS)
 
-ROWS = ("l", "psi", "omega^2", "2 xi omega", "l psi", "P by a", "P by alpha", "P by f beta", "P by -f^2 a")
+ROWS = (
+    "l",
+    "psi",
+    "omega^2",
+    "2 xi omega",
+    "l psi",
+    "P by a",
+    "P by alpha",
+    "P by f beta",
+    "P by -f^2 a",
+)
 """Rows of the table of modes; the last four: coefficients of the contact force over its denominator, one per state."""
 _L, _PSI, _W2, _D, _SLOPE, _BY_A, _BY_ALPHA, _BY_BETA, _BENT = range(len(ROWS))
 
@@ -100,9 +162,15 @@ return or none. It is below all gaps and above their rounding, and shifts a reat
 ROOT_TRIES = 60
 
 # division by zero gives inf, as in numpy; sums may be taken several at a time
-_OPTIONS: Any = {"cache": True, "error_model": "numpy", "fastmath": {"reassoc", "contract", "arcp", "nsz"}}
+_OPTIONS: Any = {
+    "cache": True,
+    "error_model": "numpy",
+    "fastmath": {"reassoc", "contract", "arcp", "nsz"},
+}
 _kernel = numba.njit(**_OPTIONS)
-_part = numba.njit(**_OPTIONS, forceinline=True)  # a third faster where it is called four times a step
+_part = numba.njit(
+    **_OPTIONS, forceinline=True
+)  # a third faster where it is called four times a step
 
 
 @_part
@@ -150,7 +218,9 @@ def rate(modes, c, phase, direction, y, dy):
         dy[4 * n + 3] = -(c[_N] + c[_K] * (u - c[_U0]) + c[_C] * v) / c[_M]
     else:
         P, F = contact(modes, c, direction, y)
-        dy[4 * n + 1] = F / c[_M] - direction * c[_MUK] * P / (c[_M] * c[_R0]) if phase == SLIP else 0.0
+        dy[4 * n + 1] = (
+            F / c[_M] - direction * c[_MUK] * P / (c[_M] * c[_R0]) if phase == SLIP else 0.0
+        )
         dy[4 * n + 2] = 0.0
         dy[4 * n + 3] = 0.0
     for i in range(n):
@@ -165,7 +235,8 @@ def rate(modes, c, phase, direction, y, dy):
 
 @_kernel
 def jacobian(modes, c, phase, direction, y, J):
-    """Fill ``J`` (size, size) with the derivatives of `rate`, a row each; by complex steps, exact but for rounding."""
+    """Fill ``J`` (size, size) with the derivatives of `rate`, a row each; by complex steps, exact
+    but for rounding."""
     z, dz = y.astype(np.complex128), np.empty(len(y), np.complex128)
     for j in range(len(y)):
         z[j] += 1e-30j
@@ -180,7 +251,8 @@ STRIBECK = 30.0  # f/eps at which static friction has fallen to kinetic
 
 @_kernel
 def smooth_friction(c, law, f):
-    """Coefficient of friction with the sign of f; ``law`` is (eps, dmu, K, C), with dmu for a maximum of mu_s."""
+    """Coefficient of friction with the sign of f; ``law`` is (eps, dmu, K, C), with dmu for a
+    maximum of mu_s."""
     x = f / law[0]
     return math.tanh(x) * (c[_MUK] + law[1] * math.exp(-min((x / STRIBECK) ** 2, 700.0)))
 
@@ -195,7 +267,8 @@ def smooth_force(modes, c, law, y):
 
 @_kernel
 def smooth_rate(modes, c, law, y, dy):
-    """Fill ``dy`` with dy/dt of the regularised model: separation's equations plus whatever force there is."""
+    """Fill ``dy`` with dy/dt of the regularised model: separation's equations plus whatever force
+    there is."""
     n = modes.shape[1]
     rate(modes, c, SEPARATION, 0, y, dy)
     P = smooth_force(modes, c, law, y)
@@ -208,7 +281,8 @@ def smooth_rate(modes, c, law, y, dy):
 
 @_part
 def rk4_step(modes, c, phase, direction, y, first, h, out, k, z):
-    """One step of the classical fourth-order method from ``y``, whose rate is ``first``, to ``out``."""
+    """One step of the classical fourth-order method from ``y``, whose rate is ``first``, to
+    ``out``."""
     size = len(y)
     for j in range(size):
         z[j] = y[j] + 0.5 * h * first[j]
@@ -240,7 +314,8 @@ def _margins(c, phase, direction, y, n, P, F, w, out):
 
 @_kernel
 def switch_values(modes, c, phase, direction, y, out):
-    """Fill ``out`` with the functions whose fall through zero ends the phase (`integrators.ENDS`); returns how many."""
+    """Fill ``out`` with the functions whose fall through zero ends the phase (`integrators.ENDS`);
+    returns how many."""
     n = modes.shape[1]
     P, F = contact(modes, c, direction, y)
     return _margins(c, phase, direction, y, n, P, F, disc_point(modes, y)[0], out)
@@ -257,8 +332,9 @@ def violated(values, count):
 
 @_kernel
 def switch(modes, c, phase, cause, y, kinds):
-    """Carry out an event in place; ``cause`` is the index of its function in `switch_values`. Returns (phase,
-    direction, number of events written to ``kinds``); -1 events if the state is not finite."""
+    """Carry out an event in place; ``cause`` is the index of its function in `switch_values`.
+    Returns (phase, direction, number of events written to ``kinds``); -1 events if the state is not
+    finite."""
     n = modes.shape[1]
     if not abs(np.sum(y)) < np.inf:
         return phase, 0, -1
@@ -297,8 +373,8 @@ def switch(modes, c, phase, cause, y, kinds):
 
 @_kernel
 def _dip(before, current, after):
-    """Place of the minimum, in the last of two equal steps, of the parabola through three values; 0 unless it is below
-    half of both ends there."""
+    """Place of the minimum, in the last of two equal steps, of the parabola through three values; 0
+    unless it is below half of both ends there."""
     bend, rise = after - 2.0 * current + before, 0.5 * (after - before)
     s = -rise / bend if bend > 0.0 else 0.0
     return s if 0.0 < s < 1.0 and current + 0.5 * s * rise < 0.5 * min(current, after) else 0.0
@@ -306,8 +382,9 @@ def _dip(before, current, after):
 
 @_kernel
 def rk4_run(modes, c, phase, direction, y, limits, track):
-    """Take fixed steps of ``y``, in place, from local time 0 to an event, which secants locate within its step, and so
-    on to the end. A step is searched if an event function changes sign over it or dips within it.
+    """Take fixed steps of ``y``, in place, from local time 0 to an event, which secants locate
+    within its step, and so on to the end. A step is searched if an event function changes sign over
+    it or dips within it.
 
     limits : end and step (s), greatest number of steps, whether to stop at the first separation
     track : arrays to fill: times and kinds of events, and (2,) the least and greatest w at step ends
@@ -316,7 +393,12 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
     times, kinds, heights = track
     size, n = len(y), modes.shape[1]
     k, z, trial = np.empty((3, size)), np.empty(size), np.empty(3)
-    new, end, first, following_rate = np.empty(2, np.int64), np.empty(size), np.empty(size), np.empty(size)
+    new, end, first, following_rate = (
+        np.empty(2, np.int64),
+        np.empty(size),
+        np.empty(size),
+        np.empty(size),
+    )
     before, current, after = np.empty(3), np.empty(3), np.empty(3)
     lows, probe, final = np.empty(3), np.empty(size), y
     why, origin, count, local, events, steps = FINISHED, 0.0, 0, 0.0, 0, 0
@@ -327,7 +409,8 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
         if count == 0:
             rate(modes, c, phase, direction, y, first)
             switch_values(modes, c, phase, direction, y, current)
-        # time is event time plus a whole number of steps: summing h would lose digits of the event times
+        # time is event time plus a whole number of steps: summing h would lose digits of the event
+        # times
         following = origin + (count + 1) * h
         length = following - local
         if following >= t_end:
@@ -363,7 +446,9 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
         lows[:] = current
         for _ in range(ROOT_TRIES):
             middle = low + (high - low) * at_low / (at_low - at_high)
-            if not low < middle < high or (low == 0.0 and count == 0):  # a phase may begin at a root
+            if not low < middle < high or (
+                low == 0.0 and count == 0
+            ):  # a phase may begin at a root
                 middle = 0.5 * (low + high)
             rk4_step(modes, c, phase, direction, y, first, middle, end, k, z)
             steps += 1

@@ -1,8 +1,8 @@
 """Files of compiled kernels, with checksums, and locks by which processes compile each kernel once.
 
-Numba's own cache misses changes of a callee in another file, recompiles after every changed comment, and trusts damaged
-files.  Here each signature of a kernel has one file, in a folder named by a hash of the engine's code; a damaged one is
-replaced by compiling again.
+Numba's own cache misses changes of a callee in another file, recompiles after every changed
+comment, and trusts damaged files.  Here each signature of a kernel has one file, in a folder named
+by a hash of the engine's code; a damaged one is replaced by compiling again.
 """
 
 import functools
@@ -25,7 +25,8 @@ from disc_model.sources import cache_folder, code_hash
 
 @functools.cache
 def folder() -> Path:
-    """The folder of the kernels of this engine, named by a hash of its code without comments, docstrings and lines."""
+    """The folder of the kernels of this engine, named by a hash of its code without comments,
+    docstrings and lines."""
     digest, engine = hashlib.sha256(), Path(__file__).parents[1]
     for path in sorted(engine.rglob("*.py")):
         digest.update(f"{path.relative_to(engine)}\0{code_hash(path)}\0".encode())
@@ -33,7 +34,8 @@ def folder() -> Path:
 
 
 def hash_of(*of: object) -> str:
-    """Hash of what compiled code depends on but for the engine, with the versions of all that makes it."""
+    """Hash of what compiled code depends on but for the engine, with the versions of all that makes
+    it."""
     python = f"{sys.implementation.name} {sys.version_info[0]}.{sys.version_info[1]} {sys.platform}"
     versions = f"numba {numba.__version__}, llvmlite {llvmlite.__version__}, {python}"
     return hashlib.sha256(repr((*of, versions)).encode()).hexdigest()[:16]

@@ -1,7 +1,7 @@
 """Kernels and their files, and helpers that are compiled only as parts of kernels.
 
-Numba optimises every function and generates its machine code before it links it into its callers.  Here a helper stays
-unoptimised until its kernel is complete, which is then optimised as a whole.
+Numba optimises every function and generates its machine code before it links it into its callers.
+Here a helper stays unoptimised until its kernel is complete, which is then optimised as a whole.
 
 The module uses internals of numba that may change: `jit` does without it if one is missing.
 """
@@ -19,10 +19,17 @@ from numba.core.untyped_passes import InlineClosureLikes, LiteralUnroll, WithLif
 
 from . import cache
 
-# Raises AttributeError if numba's dispatcher would not call the caches below, or could not store what it compiles.
-_NEEDED = NullCache().load_overload, NullCache().save_overload, CompileResult._reduce, CompileResult._rebuild
+# Raises AttributeError if numba's dispatcher would not call the caches below, or could not store
+# what it compiles.
+_NEEDED = (
+    NullCache().load_overload,
+    NullCache().save_overload,
+    CompileResult._reduce,
+    CompileResult._rebuild,
+)
 
-# Passes for what no helper contains: closures, expressions of whole arrays, ``with``, loops over mixed tuples.
+# Passes for what no helper contains: closures, expressions of whole arrays, ``with``, loops over
+# mixed tuples.
 NEEDLESS = {InlineClosureLikes, InlineOverloads, LiteralUnroll, NopythonRewrites, WithLifting}
 
 
@@ -32,7 +39,9 @@ class HelperLibrary(JITCodeLibrary):
     @property
     def codegen(self):
         codegen = copy(self._codegen)
-        codegen.set_env = lambda name, environment: None  # a helper has no environment, as it never touches Python
+        codegen.set_env = lambda name, environment: (
+            None
+        )  # a helper has no environment, as it never touches Python
         return codegen
 
     def _optimize_functions(self, ll_module):
@@ -70,7 +79,10 @@ class KernelCache:
             warnings.warn(f"{path.parent}: {reason}", RuntimeWarning, stacklevel=2)
 
     def _path(self, signature, codegen):
-        return cache.folder() / f"{self._name}.{cache.hash_of(signature, codegen.magic_tuple())}.kernel"
+        return (
+            cache.folder()
+            / f"{self._name}.{cache.hash_of(signature, codegen.magic_tuple())}.kernel"
+        )
 
 
 class KernelLibrary(JITCodeLibrary):
@@ -94,7 +106,9 @@ class KernelLibrary(JITCodeLibrary):
 
 def _visit(library, libraries):
     """Append a library after all libraries that it is linked to."""
-    for part in library._linking_libraries if isinstance(library, HelperLibrary | KernelLibrary) else ():
+    for part in (
+        library._linking_libraries if isinstance(library, HelperLibrary | KernelLibrary) else ()
+    ):
         if part not in libraries:
             _visit(part, libraries)
     libraries.append(library)
@@ -118,7 +132,8 @@ class KernelCompiler(HelperCompiler):
     library = KernelLibrary
 
     def compile_extra(self, function):
-        # nearly all objects of a compilation live until its end: garbage collection took a tenth of the time
+        # nearly all objects of a compilation live until its end: garbage collection took a tenth of
+        # the time
         collects = gc.isenabled()
         gc.disable()
         try:

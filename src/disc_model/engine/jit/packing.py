@@ -1,8 +1,9 @@
 """Named tuples that kernels receive as one pointer.
 
-Numba would pass a tuple of arrays entry by entry: a model is 147 numbers to LLVM. A ``packed`` tuple is a block of
-memory with its numbers and, for each array, the address and the lengths. LLVM is told that it is never written.
-An entry that is a tuple is a flag, (True,) or (): its length is a part of the type, and it takes no memory.
+Numba would pass a tuple of arrays entry by entry: a model is 147 numbers to LLVM. A ``packed``
+tuple is a block of memory with its numbers and, for each array, the address and the lengths. LLVM
+is told that it is never written. An entry that is a tuple is a flag, (True,) or (): its length is a
+part of the type, and it takes no memory.
 """
 
 import ctypes
@@ -28,7 +29,8 @@ else:
     _WORD, _BIT = ir.IntType(64), ir.IntType(1)
 
     class PackedType(types.Type):
-        """``fields``: type of each entry, and the words of memory before it; an array is followed by its lengths."""
+        """``fields``: type of each entry, and the words of memory before it; an array is followed
+        by its lengths."""
 
         def __init__(self, name, fields):
             self.fields = fields
@@ -51,7 +53,10 @@ else:
     class _Packed:
         @functools.cached_property
         def numba_type(self):
-            decisive = type(self), *map(_decisive, self)  # numba's own answers take 1 ms for the tuples of a case
+            decisive = (
+                type(self),
+                *map(_decisive, self),
+            )  # numba's own answers take 1 ms for the tuples of a case
             if decisive not in _KNOWN:
                 fields, before = {}, 0
                 for name, kind in zip(self._fields, map(_kind, self), strict=True):
@@ -85,7 +90,10 @@ else:
                 raise ValueError("an array of a packed tuple has to be contiguous")
             try:
                 address = ctypes.addressof(ctypes.c_char.from_buffer(value))
-            except (TypeError, ValueError):  # read-only or empty; for others this takes three times as long
+            except (
+                TypeError,
+                ValueError,
+            ):  # read-only or empty; for others this takes three times as long
                 address = value.ctypes.data
             return address, *value.shape
         if isinstance(value, _Packed):
@@ -94,7 +102,9 @@ else:
 
     def packed(cls):
         """Let kernels receive a class of named tuples as one pointer."""
-        return type(cls.__name__, (_Packed, cls), {"__doc__": cls.__doc__, "__module__": cls.__module__})
+        return type(
+            cls.__name__, (_Packed, cls), {"__doc__": cls.__doc__, "__module__": cls.__module__}
+        )
 
     @extending.typeof_impl.register(_Packed)
     def _typeof(value, context):
@@ -111,7 +121,9 @@ else:
         exists = cgutils.is_not_null(c.builder, address)
         pointer = cgutils.alloca_once_value(c.builder, _WORD.as_pointer()(None))
         with c.builder.if_then(exists):
-            c.builder.store(c.builder.inttoptr(c.pyapi.long_as_longlong(address), _WORD.as_pointer()), pointer)
+            c.builder.store(
+                c.builder.inttoptr(c.pyapi.long_as_longlong(address), _WORD.as_pointer()), pointer
+            )
             c.pyapi.decref(address)
         return extending.NativeValue(c.builder.load(pointer), is_error=c.builder.not_(exists))
 
@@ -133,12 +145,20 @@ else:
             return loaded
 
         if isinstance(entry, types.Array):
-            from numba.np.arrayobj import np_cfarray  # takes long, and kernels from files do not need it
+            from numba.np.arrayobj import (
+                np_cfarray,
+            )  # takes long, and kernels from files do not need it
 
             lengths = types.UniTuple(types.intp, entry.ndim)
             shape = context.make_tuple(builder, lengths, [word(1 + i) for i in range(entry.ndim)])
             address = word(0, context.get_data_type(entry.dtype).as_pointer())
-            return np_cfarray(context, builder, entry(types.CPointer(entry.dtype), lengths), (address, shape))
+            return np_cfarray(
+                context, builder, entry(types.CPointer(entry.dtype), lengths), (address, shape)
+            )
         if _is_flag(entry):
             return context.make_tuple(builder, entry, [_BIT(1)] * entry.count)
-        return builder.trunc(word(0), _BIT) if entry == types.boolean else word(0, context.get_value_type(entry))
+        return (
+            builder.trunc(word(0), _BIT)
+            if entry == types.boolean
+            else word(0, context.get_value_type(entry))
+        )

@@ -1,8 +1,9 @@
 """Eight doubles side by side: the one vector type of the engine.
 
-A value is an LLVM ``<8 x double>``: one register with AVX-512; elsewhere LLVM splits it.  Numba has no such type, and
-arrays of accumulators stay in memory, which costs a factor of six in the convolutions of the slip series.  With
-``NUMBA_DISABLE_JIT=1`` the same names are plain numpy functions: every kernel runs unchanged without compilation.
+A value is an LLVM ``<8 x double>``: one register with AVX-512; elsewhere LLVM splits it.  Numba has
+no such type, and arrays of accumulators stay in memory, which costs a factor of six in the
+convolutions of the slip series.  With ``NUMBA_DISABLE_JIT=1`` the same names are plain numpy
+functions: every kernel runs unchanged without compilation.
 """
 
 import functools
@@ -18,11 +19,14 @@ WIDTH = 8
 
 _SUM = "define <8 x double> @f(<8 x double> %a, <8 x double> %b) { %c = fadd <8 x double> %a, %b ret <8 x double> %c }"
 _MACHINE: Any = cpu_target.target_context.codegen()._tm
-ONE_REGISTER = "zmm" in _MACHINE.emit_assembly(llvm.parse_assembly(_SUM))  # whether eight doubles fit into one
+ONE_REGISTER = "zmm" in _MACHINE.emit_assembly(
+    llvm.parse_assembly(_SUM)
+)  # whether eight doubles fit into one
 
 
 def aligned(n):
-    """Zeros, shape (n,), on a cache line: lanes that straddle two lines load and store at half the speed."""
+    """Zeros, shape (n,), on a cache line: lanes that straddle two lines load and store at half the
+    speed."""
     line = 64
     raw = np.zeros(n + line // 8)
     skip = -raw.ctypes.data % line // 8
@@ -83,7 +87,8 @@ else:
             super().__init__(dmm, fe_type, _VECTOR)
 
     def _instruction(result, *arguments):
-        """Let kernels call a function that writes LLVM code; types: None for an array, whose address it receives."""
+        """Let kernels call a function that writes LLVM code; types: None for an array, whose
+        address it receives."""
 
         def made(write):
             @intrinsic
@@ -91,13 +96,17 @@ else:
             def instruction(typingctx, *given):
                 def codegen(context, builder, sig, args):
                     values = [
-                        context.make_array(kind)(context, builder, value).data if stated is None else value
+                        context.make_array(kind)(context, builder, value).data
+                        if stated is None
+                        else value
                         for stated, kind, value in zip(arguments, sig.args, args, strict=True)
                     ]
                     written = write(builder, *values)
                     return context.get_dummy_value() if result == types.void else written
 
-                return result(*(stated or kind for stated, kind in zip(arguments, given, strict=True))), codegen
+                return result(
+                    *(stated or kind for stated, kind in zip(arguments, given, strict=True))
+                ), codegen
 
             return instruction
 
@@ -119,7 +128,9 @@ else:
     def _shuffle(builder, v, indices, second=None):
         """Entries of a vector, or of two: those of the second follow those of the first."""
         mask = ir.Constant(ir.VectorType(_I32, len(indices)), indices)
-        return builder.shuffle_vector(v, ir.Constant(v.type, ir.Undefined) if second is None else second, mask)
+        return builder.shuffle_vector(
+            v, ir.Constant(v.type, ir.Undefined) if second is None else second, mask
+        )
 
     def _copies(builder, x):
         first = builder.insert_element(ir.Constant(_VECTOR, ir.Undefined), x, _I32(0))
@@ -155,7 +166,8 @@ else:
 
     @_instruction(types.float64, None, types.intp)
     def item(builder, array, i):
-        """array[i], i >= 0: no check of the sign, which took a third of the time where a loop counts down."""
+        """array[i], i >= 0: no check of the sign, which took a third of the time where a loop
+        counts down."""
         return builder.load(builder.gep(array, [i]))
 
     @_instruction(types.void, None, types.intp, types.float64)
@@ -165,7 +177,8 @@ else:
 
     @_instruction(LANES, LANES, LANES, LANES)
     def fma(builder, a, b, c):
-        """a * b + c, lane by lane; rounded once where the processor can, since software takes 500 times as long."""
+        """a * b + c, lane by lane; rounded once where the processor can, since software takes 500
+        times as long."""
         return _call(builder, "fmuladd", a, b, c)
 
     @_instruction(LANES, types.float64)
@@ -179,7 +192,8 @@ else:
         return powers
 
     def _of_two(write):
-        # not `write` itself: numba counts arguments by their names, and those of llvmlite have a `name` as well
+        # not `write` itself: numba counts arguments by their names, and those of llvmlite have a
+        # `name` as well
         return _instruction(LANES, LANES, LANES)(lambda builder, a, b: write(builder, a, b))
 
     mul = _of_two(ir.IRBuilder.fmul)
@@ -188,9 +202,15 @@ else:
     maximum = _of_two(_larger)
     minimum = _of_two(lambda builder, a, b: _call(builder, "minnum", a, b))
     low_halves = _of_two(lambda builder, a, b: _shuffle(builder, a, [0, 1, 2, 3, 8, 9, 10, 11], b))
-    high_halves = _of_two(lambda builder, a, b: _shuffle(builder, a, [4, 5, 6, 7, 12, 13, 14, 15], b))
+    high_halves = _of_two(
+        lambda builder, a, b: _shuffle(builder, a, [4, 5, 6, 7, 12, 13, 14, 15], b)
+    )
 
-    swap_halves = _instruction(LANES, LANES)(lambda builder, v: _shuffle(builder, v, [4, 5, 6, 7, 0, 1, 2, 3]))
+    swap_halves = _instruction(LANES, LANES)(
+        lambda builder, v: _shuffle(builder, v, [4, 5, 6, 7, 0, 1, 2, 3])
+    )
     absolute = _instruction(LANES, LANES)(lambda builder, v: _call(builder, "fabs", v))
-    total = _instruction(types.float64, LANES)(lambda builder, v: _fold(builder, v, ir.IRBuilder.fadd))
+    total = _instruction(types.float64, LANES)(
+        lambda builder, v: _fold(builder, v, ir.IRBuilder.fadd)
+    )
     largest = _instruction(types.float64, LANES)(lambda builder, v: _fold(builder, v, _larger))

@@ -1,4 +1,5 @@
-"""Which of the paper's separations survive its own Eq. (17), by what the ledger is judged by, as no other figure."""
+"""Which of the paper's separations survive its own Eq. (17), by what the ledger is judged by, as no
+other figure."""
 
 from collections.abc import Mapping
 from typing import Any, ClassVar, Literal
@@ -17,15 +18,21 @@ from disc_model.parameters import Parameters
 SCALES = ("as_published", "orthonormal")
 LOOKS: tuple[dict[str, Any], ...] = (
     {"label": "as published", "marker": "o", "color": SEPARATED, "linestyle": "none"},
-    {"label": "by Eq. (17)", "marker": "o", "markerfacecolor": "white", "color": drawing.BLUE, "linestyle": "none"},
+    {
+        "label": "by Eq. (17)",
+        "marker": "o",
+        "markerfacecolor": "white",
+        "color": drawing.BLUE,
+        "linestyle": "none",
+    },
 )
 CELLS = ("white", "#f2b69c", "#d5e5f3", "#8a8a8a")
 """Neither separates; only as published; only by Eq. (17), hatched; both. They differ in grey print."""
 
 
 class Scales(Plot):
-    """(a) Squared amplitudes under the slider, (b) where the static start separates on the map over speed and preload,
-    (c) first separations on this and further maps."""
+    """(a) Squared amplitudes under the slider, (b) where the static start separates on the map over
+    speed and preload, (c) first separations on this and further maps."""
 
     quantities: ClassVar = ("regions",)
     needs: ClassVar = ("N", "Omega")
@@ -42,14 +49,20 @@ class Scales(Plot):
         figure, axes = panels(PAGE, 2.9, 1, 3, width_ratios=(0.8, 1.25, 1.2))
         points = section2.separating_points({"map_N": study, **overlays})
         _amplitudes(axes[0], section2.BASE)
-        _regions(axes[1], study, {x: point for x, point in points.items() if section2.SEPARATING[x][0] == "map_N"})
+        _regions(
+            axes[1],
+            study,
+            {x: point for x, point in points.items() if section2.SEPARATING[x][0] == "map_N"},
+        )
         _times(axes[2], points, section2.first_separations(points))
         drawing.letters(axes)
         return figure
 
 
 def _amplitudes(ax: Axes, p: Parameters) -> None:
-    squares = [plate_modes(p.replace(normalization=scale))["psi"].to_numpy() ** 2 for scale in SCALES]
+    squares = [
+        plate_modes(p.replace(normalization=scale))["psi"].to_numpy() ** 2 for scale in SCALES
+    ]
     for values, look in zip(squares, LOOKS, strict=True):
         ax.plot(range(len(values)), values, markersize=5, **look)
     ratio = squares[0][1] / squares[1][1]
@@ -67,8 +80,23 @@ def _regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset]) -> N
     apart = flag_names(outcome) == "separation"
     cells = apart[0] + 2 * apart[1].astype(int)
     across, up = (drawing.edges(study[name].values) for name in ("Omega", "N"))
-    ax.pcolormesh(across, up, cells, cmap=mpl.colors.ListedColormap(CELLS), vmin=-0.5, vmax=3.5, rasterized=True)
-    ax.pcolor(across, up, np.ma.masked_where(cells != 2, cells), facecolor="none", hatch=8 * "/", linewidth=0)
+    ax.pcolormesh(
+        across,
+        up,
+        cells,
+        cmap=mpl.colors.ListedColormap(CELLS),
+        vmin=-0.5,
+        vmax=3.5,
+        rasterized=True,
+    )
+    ax.pcolor(
+        across,
+        up,
+        np.ma.masked_where(cells != 2, cells),
+        facecolor="none",
+        hatch=8 * "/",
+        linewidth=0,
+    )
     for name, point in points.items():
         x, y = float(point["Omega"]), float(point["N"])
         fill = SEPARATED if np.all(flag_names(point["outcome"]) == "separation") else "white"
@@ -76,7 +104,12 @@ def _regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset]) -> N
         side = (5 if name in ("Fig. 2", "Fig. 7") else -5, 0)
         drawing.say(ax, name, (x, y), side, fontsize=7, path_effects=drawing.halo())
     ax.text(0.68, 0.62, "both", transform=ax.transAxes, ha="center", va="center", fontsize=7)
-    line: dict[str, Any] = {"arrowstyle": "-", "shrinkA": 0, "shrinkB": 0, "path_effects": drawing.halo(3)}
+    line: dict[str, Any] = {
+        "arrowstyle": "-",
+        "shrinkA": 0,
+        "shrinkB": 0,
+        "path_effects": drawing.halo(3),
+    }
     look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 7, "arrowprops": line}
     for words, area, corner in (
         ("only by\nEq. (17)", (0.26, 0.76), (0.12, 0.71)),
@@ -87,17 +120,27 @@ def _regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset]) -> N
 
 
 def _times(ax: Axes, points: Mapping[str, xr.Dataset], firsts: pd.DataFrame) -> None:
-    horizons = {name: float(stated_in(point, "options")["horizon"]) for name, point in points.items()}
+    horizons = {
+        name: float(stated_in(point, "options")["horizon"]) for name, point in points.items()
+    }
     times = firsts.sort_values("as_published", ascending=False)
     for height, (name, row) in enumerate(times.iterrows()):
         was, now = (float(row[scale]) for scale in SCALES)
         none = np.isnan(now)
-        arrow = {"arrowstyle": "-|>" if none else "-", "color": GREY, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
+        arrow = {
+            "arrowstyle": "-|>" if none else "-",
+            "color": GREY,
+            "linewidth": 1.0,
+            "shrinkA": 0,
+            "shrinkB": 0,
+        }
         end = max(horizons[str(name)], 1.3 * was) if none else now
         ax.annotate("", (end, height), (was, height), arrowprops=arrow)
         for time, look in zip((was, now), LOOKS, strict=True):
             ax.plot([time], [height], markersize=5, **look)
-        drawing.say(ax, str(name), (0, height), (-3, 0), xycoords=("axes fraction", "data"), fontsize=7)
+        drawing.say(
+            ax, str(name), (0, height), (-3, 0), xycoords=("axes fraction", "data"), fontsize=7
+        )
     lost = int(times["orthonormal"].isna().sum())
     ax.set(xscale="log", xlabel="First separation (s)", xlim=(25, 1.6 * max(horizons.values())))
     ax.set(yticks=[], ylim=(-0.6, len(times) - 0.4), ylabel=" ")

@@ -1,4 +1,5 @@
-"""Drawing of the model: from the side, from above to scale, and the contact forces; figure 1 of the paper."""
+"""Drawing of the model: from the side, from above to scale, and the contact forces; figure 1 of the
+paper."""
 
 from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, Literal
@@ -11,7 +12,19 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, DISC, FORCE, PAGE, SEPARATED, SLIDER, STICK, Axes, Figure, mpl, panels
+from disc_model.figures.drawing import (
+    BLACK,
+    DISC,
+    FORCE,
+    PAGE,
+    SEPARATED,
+    SLIDER,
+    STICK,
+    Axes,
+    Figure,
+    mpl,
+    panels,
+)
 from disc_model.figures.kind import CasePlot, Need, Ranges, as_samples
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Positive, Unit
@@ -22,7 +35,10 @@ SOFT, BODY, PLATE, CLAMP = "0.45", "0.88", "#dbe9f4", "0.93"
 SMALL = 8.0  # size of the text that is no symbol, in points
 OUTER = 1.2  # radius of the disc as drawn
 STRETCH = 0.04  # of contact force in the composite, s
-PALE, DARK = "0.72", "#8a5a00"  # of ignored separation; of words on the slider, legible in grey print
+PALE, DARK = (
+    "0.72",
+    "#8a5a00",
+)  # of ignored separation; of words on the slider, legible in grey print
 PHASES: dict[str, dict[str, Any]] = {  # looks that differ in grey print as well; slip is white
     "stick": {"facecolor": "none", "edgecolor": STICK, "hatch": "//////"},
     "separation": {"facecolor": SEPARATED, "alpha": 0.35},
@@ -48,13 +64,16 @@ class Schematic(CasePlot):
 
 
 class Composite(CasePlot):
-    """The model, the disc's vibration with separation and, in the case `ignored`, bilateral, and the contact force."""
+    """The model, the disc's vibration with separation and, in the case `ignored`, bilateral, and
+    the contact force."""
 
     further = ("ignored",)
     kind: Literal["paper.composite"] = "paper.composite"
     ignored: str
     history: Ranges = "history"
-    force: tuple[str, Finite]  # window of the contact force, and the time at which the stretch shown begins, s
+    force: tuple[
+        str, Finite
+    ]  # window of the contact force, and the time at which the stretch shown begins, s
     until: Annotated[Positive, Unit("s")]  # end of the part of the runs that is shown
 
     def needs(self) -> Iterator[Need]:
@@ -65,17 +84,28 @@ class Composite(CasePlot):
         figure, axes = panels(PAGE, 2.35, 1, 3, width_ratios=(1, 1.15, 1.3))
         model, growth, force = axes
         _small(model)
-        followed, ignored = (drawing.history(each, self.history, self.until) for each in (case, bilateral))
+        followed, ignored = (
+            drawing.history(each, self.history, self.until) for each in (case, bilateral)
+        )
         drawing.envelope(growth, ignored, "w_point", color=PALE)
         drawing.envelope(growth, followed, "w_point")
         top = 1e3 * float(ignored["w_point_max"].max()) or 1.0
-        for share, text, colour in ((1.08, "separation ignored", "0.35"), (-0.05, "with separation", "white")):
+        for share, text, colour in (
+            (1.08, "separation ignored", "0.35"),
+            (-0.05, "with separation", "white"),
+        ):
             place = (0.98 * growth.get_xlim()[1], share * top)
             growth.text(*place, text, ha="right", color=colour, fontsize=7, fontweight="bold")
-        growth.set(xlabel="Time (s)", ylabel="Displacement of the disc (mm)", ylim=(-1.25 * top, 1.25 * top))
+        growth.set(
+            xlabel="Time (s)",
+            ylabel="Displacement of the disc (mm)",
+            ylim=(-1.25 * top, 1.25 * top),
+        )
         if (lost := float(case["first_separation"])) <= growth.get_xlim()[1]:
             growth.axvline(lost, ymax=0.88, color=SEPARATED, linewidth=0.9, linestyle=(0, (4, 2)))
-            drawing.say(growth, "contact\nis lost", (lost, -1.2 * top), (-3, 1), fontsize=7, color=SEPARATED)
+            drawing.say(
+                growth, "contact\nis lost", (lost, -1.2 * top), (-3, 1), fontsize=7, color=SEPARATED
+            )
         drawing.show_thickness(growth, case, "y")
         name, start = self.force
         part = dataset.samples(case, name).sel(time=slice(start, start + STRETCH))
@@ -85,10 +115,16 @@ class Composite(CasePlot):
         for word, look in PHASES.items():
             for i, (a, b) in enumerate(drawing.stretches(words == word)):
                 label = "_nolegend_" if i else word
-                force.axvspan(time[a], time[min(b, time.size - 1)], label=label, linewidth=0, **look)
+                force.axvspan(
+                    time[a], time[min(b, time.size - 1)], label=label, linewidth=0, **look
+                )
         # zero, and not drawn, in separation, since no line leads to the force after an impact
         force.plot(time, part["P"].where(words != "separation"), color=BLACK, linewidth=1.1)
-        force.set(xlabel=f"Time after {start:g} s (ms)", ylabel="Contact force (N)", xlim=(0, 1e3 * STRETCH))
+        force.set(
+            xlabel=f"Time after {start:g} s (ms)",
+            ylabel="Contact force (N)",
+            xlim=(0, 1e3 * STRETCH),
+        )
         force.set_ylim(bottom=0)
         if force.patches:
             drawing.legend_above(force)
@@ -123,7 +159,8 @@ def _small(ax: Axes) -> None:
 
 
 def _side(ax: Axes) -> None:
-    """Draw the side view, unrolled along the circle of radius r_0; the gap is open so that u and w are distinct."""
+    """Draw the side view, unrolled along the circle of radius r_0; the gap is open so that u and w
+    are distinct."""
     x, bottom, top, drive = np.linspace(-2.5, 4.4, 300), 0.55, 2.15, 2.6
     under, beside = (float(0.22 * np.sin(1.15 * angle + 0.55)) for angle in (0.0, 0.12))
     ax.plot(x, 0.22 * np.sin(1.15 * x + 0.55), color=DISC, lw=2.5)
@@ -176,7 +213,9 @@ def _above(ax: Axes, p: Parameters) -> None:
     ax.plot([0, 1.55], [0, 0], color=BLACK, lw=0.8)
     for angle, colour in ((phi, SLIDER), (ahead, BLACK)):
         ax.plot(*np.transpose([(0, 0), _at(angle, 1.38)]), color=colour, lw=0.9)
-    ax.add_patch(mpl.patches.Circle(tuple(_at(phi, r_0)), 0.075, fc=BODY, ec=BLACK, lw=1.3, zorder=5))
+    ax.add_patch(
+        mpl.patches.Circle(tuple(_at(phi, r_0)), 0.075, fc=BODY, ec=BLACK, lw=1.3, zorder=5)
+    )
     _write(ax, _at(phi, r_0), "$m$", fontsize=SMALL, zorder=6)
     ax.plot(*_at(ahead, r_0), "o", color=BLACK, ms=5, zorder=5)
     _write(ax, _at(ahead, 1.45, (0.05, 0)), r"drive point, $\Omega t$", va="baseline")
@@ -187,7 +226,9 @@ def _above(ax: Axes, p: Parameters) -> None:
         _arrow(ax, _at(high - 0.11, 0.72), _at(high, 0.72), colour=SLIDER)
         _write(ax, _at((low + high) / 2, 0.85), text, color=DARK, fontsize=13)
     ax.plot(*_at(fixed, r_0), "x", color=BLACK, ms=7)
-    _write(ax, _at(fixed, 1.3, (0.43, -0.06)), "point of the disc\nat $r_0$, $\\theta$", fontsize=SMALL)
+    _write(
+        ax, _at(fixed, 1.3, (0.43, -0.06)), "point of the disc\nat $r_0$, $\\theta$", fontsize=SMALL
+    )
     ax.text(1.62, 0, r"$\theta = 0$", va="center", fontsize=SMALL)
     for degrees, radius, text in ((170, a, "$a$"), (212, r_0, "$r_0$"), (250, b, "$b$")):
         angle = np.radians(degrees)
@@ -206,7 +247,14 @@ def _forces(ax: Axes) -> None:
     _arrow(ax, (-0.12, 2.0), (-0.12, 1.15), "$N + k\\,(u - u_0) + c\\,\\dot u$", (0.12, 0.58))
     _arrow(ax, (0, 0.02), (0, 0.55), "$P$", (0.2, -0.02), FORCE)
     _arrow(ax, (0.45, 0.93), (1.3, 0.93), "$r_0\\,F$", (0.1, 0.2), FORCE)
-    ax.text(1.62, 1.42, "$F = k_p\\,\\psi + c_p\\,(\\Omega - f)$", ha="right", color=FORCE, fontsize=SMALL)
+    ax.text(
+        1.62,
+        1.42,
+        "$F = k_p\\,\\psi + c_p\\,(\\Omega - f)$",
+        ha="right",
+        color=FORCE,
+        fontsize=SMALL,
+    )
     _arrow(ax, (-0.45, 0.62), (-1.3, 0.62), colour=FORCE)
     ax.text(-0.9, 0.86, "slip: $\\mu_k P$", ha="center", color=FORCE, fontsize=SMALL)
     _arrow(ax, (-1.25, 1.5), (-0.65, 1.5), "$f > 0$", (0.0, 0.17))
@@ -216,7 +264,14 @@ def _forces(ax: Axes) -> None:
     ax.plot([-1.5, 1.5], [level, level], color=SOFT, lw=0.8, ls="--")
     _arrow(ax, (0, level + 0.53), (0, level), "$P$", (0.2, 0.03), FORCE)
     ax.text(1.6, level + 0.52, "slope $B / r_0$,", ha="right", color=DISC, fontsize=SMALL)
-    ax.text(1.6, level + 0.32, "$B = \\partial w / \\partial\\theta$", ha="right", color=DISC, fontsize=SMALL)
+    ax.text(
+        1.6,
+        level + 0.32,
+        "$B = \\partial w / \\partial\\theta$",
+        ha="right",
+        color=DISC,
+        fontsize=SMALL,
+    )
     ax.set(xlim=(-1.65, 1.65), ylim=(-0.95, 2.35))
     ax.set_title("(c) forces at the contact", loc="left")
 
@@ -226,25 +281,42 @@ def _at(angle: float, radius: float, aside: Point = (0.0, 0.0)) -> NDArray[np.fl
 
 
 def _arrow(
-    ax: Axes, start: Point, end: Point, text: str = "", offset: Point = (0, 0), colour: str = BLACK, style: str = "-|>"
+    ax: Axes,
+    start: Point,
+    end: Point,
+    text: str = "",
+    offset: Point = (0, 0),
+    colour: str = BLACK,
+    style: str = "-|>",
 ) -> None:
     """Draw an arrow from `start` to `end`, with a text at its middle, moved by `offset`."""
     look = {"arrowstyle": style, "color": colour, "lw": 1.5, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", tuple(end), tuple(start), arrowprops=look)
     if text:
-        _write(ax, 0.5 * (np.array(start) + np.array(end)) + offset, text, color=DARK if colour == SLIDER else colour)
+        _write(
+            ax,
+            0.5 * (np.array(start) + np.array(end)) + offset,
+            text,
+            color=DARK if colour == SLIDER else colour,
+        )
 
 
 def _write(ax: Axes, point: Point, text: str, **look: Any) -> None:
-    ax.text(float(point[0]), float(point[1]), text, ha="center", va=look.pop("va", "center"), **look)
+    ax.text(
+        float(point[0]), float(point[1]), text, ha="center", va=look.pop("va", "center"), **look
+    )
 
 
 def _slider(ax: Axes, corner: Point, width: float, height: float, lw: float = 1.3) -> None:
     ax.add_patch(mpl.patches.Rectangle(tuple(corner), width, height, fc=BODY, ec=BLACK, lw=lw))
 
 
-Strokes = Sequence[tuple[ArrayLike, ArrayLike]]  # lines: fractions of the way, and offsets to its left in widths
-SPRING: Strokes = [([0, *np.linspace(0.2, 0.8, 11), 1], [0, 0, 1, -1, 1, -1, 1, -1, 1, -1, 1, 0, 0])]  # a zigzag
+Strokes = Sequence[
+    tuple[ArrayLike, ArrayLike]
+]  # lines: fractions of the way, and offsets to its left in widths
+SPRING: Strokes = [
+    ([0, *np.linspace(0.2, 0.8, 11), 1], [0, 0, 1, -1, 1, -1, 1, -1, 1, -1, 1, 0, 0])
+]  # a zigzag
 _CUP: Strokes = [([0, 0.35], [0, 0]), ([0.7, 0.35, 0.35, 0.7], [1, 1, -1, -1])]
 DAMPER: Strokes = [*_CUP, ([0.55, 0.55], [-0.7, 0.7]), ([0.55, 1], [0, 0])]  # a cup and a piston
 
@@ -253,7 +325,11 @@ def _join(ax: Axes, strokes: Strokes, start: Point, end: Point, width: float = 0
     first, way = np.array(start, float), np.array(end, float) - np.array(start, float)
     normal = np.array([-way[1], way[0]]) / np.hypot(*way)
     for along, side in strokes:
-        x, y = first[:, None] + way[:, None] * np.array(along) + normal[:, None] * (width * np.array(side))
+        x, y = (
+            first[:, None]
+            + way[:, None] * np.array(along)
+            + normal[:, None] * (width * np.array(side))
+        )
         ax.plot(x, y, color=BLACK, lw=1.2)
 
 

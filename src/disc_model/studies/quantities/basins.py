@@ -1,6 +1,8 @@
-"""Basins of attraction at one point, from many starts: attractors, basin fractions and the critical energy.
+"""Basins of attraction at one point, from many starts: attractors, basin fractions and the critical
+energy.
 
-The first starts of all energies come first, then all second ones: further starts leave the earlier ones unchanged.
+The first starts of all energies come first, then all second ones: further starts leave the earlier
+ones unchanged.
 """
 
 import math
@@ -20,8 +22,15 @@ from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
 CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])  # outcomes of a start
-SHOWN = ("range", "separation_rate", "stick_fraction", "separation_fraction")  # statistics of a stretch on an attractor
-SMALLEST = 2.0**-40  # fraction of the least separating energy of the sample, below which the bisection gives up
+SHOWN = (
+    "range",
+    "separation_rate",
+    "stick_fraction",
+    "separation_fraction",
+)  # statistics of a stretch on an attractor
+SMALLEST = (
+    2.0**-40
+)  # fraction of the least separating energy of the sample, below which the bisection gives up
 _ONE_START = "n_starts must be 1 where an energy is 0, since no direction tells them apart"
 Follow = Callable[[float, int, int], OutcomeResult]
 _EACH, _SHARES, _KNOWN = ("energy", "start"), ("energy", "attractor_class"), ("attractor",)
@@ -29,21 +38,28 @@ _EACH, _SHARES, _KNOWN = ("energy", "start"), ("energy", "attractor_class"), ("a
 
 def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Variable]:
     ends = ("", ", lower end of its confidence interval", ", upper end of it")
-    return quantity.with_ends(what, (Variable("1", f"share of the starts{that}{end}", dims=dims) for end in ends))
+    return quantity.with_ends(
+        what, (Variable("1", f"share of the starts{that}{end}", dims=dims) for end in ends)
+    )
 
 
 class AttractorBasins(Start, Quantity):
     """Attractors, basin fractions and critical energy, from many starts."""
 
     tol: Tolerance = 1e-10
-    energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,)  # of the perturbations; 0 adds nothing
+    energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (
+        0.0,
+    )  # of the perturbations; 0 adds nothing
     n_starts: Annotated[Count, Field(ge=1, le=quantity.MOST)] = 1  # at each energy
     seed: Annotated[Count, Field(ge=0)] = 1
     horizon: Seconds = 200.0
-    # a motion ends early if its range agrees with that of a known attractor to this, and approaches it; 0: none does
+    # a motion ends early if its range agrees with that of a known attractor to this, and approaches
+    # it; 0: none does
     attractor_tol: Annotated[Real, Field(ge=0, le=0.25)] = 0.1
     confidence: Annotated[Real, Field(gt=0, lt=1)] = 0.95  # level of the intervals of fractions
-    n_bisection_directions: Annotated[Count, Field(ge=0, le=1000)] = 1  # those of the least energies that separate
+    n_bisection_directions: Annotated[Count, Field(ge=0, le=1000)] = (
+        1  # those of the least energies that separate
+    )
     precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05  # of the critical energy, relative
 
     _rules = (
@@ -53,24 +69,44 @@ class AttractorBasins(Start, Quantity):
     COLUMNS: ClassVar = {
         "status": STATUS,
         "kind": Variable("1", "what the start comes to", LONG_TERM_OUTCOMES, dims=_EACH),
-        "attractor_index": Variable("1", "number of the attractor reached, from 1", dims=_EACH, whole=True),
+        "attractor_index": Variable(
+            "1", "number of the attractor reached, from 1", dims=_EACH, whole=True
+        ),
         "simulated_time": Variable("s", "simulated time until that was known", dims=_EACH),
-        "lost_contact": Variable("1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH),
+        "lost_contact": Variable(
+            "1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH
+        ),
         **_share("basin_fraction_by_energy", _SHARES),
         **_share("basin_fraction", ("attractor_class",)),
         **_share("separating_fraction", (), " that keep losing contact, be it periodic or not"),
-        "critical_energy": Variable("J", "least energy found that leads to lasting separation, by bisection"),
-        "critical_energy_lower": Variable("J", "greatest energy below it, in the same direction, that does not"),
-        "critical_energy_sampled": Variable("J", "least energy among the starts that come to lasting separation"),
+        "critical_energy": Variable(
+            "J", "least energy found that leads to lasting separation, by bisection"
+        ),
+        "critical_energy_lower": Variable(
+            "J", "greatest energy below it, in the same direction, that does not"
+        ),
+        "critical_energy_sampled": Variable(
+            "J", "least energy among the starts that come to lasting separation"
+        ),
         "attractor_kind": Variable("1", "what the attractor is", LONG_TERM_OUTCOMES, dims=_KNOWN),
-        "attractor_starts": Variable("1", "number of starts that reach it", dims=_KNOWN, whole=True),
+        "attractor_starts": Variable(
+            "1", "number of starts that reach it", dims=_KNOWN, whole=True
+        ),
         "attractor_range": Variable("m", "range of the slider's height on it", dims=_KNOWN),
         "attractor_separation_rate": Variable("s-1", "separations per second on it", dims=_KNOWN),
-        "attractor_stick_fraction": Variable("1", "share of the time spent sticking on it", dims=_KNOWN),
-        "attractor_separation_fraction": Variable("1", "share of the time spent separated on it", dims=_KNOWN),
-        "attractor_releases": Variable("1", "stick releases in its period, 0 if not periodic", dims=_KNOWN, whole=True),
+        "attractor_stick_fraction": Variable(
+            "1", "share of the time spent sticking on it", dims=_KNOWN
+        ),
+        "attractor_separation_fraction": Variable(
+            "1", "share of the time spent separated on it", dims=_KNOWN
+        ),
+        "attractor_releases": Variable(
+            "1", "stick releases in its period, 0 if not periodic", dims=_KNOWN, whole=True
+        ),
         "attractor_period": Variable("s", "its period, nan if not periodic", dims=_KNOWN),
-        "attractor_growth_rate": Variable("s-1", "growth rate of disturbances of it, if periodic", dims=_KNOWN),
+        "attractor_growth_rate": Variable(
+            "s-1", "growth rate of disturbances of it, if periodic", dims=_KNOWN
+        ),
     }
     COORDINATES: ClassVar = {
         "energy": Coordinate("J", "energy of the kick", lambda o: o.energies),
@@ -92,7 +128,8 @@ class AttractorBasins(Start, Quantity):
         basins = Basins(p, self.horizon, near=self.attractor_tol, tol=self.tol)
 
         def follow(energy: float, i: int, j: int) -> OutcomeResult:
-            """The outcome of a perturbation of any energy in the direction of start i of the j-th energy."""
+            """The outcome of a perturbation of any energy in the direction of start i of the j-th
+            energy."""
             return basins.follow(random_perturbation(p, start, energy, (self.seed, j, i)))
 
         by_start = [[follow(x, i, j) for j, x in energies] for i in range(self.n_starts)]
@@ -108,24 +145,45 @@ class AttractorBasins(Start, Quantity):
             "kind": [[reached.word for reached in row] for row in results],
             "attractor_index": [[numbers[reached.attractor] for reached in row] for row in results],
             "simulated_time": [[reached.simulated for reached in row] for row in results],
-            "lost_contact": [["no" if math.isnan(each.first_separation) else "yes" for each in row] for row in results],
+            "lost_contact": [
+                ["no" if math.isnan(each.first_separation) else "yes" for each in row]
+                for row in results
+            ],
         }
         values |= _shares("basin_fraction_by_energy", results, self.confidence)
-        values |= {name: part for name, (part,) in _shares("basin_fraction", [rows], self.confidence).items()}
-        shown = share(sum(reached.separates for reached in rows), len(rows), confidence=self.confidence)
+        values |= {
+            name: part
+            for name, (part,) in _shares("basin_fraction", [rows], self.confidence).items()
+        }
+        shown = share(
+            sum(reached.separates for reached in rows), len(rows), confidence=self.confidence
+        )
         values |= quantity.with_ends("separating_fraction", shown)
         described: list[dict[str, Any]] = []
         for attractor, count in attractors:
-            facts = {name: getattr(attractor, name) for name in ("kind", "releases", "period", "growth_rate")}
+            facts = {
+                name: getattr(attractor, name)
+                for name in ("kind", "releases", "period", "growth_rate")
+            }
             facts |= {name: getattr(attractor.segment, name) for name in SHOWN} | {"starts": count}
             described.append({f"attractor_{name}": value for name, value in facts.items()})
         values |= self._critical_energy(results, follow) | listed(described)
-        return values, f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}" if failed else ""
+        return (
+            values,
+            f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}"
+            if failed
+            else "",
+        )
 
-    def _critical_energy(self, results: Sequence[Sequence[OutcomeResult]], follow: Follow) -> dict[str, float]:
-        """Bisect the logarithm of the energy in the directions of the separating starts with the lowest energies."""
+    def _critical_energy(
+        self, results: Sequence[Sequence[OutcomeResult]], follow: Follow
+    ) -> dict[str, float]:
+        """Bisect the logarithm of the energy in the directions of the separating starts with the
+        lowest energies."""
         numbered = ((i, j, result) for j, row in enumerate(results) for i, result in enumerate(row))
-        separating = sorted((self.energies[j], i, j) for i, j, result in numbered if result.separates)
+        separating = sorted(
+            (self.energies[j], i, j) for i, j, result in numbered if result.separates
+        )
         if not separating:
             return {}
         least = {"critical_energy_sampled": separating[0][0]}
@@ -133,12 +191,15 @@ class AttractorBasins(Start, Quantity):
             return least
         if follow(0.0, 0, 0).separates:
             return least | {"critical_energy": 0.0}
-        ends = [self._bisected(*first, follow) for first in separating[: self.n_bisection_directions]]
+        ends = [
+            self._bisected(*first, follow) for first in separating[: self.n_bisection_directions]
+        ]
         low, high = min(ends, key=lambda pair: pair[1])
         return least | {"critical_energy_lower": low, "critical_energy": high}
 
     def _bisected(self, first: float, i: int, j: int, follow: Follow) -> tuple[float, float]:
-        """Energies without and with lasting separation, closer to each other than the required precision."""
+        """Energies without and with lasting separation, closer to each other than the required
+        precision."""
         low, high = first / 4, first
         while follow(low, i, j).separates:
             low, high = low / 4, low
@@ -150,7 +211,9 @@ class AttractorBasins(Start, Quantity):
         return low, high
 
 
-def _shares(name: str, results: Sequence[Sequence[OutcomeResult]], confidence: float) -> dict[str, Any]:
+def _shares(
+    name: str, results: Sequence[Sequence[OutcomeResult]], confidence: float
+) -> dict[str, Any]:
     """Fractions of the outcomes in each row, with Wilson intervals: shape (rows, classes)."""
     shares = []
     for row in results:

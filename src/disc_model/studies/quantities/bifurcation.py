@@ -10,7 +10,16 @@ from disc_model.analysis.classify import ANSWER, Motion, Settling, closure, sett
 from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
 from disc_model.errors import require
 from disc_model.simulation.case import Poincare, Start
-from disc_model.studies.quantity import MOST, SIMULATED, STATUS, Coordinate, Point, Quantity, Result, State
+from disc_model.studies.quantity import (
+    MOST,
+    SIMULATED,
+    STATUS,
+    Coordinate,
+    Point,
+    Quantity,
+    Result,
+    State,
+)
 from disc_model.units import Count, Finite, Seconds, Tolerance, Unit
 
 SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
@@ -19,46 +28,67 @@ SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
 class Bifurcation(Start, Quantity):
     """Samples of the motion after a transient, for bifurcation diagrams.
 
-    At events, which are separations if there are any, else releases, a periodic motion shows as many points as its
-    period has events. The transient is doubled there until the motion has settled, up to `max_transient`.
+    At events, which are separations if there are any, else releases, a periodic motion shows as
+    many points as its period has events. The transient is doubled there until the motion has
+    settled, up to `max_transient`.
     """
 
-    section: Literal["stroboscopic", "event"] = "stroboscopic"  # once a turn of the drive, or at events
+    section: Literal["stroboscopic", "event"] = (
+        "stroboscopic"  # once a turn of the drive, or at events
+    )
     tol: Tolerance = 1e-10
     transient: Seconds  # left out
     max_transient: Seconds = 480.0
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
-    theta: Annotated[Finite, Unit("rad")] = 1.0  # the disc's point whose displacement is sampled once a turn
+    theta: Annotated[Finite, Unit("rad")] = (
+        1.0  # the disc's point whose displacement is sampled once a turn
+    )
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {
         "status": STATUS,
         **{name: SERIES[name]._replace(dims=("sample",)) for name in SAMPLED},
-        "phase": Variable("1", "phase of the motion at the sample", ("none", *PHASES), dims=("sample",)),
+        "phase": Variable(
+            "1", "phase of the motion at the sample", ("none", *PHASES), dims=("sample",)
+        ),
         "first_separation": SCALARS["first_separation"],
         "separations": Variable("1", "number of separations, transient included", whole=True),
         "transient_time": Variable("s", "time left out before the samples"),
         "settled": ANSWER,
-        "change_rate": Variable("s-1", "measured rate of change, or growth rate of disturbances of the cycle reached"),
-        "least_rate": Variable("s-1", "least rate of change that the record shows, 0 where multipliers decide"),
+        "change_rate": Variable(
+            "s-1", "measured rate of change, or growth rate of disturbances of the cycle reached"
+        ),
+        "least_rate": Variable(
+            "s-1", "least rate of change that the record shows, 0 where multipliers decide"
+        ),
         "kind": Variable("1", "what the motion has come to, at switches", LONG_TERM_OUTCOMES),
         "period_events": Variable(
-            "1", "number of events after which the motion repeats, 0 if that is not shown", whole=True
+            "1",
+            "number of events after which the motion repeats, 0 if that is not shown",
+            whole=True,
         ),
         "period_residual": Variable(
-            "s", "largest difference between an interval and the one a period later: what is left of the approach"
+            "s",
+            "largest difference between an interval and the one a period later: what is left of the approach",
         ),
         "stick_fraction": Variable(
-            "1", "share of the time spent sticking: at switches on the cycle or in the later half, otherwise of all"
+            "1",
+            "share of the time spent sticking: at switches on the cycle or in the later half, otherwise of all",
         ),
     }
     COORDINATES: ClassVar = {
-        "sample": Coordinate("1", "number of the turn after the transient", lambda o: range(o.samples))
+        "sample": Coordinate(
+            "1", "number of the turn after the transient", lambda o: range(o.samples)
+        )
     }
     cost: ClassVar = lambda o: SIMULATED * (o.transient + o.max_transient / 2)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        return _once_a_turn(point, self) if self.section == "stroboscopic" else _at_switches(point, self)
+        return (
+            _once_a_turn(point, self)
+            if self.section == "stroboscopic"
+            else _at_switches(point, self)
+        )
 
     def state_at(self, point: Point) -> State:
         from disc_model.simulation.api import state_after
@@ -67,7 +97,8 @@ class Bifurcation(Start, Quantity):
 
 
 def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
-    """Sample at t = i 2 pi / Omega after the transient; samples that the run does not reach are missing."""
+    """Sample at t = i 2 pi / Omega after the transient; samples that the run does not reach are
+    missing."""
     from disc_model.simulation.api import make_initial_state, simulate
 
     p = point.parameters
@@ -81,9 +112,14 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     run = simulate(p, end, {"turns": turns}, tol=options.tol, initial_state=start)
     reached, taken = run.final_state.time, run.samples["turns"]
     answer = settling(taken["time"], taken["psi"]) if run.status.complete else Settling()
-    values = _answer(answer) | {name: taken[name] for name in SAMPLED} | {"phase": taken["phase"] + 1}  # 0 is "none"
+    values = (
+        _answer(answer) | {name: taken[name] for name in SAMPLED} | {"phase": taken["phase"] + 1}
+    )  # 0 is "none"
     values |= {"status": run.status.value, "first_separation": run.first_separation}
-    values |= {"separations": int(run.statistics["separations"]), "transient_time": options.transient}
+    values |= {
+        "separations": int(run.statistics["separations"]),
+        "transient_time": options.transient,
+    }
     values["stick_fraction"] = run.statistics["time_stick"] / reached if reached else math.nan
     return values, "" if run.status.complete else f"the simulation ended early: {run.status}"
 
@@ -103,7 +139,11 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
         first = run.first_separation if math.isnan(first) else first
         separations += int(run.statistics["separations"])
         if not run.status.complete:
-            known = {"status": run.status.value, "first_separation": first, "separations": separations}
+            known = {
+                "status": run.status.value,
+                "first_separation": first,
+                "separations": separations,
+            }
             return known, f"the simulation ended early: {run.status}"
         legs.append(run)
         state, reached = run.final_state, arrival(p, legs, options.tol)
@@ -126,8 +166,15 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     elif reached.settled and reached.calm is None:
         motion = regularity(p, state, options.tol)
     shown = taken.iloc[-options.samples :]
-    columns = {"psi": shown["psi"], "psi_velocity": p.Omega - shown["f"], "P": shown["P"], "u": shown["u"]}
-    values: dict[str, Any] = {name: column.to_numpy(dtype=float) for name, column in columns.items()}
+    columns = {
+        "psi": shown["psi"],
+        "psi_velocity": p.Omega - shown["f"],
+        "P": shown["P"],
+        "u": shown["u"],
+    }
+    values: dict[str, Any] = {
+        name: column.to_numpy(dtype=float) for name, column in columns.items()
+    }
     values |= _answer(answer) | {
         "kind": motion.kind, "period_events": motion.period, "period_residual": motion.closure, "status": "ok",
         "phase": ["separation" if kind == "separation" else "stick"] * len(shown), "first_separation": first,
@@ -137,4 +184,8 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
 
 
 def _answer(settling: Settling) -> dict[str, Any]:
-    return {"settled": settling.answer.value, "change_rate": settling.rate, "least_rate": settling.least}
+    return {
+        "settled": settling.answer.value,
+        "change_rate": settling.rate,
+        "least_rate": settling.least,
+    }

@@ -1,8 +1,10 @@
-"""Campbell diagrams: modes of steady sliding and of the stick-slip cycle, and crossings of their frequencies with
-multiples of the stick-slip or rotation frequency, by linear interpolation between two speeds.
+"""Campbell diagrams: modes of steady sliding and of the stick-slip cycle, and crossings of their
+frequencies with multiples of the stick-slip or rotation frequency, by linear interpolation between
+two speeds.
 
-A mode's frequency is that of the cycle's multiplier. Without one of its shape, as in a resonance, it is that of steady
-sliding, with the difference interpolated. The stick-slip frequency is interpolated over speeds without a cycle.
+A mode's frequency is that of the cycle's multiplier. Without one of its shape, as in a resonance,
+it is that of steady sliding, with the difference interpolated. The stick-slip frequency is
+interpolated over speeds without a cycle.
 """
 
 import math
@@ -30,28 +32,44 @@ there and on neither side; there is no cycle; or fewer than three speeds, or an 
 class Campbell(Quantity):
     """Frequencies and growth rates of steady sliding and of the stick-slip cycle."""
 
-    modes: Annotated[Count, Field(ge=1, le=1000)] = 12  # room for that many, the lowest in frequency
-    half_bandwidth: Annotated[Positive, Unit("Hz")] = 1.0  # of the window about a crossing, see `effect_of`
-    min_rise: Annotated[Positive, Unit("1/s")] = 0.01  # of a growth rate within the window, above those at its ends
+    modes: Annotated[Count, Field(ge=1, le=1000)] = (
+        12  # room for that many, the lowest in frequency
+    )
+    half_bandwidth: Annotated[Positive, Unit("Hz")] = (
+        1.0  # of the window about a crossing, see `effect_of`
+    )
+    min_rise: Annotated[Positive, Unit("1/s")] = (
+        0.01  # of a growth rate within the window, above those at its ends
+    )
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100
     tol: CycleTolerance = 1e-12
     over: ClassVar = "Omega"
     COLUMNS: ClassVar = {
         "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
         "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
-        "stick_slip_frequency": Variable("Hz", "releases of stick per second on the stick-slip cycle, f_s"),
+        "stick_slip_frequency": Variable(
+            "Hz", "releases of stick per second on the stick-slip cycle, f_s"
+        ),
         "rotation_frequency": Variable("Hz", "turns of the drive per second, f_Omega"),
-        "mode_kind": _each("1", "what moves most: the disc, or the slider in the disc's plane", KINDS),
+        "mode_kind": _each(
+            "1", "what moves most: the disc, or the slider in the disc's plane", KINDS
+        ),
         "diameters": _each("1", "nodal diameters of the modes with most of the energy", whole=True),
-        "forward_wave_fraction": _each("1", "share of their energy in waves that travel with the slider"),
+        "forward_wave_fraction": _each(
+            "1", "share of their energy in waves that travel with the slider"
+        ),
         "sliding_frequency": _each("Hz", "frequency of steady sliding, in the slider's frame"),
         "sliding_growth_rate": _each("s-1", "growth rate of that mode of steady sliding"),
         "cycle_frequency": _each("Hz", "frequency of the cycle's multiplier that goes to the mode"),
-        "cycle_growth_rate": _each("s-1", "growth rate of the cycle's multipliers that go to the mode"),
+        "cycle_growth_rate": _each(
+            "s-1", "growth rate of the cycle's multipliers that go to the mode"
+        ),
         "mac": _each("1", "how like the shapes of mode and multiplier are: squared cosine"),
     }
     COORDINATES: ClassVar = {
-        "mode": Coordinate("1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1))
+        "mode": Coordinate(
+            "1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1)
+        )
     }
     SUMMARY_COLUMNS: ClassVar = {
         "n_crossings": Variable("1", "number of crossings found", whole=True),
@@ -59,16 +77,24 @@ class Campbell(Quantity):
         "crossing_frequency": _crossing("Hz", "frequency of the crossing"),
         "crossing_mode": _crossing("1", "number of the mode", whole=True),
         "crossing_line": _crossing("1", "what the line is a multiple of", LINES),
-        "crossing_multiple": _crossing("1", "which multiple; half-integer where a period may double"),
-        "crossing_growth_rate": _crossing("s-1", "largest growth rate of the cycle within the window"),
+        "crossing_multiple": _crossing(
+            "1", "which multiple; half-integer where a period may double"
+        ),
+        "crossing_growth_rate": _crossing(
+            "s-1", "largest growth rate of the cycle within the window"
+        ),
         "crossing_rise": _crossing(
             "s-1", "largest rise of a mode's growth rate within the window over that at its ends"
         ),
-        "crossing_growing_mode": _crossing("1", "number of the mode whose growth rate rises most", whole=True),
+        "crossing_growing_mode": _crossing(
+            "1", "number of the mode whose growth rate rises most", whole=True
+        ),
         "crossing_effect": _crossing("1", "what the growth rates do at the crossing", EFFECTS),
     }
     SUMMARY_COORDINATES: ClassVar = {
-        "crossing": Coordinate("1", "number of the crossing", lambda o: range(1, o.max_crossings + 1))
+        "crossing": Coordinate(
+            "1", "number of the crossing", lambda o: range(1, o.max_crossings + 1)
+        )
     }
     cost: ClassVar = lambda o: 1.5 * CYCLE
 
@@ -91,25 +117,41 @@ class Campbell(Quantity):
         # where a rule of the grid leaves some speeds out, an axis ends
         included = flag_names(cell["status"]) != EXCLUDED
         stretches = np.split(np.arange(len(included)), np.flatnonzero(np.diff(included)) + 1)
-        axes = [cell.isel(Omega=stretch).transpose("Omega", ...) for stretch in stretches if included[stretch[0]]]
+        axes = [
+            cell.isel(Omega=stretch).transpose("Omega", ...)
+            for stretch in stretches
+            if included[stretch[0]]
+        ]
         rows = [row for axis in axes for row in crossings(axis, self)]
         rows.sort(key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
         columns = listed(rows[: self.max_crossings])
-        return {"n_crossings": len(rows)} | {f"crossing_{name}": column for name, column in columns.items()}
+        return {"n_crossings": len(rows)} | {
+            f"crossing_{name}": column for name, column in columns.items()
+        }
 
 
 def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
-    """All crossings over ``Omega``, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to that of modes."""
-    growth, leading = cell["cycle_growth_rate"].transpose("Omega", "mode").values, cell["growth_rate"].values
+    """All crossings over ``Omega``, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to
+    that of modes."""
+    growth, leading = (
+        cell["cycle_growth_rate"].transpose("Omega", "mode").values,
+        cell["growth_rate"].values,
+    )
     speeds, turns = cell["Omega"].values, cell["rotation_frequency"].values
     releases = cell["stick_slip_frequency"].interpolate_na("Omega").values
     for i, mode in enumerate(cell["mode"].values):
         of_mode = frequency_of(cell.isel(mode=i))
         if not np.isfinite(of_mode).any():
             continue
-        most = math.floor(2 * np.nanmax(of_mode) / np.nanmin(releases)) + 1 if np.isfinite(releases).any() else 0
+        most = (
+            math.floor(2 * np.nanmax(of_mode) / np.nanmin(releases)) + 1
+            if np.isfinite(releases).any()
+            else 0
+        )
         lines = [("stick_slip", half / 2, half / 2 * releases) for half in range(1, most + 1)]
-        lines += [("rotation", float(l), l * turns) for l in range(1, int(cell["diameters"].max()) + 1)]
+        lines += [
+            ("rotation", float(l), l * turns) for l in range(1, int(cell["diameters"].max()) + 1)
+        ]
         for line, multiple, frequency in lines:
             detuning = of_mode - frequency
             for index in np.flatnonzero(detuning[:-1] * detuning[1:] <= 0):
@@ -129,16 +171,19 @@ def frequency_of(mode: Dataset) -> Array:
     """Frequency of a mode at all speeds, Hz, as the module's docstring describes."""
     sliding = mode["sliding_frequency"].values
     more = mode["cycle_frequency"].values - sliding
-    # From this mac on a multiplier belongs to the mode. A real multiplier, in a resonance, resembles the conjugate as
-    # much, and has 0.5 at most.
+    # From this mac on a multiplier belongs to the mode. A real multiplier, in a resonance,
+    # resembles the conjugate as much, and has 0.5 at most.
     known = np.isfinite(more) & (mode["mac"].values >= 0.75)
     speeds = mode["Omega"].values
     return sliding + np.interp(speeds, speeds[known], more[known]) if known.any() else sliding
 
 
-def effect_of(detuning: Array, index: int, growth: Array, leading: Array, options: Campbell) -> dict[str, Any]:
-    """The effect of a crossing after the speed of an index, as far as it is known, by the growth rates of the modes,
-    shape (speeds, modes), and of the cycle, (speeds,), in the window, compared with those at its ends."""
+def effect_of(
+    detuning: Array, index: int, growth: Array, leading: Array, options: Campbell
+) -> dict[str, Any]:
+    """The effect of a crossing after the speed of an index, as far as it is known, by the growth
+    rates of the modes, shape (speeds, modes), and of the cycle, (speeds,), in the window, compared
+    with those at its ends."""
     outside = np.flatnonzero(~(np.abs(detuning) <= options.half_bandwidth))  # nan lies outside
     first = outside.max(initial=-1, where=outside <= index)
     last = outside.min(initial=len(detuning), where=outside > index)

@@ -1,6 +1,8 @@
-"""Critical speeds: all speeds at which separation within a horizon begins or ends, since there may be several.
+"""Critical speeds: all speeds at which separation within a horizon begins or ends, since there may
+be several.
 
-To extrapolate departures from a cycle would save a quarter of the time, but moves first separations too far.
+To extrapolate departures from a cycle would save a quarter of the time, but moves first separations
+too far.
 """
 
 import math
@@ -13,7 +15,16 @@ from pydantic import AfterValidator, Field
 
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.studies import quantity
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, OutcomeResult, Point, Quantity, Range, along
+from disc_model.studies.quantity import (
+    SIMULATED,
+    STATUS,
+    Coordinate,
+    OutcomeResult,
+    Point,
+    Quantity,
+    Range,
+    along,
+)
 from disc_model.units import Count, Seconds, Speed, Tolerance, Unit
 
 _MULTIPLE = "the scan's step must be a multiple of precision"
@@ -27,7 +38,9 @@ class CriticalSpeed(Quantity):
     tol: Tolerance = 1e-10
     early_end: bool = True  # whether a simulation ends as soon as its outcome is known
     # each has a critical speed of its own, all from the same simulations
-    horizons: Annotated[tuple[Seconds, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))]
+    horizons: Annotated[
+        tuple[Seconds, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))
+    ]
     scan: Annotated[Range, Unit("rad/s")]
     precision: Speed = 0.1  # width of the last interval; the scan's step must be a multiple
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12
@@ -50,10 +63,16 @@ class CriticalSpeed(Quantity):
             "lowest speed computed with separation within the horizon, nan if there is none or one below failed",
         ),
         "n_crossings": _each(
-            "1", "number of speeds found at which separation within the horizon begins or ends", whole=True
+            "1",
+            "number of speeds found at which separation within the horizon begins or ends",
+            whole=True,
         ),
-        "crossing": _crossing("rad s-1", "a speed at which separation begins or ends, upper end of the last interval"),
-        "crossing_kind": _crossing("1", "whether separation begins or ends as the speed rises", KINDS),
+        "crossing": _crossing(
+            "rad s-1", "a speed at which separation begins or ends, upper end of the last interval"
+        ),
+        "crossing_kind": _crossing(
+            "1", "whether separation begins or ends as the speed rises", KINDS
+        ),
         "scan_first_separation": SCALARS["first_separation"]._replace(dims=("scan_Omega",)),
         "scan_status": STATUS._replace(dims=("scan_Omega",)),
         "simulations": Variable("1", "number of simulations", whole=True),
@@ -64,7 +83,9 @@ class CriticalSpeed(Quantity):
         "crossing_number": Coordinate(
             "1", "number of the crossing, as the speed rises", lambda o: range(o.max_crossings)
         ),
-        "scan_Omega": Coordinate("rad s-1", "speed of the drive point, in the scan", lambda o: o.scan.values),
+        "scan_Omega": Coordinate(
+            "rad s-1", "speed of the drive point, in the scan", lambda o: o.scan.values
+        ),
     }
     cost: ClassVar = lambda o: SIMULATED * o.scan.intervals * o.horizons[-1] / 9
 
@@ -91,26 +112,37 @@ class CriticalSpeed(Quantity):
         for i in scanned:
             look(i)
         for horizon in self.horizons:
-            # every interval over which separation within the horizon begins or ends is halved, down to the lattice
+            # every interval over which separation within the horizon begins or ends is halved, down
+            # to the lattice
             while wide := [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]:
                 for i in wide:
                     look(i)
         failed = {i: result for i, result in motions.items() if result.status != "ok"}
-        values: dict[str, Any] = {"status": next((result.status for result in failed.values()), "ok")}
+        values: dict[str, Any] = {
+            "status": next((result.status for result in failed.values()), "ok")
+        }
         values["scan_first_separation"] = [motions[i].first_separation for i in scanned]
         values["scan_status"] = [motions[i].status for i in scanned]
-        values |= {"simulations": len(motions), "simulated_time": sum(x.simulated for x in motions.values())}
+        values |= {
+            "simulations": len(motions),
+            "simulated_time": sum(x.simulated for x in motions.values()),
+        }
         values |= quantity.listed([_crossings(known, horizon, speed) for horizon in self.horizons])
-        return values, "; ".join(f"Omega={speed(i):g}: {result.message}" for i, result in failed.items())
+        return values, "; ".join(
+            f"Omega={speed(i):g}: {result.message}" for i, result in failed.items()
+        )
 
 
 def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
-    """Pairs of neighbours on the lattice of which only one separates within the horizon; nan, unknown, is in none."""
+    """Pairs of neighbours on the lattice of which only one separates within the horizon; nan,
+    unknown, is in none."""
     pairs = ((a, b) for a, b in pairwise(sorted(known)) if not math.isnan(known[a] + known[b]))
     return [(a, b) for a, b in pairs if (known[a] <= horizon) != (known[b] <= horizon)]
 
 
-def _crossings(known: dict[int, float], horizon: float, speed: Callable[[int], float]) -> dict[str, Any]:
+def _crossings(
+    known: dict[int, float], horizon: float, speed: Callable[[int], float]
+) -> dict[str, Any]:
     changes = [b for _, b in _changes(known, horizon)]
     # the lowest speed that separates; an unknown speed hides those above it
     first = next((i for i in sorted(known) if not known[i] > horizon), None)

@@ -1,4 +1,5 @@
-"""The stick-slip cycle near the static start and its stability, from Floquet multipliers instead of simulation."""
+"""The stick-slip cycle near the static start and its stability, from Floquet multipliers instead of
+simulation."""
 
 import math
 from typing import Any, ClassVar
@@ -31,7 +32,11 @@ class Floquet(Quantity):
         from disc_model.stability.cycle import floquet
 
         cycle = floquet(point.parameters, tol=self.tol)
-        leading = complex(cycle.multipliers[0]) if cycle.status is CycleStatus.OK else complex(math.nan, math.nan)
+        leading = (
+            complex(cycle.multipliers[0])
+            if cycle.status is CycleStatus.OK
+            else complex(math.nan, math.nan)
+        )
         values = {
             "status": cycle.status.value, "growth_rate": cycle.growth_rate, "period": cycle.period,
             "stick_fraction": cycle.stick_fraction, "multiplier_re": leading.real, "multiplier_im": leading.imag,

@@ -1,4 +1,5 @@
-"""Hysteresis: a slow sweep of the speed up and down, which continues the motion from speed to speed."""
+"""Hysteresis: a slow sweep of the speed up and down, which continues the motion from speed to
+speed."""
 
 from dataclasses import asdict
 from typing import Annotated, Any, ClassVar
@@ -7,14 +8,24 @@ import numpy as np
 
 from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
-from disc_model.studies.quantity import DIRECTION, SIMULATED, STATUS, STATUSES, Coordinate, Point, Quantity, Range
+from disc_model.studies.quantity import (
+    DIRECTION,
+    SIMULATED,
+    STATUS,
+    STATUSES,
+    Coordinate,
+    Point,
+    Quantity,
+    Range,
+)
 from disc_model.units import Seconds, Tolerance, Unit
 
 _DIMS = ("direction", "sweep_Omega")
 
 
 class Hysteresis(Quantity):
-    """A sweep of the speed up from the static start and down again; each speed continues the motion of the last one."""
+    """A sweep of the speed up from the static start and down again; each speed continues the motion
+    of the last one."""
 
     tol: Tolerance = 1e-10
     scan: Annotated[Range, Unit("rad/s")]
@@ -28,18 +39,28 @@ class Hysteresis(Quantity):
         "status": STATUS,
         "sweep_status": STATUS._replace(dims=_DIMS),
         "sweep_settled": ANSWER._replace(dims=_DIMS),
-        "separation_rate": Variable("s-1", "separations per second at the end of the stay at a speed", dims=_DIMS),
+        "separation_rate": Variable(
+            "s-1", "separations per second at the end of the stay at a speed", dims=_DIMS
+        ),
         "P_min": Variable("N", "least contact force at the end of the stay at a speed", dims=_DIMS),
-        "P_max": Variable("N", "greatest contact force at the end of the stay at a speed", dims=_DIMS),
+        "P_max": Variable(
+            "N", "greatest contact force at the end of the stay at a speed", dims=_DIMS
+        ),
         "stick_fraction": Variable("1", "share of the time spent sticking", dims=_DIMS),
         "slip_fraction": Variable("1", "share of the time spent slipping", dims=_DIMS),
         "separation_fraction": Variable("1", "share of the time spent separated", dims=_DIMS),
-        "onset_speed": Variable("rad s-1", "speed at which separation first is found on the way up"),
-        "offset_speed": Variable("rad s-1", "lowest speed to which it persists without a gap on the way down"),
+        "onset_speed": Variable(
+            "rad s-1", "speed at which separation first is found on the way up"
+        ),
+        "offset_speed": Variable(
+            "rad s-1", "lowest speed to which it persists without a gap on the way down"
+        ),
     }
     COORDINATES: ClassVar = {
         "direction": DIRECTION,
-        "sweep_Omega": Coordinate("rad s-1", "speed of the drive point, in the sweep", lambda o: o.scan.values),
+        "sweep_Omega": Coordinate(
+            "rad s-1", "speed of the drive point, in the sweep", lambda o: o.scan.values
+        ),
     }
     cost: ClassVar = lambda o: SIMULATED * 2 * o.scan.intervals * o.dwell
 
@@ -47,11 +68,18 @@ class Hysteresis(Quantity):
         from disc_model.stability.attractors import sweep
 
         speeds, columns, status, message = self.scan.values, self.COLUMNS.items(), "ok", ""
-        values: dict[str, Any] = {name: column.empty((2, len(speeds))) for name, column in columns if column.dims}
+        values: dict[str, Any] = {
+            name: column.empty((2, len(speeds))) for name, column in columns if column.dims
+        }
         times = self.dwell, self.max_dwell, self.evaluation_time
-        for index, result, late, reached in sweep(point.parameters, "Omega", speeds, *times, self.tol):
+        for index, result, late, reached in sweep(
+            point.parameters, "Omega", speeds, *times, self.tol
+        ):
             if late is None:
-                status, message = result.status.value, f"Omega={speeds[index[1]]:g}: {result.message}"
+                status, message = (
+                    result.status.value,
+                    f"Omega={speeds[index[1]]:g}: {result.message}",
+                )
             values["sweep_status"][index] = STATUSES.index(status)
             values["sweep_settled"][index] = ANSWER.flags.index(reached.settling.answer)
             stretch = asdict(late) if late else {}

@@ -22,20 +22,32 @@ class Lyapunov(Start, Quantity):
     transient: Seconds  # left out
     duration: Seconds  # averaging time of the rates
     exponents: Annotated[Count, Field(ge=1, le=7)] = 2
-    interval: Seconds = 0.05  # between orthonormalisations; exponents below -400/s need a shorter one
+    interval: Seconds = (
+        0.05  # between orthonormalisations; exponents below -400/s need a shorter one
+    )
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {
         "status": STATUS,
-        "exponent": _each("s-1", "Lyapunov exponent, the one along the motion left out; -inf where changes vanish"),
-        "exponent_error": _each("s-1", "the larger of its standard error and the difference between both halves"),
-        "converged": _each("1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED),
-        "trivial_exponent": Variable("s-1", "exponent along the motion: 0 but for what the time is too short for"),
+        "exponent": _each(
+            "s-1", "Lyapunov exponent, the one along the motion left out; -inf where changes vanish"
+        ),
+        "exponent_error": _each(
+            "s-1", "the larger of its standard error and the difference between both halves"
+        ),
+        "converged": _each(
+            "1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED
+        ),
+        "trivial_exponent": Variable(
+            "s-1", "exponent along the motion: 0 but for what the time is too short for"
+        ),
         "averaging_time": Variable("s", "time over which the rates are averaged"),
         "separations": Variable("1", "number of separations in that time", whole=True),
     }
     COORDINATES: ClassVar = {
-        "exponent_number": Coordinate("1", "number of the exponent, largest first", lambda o: range(o.exponents))
+        "exponent_number": Coordinate(
+            "1", "number of the exponent, largest first", lambda o: range(o.exponents)
+        )
     }
     cost: ClassVar = lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration)
 
@@ -47,8 +59,14 @@ class Lyapunov(Start, Quantity):
             start = self.state_at(point)
         except SimulationError as error:
             return {"status": STATUS_OF[type(error)].value}, str(error)
-        how: dict[str, Any] = {"count": self.exponents, "interval": self.interval, "leave_out_trivial": True}
-        result = lyapunov_exponents(point.parameters, self.duration, initial_state=start, tol=self.tol, **how)
+        how: dict[str, Any] = {
+            "count": self.exponents,
+            "interval": self.interval,
+            "leave_out_trivial": True,
+        }
+        result = lyapunov_exponents(
+            point.parameters, self.duration, initial_state=start, tol=self.tol, **how
+        )
         known = np.isfinite(result.exponents)
         values = {
             "status": result.status.value, "exponent": result.exponents, "exponent_error": result.errors,

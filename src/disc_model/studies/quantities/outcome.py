@@ -1,4 +1,5 @@
-"""Outcome of one simulation within a horizon: the motion stays quiet, grows in contact, or separates."""
+"""Outcome of one simulation within a horizon: the motion stays quiet, grows in contact, or
+separates."""
 
 from dataclasses import asdict
 from typing import Any, ClassVar
@@ -8,7 +9,15 @@ import numpy as np
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Outcome, Variable
 from disc_model.simulation.case import Start
 from disc_model.studies import quantity
-from disc_model.studies.quantity import STATUS, OutcomeResult, Point, Quantity, Result, Segment, State
+from disc_model.studies.quantity import (
+    STATUS,
+    OutcomeResult,
+    Point,
+    Quantity,
+    Result,
+    Segment,
+    State,
+)
 from disc_model.units import Seconds, Tolerance
 
 _TIMES = "evaluation_time must be <= after_separation and <= horizon"
@@ -29,17 +38,31 @@ class HorizonOutcome(Start, Quantity):
     motion: ClassVar = quantity.COME_TO
     COLUMNS: ClassVar = {
         "status": STATUS,
-        "outcome": Variable("1", "what the motion comes to, or whether it separates", OUTCOMES_TO_HORIZON),
+        "outcome": Variable(
+            "1", "what the motion comes to, or whether it separates", OUTCOMES_TO_HORIZON
+        ),
         "first_separation": SCALARS["first_separation"],
-        "settling_time": Variable("s", "time at which the motion was left because it had settled, nan if it was not"),
+        "settling_time": Variable(
+            "s", "time at which the motion was left because it had settled, nan if it was not"
+        ),
         "time_reached": SCALARS["time_reached"],
-        "cycle_distance": Variable("1", "relative distance from the cycle where the motion was left for it"),
-        "return_map_residual": Variable("1", "relative difference of successive cycles at the last probe"),
-        "return_map_residual_rate": Variable("s-1", "growth rate of that difference over the last probes"),
+        "cycle_distance": Variable(
+            "1", "relative distance from the cycle where the motion was left for it"
+        ),
+        "return_map_residual": Variable(
+            "1", "relative difference of successive cycles at the last probe"
+        ),
+        "return_map_residual_rate": Variable(
+            "s-1", "growth rate of that difference over the last probes"
+        ),
         "P_min": Variable("N", "least contact force over the late stretch"),
         "P_max": Variable("N", "greatest contact force over the late stretch"),
-        "u_min": Variable("m", "lowest position of the slider over the late stretch, from static equilibrium"),
-        "u_max": Variable("m", "highest position of the slider over the late stretch, from static equilibrium"),
+        "u_min": Variable(
+            "m", "lowest position of the slider over the late stretch, from static equilibrium"
+        ),
+        "u_max": Variable(
+            "m", "highest position of the slider over the late stretch, from static equilibrium"
+        ),
         "stick_fraction": Variable("1", "share of the late stretch spent sticking"),
         "slip_fraction": Variable("1", "share of the late stretch spent slipping"),
         "separation_fraction": Variable("1", "share of the late stretch spent separated"),
@@ -76,19 +99,32 @@ class HorizonOutcome(Start, Quantity):
         return state
 
 
-def _late(point: Point, options: HorizonOutcome) -> tuple[OutcomeResult, Result | None, Segment | None]:
+def _late(
+    point: Point, options: HorizonOutcome
+) -> tuple[OutcomeResult, Result | None, Segment | None]:
     """The outcome, the run beyond it, if any, and the late stretch."""
     from disc_model.simulation.api import make_initial_state
     from disc_model.stability.outcome import final_segment, find_outcome
 
     p, length = point.parameters, options.evaluation_time
     start = make_initial_state(p, point.start, options.tol)
-    how: dict[str, Any] = {"tol": options.tol, "furthest": 0.0, "early": options.early_end, "late": length}
+    how: dict[str, Any] = {
+        "tol": options.tol,
+        "furthest": 0.0,
+        "early": options.early_end,
+        "late": length,
+    }
     reached = find_outcome(p, options.horizon, start=start, **how)
     if reached.outcome is Outcome.SEPARATION:
-        return reached, *final_segment(p, reached.state, options.after_separation, length, options.tol)
+        return reached, *final_segment(
+            p, reached.state, options.after_separation, length, options.tol
+        )
     if reached.outcome is None or reached.segment is not None:
         return reached, None, reached.segment
     # a stable cycle is known exactly; elsewhere the motion is steady
-    on = reached.near.cycle.state if reached.near is not None and reached.near.cycle.stable else reached.state
+    on = (
+        reached.near.cycle.state
+        if reached.near is not None and reached.near.cycle.stable
+        else reached.state
+    )
     return reached, *final_segment(p, on, length, length, options.tol)

@@ -1,4 +1,5 @@
-"""Speed ramps up and down as on a test rig: speeds at which separation begins and ends, against the ramp's rate."""
+"""Speed ramps up and down as on a test rig: speeds at which separation begins and ends, against the
+ramp's rate."""
 
 import math
 from typing import Annotated, Any, ClassVar
@@ -6,7 +7,17 @@ from typing import Annotated, Any, ClassVar
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Ramp
 from disc_model.studies import quantity
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, Range, Result, State, along
+from disc_model.studies.quantity import (
+    SIMULATED,
+    STATUS,
+    Coordinate,
+    Point,
+    Quantity,
+    Range,
+    Result,
+    State,
+    along,
+)
 from disc_model.units import Seconds, Speed, Tolerance, Unit
 
 _each = along("rate")
@@ -21,19 +32,31 @@ class Ramps(Quantity):
     rates: Annotated[Range, Unit("rad/s^2")]
     dwell: Seconds = 60.0  # at the highest speed, and at the lowest one at the end
 
-    _rules = ((lambda o: o.low < o.high, "low must be < high"), (lambda o: o.rates.start > 0, "rates must be > 0"))
+    _rules = (
+        (lambda o: o.low < o.high, "low must be < high"),
+        (lambda o: o.rates.start > 0, "rates must be > 0"),
+    )
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {
         "status": STATUS,
         "rate_status": STATUS._replace(dims=("rate",)),
-        "onset_speed": _each("rad s-1", "speed at the first separation on the way up, nan if there is none"),
-        "top_separation_rate": _each("s-1", "separations per second over the stay at the highest speed"),
+        "onset_speed": _each(
+            "rad s-1", "speed at the first separation on the way up, nan if there is none"
+        ),
+        "top_separation_rate": _each(
+            "s-1", "separations per second over the stay at the highest speed"
+        ),
         "offset_speed": _each(
-            "rad s-1", "speed at the last separation on the way down, nan if there is none, or it continues"
+            "rad s-1",
+            "speed at the last separation on the way down, nan if there is none, or it continues",
         ),
     }
-    COORDINATES: ClassVar = {"rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)}
-    cost: ClassVar = lambda o: SIMULATED * sum(2 * ((o.high - o.low) / rate + o.dwell) for rate in o.rates.values)
+    COORDINATES: ClassVar = {
+        "rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)
+    }
+    cost: ClassVar = lambda o: (
+        SIMULATED * sum(2 * ((o.high - o.low) / rate + o.dwell) for rate in o.rates.values)
+    )
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         rows: list[dict[str, Any]] = []
@@ -47,7 +70,8 @@ class Ramps(Quantity):
 
 
 def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], Result | None]:
-    """Columns, as far as they are known, of one run, with a dwell at both speeds, and its part that failed, if any."""
+    """Columns, as far as they are known, of one run, with a dwell at both speeds, and its part that
+    failed, if any."""
     from disc_model.engine.event_loop import EVENT_ROW, LOSS_OF_CONTACT
     from disc_model.simulation.api import simulate
 

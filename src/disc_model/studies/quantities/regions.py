@@ -1,4 +1,5 @@
-"""Outcome of the static start over two parameters, refined at borders, and the cycle at every point."""
+"""Outcome of the static start over two parameters, refined at borders, and the cycle at every
+point."""
 
 from collections.abc import Sequence
 from typing import Annotated, Any, ClassVar
@@ -20,13 +21,17 @@ class Regions(Quantity):
 
     tol: Tolerance = 1e-8
     horizon: Seconds
-    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8  # side of a first cell, in intervals of the grid
+    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = (
+        8  # side of a first cell, in intervals of the grid
+    )
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
     tiled: ClassVar = True
     COLUMNS: ClassVar = {
         "status": STATUS,
-        "outcome": Variable("1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON),
+        "outcome": Variable(
+            "1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON
+        ),
         "method": Variable(
             "1",
             "how the outcome is known; inferred: like that cell's corners; settled: in contact, before the horizon",
@@ -34,14 +39,24 @@ class Regions(Quantity):
         ),
         "first_separation": SCALARS["first_separation"],
         "simulated_time": Variable("s", "simulated time"),
-        "cycle": Variable("1", "whether the static start follows the cycle found; without one, what it does", CYCLES),
-        "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle that the static start follows"),
+        "cycle": Variable(
+            "1",
+            "whether the static start follows the cycle found; without one, what it does",
+            CYCLES,
+        ),
+        "growth_rate": Variable(
+            "s-1", "growth rate of disturbances of the cycle that the static start follows"
+        ),
         "period": Variable("s", "period of the cycle"),
         "releases": Variable("1", "number of stick releases in its period", whole=True),
-        "period_ratio": Variable("1", "period of the cycle over that of the lowest mode of disc and slider at rest"),
+        "period_ratio": Variable(
+            "1", "period of the cycle over that of the lowest mode of disc and slider at rest"
+        ),
         "branch_continues_first": Variable("1", f"{_CONTINUES} first dimension", JOINED),
         "branch_continues_second": Variable("1", f"{_CONTINUES} second dimension", JOINED),
-        "other_cycles": Variable("1", "number of other cycles known, followed from neighbours", whole=True),
+        "other_cycles": Variable(
+            "1", "number of other cycles known, followed from neighbours", whole=True
+        ),
     }
     cost: ClassVar = lambda o: WORK
 
@@ -51,13 +66,23 @@ class Regions(Quantity):
 
         p = point.parameters
         result = find_outcome(p, self.horizon, tol=self.tol)
-        if result.near is not None and result.near.cycle.stable and result.near.cycle.state is not None:
+        if (
+            result.near is not None
+            and result.near.cycle.stable
+            and result.near.cycle.state is not None
+        ):
             return result.near.cycle.state
         # to the horizon, or to what the separation leads to
         end = self.horizon if result.state is None else result.state.time + 5.0
-        return simulate(p, end, tol=self.tol, initial_state=result.state).raise_for_status().final_state
+        return (
+            simulate(p, end, tol=self.tol, initial_state=result.state)
+            .raise_for_status()
+            .final_state
+        )
 
-    def compute_tile(self, points: Sequence[Sequence[Made]], sampled: Sequence[tuple[int, int]]) -> list[list[Any]]:
+    def compute_tile(
+        self, points: Sequence[Sequence[Made]], sampled: Sequence[tuple[int, int]]
+    ) -> list[list[Any]]:
         """Rows and messages of a tile, of which at least the places `sampled` are computed."""
         from disc_model.studies.refinement import Tile
 

@@ -1,6 +1,8 @@
-"""Sensitivity: the stick-slip cycle at samples of distributed parameters, from one scrambled Sobol' sequence.
+"""Sensitivity: the stick-slip cycle at samples of distributed parameters, from one scrambled Sobol'
+sequence.
 
-Wilson intervals assume independent samples. A failed one counts as stable at the lower end, as unstable at the upper.
+Wilson intervals assume independent samples. A failed one counts as stable at the lower end, as
+unstable at the upper.
 """
 
 from collections.abc import Iterator, Mapping
@@ -18,8 +20,28 @@ from disc_model.data.variables import EXCLUDED, SAMPLE, SCALARS, STABLE_CYCLES, 
 from disc_model.errors import Fault, ParameterError, as_text, suggestion
 from disc_model.parameters import DEFAULTS, RELATED, Disc, Parameters, case_of
 from disc_model.studies import quantity
-from disc_model.studies.quantity import NUMBERS, STATUS, Blocks, Coordinate, Dataset, Point, Quantity, Row, Ruled, tried
-from disc_model.units import Count, CycleTolerance, Finite, Positive, Seconds, Tolerance, Units, is_number
+from disc_model.studies.quantity import (
+    NUMBERS,
+    STATUS,
+    Blocks,
+    Coordinate,
+    Dataset,
+    Point,
+    Quantity,
+    Row,
+    Ruled,
+    tried,
+)
+from disc_model.units import (
+    Count,
+    CycleTolerance,
+    Finite,
+    Positive,
+    Seconds,
+    Tolerance,
+    Units,
+    is_number,
+)
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
 FAILED = "failed"
@@ -36,21 +58,29 @@ class Uniform(Ruled):
     """A uniform distribution: all values from `low` to `high` are equally likely."""
 
     distribution: Literal["uniform"]
-    relative: bool = False  # whether the numbers are multiples of the parameter's own value at the point
+    relative: bool = (
+        False  # whether the numbers are multiples of the parameter's own value at the point
+    )
     low: Finite
     high: Finite
 
-    _rules: ClassVar[quantity.Rules] = ((lambda d: d.low < d.high, "low={0.low:g} must be < high={0.high:g}"),)
+    _rules: ClassVar[quantity.Rules] = (
+        (lambda d: d.low < d.high, "low={0.low:g} must be < high={0.high:g}"),
+    )
 
 
 class TruncatedNormal(Uniform):
-    """A normal distribution, restricted to values from `low` to `high`; mean and deviation are those of the whole."""
+    """A normal distribution, restricted to values from `low` to `high`; mean and deviation are
+    those of the whole."""
 
     distribution: Literal["truncated_normal"]  # type: ignore[assignment]
     mean: Finite
     deviation: Positive
 
-    _rules = (*Uniform._rules, (lambda d: max(d.low - d.mean, d.mean - d.high) <= FARTHEST * d.deviation, _FAR))
+    _rules = (
+        *Uniform._rules,
+        (lambda d: max(d.low - d.mean, d.mean - d.high) <= FARTHEST * d.deviation, _FAR),
+    )
 
 
 Distribution = Annotated[Uniform | TruncatedNormal, Field(discriminator="distribution")]
@@ -59,18 +89,24 @@ Distribution = Annotated[Uniform | TruncatedNormal, Field(discriminator="distrib
 
 
 def _with_interval(name: str, words: str) -> dict[str, Variable]:
-    return quantity.with_ends(name, (Variable("1", words + end) for end in ("", ", lower end", ", upper end")))
+    return quantity.with_ends(
+        name, (Variable("1", words + end) for end in ("", ", lower end", ", upper end"))
+    )
 
 
 class Sensitivity(Quantity):
-    """The stick-slip cycle at samples of uncertain parameters, and the outcome of the static start."""
+    """The stick-slip cycle at samples of uncertain parameters, and the outcome of the static
+    start."""
 
-    # by parameter, or by number of a mode of a disc, such as omega_2_0 for two nodal diameters and no circle
+    # by parameter, or by number of a mode of a disc, such as omega_2_0 for two nodal diameters and
+    # no circle
     distributions: Annotated[dict[str, Distribution], Field(min_length=1)]
     # the grid contains it: the result of a sample depends only on the seed and on its own number
     samples: Annotated[Count, Field(ge=2, le=2**16, exclude=True)] = 64
     seed: Annotated[Count, Field(ge=0)] = 0
-    simulated_samples: Annotated[Count, Field(ge=0)] = 0  # the first ones, whose motion is simulated as well
+    simulated_samples: Annotated[Count, Field(ge=0)] = (
+        0  # the first ones, whose motion is simulated as well
+    )
     horizon: Seconds = 500.0
     tol: CycleTolerance = 1e-12  # of the cycles
     motion_tol: Tolerance = 1e-10
@@ -80,26 +116,42 @@ class Sensitivity(Quantity):
         raw = data.get("distributions")
         names = map(str, raw if isinstance(raw, Mapping) else ())
         of_modes = {name: "rad/s" for name in names if name.startswith("omega_")}
-        return super()._units(data) | {"distributions": {name: Parameters.unit(name) for name in NUMBERS} | of_modes}
+        return super()._units(data) | {
+            "distributions": {name: Parameters.unit(name) for name in NUMBERS} | of_modes
+        }
 
-    _rules = ((lambda o: o.samples & (o.samples - 1) == 0, "samples={0.samples} must be a power of two"),)
+    _rules = (
+        (lambda o: o.samples & (o.samples - 1) == 0, "samples={0.samples} must be a power of two"),
+    )
     over: ClassVar = SAMPLE
     COLUMNS: ClassVar = {
         "status": STATUS,
-        "parameter_values": Variable("", "values of the distributed parameters, SI units", dims=("parameter",)),
+        "parameter_values": Variable(
+            "", "values of the distributed parameters, SI units", dims=("parameter",)
+        ),
         "cycle": Variable("1", "class of the cycle near the static start", SAMPLE_CYCLES),
-        "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle, nan without one"),
-        "outcome": Variable("1", "what becomes of the static start within the horizon", SAMPLE_OUTCOMES),
+        "growth_rate": Variable(
+            "s-1", "growth rate of disturbances of the stick-slip cycle, nan without one"
+        ),
+        "outcome": Variable(
+            "1", "what becomes of the static start within the horizon", SAMPLE_OUTCOMES
+        ),
         "first_separation": SCALARS["first_separation"],
     }
-    COORDINATES: ClassVar = {"parameter": Coordinate("", "distributed parameter", lambda o: sorted(o.distributions))}
+    COORDINATES: ClassVar = {
+        "parameter": Coordinate("", "distributed parameter", lambda o: sorted(o.distributions))
+    }
     SUMMARY_COLUMNS: ClassVar = {
         "n_known_cycles": Variable("1", "number of samples whose cycle is known", whole=True),
         "n_known_outcomes": Variable("1", "number of samples whose outcome is known", whole=True),
-        **_with_interval("probability_unstable", "probability that the static start is near no stable motion"),
+        **_with_interval(
+            "probability_unstable", "probability that the static start is near no stable motion"
+        ),
         **_with_interval("probability_separation", "probability of separation within the horizon"),
     }
-    cost: ClassVar = lambda o: quantity.CYCLE + quantity.SIMULATED * o.horizon / 4 * (o.simulated_samples > 0)
+    cost: ClassVar = lambda o: (
+        quantity.CYCLE + quantity.SIMULATED * o.horizon / 4 * (o.simulated_samples > 0)
+    )
 
     @property
     def dimensions(self) -> Mapping[str, Blocks]:
@@ -110,14 +162,21 @@ class Sensitivity(Quantity):
         return {SAMPLE: tuple(tuple(range(*block)) for block in pairwise(ends))}
 
     def faults(self, grid: Any) -> Iterator[Fault]:
-        """Distributions must be of numbers, of no parameter that varies otherwise, and within valid values."""
-        path, faults = ("options", "distributions"), dict[str, Fault]()  # the first one of each name
+        """Distributions must be of numbers, of no parameter that varies otherwise, and within valid
+        values."""
+        path, faults = (
+            ("options", "distributions"),
+            dict[str, Fault](),
+        )  # the first one of each name
         first = next(grid.points_along(grid.dims))
         for point in grid.points_of([*self.distributions, *RELATED]):
             case = case_of({**grid.base, **first, **point}, grid.discs)
             own = _own_values(case)
             for name, distribution in self.distributions.items():
-                nominal, varies = own.get(name), name in grid.varied or (name not in NUMBERS and "disc" in grid.varied)
+                nominal, varies = (
+                    own.get(name),
+                    name in grid.varied or (name not in NUMBERS and "disc" in grid.varied),
+                )
                 if name not in NUMBERS and (name not in own or name in DEFAULTS):
                     rule = f"must be of a parameter that is a number{suggestion(name, NUMBERS)}"
                 elif varies and not distribution.relative:
@@ -134,7 +193,8 @@ class Sensitivity(Quantity):
         yield from faults.values()
 
     def _out_of_reach(self, case: Mapping[str, Any], own: Mapping[str, Any]) -> Iterator[Fault]:
-        """Rules broken by an end of a distribution at a point; rules between parameters are tested at all corners."""
+        """Rules broken by an end of a distribution at a point; rules between parameters are tested
+        at all corners."""
         p, ends = Parameters(**case), dict[str, list[float]]()
         for name, distribution in self.distributions.items():
             scale = own[name] if distribution.relative else 1.0
@@ -142,7 +202,10 @@ class Sensitivity(Quantity):
         related = [name for name in ends if name in RELATED]
         for side, corner in product((0, 1), product(*(ends[name] for name in related))):
             try:
-                p.replace(**{name: pair[side] for name, pair in ends.items()} | dict(zip(related, corner, strict=True)))
+                p.replace(
+                    **{name: pair[side] for name, pair in ends.items()}
+                    | dict(zip(related, corner, strict=True))
+                )
             except ParameterError as error:
                 yield from error.faults  # type: ignore[misc]
 
@@ -151,7 +214,10 @@ class Sensitivity(Quantity):
         own = _own_values(dict(p))
         block, row = divmod(point.sample, BLOCK)
         draws = zip(names, unit_draws(self.seed, len(names), block)[row], strict=True)
-        drawn = [quantile(self.distributions[name], float(own[name]), float(draw)) for name, draw in draws]
+        drawn = [
+            quantile(self.distributions[name], float(own[name]), float(draw))
+            for name, draw in draws
+        ]
         p = p.replace(**dict(zip(names, drawn, strict=True)))
         cycle, message = tried("cycle", evaluate, p, self.tol)
         outcome: tuple[Row, str] = {"outcome": "not_simulated"}, ""
@@ -167,11 +233,17 @@ class Sensitivity(Quantity):
         cycles, outcomes = flag_names(cell["cycle"]), flag_names(cell["outcome"])
         outcomes = outcomes[outcomes != "not_simulated"]
         values: dict[str, Any] = {}
-        of_cycles, of_outcomes = ("unstable", cycles, UNSTABLE), ("separation", outcomes, ("separation",))
+        of_cycles, of_outcomes = (
+            ("unstable", cycles, UNSTABLE),
+            ("separation", outcomes, ("separation",)),
+        )
         for counted, (name, words, hit) in {"cycles": of_cycles, "outcomes": of_outcomes}.items():
             known = words[words != FAILED]
             chance = share(int(np.isin(known, hit).sum()), len(known), len(words) - len(known))
-            values |= {f"n_known_{counted}": len(known), **quantity.with_ends(f"probability_{name}", chance)}
+            values |= {
+                f"n_known_{counted}": len(known),
+                **quantity.with_ends(f"probability_{name}", chance),
+            }
         return values
 
 
@@ -200,11 +272,17 @@ def quantile(distribution: Distribution, nominal: float, share: float) -> float:
     """Quantile of a parameter's distribution, which may be relative to the point's own value."""
     from scipy.special import ndtr, ndtri
 
-    scale, low, high = nominal if distribution.relative else 1.0, distribution.low, distribution.high
+    scale, low, high = (
+        nominal if distribution.relative else 1.0,
+        distribution.low,
+        distribution.high,
+    )
     if not isinstance(distribution, TruncatedNormal):
         return float(scale * (low + share * (high - low)))
     first, last = (ndtr((end - distribution.mean) / distribution.deviation) for end in (low, high))
-    value = distribution.mean + distribution.deviation * float(ndtri(first + share * (last - first)))
+    value = distribution.mean + distribution.deviation * float(
+        ndtri(first + share * (last - first))
+    )
     # rounding must not exceed the ends
     return float(scale * min(max(value, low), high))
 
@@ -217,7 +295,10 @@ def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
 
     cycle = floquet(p, tol=tol)
     word = cycle.motion if cycle.motion in SAMPLE_CYCLES else FAILED
-    return {"cycle": word, "growth_rate": cycle.growth_rate}, cycle.message if word == FAILED else ""
+    return {
+        "cycle": word,
+        "growth_rate": cycle.growth_rate,
+    }, cycle.message if word == FAILED else ""
 
 
 def _followed(p: Parameters, options: Sensitivity) -> tuple[Row, str]:

@@ -1,4 +1,5 @@
-"""Complex eigenvalues: frequencies, growth rates and damping of the modes of steady sliding along one parameter."""
+"""Complex eigenvalues: frequencies, growth rates and damping of the modes of steady sliding along
+one parameter."""
 
 from typing import Annotated, Any, ClassVar
 
@@ -16,7 +17,9 @@ class Sliding(Quantity):
 
     parameter: Free = "Omega"  # with mu_k, mu_s rises where that is larger
     scan: Annotated[Range, Unit(of="parameter")]
-    modes: Annotated[Count, Field(ge=1, le=2000)] = 24  # room for that many, numbered by frequency at the first value
+    modes: Annotated[Count, Field(ge=1, le=2000)] = (
+        24  # room for that many, numbered by frequency at the first value
+    )
     scans: ClassVar = ("parameter",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -26,13 +29,23 @@ class Sliding(Quantity):
         "frequency": Variable("Hz", "frequency of the mode in the slider's frame", dims=_EACH),
         "mode_growth_rate": Variable("s-1", "growth rate of the mode", dims=_EACH),
         "damping_ratio": Variable("1", "damping ratio of the mode", dims=_EACH),
-        "diameters": Variable("1", "nodal diameters of most energy, -1 in the plane", dims=_EACH, whole=True),
-        "forward_wave_fraction": Variable("1", "share of energy in waves that travel with the slider", dims=_EACH),
-        "mac": Variable("1", "likeness to the mode at the value before: squared cosine of the shapes", dims=_EACH),
+        "diameters": Variable(
+            "1", "nodal diameters of most energy, -1 in the plane", dims=_EACH, whole=True
+        ),
+        "forward_wave_fraction": Variable(
+            "1", "share of energy in waves that travel with the slider", dims=_EACH
+        ),
+        "mac": Variable(
+            "1",
+            "likeness to the mode at the value before: squared cosine of the shapes",
+            dims=_EACH,
+        ),
     }
     COORDINATES: ClassVar = {
         "value": Coordinate("", "{0.parameter}", lambda o: o.scan.values),
-        "mode": Coordinate("1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1)),
+        "mode": Coordinate(
+            "1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1)
+        ),
     }
     cost: ClassVar = lambda o: 3e-3 * (o.scan.intervals + 1)
 
@@ -43,7 +56,11 @@ class Sliding(Quantity):
         least = {"mu_s": max(p.mu_s, values[-1])} if self.parameter == "mu_k" else {}
         followed = follow_modes([p.replace(**{self.parameter: value}, **least) for value in values])
         shape, message = (len(values), self.modes), ""
-        columns = {name: column.empty(shape) for name, column in self.COLUMNS.items() if column.dims == _EACH}
+        columns = {
+            name: column.empty(shape)
+            for name, column in self.COLUMNS.items()
+            if column.dims == _EACH
+        }
         rows = []
         for i, (sliding, modes, numbers, mac) in enumerate(followed):
             room = numbers < self.modes
@@ -54,7 +71,10 @@ class Sliding(Quantity):
             }  # fmt: skip
             for name, column in row.items():
                 columns[name][i, numbers[room]] = column[room]
-            of_value = {"unstable_modes": sliding.growing.size, "contact_force": sliding.contact_force}
+            of_value = {
+                "unstable_modes": sliding.growing.size,
+                "contact_force": sliding.contact_force,
+            }
             rows.append(of_value | {"largest_growth_rate": sliding.growth_rate})
             if sliding.status is not SlidingStatus.OK:
                 message = message or f"{self.parameter}={values[i]:g}: {sliding.message}"

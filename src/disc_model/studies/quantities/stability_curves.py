@@ -6,7 +6,17 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field
 
 from disc_model.data.variables import Variable
-from disc_model.studies.quantity import STATUS, WORK, Coordinate, Free, Point, Quantity, Range, along, listed
+from disc_model.studies.quantity import (
+    STATUS,
+    WORK,
+    Coordinate,
+    Free,
+    Point,
+    Quantity,
+    Range,
+    along,
+    listed,
+)
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Unit
 
 KINDS = ("none", "neutral", "fold")
@@ -21,7 +31,9 @@ class StabilityCurves(Quantity):
     y: Free = "N"
     x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]  # from, to
     y_lines: Annotated[Range, Unit(of="y")]  # cycles are searched for along these lines
-    margin: Annotated[Real, Field(ge=0, le=1)] = 0.0  # fraction of the range of y by which curves may leave it
+    margin: Annotated[Real, Field(ge=0, le=1)] = (
+        0.0  # fraction of the range of y by which curves may leave it
+    )
     points: Annotated[Count, Field(ge=2, le=10_000)] = 31  # of the search, along each line
     max_step: Positive = 0.1  # arclength of the longest step along a curve
     max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100  # of a curve, in each direction
@@ -36,8 +48,12 @@ class StabilityCurves(Quantity):
     COLUMNS: ClassVar = {
         "status": STATUS,
         "n_curves": Variable("1", "number of curves found", whole=True),
-        "n_continuation_failures": Variable("1", "number of places at which a curve could not be followed", whole=True),
-        "kind": _one("1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS),
+        "n_continuation_failures": Variable(
+            "1", "number of places at which a curve could not be followed", whole=True
+        ),
+        "kind": _one(
+            "1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS
+        ),
         "x": _each("", "first parameter along the curve, SI units"),
         "y": _each("", "second parameter along the curve, SI units"),
         "adjoins_stable_cycle": _each("1", "whether the cycle is stable on one side", SIDES),
@@ -48,11 +64,15 @@ class StabilityCurves(Quantity):
         "resonance_frequency": _one("Hz", "f of that resonance, of a mode at rest"),
         "resonance_diameters": _one("1", "l of that resonance", whole=True),
         "resonance_sign": _one("1", "s of that resonance, -1, 0 or 1", whole=True),
-        "resonance_detuning": _one("Hz", "how far the cycle at the curve's middle is from that resonance"),
+        "resonance_detuning": _one(
+            "Hz", "how far the cycle at the curve's middle is from that resonance"
+        ),
     }
     COORDINATES: ClassVar = {
         "curve": Coordinate("1", "number of the curve", lambda o: range(o.max_curves)),
-        "curve_point": Coordinate("1", "number of the point along the curve", lambda o: range(2 * o.max_points)),
+        "curve_point": Coordinate(
+            "1", "number of the point along the curve", lambda o: range(2 * o.max_points)
+        ),
     }
     cost: ClassVar = lambda o: WORK
 
@@ -62,13 +82,27 @@ class StabilityCurves(Quantity):
         lines = self.y_lines
         margin = self.margin * (lines.stop - lines.start)
         bounds = {self.x: self.x_range, self.y: (lines.start - margin, lines.stop + margin)}
-        how: dict[str, Any] = {"points": self.points, "max_points": self.max_points, "longest": self.max_step}
+        how: dict[str, Any] = {
+            "points": self.points,
+            "max_points": self.max_points,
+            "longest": self.max_step,
+        }
         curves = neutral_curves(point.parameters, bounds, lines.values, tol=self.tol, **how)
         rows = []
-        for curve in sorted(curves, key=lambda curve: -len(curve.period)):  # the array holds the longest curve
-            row = {name: getattr(curve, name) for name in ("kind", "adjoins_stable_cycle", "period")}
+        for curve in sorted(
+            curves, key=lambda curve: -len(curve.period)
+        ):  # the array holds the longest curve
+            row = {
+                name: getattr(curve, name) for name in ("kind", "adjoins_stable_cycle", "period")
+            }
             row |= {"x": curve.values[:, 0], "y": curve.values[:, 1]}
-            row |= {"multiplier_re": curve.multipliers.real, "multiplier_im": curve.multipliers.imag}
-            rows.append(row | {f"resonance_{name}": value for name, value in asdict(curve.resonance).items()})
+            row |= {
+                "multiplier_re": curve.multipliers.real,
+                "multiplier_im": curve.multipliers.imag,
+            }
+            rows.append(
+                row
+                | {f"resonance_{name}": value for name, value in asdict(curve.resonance).items()}
+            )
         counts = {"n_curves": len(curves), "n_continuation_failures": len(curves.failures)}
         return listed(rows) | counts | {"status": "ok"}, ""
