@@ -20,7 +20,7 @@ import pytest
 from disc_model.parameters import Parameters
 from disc_model.stability import continuation
 from disc_model.stability import cycle as floquet
-from disc_model.stability.return_map import Counts, Flight
+from disc_model.stability.return_map import Counts, Flight, Passage
 
 PERIOD, ANGLE = 0.015, 1.2
 ROTATION = np.array([[math.cos(ANGLE), -math.sin(ANGLE)], [math.sin(ANGLE), math.cos(ANGLE)]])
@@ -59,6 +59,7 @@ class ToyMap:
     scale = np.ones(3)
     diameters = np.array([0, 1, 1])
     static = np.array([2.0, 0.0, 0.0])
+    first_release = Passage(RETURNED, 0.0, static)
     deflection = 2.0
 
     def __init__(

@@ -48,7 +48,7 @@ from disc_model.stability.outcome import (
     segment_of,
     switch_angles,
 )
-from disc_model.stability.return_map import RETURNED, Array, ReturnMap
+from disc_model.stability.return_map import Array, ReturnMap
 
 
 class Arrival(NamedTuple):
@@ -90,10 +90,11 @@ def cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
     if not releases or not may_stick_and_slip(p) or p.n_diameters < 0:
         return None
     map_ = ReturnMap(p, patient=True)
-    code, x = map_.next_release(leg.final_state)
-    if code != RETURNED:
+    release = map_.next_release(leg.final_state)
+    if not release.reached:
         return None
-    return find_cycle_near(map_, x, find_near_return(map_, x, max(1, min(most, releases // 2))))
+    longest_period = max(1, min(most, releases // 2))
+    return find_cycle_near(map_, release, find_near_return(map_, release.x, longest_period))
 
 
 def sweep(
@@ -258,9 +259,10 @@ class Basins:
         unless it is near."""
         last, near = segments[-1], self.cycle
         if near is not None and last.separation_rate == 0 and last.range <= segments[0].range:
-            code, x = self.map.next_release(state)
-            if code == RETURNED:
-                for point in chain([x], self.map.returns(x, near.cycle.releases - 1)):
+            release = self.map.next_release(state)
+            if release.reached:
+                others = self.map.returns(release.x, near.cycle.releases - 1)
+                for point in chain([release.x], others):
                     distance = float(np.linalg.norm(point - near.x))
                     if distance <= thresholds.NEAR * self.map.deflection:
                         return point, distance

@@ -27,15 +27,26 @@ from disc_model.stability.cycle import (
     may_stick_and_slip,
     run_through_once,
 )
-from disc_model.stability.return_map import Array, ComplexArray, Flight, ReturnMap, newton
+from disc_model.stability.return_map import (
+    Array,
+    ComplexArray,
+    Flight,
+    Passage,
+    ReturnMap,
+    newton,
+)
 from disc_model.stability.sliding import SteadySliding, energy_weights, join_rows, steady_sliding
 
 
 @dataclass(frozen=True, eq=False)
 class NearCycle:
-    """A cycle, a motion's distance from it and the Jacobian, on the section of `map`; whether the
-    motion follows the linear map, and the time waited (s) until it does, at which the distance is
-    taken."""
+    """A cycle and a motion near it, which is on the section of `map` at some time.
+
+    cycle, x, jacobian : the cycle, its point (n,) on the section, and the return map's Jacobian there
+    follows_cycle : whether the motion follows the linear map near the cycle
+    distance : (n,), of the motion from `x` on the section, at `time`
+    time : s, of the motion; if it follows the linear map only after some waiting, the end of that
+    """
 
     cycle: FloquetResult
     follows_cycle: bool
@@ -43,7 +54,7 @@ class NearCycle:
     x: Array
     distance: Array
     jacobian: Array
-    waited: float = 0.0
+    time: float = 0.0
 
     @cached_property
     def leading(self) -> ComplexArray:
@@ -55,8 +66,11 @@ class NearCycle:
         it."""
         if self.cycle.separations:
             return Outcome.SEPARATING
-        if np.linalg.norm(self.x - self.map.static) <= thresholds.NEAR * self.map.deflection:
-            return Outcome.QUIET
+        start = self.map.first_release
+        if start.reached:
+            apart = float(np.linalg.norm(self.x - start.x))
+            if apart <= thresholds.NEAR * self.map.deflection:
+                return Outcome.QUIET
         cycle = find_cycle(self.cycle.parameters)
         same = math.isclose(cycle.period, self.cycle.period, rel_tol=thresholds.ARRIVED)
         return (
@@ -96,7 +110,7 @@ class NearCycle:
     def stays_linear_until(self, horizon: float) -> bool:
         """Whether the static start, near an unstable cycle, follows the linear map until the
         horizon (s)."""
-        room = self.periods_left(first_release(self.cycle.parameters), horizon)
+        room = self.periods_left(horizon)
         # the leading part alone excludes most motions
         right = _left_vector(self.jacobian.T)
         part = float(abs(self.leading @ self.distance)) / float(abs(self.leading @ right))
@@ -110,10 +124,9 @@ class NearCycle:
             departure is not None and departure[0] >= (room - 1) * self.cycle.period
         )
 
-    def periods_left(self, time: float, horizon: float) -> int:
-        """Periods of a cycle until the horizon (s), for a motion that follows it `waited` after a
-        time (s)."""
-        return max(0, math.ceil((horizon - (time + self.waited)) / self.cycle.period))
+    def periods_left(self, horizon: float) -> int:
+        """Periods of the cycle from `time` to the horizon (s)."""
+        return max(0, math.ceil((horizon - self.time) / self.cycle.period))
 
     @np.errstate(over="ignore", invalid="ignore")  # powers of a strongly unstable cycle's Jacobian
     def _is_linear(self, distance: Array, times: tuple[float, float]) -> bool:
@@ -192,22 +205,27 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
         return find_cycle(p)
     map_ = ReturnMap(p)
     cycle = cycle_from_rest(map_)
-    return _relate(map_, cycle, map_.static) if cycle.status is CycleStatus.OK else cycle
+    return _relate(map_, cycle, map_.first_release) if cycle.status is CycleStatus.OK else cycle
 
 
 def find_cycle_near(
-    map_: ReturnMap, x: Array, near_return: tuple[float, int] | None, unstable: Sequence[float] = ()
+    map_: ReturnMap,
+    release: Passage,
+    near_return: tuple[float, int] | None,
+    unstable: Sequence[float] = (),
 ) -> NearCycle | None:
-    """The cycle near a motion at a point of the section, and whether the motion follows it. If the
-    cycle is unstable, tests for that begin at the times `unstable`, s."""
+    """The cycle near a motion at one of its releases, and whether the motion follows it. If the
+    cycle is unstable, tests for that begin at the times `unstable`, s after the release."""
     change, releases = near_return or (math.inf, 0)
     if not change <= thresholds.NEAR / 2:
         return None
-    flight = newton(map_, x, releases=releases, may_separate=map_.patient)
-    if flight is None or np.linalg.norm(flight.start - x) > thresholds.NEAR * map_.deflection:
+    flight = newton(map_, release.x, releases=releases, may_separate=map_.patient)
+    if flight is None:
+        return None
+    if np.linalg.norm(flight.start - release.x) > thresholds.NEAR * map_.deflection:
         return None
     cycle = cycle_of(map_, run_through_once(map_, flight))
-    return _relate(map_, cycle, x, thresholds.WAITS if cycle.stable else unstable)
+    return _relate(map_, cycle, release, thresholds.WAITS if cycle.stable else unstable)
 
 
 def find_near_return(
@@ -224,19 +242,29 @@ def find_near_return(
 
 
 def first_release(p: Parameters) -> float:
-    """Time at which the motion from the static start first slips, s, and is then on the section."""
-    return max((p.mu_s * p.N / p.r_0 - p.c_p * p.Omega) / (p.k_p * p.Omega), 0.0)
+    """Time at which the motion from the static start is first released from stick, s; nan if it
+    never is, or loses contact before."""
+    release = ReturnMap(p).first_release
+    return release.time if release.reached else math.nan
 
 
 def _relate(
-    map_: ReturnMap, cycle: FloquetResult, x: Array, waits: Sequence[float] = thresholds.WAITS
+    map_: ReturnMap,
+    cycle: FloquetResult,
+    release: Passage,
+    waits: Sequence[float] = thresholds.WAITS,
 ) -> NearCycle:
-    """The motion at a point of the section in relation to a cycle."""
+    """The motion at one of its releases in relation to a cycle; tests whether it follows the cycle
+    begin at the times `waits`, s after the release."""
     assert cycle.state is not None
     fixed_point = map_.point(cycle.state)
     flight = map_.evaluate(fixed_point, releases=cycle.releases, may_separate=cycle.separations > 0)
-    near = NearCycle(cycle, False, map_, fixed_point, x - fixed_point, flight.jacobian)
-    waited = 0.0
+    near = NearCycle(
+        cycle, False, map_, fixed_point, release.x - fixed_point, flight.jacobian, release.time
+    )
+    if not release.reached:
+        return near
+    x, waited = release.x, 0.0
     for wait in waits:
         if wait > waited:
             flight = near.advance(x, max(1, round((wait - waited) / cycle.period)), coarse=False)
@@ -244,7 +272,8 @@ def _relate(
                 break
             x, waited = flight.end, waited + flight.period
         if near.follows_multipliers(x):
-            return replace(near, follows_cycle=True, distance=x - fixed_point, waited=waited)
+            time = release.time + waited
+            return replace(near, follows_cycle=True, distance=x - fixed_point, time=time)
     return near
 
 

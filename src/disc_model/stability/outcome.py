@@ -29,9 +29,8 @@ from disc_model.stability.linear_motion import (
     cycle_of_static_start,
     find_cycle_near,
     find_near_return,
-    first_release,
 )
-from disc_model.stability.return_map import RETURNED, Array, ReturnMap
+from disc_model.stability.return_map import Array, Passage, ReturnMap
 
 
 @dataclass(frozen=True)
@@ -204,7 +203,7 @@ class _OutcomeSearch:
         if not self.start_cycle.follows_cycle:
             self.cycle_to_come = None if self.start_cycle.cycle.stable else self.start_cycle
             return Stage.ON_ITS_WAY
-        self.cycle, self.result.time = self.start_cycle, first_release(self.p)
+        self.cycle = self.start_cycle
         return Stage.NEAR_CYCLE
 
     def _judge_cycle(self) -> Stage:
@@ -216,7 +215,7 @@ class _OutcomeSearch:
             self.furthest, self.simulated_before = thresholds.CERTAIN, result.simulated
             return Stage.START
         result.near, result.outcome = near, near.kind
-        result.time += near.waited
+        result.time = near.time
         result.distance = float(np.linalg.norm(near.distance)) / near.map.deflection
         return Stage.SETTLED
 
@@ -226,15 +225,13 @@ class _OutcomeSearch:
         self.departed_from = near
         if result.time >= self.horizon:
             return Stage.ON_ITS_WAY
-        departure = near.extrapolate_departure(
-            near.periods_left(result.time, self.horizon), self.furthest
-        )
+        departure = near.extrapolate_departure(near.periods_left(self.horizon), self.furthest)
         time, distance = departure or (0.0, near.distance)
         slowest = result.extrapolated
         if departure and (slowest is None or near.cycle.growth_rate < slowest.cycle.growth_rate):
             result.extrapolated = near
         if departure or result.state is None:
-            result.time = result.time + near.waited + time
+            result.time = near.time + time
             result.state = near.map.state(near.x + distance).replace(time=result.time)
         return Stage.ON_ITS_WAY
 
@@ -255,10 +252,12 @@ class _OutcomeSearch:
         if examined and (calm := find_calm(self.p, leg, self.tol)) is not None:
             result.outcome, result.near = calm, None
             return Stage.SETTLED
-        x = self._next_section_point(leg.final_state)
-        if x is not None and examined and (near := self._find_followed_cycle(x)) is not None:
-            self.cycle = near
-            return Stage.NEAR_CYCLE
+        release = self._next_release(leg.final_state)
+        if release is not None and examined:
+            near = self._find_followed_cycle(release)
+            if near is not None:
+                self.cycle = near
+                return Stage.NEAR_CYCLE
         if (
             self.early and result.time < self.horizon and self._grows
         ):  # has growth ended in contact, by the record?
@@ -296,21 +295,23 @@ class _OutcomeSearch:
         result.state, result.time = leg.final_state, leg.final_state.time
         return leg
 
-    def _next_section_point(self, state: State) -> Array | None:
-        """Where the motion comes to the section again, if it does; its nearest return to there is
-        then measured."""
-        code, x = self.map.next_release(state) if self.map is not None else (None, None)
-        if self.map is None or x is None or code != RETURNED:
+    def _next_release(self, state: State) -> Passage | None:
+        """The next release of the motion, if it comes to the section again in contact; its nearest
+        return to there is then measured."""
+        if self.map is None:
             return None
-        self.near_return = find_near_return(self.map, x)
+        release = self.map.next_release(state)
+        if not release.reached:
+            return None
+        self.near_return = find_near_return(self.map, release.x)
         self.result.times.append(self.result.time)
         self.result.changes.append(math.nan if self.near_return is None else self.near_return[0])
-        return x
+        return release
 
-    def _find_followed_cycle(self, x: Array) -> NearCycle | None:
-        """The cycle that the motion follows linearly: the one near its start, if it comes back to
-        that, or another."""
-        near = self.cycle_to_come
+    def _find_followed_cycle(self, release: Passage) -> NearCycle | None:
+        """The cycle that the motion follows linearly from a release on: the one near its start, if
+        it comes back to that, or another."""
+        near, x = self.cycle_to_come, release.x
         assert self.map is not None
         if self.departed_from is not None:
             size = self.map.deflection
@@ -321,7 +322,7 @@ class _OutcomeSearch:
                 and near.follows_multipliers(x)
             ):
                 self.cycle_to_come = self.result.near = None
-                return replace(near, follows_cycle=True, distance=x - near.x)
+                return replace(near, follows_cycle=True, distance=x - near.x, time=release.time)
             # a motion that comes near a cycle then changes less and less, down to errors of the
             # simulation
             known = [change for change in self.result.changes if not math.isnan(change)]
@@ -330,7 +331,7 @@ class _OutcomeSearch:
             ):
                 return None
         waits = thresholds.WAITS if self.departed_from is None else thresholds.WAITS[:1]
-        near = find_cycle_near(self.map, x, self.near_return, unstable=waits)
+        near = find_cycle_near(self.map, release, self.near_return, unstable=waits)
         return near if near is not None and near.follows_cycle else None
 
     @property

@@ -10,7 +10,7 @@ import math
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -168,6 +168,19 @@ class Flight:
         return math.sqrt(change.dot(change))  # as np.linalg.norm, in a quarter of the time
 
 
+class Passage(NamedTuple):
+    """Where a motion comes to the section: exit code, `RETURNED` on success; time (s) and
+    coordinates, (n,), which otherwise are those of its end."""
+
+    outcome: int
+    time: float
+    x: Array
+
+    @property
+    def reached(self) -> bool:
+        return self.outcome == RETURNED
+
+
 class ReturnMap:
     """The return map of one case; it owns the engine's arrays, so that one object serves one
     thread.
@@ -176,7 +189,8 @@ class ReturnMap:
         contact two for the slider's u, u'
     scale : (n,), factor from modal displacements and velocities to coordinates: omega, or 1; u and u' likewise
     diameters : nodal diameters of the mode of each coordinate, without the slider's coordinates, which come last
-    static : (n,), static equilibrium under the preload: the static start, and the first guess of Newton's method
+    static : (n,), static equilibrium under the preload. The motion from there need not come to this point: friction on
+        the surface bends the disc during the first stick, see `first_release`
     deflection : norm of `static`, the unit of distances on the section; `tol` is the residual of cycles over it
     patient : whether motions that separate are followed; their returns may take 60 times as long, about 5 s
     """
@@ -275,16 +289,47 @@ class ReturnMap:
         by_start, by = jacobian[:, : self.size].copy(), jacobian[:, self._first : last].copy()
         return Flight(code, whole, stick, counts, start, self._section.end.copy(), by_start, by)
 
-    def next_release(self, start: State) -> tuple[int, Array]:
-        """Exit code (`RETURNED` on success) and the first point of the section that the motion from
-        `start` reaches."""
+    def next_release(self, start: State) -> Passage:
+        """The first passage of the motion from `start` through the section; a motion that loses
+        contact before ends there, unless the map is patient."""
         write_state(self._case, start, self._state)
-        limits = self.order, self.tolerance, math.inf, self.longest, 1
-        course = event_loop.IntegrationLimits(*limits, may_separate=True, tangent=False)
+        return self._follow_to_release(self.longest, may_separate=self.patient)
+
+    @cached_property
+    def first_release(self) -> Passage:
+        """The first passage of the motion from the static start, in contact, through the section:
+        the first release from a stick that has lasted.
+
+        A damper that pulls more than friction can hold releases the slider at once, beyond the
+        section. The passage is then the one after.
+        """
+        p, case = self.parameters, self._case
+        self._state.disc[:], self._state.x[:] = case.start.disc, case.start.x
+        # four times the first stick of a rigid disc: surface friction and slopes change the loads
+        stick = max(p.mu_s * p.N / p.r_0 - p.c_p * p.Omega, 0.0) / (p.k_p * p.Omega)
+        first = self._follow_to_release(4 * stick + self.longest, may_separate=False)
+        if not first.reached or first.time > 0.0:
+            return first
+        return self._follow_to_release(self.longest, may_separate=False, releases=2)
+
+    def _follow_to_release(
+        self, duration: float, *, may_separate: bool, releases: int = 1
+    ) -> Passage:
+        """Follow the motion from the present state for at most a duration (s) to a release."""
+        course = event_loop.IntegrationLimits(
+            self.order,
+            self.tolerance,
+            math.inf,
+            duration,
+            releases,
+            may_separate=may_separate,
+            tangent=False,
+        )
         code: int = event_loop.integrate(
             self.model, self._series, self._state, self._tangent, course
         )
-        return code, self._coordinates()
+        x = self._state.x
+        return Passage(code, float(x[layout.TIME] + x[layout.TIME_LOW]), self._coordinates())
 
     def point(self, state: State) -> Array:
         """The point of the section of a state that lies on it."""
