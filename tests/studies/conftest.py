@@ -75,7 +75,7 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         first_separation = first if first <= horizon else math.nan
         return OutcomeResult(None, simulated=min(first, horizon), first_separation=first_separation)
 
-    def arrival(p, legs, tol):
+    def arrival(p, legs):
         """All have settled."""
         return attractors.Arrival(Settling(Settled.SETTLED))
 

@@ -64,12 +64,12 @@ class Arrival(NamedTuple):
         return self.settling.answer is Settled.SETTLED
 
 
-def arrival(p: Parameters, legs: Sequence[Result], tol: float, most: int = sys.maxsize) -> Arrival:
+def arrival(p: Parameters, legs: Sequence[Result], most: int = sys.maxsize) -> Arrival:
     """What a motion has come to at the end of its legs: what rest, eigenvalues of steady sliding or
     multipliers of a cycle of up to `most` releases prove; otherwise what the record of angles at
     releases and separations shows."""
     leg = legs[-1]
-    if (calm := find_calm(p, leg, tol)) is not None:
+    if (calm := find_calm(p, leg)) is not None:
         return Arrival(Settling(Settled.SETTLED, least=0.0, since=leg.final_state.time), calm)
     near = cycle_reached(p, leg, most)
     if near is not None and near.follows_cycle:  # of stable cycles only
@@ -127,7 +127,7 @@ def sweep(
             if not result.status.complete:
                 yield step, result, None, Arrival(Settling())
                 return
-            state, reached = result.final_state, arrival(case, legs, tol)
+            state, reached = result.final_state, arrival(case, legs)
             if reached.settled or 2 * stay > longest:
                 break
             stay *= 2
@@ -304,7 +304,7 @@ class Basins:
     ) -> Attractor | None:
         """The attractor on which a motion is, if that is proven, the whole record has settled, or
         the last legs are as steady as those on a known attractor; None near an unstable cycle."""
-        reached = arrival(self.p, legs, self.tol, thresholds.LARGEST_PERIOD)
+        reached = arrival(self.p, legs, thresholds.LARGEST_PERIOD)
         if not reached.settled and reached.settling.least == 0:  # by multipliers
             return None
         attractor = Attractor(reached.calm or Outcome.UNDECIDED, segment)

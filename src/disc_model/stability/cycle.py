@@ -202,8 +202,8 @@ def find_cycle(
     p: Parameters, tol: float = 1e-12, guess: State | Array | None = None, releases: int = 1
 ) -> FloquetResult:
     """The cycle that Newton's method finds from `guess`, a point of the section; the first release
-    after the static start by default. Near the next release after a state the cycle has `releases` releases,
-    and may lose contact."""
+    after the static start by default. Near the next release after a state the cycle has `releases`
+    releases, and may lose contact."""
     if not may_stick_and_slip(p):
         if never_pulls(p):
             return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")

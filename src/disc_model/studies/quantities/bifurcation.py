@@ -146,7 +146,7 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
             }
             return known, f"the simulation ended early: {run.status}"
         legs.append(run)
-        state, reached = run.final_state, arrival(p, legs, options.tol)
+        state, reached = run.final_state, arrival(p, legs)
         if reached.settled or 2 * transient > options.max_transient:
             break
         transient *= 2

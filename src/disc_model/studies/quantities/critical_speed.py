@@ -1,8 +1,5 @@
 """Critical speeds: all speeds at which separation within a horizon begins or ends, since there may
 be several.
-
-To extrapolate departures from a cycle would save a quarter of the time, but moves first separations
-too far.
 """
 
 import math
@@ -93,7 +90,6 @@ class CriticalSpeed(Quantity):
         from disc_model.stability.outcome import find_outcome
 
         p, scan = point.parameters, self.scan
-        how: dict[str, Any] = {"tol": self.tol, "furthest": 0.0, "early": self.early_end}
         motions: dict[int, OutcomeResult] = {}
         known: dict[int, float] = {}
 
@@ -102,9 +98,10 @@ class CriticalSpeed(Quantity):
 
         def look(i: int) -> None:
             """Follow the motion from the static start at a speed, up to the longest horizon."""
-            result = find_outcome(p.replace(Omega=speed(i)), self.horizons[-1], **how)
+            case, longest = p.replace(Omega=speed(i)), self.horizons[-1]
+            result = find_outcome(case, longest, tol=self.tol, early=self.early_end)
             # return maps would take megabytes each for a disc of many modes
-            motions[i] = replace(result, near=None, extrapolated=None)
+            motions[i] = replace(result, near=None)
             none = math.isnan(result.first_separation) and result.status == "ok"
             known[i] = math.inf if none else result.first_separation
 

@@ -108,13 +108,9 @@ def _late(
 
     p, length = point.parameters, options.evaluation_time
     start = make_initial_state(p, point.start, options.tol)
-    how: dict[str, Any] = {
-        "tol": options.tol,
-        "furthest": 0.0,
-        "early": options.early_end,
-        "late": length,
-    }
-    reached = find_outcome(p, options.horizon, start=start, **how)
+    reached = find_outcome(
+        p, options.horizon, tol=options.tol, start=start, early=options.early_end, late=length
+    )
     if reached.outcome is Outcome.SEPARATION:
         return reached, *final_segment(
             p, reached.state, options.after_separation, length, options.tol

@@ -10,16 +10,17 @@ from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Variable
 from disc_model.studies.quantity import COME_TO, STATUS, WORK, Made, Point, Quantity, State
 from disc_model.units import Count, Seconds, Tolerance
 
-METHODS = ("none", "multipliers", "simulation", "inferred", "settled")
+METHODS = ("none", "multipliers", "simulation", "inferred")
 JOINED = ("no", "yes")
 _CONTINUES = "whether the cycle continues into the next point's along the plane's"
 CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
 
 
 class Regions(Quantity):
-    """Outcomes over a plane of two parameters, computed more densely where they change."""
+    """Outcomes over a plane of two parameters. Only separation is inferred, within cells that
+    separate wherever they are computed."""
 
-    tol: Tolerance = 1e-8
+    tol: Tolerance = 1e-10
     horizon: Seconds
     initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = (
         8  # side of a first cell, in intervals of the grid
@@ -34,7 +35,7 @@ class Regions(Quantity):
         ),
         "method": Variable(
             "1",
-            "how the outcome is known; inferred: like that cell's corners; settled: in contact, before the horizon",
+            "how the outcome is known; inferred: separation, as at the cell's corners and middle",
             METHODS,
         ),
         "first_separation": SCALARS["first_separation"],

@@ -105,7 +105,7 @@ class Sensitivity(Quantity):
     samples: Annotated[Count, Field(ge=2, le=2**16, exclude=True)] = 64
     seed: Annotated[Count, Field(ge=0)] = 0
     simulated_samples: Annotated[Count, Field(ge=0)] = (
-        0  # the first ones, whose motion is simulated as well
+        0  # the first ones, whose motion is followed as well
     )
     horizon: Seconds = 500.0
     tol: CycleTolerance = 1e-12  # of the cycles
