@@ -300,6 +300,8 @@ class Settling(NamedTuple):
     since: float = np.nan
 
     def __str__(self) -> str:
+        if not np.isfinite(self.least):
+            return f"{self.answer}, since the record has too few events to show a change"
         rate = "" if np.isnan(self.rate) else f" at {self.rate:.2g}/s"
         return f"{self.answer}{rate}, the record shows {self.least:.2g}/s or more"
 

@@ -27,10 +27,11 @@ if TYPE_CHECKING:
 
     from disc_model.simulation.result import Result
     from disc_model.simulation.states import State
+    from disc_model.stability.attractors import Arrival
     from disc_model.stability.cycle import FloquetResult
     from disc_model.stability.outcome import Attractor, OutcomeResult, Segment
 else:  # names for annotations
-    Attractor = Dataset = FloquetResult = OutcomeResult = Result = Segment = State = Any
+    Arrival = Attractor = Dataset = FloquetResult = OutcomeResult = Result = Segment = State = Any
 
 Value = float | int | str
 Blocks = tuple[tuple[Value, ...], ...]

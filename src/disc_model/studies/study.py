@@ -593,8 +593,11 @@ def _misfits(plot: Plot, owner: str, grids: Mapping[str, GridStudy]) -> list[Fau
 
 
 def closing_lines(grids: Mapping[str, GridStudy]) -> Iterator[str]:
-    """Grids with points that have no result, and where these are listed."""
+    """Grids with points that have no result, or a remark on it, and where these are listed."""
     for name, grid in grids.items():
         file = Path(f"results/{name}/{name}.failed.txt")
-        if failed := len(file.read_text(encoding="utf-8").splitlines()):
-            yield f"{name}: {failed} of {grid.n_points} points have no result, see {file}"
+        lines = file.read_text(encoding="utf-8").splitlines()
+        remarks = sum(": ok: " in line for line in lines)
+        for count, have in ((len(lines) - remarks, "no result"), (remarks, "a remark")):
+            if count:
+                yield f"{name}: {count} of {grid.n_points} points have {have}, see {file}"
