@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from disc_model.engine import event_loop, layout, transitions
 from disc_model.engine import tangent as columns
-from disc_model.engine.series import build_series
+from disc_model.engine.series import Series, build_series
 from disc_model.errors import raise_faults, violations
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.simulation.states import (
@@ -45,6 +45,8 @@ PARAMETERS = (
     "m",
 )  # by which the map can be differentiated
 RETURNED = transitions.RETURNED
+# steps times blocks of lanes and of columns: some 0.2 s, after which Ctrl-C is answered
+WORK_PER_PIECE = 100_000
 ENDS = {
     transitions.RETURNED: "returned",
     transitions.TIME_OVER: "time_over",
@@ -79,6 +81,38 @@ def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
     rate = fastest * model.unit
     # all published cases are below 1.25, where steps are not shortened
     return columns.longest_step(order, tolerance) / (rate if rate > 1.25 else 1.0)
+
+
+def integrate_in_pieces(
+    model: layout.Model,
+    series: Series,
+    state: layout.EngineState,
+    tangent: columns.Tangent,
+    course: event_loop.IntegrationLimits,
+    section: event_loop.Section | None = None,
+    start: Array | None = None,
+) -> int:
+    """`event_loop.integrate`, with a return to Python after every `WORK_PER_PIECE`: a kernel cannot
+    be interrupted, and an integration under extreme stiffness or mass takes minutes."""
+    blocks = max(1, len(model.shift) // layout.WIDTH)
+    if course.tangent:
+        blocks *= 1 + tangent.columns // layout.WIDTH
+    step = min(course.longest, event_loop.TYPICAL_STEP) * model.unit
+    piece = WORK_PER_PIECE / blocks * step
+    left, releases = course.t_max, course.releases
+    where: tuple[Any, ...] = () if section is None else (section,)
+    if start is not None:
+        where = (section, start)
+        tangent.log[columns.RELEASES] = 0.0  # as the engine does there
+    while True:
+        before = float(tangent.log[columns.RELEASES])
+        now = course._replace(t_max=min(left, piece), releases=releases)
+        code: int = event_loop.integrate(model, series, state, tangent, now, *where)
+        if code != transitions.TIME_OVER or left <= piece:
+            return code
+        left -= piece
+        releases -= int(tangent.log[columns.RELEASES] - before)
+        where = where[:1]
 
 
 def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
@@ -189,8 +223,8 @@ class ReturnMap:
         contact two for the slider's u, u'
     scale : (n,), factor from modal displacements and velocities to coordinates: omega, or 1; u and u' likewise
     diameters : nodal diameters of the mode of each coordinate, without the slider's coordinates, which come last
-    static : (n,), static equilibrium under the preload. The motion from there need not come to this point: friction on
-        the surface bends the disc during the first stick, see `first_release`
+    static : (n,), static equilibrium under the preload. The motion from there need not come to this
+        point: friction on the surface bends the disc during the first stick, see `first_release`
     deflection : norm of `static`, the unit of distances on the section; `tol` is the residual of cycles over it
     patient : whether motions that separate are followed; their returns may take 60 times as long, about 5 s
     """
@@ -280,7 +314,7 @@ class ReturnMap:
             bool(may_separate),
             bool(tangent),
         )
-        code = event_loop.integrate(
+        code = integrate_in_pieces(
             self.model, self._series, self._state, t, course, self._section, start
         )
         whole, stick = t.log[[columns.DURATION, columns.STICK_TIME]].tolist()
@@ -325,9 +359,7 @@ class ReturnMap:
             may_separate=may_separate,
             tangent=False,
         )
-        code: int = event_loop.integrate(
-            self.model, self._series, self._state, self._tangent, course
-        )
+        code = integrate_in_pieces(self.model, self._series, self._state, self._tangent, course)
         x = self._state.x
         return Passage(code, float(x[layout.TIME] + x[layout.TIME_LOW]), self._coordinates())
 
