@@ -47,16 +47,16 @@ html_title = f"disc_model {release}"
 html_show_sphinx = False
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
-_PROJECT = tomllib.loads(
-    Path(__file__).parents[1].joinpath("pyproject.toml").read_text(encoding="utf-8")
-)["project"]
-html_baseurl = _PROJECT["urls"]["Documentation"]
-html_theme_options = {
-    "navigation_with_keys": True,
-    "source_repository": _PROJECT["urls"]["Repository"],
-    "source_branch": "main",
-    "source_directory": "docs/",
-}
+html_theme_options = {"navigation_with_keys": True}
+
+# ---- addresses, of what is published
+_PYPROJECT = Path(__file__).parents[1] / "pyproject.toml"
+_ADDRESSES = tomllib.loads(_PYPROJECT.read_text(encoding="utf-8"))["project"].get("urls", {})
+html_baseurl = _ADDRESSES.get("Documentation", "")
+if "Repository" in _ADDRESSES:
+    html_theme_options["source_repository"] = _ADDRESSES["Repository"]
+    html_theme_options["source_branch"] = "main"
+    html_theme_options["source_directory"] = "docs/"
 # formulas are set by a MathJax of the site's own: it works without a network
 mathjax_path = "mathjax/tex-chtml.js"
 
