@@ -11,6 +11,7 @@ import xarray as xr
 from scipy.signal import find_peaks
 
 from disc_model.analysis import spectra
+from disc_model.analysis.classify import motion_of
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import fill
 from disc_model.data.variables import Outcome, flag_names
@@ -117,11 +118,27 @@ def more_frequencies(*cases: CaseView, floor: float) -> Answer:
 
 
 def quasi_periodic(*cases: CaseView) -> Answer:
-    kinds = [case.late_motion.kind for case in cases]
+    """Judge by the motions from rest whether the slider moves quasi-periodically.
+
+    Motions from other starts are described beside them, by the intervals between separations,
+    because one that never sticks has no releases.
+    """
+    from_rest = [case for case in cases if case.from_rest]
+    kinds = [case.late_motion.kind for case in from_rest]
     if Outcome.UNDECIDED in kinds:
         return Answer(NOT_COMPUTED, "The 0-1 test lies between regular and chaotic motion.")
-    rows = [(case.place, case.motion) for case in cases]
-    return Answer(graded(kind is Outcome.QUASI_PERIODIC for kind in kinds), rows=rows)
+    others = []
+    for case in cases:
+        if not case.from_rest:
+            intervals = case.intervals("separation")
+            motion = motion_of(intervals)
+            length = 1e3 * float(intervals[: motion.period].sum())
+            others.append((case.place, measures.repeats(motion, "separation"), length))
+    return Answer(
+        graded(kind is Outcome.QUASI_PERIODIC for kind in kinds),
+        rows=[(case.place, case.motion) for case in from_rest],
+        others=others,
+    )
 
 
 def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
@@ -272,8 +289,16 @@ def both_at_low_speed(study: xr.Dataset, *, share: float) -> Answer:
     )
     most = float(study["Omega"].max())
     counts = [int(x.sum()) for x in (unstable, apart, unstable & ~apart, apart & without)]
+    inferred = int(np.sum(flag_names(study["method"]) == "inferred"))
     holds = (low & unstable).any() and (low & apart).any()
-    return Answer(bool(holds), most=most, part=most / critical, counts=counts, size=apart.size)
+    return Answer(
+        bool(holds),
+        most=most,
+        part=most / critical,
+        counts=counts,
+        size=apart.size,
+        inferred=inferred,
+    )
 
 
 # ---- The transverse energy of a motion: what the slope supplies, and what damping and impacts take
