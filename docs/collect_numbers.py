@@ -23,10 +23,11 @@ import yaml
 from docs.drawings.brake_energy import powers
 
 import disc_model as dm
-from disc_model.data.dataset import MissingFile, load
+from disc_model.data.dataset import Missing, MissingFile, load
 from disc_model.data.variables import flag_names
 from disc_model.disc.plate import mode_arrays, mode_shapes
 from disc_model.errors import script
+from disc_model.paper.measures import views
 from disc_model.paper.survival import MODELS
 
 ROOT = Path(__file__).parents[1]
@@ -263,6 +264,44 @@ class Sources:
             ).sum()
         )
 
+    def inferred(self, normalization: str) -> float:
+        """Percentage of the points of this map whose outcome was inferred from neighbours."""
+        methods = flag_names(self.grid("map_N")["method"].sel(normalization=normalization))
+        return float(100 * np.mean(methods == "inferred"))
+
+    def map_against_scan(self) -> tuple[int, int, int]:
+        """Numbers of points that the map over speed and preload shares with the scan of critical
+        speeds: all, those where only one of the two separates, and of these the inferred ones."""
+        cells = self.grid("map_N").sel(normalization="as_published")
+        scan = self.grid("critical_speed")["scan_first_separation"].rename(scan_Omega="Omega")
+        cells, scan = xr.align(cells, scan, join="inner")
+        mapped = flag_names(cells["outcome"].transpose("N", "Omega")) == "separation"
+        differ = mapped != np.isfinite(scan.transpose("N", "Omega").values)
+        inferred = flag_names(cells["method"].transpose("N", "Omega")) == "inferred"
+        return differ.size, int(differ.sum()), int((differ & inferred).sum())
+
+    def pinned(self) -> np.ndarray:
+        """Ranges of the slider's height late in the runs that go on after a separation, over
+        2 N/|k - m omega^2|: in those in which the slider separates once per vibration of the lowest
+        mode, of the circular frequency omega."""
+        ratios = []
+        for case in views({"cases": _load(self.results / "paper" / "cases.nc")}).values():
+            p = case.parameters
+            omega = float(dm.coupled_natural_frequencies(p)[0])
+            try:
+                rate, late = case.rate_of("separation"), case.late_range("u").width
+            except Missing:
+                continue
+            if abs(2 * np.pi * rate / omega - 1) < 0.01:
+                ratios.append(late * abs(p.k - p.m * omega**2) / (2 * p.N))
+        return np.array(ratios)
+
+    def pinned_range(self, N: float) -> float:
+        """2 N/|k - m omega^2| of the paper's disc, m."""
+        p = _parameters(N=N)
+        omega = float(dm.coupled_natural_frequencies(p)[0])
+        return 2 * N / abs(p.k - p.m * omega**2)
+
     def quiet_cycle(self) -> tuple[float, float, float]:
         """Least speed of the stable quiet cycle at 385 N, its fold, and twice its frequency there,
         Hz; it has the least range at 14 rad/s."""
@@ -334,6 +373,21 @@ class Sources:
         rows = self.grid("brake_convergence").sel(disc="11 modes", contact_compliance=0)
         row = rows.isel(value=int(np.abs(rows["value"].values - Omega).argmin()))
         return float(row["frequency"].values[np.nanargmax(row["mode_growth_rate"].values)])
+
+    def brake_growth(self, disc: str, compliance: float) -> xr.DataArray:
+        """Largest growth rate of steady sliding on the brake-like disc at 8 kN over the speed, 1/s."""
+        study = self.grid("brake_convergence").sel(disc=disc, contact_compliance=compliance)
+        return study["largest_growth_rate"]
+
+    def brake_growth_at(self, disc: str, compliance: float, Omega: float) -> float:
+        """The same at a speed of the study."""
+        rates = self.brake_growth(disc, compliance)
+        return float(rates[list(rates["value"].values).index(Omega)])
+
+    def brake_onset(self, disc: str, compliance: float) -> float:
+        """Least speed of the study at which sliding grows on it, rad/s."""
+        rates = self.brake_growth(disc, compliance)
+        return float(rates["value"].where(rates > 0.01).min())
 
     def couple_speed(self, N: float) -> float:
         """Critical speed within 500 s with orthonormal modes and friction on the surface, rad/s."""
