@@ -20,7 +20,7 @@ STUDIES = {
     "contact_truncation": "scaling.contact_study",
     "answers": "answers.answers",
     "answer_maps": "answers.answer_map",
-    "failure_maps": "work_precision.failure_map",
+    "failure_maps": "failure_maps.failure_map",
     "scaling": "scaling.scaling",
 }
 BENCH_FIGURES = {

@@ -366,7 +366,7 @@ def _margins(c, phase, direction, y, n, P, F, w, out):
 def switch_values(modes, c, phase, direction, y, out):
     """Fill ``out`` with the functions whose fall through zero ends a phase; return how many.
 
-    `integrators.ENDS` says which they are.
+    `phases.ENDS` says which they are.
     """
     n = modes.shape[1]
     P, F = contact(modes, c, direction, y)
@@ -482,12 +482,15 @@ def _dip(before, current, after):
 
 
 @_kernel
-def _dips(before, current, after, count):
-    """Return whether one of ``count`` event functions dips within the last of two equal steps."""
+def _first_dip(before, current, after, count):
+    """Return which of ``count`` event functions dips first within the last of two steps, or -1.
+
+    The first is that of the lowest index.
+    """
     for index in range(count):
         if _dip(before[index], current[index], after[index]) > 0.0:
-            return True
-    return False
+            return index
+    return -1
 
 
 @_kernel
@@ -660,7 +663,7 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
         cause = violated(after, conditions)
         high = length
         # a call with many arrays in each step would take a third of its time
-        if cause < 0 < count and _dips(before, current, after, conditions):
+        if cause < 0 < count and _first_dip(before, current, after, conditions) >= 0:
             cause, high, further = _search_dips(
                 modes,
                 c,
