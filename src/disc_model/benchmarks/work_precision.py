@@ -188,7 +188,7 @@ class _Measurement:
             return (asked.scene, asked.solver) in self.hopeless
         if _is_quick(times):
             return False
-        return np.median(times) >= LONG or len(times) >= FEW
+        return float(np.median(times)) >= LONG or len(times) >= FEW
 
 
 def _is_quick(times: Sequence[float]) -> bool:

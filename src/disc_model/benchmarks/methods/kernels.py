@@ -86,7 +86,7 @@ class Physics:
         """Return the vector of a state."""
         modal = [state.a, state.b, state.alpha, state.beta]
         slider = [state.psi, state.f, state.u, state.u_velocity]
-        return np.hstack(modal + slider)
+        return np.hstack([*modal, *slider])
 
     def unpack(self, time: float, phase: str, direction: int, y: Array) -> State:
         """Return the state of a vector; in contact, u and u' are the disc's.
