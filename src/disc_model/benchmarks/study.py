@@ -100,7 +100,10 @@ def _dataset(
     medians = groups.median()
     if "repeats" in variables:
         medians = medians.assign(repeats=groups.size())
-    axes = {dim: [*dict.fromkeys(point[dim] for point in points)] for dim in dims}
+    axes = {}
+    for dim in dims:
+        values = [point[dim] for point in points]
+        axes[dim] = [*dict.fromkeys(values)]
     return medians.to_xarray().reindex(axes)
 
 

@@ -14,7 +14,6 @@ import xarray as xr
 from disc_model.benchmarks import scenes, study
 from disc_model.benchmarks.methods import METHODS, SCENES
 from disc_model.benchmarks.methods.integrators import MethodResult, Problem, RunStatus
-from disc_model.benchmarks.scenes import JUDGED, Verdict
 from disc_model.benchmarks.study import TABLES, Row
 from disc_model.data.dataset import json_attribute
 from disc_model.simulation.api import simulate
@@ -64,7 +63,7 @@ def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.
         _Measurement().measure,
         ["scene", "solver", "point"],
         rounds=rounds,
-        flags={"verdict": Verdict},
+        flags={"verdict": scenes.Verdict},
         title="Speed against accuracy",
         Conventions="CF-1.11",
         **described,
@@ -162,10 +161,10 @@ class _Measurement:
 
         errors = scenes.errors(problem, scenes.answer(scene), result)
         further = math.nan
-        if scene in JUDGED and result.outcome is RunStatus.FINISHED and _is_quick(times):
+        if scene in scenes.JUDGED and result.outcome is RunStatus.FINISHED and _is_quick(times):
             further = _cost_of_a_further_second(asked, problem, result)
         whole_call = math.nan
-        if asked == (JUDGED[0], "series", DEFAULT):
+        if asked == (scenes.JUDGED[0], "series", DEFAULT):
             whole_call = _whole_call()
         yield {
             "seconds": result.seconds,
@@ -234,7 +233,7 @@ def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
     The column ``further`` is the cost of a further second, or of a second of a long run.
     """
     frame = dataset.to_dataframe(dim_order=["scene", "solver", "point"]).reset_index()
-    frame = frame[frame["verdict"] != Verdict.NOT_RUN].reset_index(drop=True)
+    frame = frame[frame["verdict"] != scenes.Verdict.NOT_RUN].reset_index(drop=True)
     return frame.assign(further=frame["marginal_cost"].fillna(frame["cost"]))
 
 
@@ -285,7 +284,7 @@ def table(dataset: xr.Dataset) -> pd.DataFrame:
     of_series = []
     for point in points.to_dict("records"):
         settings.append(f"{METHODS[point['solver']].setting}={point['value']:.3g}")
-        verdicts.append(Verdict(point["verdict"]).name.lower())
+        verdicts.append(scenes.Verdict(point["verdict"]).name.lower())
         line = series[series["scene"] == point["scene"]]
         of_series.append(cost_at(line, point["event_error"], "cost"))
     derived = points.assign(

@@ -176,7 +176,20 @@ class Disc(NamedTuple):
 
     def times(self, factor: Any) -> Disc:
         """Return the products of all variables with a factor."""
-        return Disc(*([factor * x for x in each] for each in self))
+        products = []
+        for each in self:
+            products.append([factor * x for x in each])
+        return Disc(*products)
+
+
+def _disc(n: int) -> Disc:
+    """Return the variables of a number of modes."""
+    import heyoka as hy
+
+    lists = []
+    for letter in "abpq":
+        lists.append([hy.make_vars(f"{letter}{i}") for i in range(n)])
+    return Disc(*lists)
 
 
 def _total(*terms: Terms) -> Any:
@@ -216,9 +229,8 @@ def system(physics: Physics, phase: str) -> tuple[list[Any], list[Any]]:
     import heyoka as hy
 
     p = physics.p
-    n = physics.n
     load, drive, sign = (hy.par[i] for i in range(3))
-    disc = Disc(*([hy.make_vars(f"{letter}{i}") for i in range(n)] for letter in "abpq"))
+    disc = _disc(physics.n)
     psi, f, u, v = hy.make_vars("psi", "f", "u", "v")
     turning = disc.times(f)
     sticks = phase == "stick"
@@ -263,7 +275,8 @@ def _contact_force(physics: Physics, l: Array, disc: Disc, turning: Disc, f: Any
     import heyoka as hy
 
     p = physics.p
-    load, sign = hy.par[0], hy.par[2]
+    load = hy.par[0]
+    sign = hy.par[2]
     below = 1.0 + p.m * physics.compliance
     by = physics.shape / below
     P = _total(

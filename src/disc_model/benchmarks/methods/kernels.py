@@ -100,7 +100,8 @@ class Physics:
         """
         u, v = self.disc_point(y)
         if phase == "separation":
-            u, v = float(y[self.u]), float(y[self.v])
+            u = float(y[self.u])
+            v = float(y[self.v])
         return State(
             time=time,
             phase=phase,
