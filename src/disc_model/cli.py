@@ -23,8 +23,8 @@ from rich.console import Console
 from rich.table import Column, Table
 
 from disc_model import __version__
-from disc_model.disc.given import damping_ratios, read_disc
-from disc_model.disc.plate import coupled_natural_frequencies, mode_arrays
+from disc_model.disc.files.table import read_disc
+from disc_model.disc.plate import coupled_natural_frequencies, damping_ratios, mode_arrays
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.parameters import Parameters
