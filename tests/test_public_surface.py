@@ -48,6 +48,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         for function in (dm.plate_modes, dm.coupled_natural_frequencies, dm.residual_flexibility)
     ),
     (dm.steady_sliding, {}, {}),
+    (dm.split_growth, {"p": P, "split": 0.0}, {}),
     (dm.choose_modes, {"case": P}, {"case": "dict", "tolerance": "None"}),
     (
         dm.simulate,

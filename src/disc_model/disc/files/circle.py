@@ -303,7 +303,7 @@ def _rings(radii: Array) -> dict[float, int]:
     values = np.sort(radii)
     same = SAME_RADIUS * max(values[-1], 1e-12)
     groups = np.split(values, np.flatnonzero(np.diff(values) > same) + 1)
-    return {float(group.mean()): len(group) for group in groups if len(group) >= FEWEST}
+    return {round(float(group.mean()), 9): len(group) for group in groups if len(group) >= FEWEST}
 
 
 def _numbers_text(values: Iterable[float]) -> str:

@@ -80,6 +80,16 @@ def read_sets(path: str | os.PathLike[str]) -> list[DataSet]:
     return sets
 
 
+def is_universal_file(path: str | os.PathLike[str]) -> bool:
+    """Whether a file begins as a universal file does, with the mark of a dataset near its start."""
+    try:
+        with Path(path).open("rb") as file:
+            begin = file.read(4000).removeprefix(b"\xef\xbb\xbf").decode("latin-1")
+    except OSError:
+        return False
+    return _next_mark(begin, 0) is not None
+
+
 def _next_mark(text: str, start: int) -> re.Match[str] | None:
     """The next line with -1 alone, in its first six columns; None if there is none."""
     for match in _MARK.finditer(text, start):
