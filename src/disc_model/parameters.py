@@ -223,6 +223,7 @@ class Disc(Strict):
             if same[i] == same[j] and (apart < 0.05 or not counted):
                 rule = f"modes {i + 1} and {j + 1} have as many diameters and are {100 * apart:.2g} % apart: "
                 rule += "the disc must be axisymmetric, with each pair of modes given once, by its mean frequency"
+                rule += " (Disc.from_csv averages halves with pairs='mean')"
                 raise_faults([Fault.of(("omega", str(j)), self.omega[j], rule)])
         return self
 

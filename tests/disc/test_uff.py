@@ -14,6 +14,7 @@ from disc_model.disc.plate import mode_shapes
 from tests import needs
 from tests.disc.bricks import Ring, brick_modes, export
 from tests.disc.universal import END, MODES, R_0, RADII, Dialect, Half, begin, halves, whole
+from tests.test_cli import Command
 
 RECORDS = ((55, 15), (55, 2411), (2414, 15), (2414, 2411))
 DIGITS = 2e-5  # a file has six digits, and its coordinates as well
@@ -395,6 +396,53 @@ def test_a_comment_between_datasets_and_bytes_of_measurements_are_passed_over(
     binary = [END, head, *["NONE"] * 11, (mark + "x" * (40 - len(mark))) + END]
     disc = read(tmp_path, Dialect(extra=["1 comment", *binary, "another", ""]))
     assert_right(disc)
+
+
+def test_the_command_line_reads_universal_files(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It says what was used and left out, and writes the table that studies read."""
+    monkeypatch.setenv("COLUMNS", "80")
+    command = Command(capsys)
+    extra = Dialect(axis=(0, 1, 0)).all_mode_lines(halves([(2, 1800.0, 0.0, 0.9)]))
+    file = Dialect(axis=(0, 1, 0), extra=extra).write(tmp_path / "modes.unv", halves(MODES))
+    table = tmp_path / "disc.csv"
+    options = ("--r-0", "100 mm", "--axis", "y", "--centre", "0,0,0", "--save", str(table))
+    shown = command.out("modes", "--from", str(file), *options)
+    assert "axis of the disc, towards the slider: y through (0, 0, 0) m" in shown
+    assert "2 x mode in the plane of the disc" in shown
+    for head in ("amplitude", "(kg^-1/2)", "tangent.", "damping", "split", "(rad/s)"):
+        assert head in shown
+    assert "…" not in shown
+    assert_right(dm.Disc.from_csv(table))
+    assert command.out("modes", "--from", str(table), "--r-0", "0.1").count("-0.27") == 1
+
+    said = command.error("modes", "--from", str(file), "--r-0", "0.09")
+    assert said.startswith(
+        "error: modes.unv: must have 3 or more nodes at r_0=0.09 m. Around the axis y"
+    )
+    assert "r_0: is required" in command.error("modes", "--from", str(file))
+    both = command.error("modes", "--from", str(file), "--disc", str(table), "--r-0", "0.1")
+    assert "disc: must be left out: --from gives the disc" in both
+    assert "axis='w': must be" in command.error(
+        "modes", "--from", str(file), "--r-0", "0.1", "--axis", "w"
+    )
+    assert "save: needs the disc of a file" in command.run("modes", "--save", str(table))[2]
+    assert "none.uff" in command.error(
+        "modes", "--from", str(tmp_path / "none.uff"), "--r-0", "0.1"
+    )
+
+
+def test_the_command_line_shows_doubts_as_lines(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = Dialect(angles=6).write(tmp_path / "six.unv", halves(MODES))
+    code, shown, said = Command(capsys).run("modes", "--from", str(file), "--r-0", "0.1")
+    assert code == 0
+    assert said.startswith(
+        "warning: 6 nodes on the circle tell modes of up to 2 nodal diameters apart"
+    )
+    assert "a disc of 3 modes" in shown
 
 
 @needs.FINITE_ELEMENTS.mark

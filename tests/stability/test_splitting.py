@@ -74,7 +74,7 @@ def test_a_light_pad_couples_both_waves_as_averaging_has_it(split: float) -> Non
 
 def test_both_limits_are_reached() -> None:
     p = case(LIGHT, damping=5e-5)
-    none, large = dm.split_growth(p, 0.0), dm.split_growth(p, 0.2)
+    none, large = dm.split_growth(p, 0.0), dm.split_growth(p, 0.03)
     assert none.growth_rate == none.together == dm.steady_sliding(p).growth_rate
     assert not none.matters
     assert large.apart < 0 < large.together

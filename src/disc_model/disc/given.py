@@ -73,8 +73,8 @@ class DiscReport(Summarised):
     >>> disc = dm.Disc.from_csv("split.csv", pairs="mean")
     >>> print(disc.report)
     split.csv: 1 mode
-    diameters  lower (Hz)  upper (Hz)  split (%)  shapes
-            2        1209        1215      0.495       2
+     diameters  lower (Hz)  upper (Hz)  split (%)  shapes
+         2        1209        1215    0.49505       2
     """
 
     source: str

@@ -12,7 +12,7 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.errors import DiscModelError
 from disc_model.parameters import DEFAULTS, Disc, Parameters
 
-APART = 50.0  # ratio of a frequency to the median of the others beyond which its unit is doubted
+APART = 20.0  # ratio of a frequency to the nearest other one beyond which its unit is doubted
 
 
 class ImplausibleValue(UserWarning):
@@ -109,10 +109,9 @@ def _alone(disc: Disc) -> str:
         return ""
     for i, frequency in enumerate(frequencies):
         others = np.delete(frequencies, i)
-        ratio = frequency / np.median(others)
-        if 1 / APART < ratio < APART:
+        if others.min() / APART < frequency < others.max() * APART:
             continue
-        meant = frequency * (1000 if ratio < 1 else 1e-3)
+        meant = frequency * (1000 if frequency < others.min() else 1e-3)
         if others.min() / 3 <= meant <= 3 * others.max():
             text = f"mode {i + 1} of the disc has {frequency:.4g} Hz, and the others "
             text += f"{others.min():.4g} to {others.max():.4g} Hz: "

@@ -4,7 +4,7 @@ it."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -154,9 +154,10 @@ def find_circle(
     return best
 
 
-def _merit(circle: Circle) -> tuple[bool, int]:
-    """What makes a circle better than another one: that it is covered, and by more nodes."""
-    return circle.covers, circle.count
+def _merit(circle: Circle) -> tuple[bool, float]:
+    """What makes a circle better than another one: that it is covered, and by more nodes, above all
+    of one face."""
+    return circle.covers, circle.count * (1.0 if math.isfinite(circle.height) else 0.5)
 
 
 def _frames(places: Array, r_0: float, axis: Array | None, centre: Array | None) -> Iterator[Frame]:
@@ -172,7 +173,7 @@ def _frames(places: Array, r_0: float, axis: Array | None, centre: Array | None)
         ):
             frame = Frame.along(direction, start)
             yield frame
-            yield from _drawn(places, r_0, frame)
+            yield from _drawn(places, r_0, frame, BANDS)
         yield from _of_triples(places, r_0, Frame.along(direction, np.zeros(3)))
 
 
@@ -186,12 +187,12 @@ def _axes(places: Array) -> Iterator[Array]:
             yield vector * np.sign(largest)
 
 
-def _drawn(places: Array, r_0: float, frame: Frame) -> Iterator[Frame]:
-    """The frame with its centre drawn to that of the nodes near the circle, if there are
-    enough."""
+def _drawn(places: Array, r_0: float, frame: Frame, bands: Sequence[float]) -> Iterator[Frame]:
+    """The frame with its centre drawn to that of the nodes near the circle, if there are enough,
+    within ever smaller bands (of r_0)."""
     plane = frame.plane(places)
     middle = np.zeros(2)
-    for band in BANDS:
+    for band in bands:
         distance = np.hypot(*(plane - middle).T)
         near = np.abs(distance - r_0) < band * r_0
         if near.sum() < FEWEST:
@@ -225,7 +226,8 @@ def _of_triples(places: Array, r_0: float, frame: Frame) -> Iterator[Frame]:
         for centre in centres[:TRIED]
     ]
     best = centres[int(np.argmax(counts))]
-    yield from _drawn(places, r_0, Frame.along(frame.axis, frame.centre + best @ frame.across))
+    around = Frame.along(frame.axis, frame.centre + best @ frame.across)
+    yield from _drawn(places, r_0, around, [2 * SAME_RADIUS, SAME_RADIUS])
 
 
 def _circle(places: Array, r_0: float, frame: Frame) -> Circle | None:

@@ -131,11 +131,10 @@ def _harmonic(angles: Array, values: Array, l: int) -> tuple[float, float, float
     return float(solution[0]), sine, float(rest @ rest)
 
 
-def explained(motion: Motion, circle: Circle, places: Array) -> float:
-    """The greatest share of all motion on the circle, of three components, that one number of
-    nodal diameters explains."""
-    known = np.isfinite(motion.components[:, 2])
-    chosen = circle.members & known
+def disc_likeness(motion: Motion, circle: Circle, places: Array) -> float:
+    """How much motion on the circle, of three components, looks like that of a disc: the greatest
+    share that one number of nodal diameters explains, and the share along the axis."""
+    chosen = circle.members & np.isfinite(motion.components[:, 2])
     values = motion.components[chosen]
     total = float(np.sum(values**2))
     if total == 0:
@@ -145,7 +144,7 @@ def explained(motion: Motion, circle: Circle, places: Array) -> float:
         sum(_harmonic(angles, column, l)[2] for column in values.T)
         for l in range(min(circle.most_diameters, MOST_DIAMETERS) + 1)
     ]
-    return 1 - min(rests) / total
+    return 1 - min(rests) / total + float(np.sum(values[:, 2] ** 2)) / total
 
 
 def _shape(

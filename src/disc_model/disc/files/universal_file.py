@@ -16,11 +16,11 @@ from pydantic import BeforeValidator
 
 from disc_model.disc.files.circle import Circle, find_circle
 from disc_model.disc.files.harmonics import (
+    IN_PLANE,
     NO_WAVE,
-    UNMOVED,
     Motion,
     Wave,
-    explained,
+    disc_likeness,
     find_wave,
     grouped,
     is_one_half,
@@ -59,7 +59,7 @@ from disc_model.units import Finite, Positive, Strict, Unit, in_si
 if TYPE_CHECKING:
     import os
 
-BETTER = 1e-3  # by how much another reading of coordinate systems must explain more of the motion
+BETTER = 1e-4  # by how much another reading of coordinate systems must look more like a disc
 TOLD_APART = 0.2  # relative difference of frequencies within which two single halves are doubted
 FAR_FACE = 0.01  # ratio of tangential to normal amplitudes above which the axis is doubted
 LARGE = 1e-2  # of the largest amplitude: motion of a mode that a reader would miss
@@ -281,7 +281,7 @@ def _placed(
 
     readings = [*_readings(nodes, read_systems(sets))]
     best: Placed | None = None
-    best_share = -1.0
+    most = -1.0
     fault: ParameterError | None = None
     for reading in readings:
         places = reading.places * units.length
@@ -291,11 +291,11 @@ def _placed(
             fault = fault or error
             continue
         motions = [_motion(shape, nodes, reading, circle, places) for shape in shapes]
-        share = float(np.mean([explained(motion, circle, places) for motion in motions]))
-        if share > best_share + BETTER:
+        likeness = float(np.mean([disc_likeness(motion, circle, places) for motion in motions]))
+        if likeness > most + BETTER:
             text = reading.text if len(readings) > 1 else ""
             best = Placed(places, circle, motions, text)
-            best_share = share
+            most = likeness
     if best is None:
         assert fault is not None
         raise fault
@@ -383,8 +383,9 @@ def _at(wave: Wave, radii: Sequence[float]) -> Wave:
 
 
 def _has_motion_in_plane(waves: Sequence[Wave]) -> bool:
-    """Whether the file has motion in the plane of modes that move across it."""
-    return any(wave.in_plane > UNMOVED * wave.amplitude for wave in waves)
+    """Whether the file has motion in the plane of modes that move across it, and not only what an
+    inexact axis makes of motion along it."""
+    return any(wave.in_plane > IN_PLANE * wave.amplitude for wave in waves)
 
 
 # ---- What a reader should know
