@@ -18,6 +18,7 @@ ROUNDED = 0.01  # of half a turn over the spacing of nodes, whose coordinates ha
 TRIPLES = 4000  # of nodes through which circles are laid
 TRIED = 50  # centres of such circles that are tried
 MOST_COMPARED = 1000  # nodes with which these are compared
+MOST_NODES = 0.5  # least share of nodes that are on circles around the centre
 FEWEST = 3  # nodes that determine a circle
 MOST_LISTED = 8  # radii in a message
 BANDS = (0.1, 0.03, 0.01, 3e-3)  # of r_0, within which nodes draw the centre to themselves
@@ -161,20 +162,30 @@ def _merit(circle: Circle) -> tuple[bool, float]:
 
 
 def _frames(places: Array, r_0: float, axis: Array | None, centre: Array | None) -> Iterator[Frame]:
-    """Frames in which the circle may be found, those that are most usual first."""
+    """Frames in which the circle may be found, those that are most usual first. A centre that is
+    neither given nor the origin must be that of circles on which most nodes are."""
     for direction in _axes(places) if axis is None else [axis]:
         if centre is not None:
             yield Frame.along(direction, centre)
             continue
-        for start in (
-            np.zeros(3),
-            places.mean(axis=0),
-            (places.min(axis=0) + places.max(axis=0)) / 2,
-        ):
-            frame = Frame.along(direction, start)
-            yield frame
-            yield from _drawn(places, r_0, frame, BANDS)
-        yield from _of_triples(places, r_0, Frame.along(direction, np.zeros(3)))
+        origin = Frame.along(direction, np.zeros(3))
+        yield origin
+        for frame in _elsewhere(places, r_0, origin):
+            on_rings = sum(_rings(frame.radii(places)).values())
+            if on_rings >= MOST_NODES * len(places):
+                yield frame
+
+
+def _elsewhere(places: Array, r_0: float, origin: Frame) -> Iterator[Frame]:
+    """Frames along the same axis whose centres may be those of the nodes."""
+    mean = places.mean(axis=0)
+    middle = (places.min(axis=0) + places.max(axis=0)) / 2
+    yield from _drawn(places, r_0, origin, BANDS)
+    for start in (mean, middle):
+        frame = Frame.along(origin.axis, start)
+        yield frame
+        yield from _drawn(places, r_0, frame, BANDS)
+    yield from _of_triples(places, r_0, origin)
 
 
 def _axes(places: Array) -> Iterator[Array]:
