@@ -367,11 +367,11 @@ class Disc(Strict):
             implausible.
         """
         file = import_module("disc_model.data.dataset").regular_file(path)
-        reader = import_module("disc_model.disc.files.universal_file")
-        place = reader.Place.of(
+        places = import_module("disc_model.disc.files.place")
+        place = places.Place.of(
             r_0=r_0, axis=axis, centre=centre, units=units, modal_mass=modal_mass
         )
-        disc = reader.read_uff(file, place)
+        disc = import_module("disc_model.disc.files.universal_file").read_uff(file, place)
         import_module("disc_model.disc.plausibility").warn_of_disc(disc)
         return disc
 

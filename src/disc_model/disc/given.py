@@ -68,8 +68,9 @@ class DiscReport(Summarised):
     Examples
     --------
     >>> import disc_model as dm
+    >>> heads = "diameters; f (Hz); amplitude (kg^-1/2)"
     >>> with open("split.csv", "w") as file:
-    ...     _ = file.write("diameters; f (Hz); amplitude (kg^-1/2)\\n2; 1209; 0.54\\n2; 1215; 0.55\\n")
+    ...     print(heads, "2; 1209; 0.54", "2; 1215; 0.55", sep="\\n", file=file)
     >>> disc = dm.Disc.from_csv("split.csv", pairs="mean")
     >>> print(disc.report)
     split.csv: 1 mode

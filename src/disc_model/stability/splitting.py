@@ -49,11 +49,12 @@ class SplitGrowth(Summarised):
 
     Attributes
     ----------
-    together : 1/s, largest growth rate with the mean frequency of each pair, as `steady_sliding` has it
+    together : 1/s, largest growth rate with the mean frequency of each pair, as `steady_sliding`
+        has it
     growth_rate : 1/s, with the splits
     apart : 1/s, with each half by itself, which large splits approach
-    pairs : DataFrame with a row for each pair: diameters, circles, frequency_Hz, split, and growth rates together and
-        apart of the modes of steady sliding in which this pair moves most
+    pairs : DataFrame with a row for each pair: diameters, circles, frequency_Hz, split, and growth
+        rates together and apart of the modes of steady sliding in which this pair moves most
     """
 
     together: float
@@ -96,14 +97,15 @@ def split_growth(p: Parameters, split: float | Iterable[float] | None = None) ->
     """Find whether the split of pairs of modes matters to steady sliding: growth rates with equal
     frequencies, with the split, and of each half by itself.
 
-    Antinodes of all pairs lie at the same place of the disc. The growth rates are those of small motions; the forced
-    vibration that a split disc has besides is left out.
+    Antinodes of all pairs lie at the same place of the disc. The growth rates are those of small
+    motions; the forced vibration that a split disc has besides is left out.
 
     Parameters
     ----------
     p : the case
-    split : relative difference of the two frequencies of each pair, 0 to 0.2: one number, or one for each mode in the
-        order of `plate_modes`; if left out, those that `disc.report` has of a file
+    split : relative difference of the two frequencies of each pair, 0 to 0.2: one number, or one
+        for each mode in the order of `plate_modes`; if left out, those that `disc.report` has of a
+        file
 
     Returns
     -------
@@ -112,13 +114,14 @@ def split_growth(p: Parameters, split: float | Iterable[float] | None = None) ->
     Raises
     ------
     ParameterError
-        If a number is not allowed, no split is known, the case has no steady sliding, or the drive is so slow that half
-        a turn takes more than 100,000 steps.
+        If a number is not allowed, no split is known, the case has no steady sliding, or the drive
+        is so slow that half a turn takes more than 100,000 steps.
 
     Examples
     --------
     >>> import disc_model as dm
-    >>> disc = dm.Disc(diameters=[2], omega=[3000], amplitude=[0.54], tangential=[-0.13], damping_ratio=[1e-3])
+    >>> modes = {"diameters": [2], "omega": [3000], "amplitude": [0.54], "tangential": [-0.13]}
+    >>> disc = dm.Disc(**modes, damping_ratio=[1e-3])
     >>> pad = {"r_0": 0.1, "k": 1e6, "k_p": 1e6, "c_p": 50, "m": 0.5, "mu_s": 0.45, "mu_k": 0.35}
     >>> case = dm.Parameters(N=8000, Omega=80, disc=disc, friction_offset="surface", **pad)
     >>> dm.split_growth(case, 0.001)

@@ -158,13 +158,19 @@ def find_circle(
 def _merit(circle: Circle) -> tuple[bool, float]:
     """What makes a circle better than another one: that it is covered, and by more nodes, above all
     of one face."""
-    return circle.covers, circle.count * (1.0 if math.isfinite(circle.height) else 0.5)
+    weight = 1.0
+    if math.isnan(circle.height):
+        weight = 0.5
+    return circle.covers, weight * circle.count
 
 
 def _frames(places: Array, r_0: float, axis: Array | None, centre: Array | None) -> Iterator[Frame]:
     """Frames in which the circle may be found, those that are most usual first. A centre that is
     neither given nor the origin must be that of circles on which most nodes are."""
-    for direction in _axes(places) if axis is None else [axis]:
+    directions = _axes(places)
+    if axis is not None:
+        directions = iter([axis])
+    for direction in directions:
         if centre is not None:
             yield Frame.along(direction, centre)
             continue
@@ -273,7 +279,9 @@ def _faces(
 
 def _count(angles: Array) -> int:
     """Number of different angles."""
-    return len(_distinct(angles)) if len(angles) else 0
+    if len(angles) == 0:
+        return 0
+    return len(_distinct(angles))
 
 
 def _distinct(angles: Array) -> Array:

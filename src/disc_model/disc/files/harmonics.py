@@ -89,8 +89,10 @@ def find_wave(motion: Motion, circle: Circle, places: Array) -> tuple[Wave | Non
         return None, f"{NO_WAVE}, up to {circle.most_diameters}"
 
     turn = math.atan2(sine, cosine)
-    across = np.sin(l * angles[chosen] - turn)
-    along_path = in_plane[:, 1] @ across / (across @ across) if l > 0 else 0.0
+    along_path = 0.0
+    if l > 0:
+        across = np.sin(l * angles[chosen] - turn)
+        along_path = float(in_plane[:, 1] @ across / (across @ across))
     radii, shape = _shape(motion.components[:, 2], circle, places, l, turn)
     return Wave(
         diameters=l,
@@ -98,7 +100,7 @@ def find_wave(motion: Motion, circle: Circle, places: Array) -> tuple[Wave | Non
         damping_ratio=motion.damping_ratio,
         amplitude=math.hypot(cosine, sine),
         # of the half that moves normally as sin(l theta), it is that of -cos(l theta)
-        tangential=0.0 - float(along_path),
+        tangential=0.0 - along_path,
         in_plane=float(np.abs(in_plane).max()),
         turn=turn,
         radii=radii,
@@ -127,8 +129,13 @@ def _harmonic(angles: Array, values: Array, l: int) -> tuple[float, float, float
         waves = waves[:, :1]
     solution, *_ = np.linalg.lstsq(waves, values, rcond=None)
     rest = values - waves @ solution
-    sine = float(solution[1]) if l > 0 else 0.0
-    return float(solution[0]), sine, float(rest @ rest)
+    cosine, sine = [*solution.tolist(), 0.0][:2]
+    return cosine, sine, float(rest @ rest)
+
+
+def _rest(angles: Array, values: Array, l: int) -> float:
+    """The sum of squares of three components (n, 3) that a harmonic leaves."""
+    return sum(_harmonic(angles, column, l)[2] for column in values.T)
 
 
 def disc_likeness(motion: Motion, circle: Circle, places: Array) -> float:
@@ -140,10 +147,8 @@ def disc_likeness(motion: Motion, circle: Circle, places: Array) -> float:
     if total == 0:
         return 0.0
     angles = circle.frame.angles(places)[chosen]
-    rests = [
-        sum(_harmonic(angles, column, l)[2] for column in values.T)
-        for l in range(min(circle.most_diameters, MOST_DIAMETERS) + 1)
-    ]
+    orders = range(min(circle.most_diameters, MOST_DIAMETERS) + 1)
+    rests = [_rest(angles, values, l) for l in orders]
     return 1 - min(rests) / total + float(np.sum(values[:, 2] ** 2)) / total
 
 
@@ -221,12 +226,10 @@ def _have_one_amplitude(one: Wave, other: Wave) -> bool:
 
 def mean_of(group: Sequence[Wave], name: str) -> Any:
     """Mean of an attribute over the halves of a pair, each of which may be there several times."""
-    first = [wave for wave in group if _likeness(wave, group[0]) > SAME_HALF]
-    second = [wave for wave in group if _likeness(wave, group[0]) <= SAME_HALF]
-    halves = [half for half in (first, second) if half]
-    return np.mean(
-        [np.mean([getattr(wave, name) for wave in half], axis=0) for half in halves], axis=0
-    )
+    first = [getattr(wave, name) for wave in group if _likeness(wave, group[0]) > SAME_HALF]
+    second = [getattr(wave, name) for wave in group if _likeness(wave, group[0]) <= SAME_HALF]
+    means = [np.mean(half, axis=0) for half in (first, second) if half]
+    return np.mean(means, axis=0)
 
 
 def origin_of(group: Sequence[Wave]) -> ModeOrigin:

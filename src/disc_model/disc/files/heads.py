@@ -33,14 +33,16 @@ NAMES = {
     ),
     "amplitude": "amplitude normal_amplitude axial_amplitude",
     "tangential": "tangential tangential_amplitude",
-    "damping_ratio": "damping_ratio damping modal_damping zeta xi",
-    "loss_factor": "loss_factor eta",
+    "damping_ratio": "damping_ratio damping modal_damping zeta xi loss_factor eta",
     "pole": "pole poles eigenvalue",
     "pole_real": "pole_real real_pole re_pole pole_re real_part eigenvalue_real",
     "pole_imag": "pole_imag imag_pole im_pole pole_im imaginary_part imag_part eigenvalue_imag",
 }
 """Words for each quantity, in lower case with "_" between words."""
-QUANTITIES = {word: quantity for quantity, words in NAMES.items() for word in words.split()}
+QUANTITIES: dict[str, str] = {}
+for _name, _words in NAMES.items():
+    QUANTITIES.update(dict.fromkeys(_words.split(), _name))
+LOSS_FACTORS = ("loss_factor", "eta")  # twice the damping ratio
 
 UNIT_NEEDED = {
     "omega": "Hz, kHz or rad/s",
@@ -77,10 +79,14 @@ def read_head(text: str) -> Head:
     name, unit = _name_and_unit(text)
     if match := _SHAPE_AT.fullmatch(name):
         return _shape(text, match, unit)
-    quantity, unit = _quantity(name, unit)
-    if not quantity:
-        raise ParameterError(Fault.of(("columns",), text, f"unknown column{_known(text)}"))
-    return Head(text, quantity, _factor(text, quantity, unit))
+    word, unit = _word(name, unit)
+    if not word:
+        rule = f"unknown column{suggestion(text, [*COLUMNS])}"
+        raise ParameterError(Fault.of(("columns",), text, rule))
+    factor = _factor(text, QUANTITIES[word], unit)
+    if word in LOSS_FACTORS:
+        factor /= 2
+    return Head(text, QUANTITIES[word], factor)
 
 
 def _name_and_unit(text: str) -> tuple[str, str]:
@@ -103,17 +109,17 @@ def _shape(text: str, match: re.Match[str], unit: str) -> Head:
     return Head(text, "shape", factor, radius)
 
 
-def _quantity(name: str, unit: str) -> tuple[str, str]:
-    """The quantity of a name, "" if there is none, and its unit, which may end the name:
-    frequency_kHz."""
+def _word(name: str, unit: str) -> tuple[str, str]:
+    """The word of `QUANTITIES` in a name, "" if there is none, and the unit, which may end the
+    name: frequency_kHz."""
     words = re.sub(r"[\s_-]+", "_", name.strip())
     if words.lower() in QUANTITIES:
-        return QUANTITIES[words.lower()], unit
+        return words.lower(), unit
     parts = words.split("_")
     for count in range(len(parts) - 1, 0, -1):
-        quantity = QUANTITIES.get("_".join(parts[:count]).lower(), "")
-        if quantity and not unit:
-            return quantity, "_".join(parts[count:])
+        word = "_".join(parts[:count]).lower()
+        if word in QUANTITIES and not unit:
+            return word, "_".join(parts[count:])
     return "", unit
 
 
@@ -149,9 +155,9 @@ def _rate(unit: str, quantity: str) -> float:
         known["1/s"] = 1.0
     if unit.lower() in known:
         return known[unit.lower()]
-    in_hertz = "hz" in unit.lower()
-    factor = _converted(unit, "Hz" if in_hertz else "rad/s")
-    return factor * math.tau if in_hertz else factor
+    if "hz" in unit.lower():
+        return _converted(unit, "Hz") * math.tau
+    return _converted(unit, "rad/s")
 
 
 def _per_root_mass(unit: str) -> float:
@@ -161,14 +167,16 @@ def _per_root_mass(unit: str) -> float:
     if match is None:
         return math.nan
     mass = match[1] or match[2]
-    return 1.0 if mass == "kg" else _converted(mass, "kg") ** -0.5
+    if mass == "kg":
+        return 1.0
+    return _converted(mass, "kg") ** -0.5
 
 
 def _share(unit: str, quantity: str) -> float:
     """Factor to a ratio or a count without unit; nan for other units."""
     if unit in ("", "-", "1"):
         share = 1.0
-    elif unit in ("%", "percent", "per cent") and quantity in ("damping_ratio", "loss_factor"):
+    elif unit in ("%", "percent", "per cent") and quantity == "damping_ratio":
         share = 0.01
     else:
         share = math.nan
@@ -179,9 +187,6 @@ def _converted(unit: str, target: str) -> float:
     """One of a unit in another one; nan if it is not of its kind."""
     faults: list[Fault] = []
     value = in_si(f"1 {unit}", target, faults, ())
-    return float(value) if isinstance(value, float) and not faults else math.nan
-
-
-def _known(text: str) -> str:
-    """Words for a message: what columns there are."""
-    return suggestion(text, [*COLUMNS])
+    if faults or not isinstance(value, float):
+        return math.nan
+    return value

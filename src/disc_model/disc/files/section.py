@@ -219,7 +219,9 @@ def _modes(
     """All modes up to the highest frequency (rad/s), by nodal diameters."""
     # the half of a pair that moves as sin(l theta) has u_theta = -v cos(l theta); seen from below,
     # displacement towards the slider and the sense of rotation are reversed
-    side = 1.0 if points.below else -1.0
+    side = -1.0
+    if points.below:
+        side = 1.0
     modes = []
     for l in range(MOST_DIAMETERS + 1):
         omega, moves = _harmonic(basis, l, material, held, points.unknowns, highest)

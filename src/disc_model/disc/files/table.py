@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import difflib
+import itertools
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -35,6 +36,7 @@ WRITTEN = (
 )
 """Columns of `table_text`, in this order, before those of shapes."""
 ROUNDING = 1e-9  # relative: both may be the same sum with different rounding
+POLES = ("pole", "pole_real", "pole_imag")  # quantities that stand for frequency and damping
 LIKE = 0.8  # likeness of names above which a typing error is suspected
 _COMPLIANCE_NAMES = (STATIC_COMPLIANCE.lower(), "static_compliance")
 _STATEMENT = re.compile(
@@ -165,34 +167,53 @@ def _check_compliance(disc: Disc) -> None:
 def _rows(lines: list[str]) -> list[list[str]]:
     """The cells of a table, without empty rows and columns, which spreadsheets append."""
     separator = ""
-    if lines and (match := _SEPARATOR.fullmatch(lines[0])):
-        separator = match[1]
+    if lines and (stated := _SEPARATOR.fullmatch(lines[0])):
+        separator = stated[1]
         lines = lines[1:]
-    head = next((line for line in lines if line.strip()), "")
-    separator = separator or next((mark for mark in ";\t" if mark in head), ",")
+    if not separator:
+        separator = _separator_in(next((line for line in lines if line.strip()), ""))
 
     rows = []
+    used: set[int] = set()
     for row in csv.reader(lines, delimiter=separator, skipinitialspace=True):
         cells = [cell.strip() for cell in row]
-        if any(cells):
+        filled = [i for i, cell in enumerate(cells) if cell]
+        used.update(filled)
+        if filled:
             rows.append(cells)
-    used = {i for row in rows for i, cell in enumerate(row) if cell}
-    rows = [[cell for i, cell in enumerate(row) if i in used] for row in rows]
+    rows = [_chosen(row, used) for row in rows]
     if separator != ",":
         rows[1:] = _with_points(rows[1:])
     return rows
 
 
+def _separator_in(head: str) -> str:
+    """What separates columns, by the line of their heads."""
+    for mark in ";\t":
+        if mark in head:
+            return mark
+    return ","
+
+
+def _chosen(row: list[str], used: set[int]) -> list[str]:
+    """The cells of a row in columns that are used."""
+    return [cell for i, cell in enumerate(row) if i in used]
+
+
 def _with_points(rows: list[list[str]]) -> list[list[str]]:
     """Cells with decimal points in place of decimal commas; both in one table are refused, because
     one of them may separate thousands."""
-    cells = [cell for row in rows for cell in row]
+    cells = [*itertools.chain.from_iterable(rows)]
     with_comma = [cell for cell in cells if re.search(r",\d", cell)]
     with_point = [cell for cell in cells if re.search(r"\.\d", cell)]
     if with_comma and with_point:
         rule = "all numbers must have commas, or all must have points, for decimals: not "
         raise ParameterError(Fault((), "", f"{rule}{with_comma[0]} and {with_point[0]}"))
-    return [[cell.replace(",", ".") for cell in row] for row in rows]
+    return [[*map(_with_point, row)] for row in rows]
+
+
+def _with_point(cell: str) -> str:
+    return cell.replace(",", ".")
 
 
 # ---- Columns
@@ -204,12 +225,14 @@ def _columns(rows: list[list[str]]) -> list[Column]:
     if body and len(body[0]) == len(names) and not any(map(_begins_a_number, body[0])):
         names = _with_units(names, body.pop(0))
     heads, faults = _heads(names)
+    raise_faults(faults or _faults_together(heads))
     rule = f"values: must be as many as columns, {len(names)}"
     uneven = [
         f"mode {i} has {len(row)} {rule}" for i, row in enumerate(body, 1) if len(row) != len(names)
     ]
-    raise_faults(faults or uneven[:3])
-    return [Column(head, tuple(row[i] for row in body)) for i, head in enumerate(heads)]
+    raise_faults(uneven[:3])
+    cells = zip(*body, strict=True) if body else [()] * len(heads)
+    return [Column(head, column) for head, column in zip(heads, cells, strict=True)]
 
 
 def _with_units(names: list[str], units: list[str]) -> list[str]:
@@ -230,42 +253,50 @@ def _heads(names: list[str]) -> tuple[list[Head], list[Fault]]:
             heads.append(read_head(name))
         except ParameterError as error:
             faults += error.faults
-    if faults:
-        return heads, faults
+    return heads, faults
 
+
+def _faults_together(heads: list[Head]) -> list[Fault]:
+    """Faults of heads that are right by themselves: one that is missing, or says again what another
+    one says."""
     quantities = [head.quantity for head in heads if head.quantity != "shape"]
-    for quantity in dict.fromkeys(["diameters", "omega", "amplitude", *quantities]):
+    needed = ["diameters", "amplitude"]
+    if not ("pole" in quantities or {"pole_real", "pole_imag"} <= {*quantities}):
+        needed.append("omega")
+    faults = []
+    for quantity in dict.fromkeys([*needed, *quantities]):
         count = quantities.count(quantity)
-        by_poles = "pole" in quantities or {"pole_real", "pole_imag"} <= {*quantities}
-        if count == 1 or (count == 0 and quantity == "omega" and by_poles):
-            continue
-        wanted = " or ".join(name for name, (which, _) in COLUMNS.items() if which == quantity)
-        rule = f"must have one column {wanted or quantity}" + (f", and not {count}" * (count > 0))
-        faults.append(Fault(("columns",), "", rule))
-    stated = {*quantities}
-    for one, other in (("pole", "omega"), ("pole_real", "omega"), ("loss_factor", "damping_ratio")):
-        if {one, other} <= stated:
+        if count != 1:
+            faults.append(_wrong_count(quantity, count))
+    for one, other in itertools.product(POLES, ("omega", "damping_ratio")):
+        if one in quantities and other in quantities:
             rule = f"must not have both {one} and {other}, which say the same"
             faults.append(Fault(("columns",), "", rule))
-    return heads, faults
+    return faults
+
+
+def _wrong_count(quantity: str, count: int) -> Fault:
+    """The fault that a quantity has no column, or several."""
+    names = [name for name, (which, _) in COLUMNS.items() if which == quantity]
+    rule = f"must have one column {' or '.join(names) or quantity}"
+    if count > 0:
+        rule += f", and not {count}"
+    return Fault(("columns",), "", rule)
 
 
 def _values(columns: list[Column]) -> dict[str, Any]:
     """The fields of a `Disc` from the columns of a table."""
-    values: dict[str, Any] = {}
-    shapes: dict[float, list[float | str]] = {}
-    for column in columns:
-        if column.head.quantity == "shape":
-            shapes[column.head.radius] = column.numbers
-        else:
-            values[column.head.quantity] = column.numbers
+    values: dict[str, Any] = {
+        column.head.quantity: column.numbers
+        for column in columns
+        if column.head.quantity != "shape"
+    }
+    shapes = [column for column in columns if column.head.quantity == "shape"]
     if shapes:
-        values["radii"] = sorted(shapes)
-        values["shapes"] = [*zip(*(shapes[radius] for radius in values["radii"]), strict=True)]
-    if "loss_factor" in values:
-        factors = values.pop("loss_factor")
-        values["damping_ratio"] = [x if isinstance(x, str) else x / 2 for x in factors]
-    if {"pole", "pole_real", "pole_imag"} & {*values}:
+        shapes.sort(key=lambda column: column.head.radius)
+        values["radii"] = [column.head.radius for column in shapes]
+        values["shapes"] = [*zip(*(column.numbers for column in shapes), strict=True)]
+    if any(name in values for name in POLES):
         _replace_poles(values, columns)
     return values
 
@@ -286,7 +317,7 @@ def _replace_poles(values: dict[str, Any], columns: list[Column]) -> None:
         rule = "must be a complex number with a real part of at most 0 and an imaginary part "
         require((is_pole, "pole", text, f"{rule}(mode {i + 1})"))
 
-    for name in ("pole", "pole_real", "pole_imag"):
+    for name in POLES:
         values.pop(name, None)
     values["omega"] = [abs(pole) for pole in poles]
     values["damping_ratio"] = [max(0.0, -pole.real / abs(pole)) for pole in poles]
@@ -370,9 +401,13 @@ def _all_numbers(values: Mapping[str, Any]) -> bool:
     """Whether all that averages need is there, as numbers."""
     if not {"diameters", "omega", "amplitude"} <= {*values}:
         return False
-    cells = [x for name, column in values.items() if isinstance(column, list) for x in column]
-    flat = [x for cell in cells for x in (cell if isinstance(cell, tuple) else (cell,))]
-    return all(isinstance(x, float) and math.isfinite(x) for x in flat)
+    for name, column in values.items():
+        cells = column if isinstance(column, list) else []
+        if name == "shapes":
+            cells = [*itertools.chain.from_iterable(column)]
+        if not all(isinstance(cell, float) and math.isfinite(cell) for cell in cells):
+            return False
+    return True
 
 
 def _of_table(fault: Fault, columns: list[Column]) -> Fault:

@@ -102,14 +102,13 @@ def read_units(sets: Iterable[DataSet], stated: tuple[float, float] | None) -> F
 
 def _units_of(data: DataSet) -> tuple[float, float]:
     """Units of length and force per m and N of a dataset 164."""
-    head = data.lines[0][:10].strip() if data.lines else ""
-    code = int(head) if head.isdigit() else 0
+    head = "".join(data.lines[:1])[:10].strip()
     factors = numbers_in(data, 1)[:2].tolist()
     if len(factors) == 2 and all(0 < factor < math.inf for factor in factors):
         return factors[0], factors[1]
-    if code not in UNIT_CODES:
+    if not head.isdigit() or int(head) not in UNIT_CODES:
         raise data.fault("must have the factors of its units, or a code from 1 to 9")
-    return UNIT_CODES[code]
+    return UNIT_CODES[int(head)]
 
 
 def read_systems(sets: Iterable[DataSet]) -> dict[int, System]:

@@ -47,8 +47,15 @@ DATA = {
 }
 """Kinds of data by their number, in messages."""
 VECTORS = (2, 3)  # data characteristics: three displacements, with and without three rotations
-UNSTATED = (0, 1)  # kinds of data without a name, which are taken for displacement
-ORDERS = {0: 0, 1: 0, 8: 0, 11: 1, 12: 2}  # derivative in time of displacement, by kind of data
+KINDS = {
+    0: ("data of no stated kind, taken for displacement", 0),
+    1: ("data of no stated kind, taken for displacement", 0),
+    8: ("displacement", 0),
+    11: ("velocity", 1),
+    12: ("acceleration", 2),
+}
+"""Motion by the number of its kind of data: its name, and the derivative of displacement in time
+that it is."""
 AT_NODES = 1  # location of the data of a dataset 2414
 REAL_DATA = (2, 4)  # of single and double precision
 COMPLEX_DATA = (5, 6)
@@ -90,7 +97,7 @@ class FileMode:
     data : its dataset
     analysis : `NORMAL_MODE`, `COMPLEX_MODE` or `COMPLEX_MODE_2`
     nodes : (n,), numbers of nodes
-    motion : (n, 3), complex; displacement, velocity or acceleration, by `order`
+    motion : (n, 3), complex, of this kind: displacement, velocity or acceleration
     order : derivative of displacement in time that `motion` is
     pole : 1/s, with a positive imaginary part
     scale : modal mass of a normal mode, modal A of a complex one
@@ -102,6 +109,7 @@ class FileMode:
     analysis: int
     nodes: NDArray[np.int64]
     motion: NDArray[np.complex128]
+    kind: str
     order: int
     pole: complex
     scale: complex
@@ -145,16 +153,24 @@ def read_modes(sets: Iterable[DataSet]) -> tuple[list[FileMode], Counter[str]]:
     for data in sets:
         if data.number not in (55, 2414):
             continue
-        head = _header_55(data) if data.number == 55 else _header_2414(data)
+        head = _header(data)
         reason = _other_than_modes(head)
-        mode = None if reason else _mode(data, head)
-        if mode is not None and not _oscillates(mode):
-            reason = "mode at 0 Hz or without oscillation"
-        if mode is None or reason:
+        if reason:
             left_out[reason] += 1
-        else:
+            continue
+        mode = _mode(data, head)
+        if _oscillates(mode):
             modes.append(mode)
+        else:
+            left_out["mode at 0 Hz or without oscillation"] += 1
     return modes, left_out
+
+
+def _header(data: DataSet) -> Header:
+    """The header of a dataset 55 or 2414."""
+    if data.number == 55:
+        return _header_55(data)
+    return _header_2414(data)
 
 
 def _header_55(data: DataSet) -> Header:
@@ -163,7 +179,9 @@ def _header_55(data: DataSet) -> Header:
     n_integers, n_reals = integers(data, 6, 2)[:2]
     first_reals = 6 + math.ceil((2 + max(n_integers, 0)) / 8)
     n_records = max(1, math.ceil(n_reals / 6))
-    values = [value for i in range(n_records) for value in reals(data, first_reals + i)]
+    values: list[float] = []
+    for i in range(n_records):
+        values += reals(data, first_reals + i)
     return Header(
         analysis=analysis,
         characteristic=characteristic,
@@ -181,8 +199,11 @@ def _header_2414(data: DataSet) -> Header:
     """The header of a dataset 2414."""
     location = integers(data, 2, 1)[0]
     analysis, characteristic, kind, data_type, width = integers(data, 8, 6)[1:6]
-    first, second = reals(data, 11), reals(data, 12)
+    first = reals(data, 11)
     first += [0.0] * (6 - len(first))
+    specific = reals(data, 12)
+    if analysis == NORMAL_MODE:
+        specific = [first[1], *first[3:6]]
     return Header(
         analysis=analysis,
         characteristic=characteristic,
@@ -190,7 +211,7 @@ def _header_2414(data: DataSet) -> Header:
         type=data_type,
         width=width,
         at_nodes=location == AT_NODES,
-        reals=[first[1], *first[3:6]] if analysis == NORMAL_MODE else second,
+        reals=specific,
         texts=[data.lines[1], *data.lines[3:8]],
         records=13,
     )
@@ -204,7 +225,7 @@ def _other_than_modes(head: Header) -> str:
         what = analysis
     elif not head.at_nodes:
         what = f"{analysis} on elements"
-    elif head.kind not in ORDERS:
+    elif head.kind not in KINDS:
         what = f"{DATA.get(head.kind, f'data of type {head.kind}')} of a {analysis}"
     elif head.characteristic not in VECTORS and not _is_untold_vector(head):
         what = f"{analysis} without three displacements a node"
@@ -221,6 +242,7 @@ def _is_untold_vector(head: Header) -> bool:
 def _mode(data: DataSet, head: Header) -> FileMode:
     """The mode of a dataset."""
     nodes, motion = _node_values(data, head)
+    name, order = KINDS[head.kind]
     values = head.reals + [0.0] * (6 - len(head.reals))
     if head.analysis == NORMAL_MODE:
         frequency, mass, viscous, hysteretic = values[:4]
@@ -241,7 +263,8 @@ def _mode(data: DataSet, head: Header) -> FileMode:
         analysis=head.analysis,
         nodes=nodes,
         motion=motion,
-        order=ORDERS[head.kind],
+        kind=name,
+        order=order,
         pole=pole,
         scale=scale,
         modal_b=modal_b,
@@ -252,7 +275,7 @@ def _mode(data: DataSet, head: Header) -> FileMode:
 def _node_values(data: DataSet, head: Header) -> tuple[NDArray[np.int64], NDArray[np.complex128]]:
     """Numbers of the nodes of a dataset, and their three displacements (n, 3)."""
     is_complex = head.type in COMPLEX_DATA
-    count = head.width * (2 if is_complex else 1)
+    count = head.width * (1 + is_complex)
     values = numbers_in(data, head.records)
     if head.width < 3 or values.size % (1 + count):
         rule = f"must have a number and {count} values for each node, and has {values.size} numbers"
@@ -262,8 +285,9 @@ def _node_values(data: DataSet, head: Header) -> tuple[NDArray[np.int64], NDArra
     if not (np.all(np.isfinite(table)) and np.array_equal(nodes, table[:, 0])):
         raise data.fault(f"must have a whole number and {count} finite values for each node")
     parts = table[:, 1:]
-    real, imaginary = (parts[:, ::2], parts[:, 1::2]) if is_complex else (parts, 0.0)
-    motion = np.asarray(real + 1j * imaginary, dtype=np.complex128)
+    motion = parts.astype(np.complex128)
+    if is_complex:
+        motion = parts[:, ::2] + 1j * parts[:, 1::2]
     return nodes, motion[:, :3]
 
 
@@ -284,28 +308,49 @@ def _oscillates(mode: FileMode) -> bool:
 # ---- Poles
 
 
+class Evidence(NamedTuple):
+    """What tells the unit of poles.
+
+    ratios : of each mode
+    in_radians, in_hertz : what they are with either unit
+    error : their relative error
+    reason : words for the second case
+    """
+
+    ratios: list[float]
+    in_radians: float
+    in_hertz: float
+    error: float
+    reason: str
+
+
 def poles_in_hertz(modes: Iterable[FileMode]) -> str:
     """Why the poles of complex modes seem to be in Hz; "" if they are in rad/s or nothing tells.
 
     Modal B is -pole times modal A, lines for readers may state frequencies, and most programs scale
     shapes to a modal mass of 1.
     """
-    scaled = [mode for mode in modes if mode.analysis != NORMAL_MODE and not mode.may_have_mass]
-    scaled = [mode for mode in scaled if mode.scale != 0]
+    scaled = [mode for mode in modes if _has_modal_a(mode)]
     by_b = [abs(mode.modal_b / mode.scale / mode.pole) for mode in scaled if mode.modal_b != 0]
-    if _all_near(by_b, 1.0, AGREES):
-        return ""
-    if _all_near(by_b, math.tau, AGREES):
-        return "modal A and modal B say so"
     by_text = [mode.stated / abs(mode.pole) for mode in scaled if mode.stated > 0]
-    if _all_near(by_text, 1 / math.tau, AGREES):
-        return ""
-    if _all_near(by_text, 1.0, AGREES):
-        return "texts of the file state these frequencies"
     by_mass = [abs(mode.scale) / (2 * mode.pole.imag) for mode in scaled]
-    if _all_near(by_mass, math.tau, UNIT_MASS):
-        return "with them modal A gives each mode a modal mass of 2 pi"
+    told = "texts of the file state these frequencies"
+    unit_mass = "with them modal A gives each mode a modal mass of 2 pi"
+    for evidence in (
+        Evidence(by_b, 1.0, math.tau, AGREES, "modal A and modal B say so"),
+        Evidence(by_text, 1 / math.tau, 1.0, AGREES, told),
+        Evidence(by_mass, 1.0, math.tau, UNIT_MASS, unit_mass),
+    ):
+        if _all_near(evidence.ratios, evidence.in_radians, evidence.error):
+            return ""
+        if _all_near(evidence.ratios, evidence.in_hertz, evidence.error):
+            return evidence.reason
     return ""
+
+
+def _has_modal_a(mode: FileMode) -> bool:
+    """Whether a mode is complex and its scale is a modal A for certain."""
+    return mode.analysis != NORMAL_MODE and not mode.may_have_mass and mode.scale != 0
 
 
 def _all_near(ratios: Sequence[float], value: float, relative: float) -> bool:
@@ -315,7 +360,9 @@ def _all_near(ratios: Sequence[float], value: float, relative: float) -> bool:
 
 def with_pole_in_radians(mode: FileMode) -> FileMode:
     """A mode with its pole in rad/s where the file has it in Hz."""
-    return mode if mode.analysis == NORMAL_MODE else replace(mode, pole=math.tau * mode.pole)
+    if mode.analysis == NORMAL_MODE:
+        return mode
+    return replace(mode, pole=math.tau * mode.pole)
 
 
 # ---- Scaling
@@ -325,8 +372,9 @@ def with_modal_mass(mode: FileMode, modal_mass: float) -> FileMode:
     """A mode with this modal mass, in the file's unit, if the file has no scale."""
     if mode.scale != 0:
         return mode
-    is_normal = mode.analysis == NORMAL_MODE
-    scale = complex(modal_mass) if is_normal else 2j * mode.pole.imag * modal_mass
+    scale = complex(modal_mass)
+    if mode.analysis != NORMAL_MODE:
+        scale *= 2j * mode.pole.imag
     return replace(mode, scale=scale)
 
 
@@ -372,5 +420,6 @@ def _complex(mode: FileMode, motion: NDArray[np.complex128]) -> tuple[NDArray[np
 def _in_phase(motion: NDArray[np.complex128]) -> tuple[NDArray[np.float64], float]:
     """The real part of a shape, and its share of the sum of squares; 1 of nothing."""
     total = float(np.sum(np.abs(motion) ** 2))
-    share = float(np.sum(motion.real**2)) / total if total > 0 else 1.0
-    return motion.real, share
+    if total == 0:
+        return motion.real, 1.0
+    return motion.real, float(np.sum(motion.real**2)) / total

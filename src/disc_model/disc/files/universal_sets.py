@@ -113,9 +113,12 @@ def _end_mark(text: str, start: int) -> re.Match[str] | None:
 
 
 def _data_set(lines: list[str], place: int) -> DataSet:
-    """The dataset of the lines between its marks."""
+    """The dataset of the lines between its marks; its number is 0 if it has none."""
     match = _KIND.match(lines[0])
-    return DataSet(int(match[1]) if match else 0, place, lines[1:])
+    number = 0
+    if match is not None:
+        number = int(match[1])
+    return DataSet(number, place, lines[1:])
 
 
 def integers(data: DataSet, i: int, least: int = 0) -> list[int]:
@@ -159,7 +162,7 @@ def _fields(data: DataSet, i: int, width: int, least: int) -> list[float]:
             )
     if len(cells) < least:
         raise data.fault(f"must have {least} numbers in record {i + 1}, and not {len(cells)}")
-    return [_value(cell) if cell else 0.0 for cell in cells]
+    return [_value(cell or "0") for cell in cells]
 
 
 def _value(text: str) -> float:
