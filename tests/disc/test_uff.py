@@ -279,6 +279,32 @@ def test_shapes_without_a_scale_are_refused_or_taken_as_normalised(tmp_path: Pat
         assert_right(read(tmp_path, Dialect(complex=analysis), modal_mass=7))
 
 
+def test_shapes_that_are_not_in_phase_are_left_out(tmp_path: Path) -> None:
+    """A modal A of the wrong sign would mean a negative modal mass; a phase of 0.3 rad is that of a
+    slightly complex mode, and the report has it."""
+    with pytest.raises(
+        dm.ParameterError, match=r"7 x mode whose motion is not in phase by its modal A"
+    ):
+        read(tmp_path, Dialect(complex=3, turned_by=np.pi / 2))
+    disc = read(tmp_path, Dialect(complex=3, turned_by=0.3))
+    np.testing.assert_allclose(
+        disc.amplitude, np.cos(0.3) * np.array([m[2] for m in MODES]), rtol=DIGITS
+    )
+    assert disc.report is not None
+    np.testing.assert_allclose(
+        [m.in_phase for m in disc.report.modes], np.cos(0.3) ** 2, rtol=DIGITS
+    )
+
+
+def test_a_disc_that_grows_by_itself_is_refused(tmp_path: Path) -> None:
+    for analysis in (0, 3):
+        dialect = Dialect(complex=analysis)
+        with pytest.raises(
+            dm.ParameterError, match=r"has a pole with a positive real part, the mode at"
+        ):
+            read(tmp_path, dialect, halves(MODES, damping=-1e-3))
+
+
 def test_nodes_that_are_too_few_are_told(tmp_path: Path) -> None:
     """Six nodes cannot have three nodal diameters."""
     with pytest.warns(dm.ImplausibleValue, match=r"modes at 1919, 1921 Hz, .* are left out"):

@@ -73,6 +73,7 @@ class Dialect:
     stated : whether the file has the scale, or 0 in its place
     mass : whether a complex mode has its modal mass in the place of modal A
     conjugate : whether poles have negative imaginary parts
+    turned_by : rad, phase of complex shapes that modal A does not have
     modal_b : whether modal B is there; `in_hertz`: whether poles are in Hz
     order : displacement, velocity, acceleration
     exponent : letter of exponents
@@ -94,6 +95,7 @@ class Dialect:
     scale: complex = 1.0
     stated: bool = True
     mass: bool = False
+    turned_by: float = 0.0
     conjugate: bool = False
     modal_b: bool = False
     in_hertz: bool = False
@@ -199,6 +201,7 @@ class Dialect:
         unit_mass = self.force / self.length
         if self.complex:
             motion = motion * np.sqrt(complex(self.scale)) * pole**self.order
+            motion = motion * np.exp(1j * self.turned_by)
             modal_a = (1 if self.mass else 2j * pole.imag) * self.scale * unit_mass * self.stated
             modal_b = -pole * modal_a * self.modal_b
             written = pole / (2 * np.pi) if self.in_hertz else pole

@@ -21,6 +21,7 @@ from disc_model.disc.plate import Array
 MOST_DIAMETERS = 60  # of the modes of a `Disc`
 IN_PLANE = 1e-3  # share of the motion in the plane below which normal motion is none
 UNMOVED = 1e-6  # share of the largest amplitude below which a mode is unmoved under the slider
+NORMAL_WEIGHT = 0.1  # of the share of motion along the axis, in the likeness to a disc
 FOLLOWED = 0.5  # least share of the normal motion that has the mode's nodal diameters
 IN_PHASE = 0.75  # least share of a shape that is in phase: within 30 degrees
 NO_WAVE = "mode with less than half of its motion in one number of nodal diameters"
@@ -139,8 +140,8 @@ def _rest(angles: Array, values: Array, l: int) -> float:
 
 
 def disc_likeness(motion: Motion, circle: Circle, places: Array) -> float:
-    """How much motion on the circle, of three components, looks like that of a disc: the greatest
-    share that one number of nodal diameters explains, and the share along the axis."""
+    """How much motion on the circle, of three components, looks like that of a disc, 0 to 1: above
+    all by the share that one number of nodal diameters explains, then by that along the axis."""
     chosen = circle.members & np.isfinite(motion.components[:, 2])
     values = motion.components[chosen]
     total = float(np.sum(values**2))
@@ -149,7 +150,9 @@ def disc_likeness(motion: Motion, circle: Circle, places: Array) -> float:
     angles = circle.frame.angles(places)[chosen]
     orders = range(min(circle.most_diameters, MOST_DIAMETERS) + 1)
     rests = [_rest(angles, values, l) for l in orders]
-    return 1 - min(rests) / total + float(np.sum(values[:, 2] ** 2)) / total
+    explained = 1 - min(rests) / total
+    normal = float(np.sum(values[:, 2] ** 2)) / total
+    return (1 - NORMAL_WEIGHT) * explained + NORMAL_WEIGHT * normal
 
 
 def _shape(

@@ -222,7 +222,8 @@ def _single_halves(groups: Sequence[Sequence[Wave]]) -> list[str]:
         if low.diameters != high.diameters or not single or apart > TOLD_APART:
             continue
         text = f"modes of {counted(low.diameters, 'nodal diameter')} at "
-        text += f"{low.omega / math.tau:.5g} and {high.omega / math.tau:.5g} Hz are kept as two, {100 * apart:.2g} % apart: the "
+        text += f"{low.omega / math.tau:.5g} and {high.omega / math.tau:.5g} Hz are kept as two, "
+        text += f"{100 * apart:.2g} % apart: the "
         doubts.append(f"{text}halves of one pair are within {100 * SAME_PAIR:g} %")
     return doubts
 

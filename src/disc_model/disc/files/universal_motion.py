@@ -54,10 +54,14 @@ class Reading(NamedTuple):
 
 def contents_of(sets: Iterable[DataSet]) -> str:
     """What a file holds, for messages."""
+    counts = Counter(data.number for data in sets)
     texts = []
-    for number, count in Counter(data.number for data in sets).items():
+    for number, count in counts.items():
         texts.append(f"{number} ({count})" if count > 1 else f"{number}")
-    return f"The file has datasets {', '.join(texts)}"
+    text = f"The file has datasets {', '.join(texts)}"
+    if 164 not in counts:
+        text += ", and none with units (164)"
+    return text
 
 
 def placed_modes(
