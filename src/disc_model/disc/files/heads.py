@@ -45,14 +45,14 @@ for _name, _words in NAMES.items():
 LOSS_FACTORS = ("loss_factor", "eta")  # twice the damping ratio
 
 UNIT_NEEDED = {
-    "omega": "Hz, kHz or rad/s",
-    "pole": "rad/s or Hz",
-    "pole_real": "1/s, rad/s or Hz",
-    "pole_imag": "rad/s or Hz",
-    "amplitude": "kg^-1/2",
-    "tangential": "kg^-1/2",
+    "omega": ("Hz, kHz or rad/s", "frequency_Hz or frequency (Hz)"),
+    "pole": ("rad/s or Hz", "pole (rad/s)"),
+    "pole_real": ("1/s, rad/s or Hz", "pole real (1/s)"),
+    "pole_imag": ("rad/s or Hz", "pole imag (rad/s)"),
+    "amplitude": ("kg^-1/2", "amplitude_per_sqrt_kg or amplitude (kg^-1/2)"),
+    "tangential": ("kg^-1/2", "tangential_per_sqrt_kg or tangential (kg^-1/2)"),
 }
-"""Quantities whose heads must state a unit, and which."""
+"""Quantities whose heads must state a unit: which, and examples."""
 
 _SHAPE_AT = re.compile(r"shape[ _]+at[ _]+(\d*\.?\d+(?:e-?\d+)?)[ _]*([a-zµμ]*m)", re.IGNORECASE)
 _BRACKETS = re.compile(r"(.*?)\s*(?:\((.*)\)|\[(.*)\])")
@@ -125,10 +125,9 @@ def _word(name: str, unit: str) -> tuple[str, str]:
 
 def _factor(text: str, quantity: str, unit: str) -> float:
     """Factor from the unit of a head to the SI unit of its quantity."""
-    if not unit and quantity in UNIT_NEEDED:
-        rule = (
-            f"must give its unit, {UNIT_NEEDED[quantity]}, as in {quantity} ({_example(quantity)})"
-        )
+    units, examples = UNIT_NEEDED.get(quantity, ("none or %", ""))
+    if not unit and examples:
+        rule = f"must give its unit, {units}, as in {examples}"
         raise ParameterError(Fault.of(("columns",), text, rule))
     plain = unit.replace("_per_", "/").replace("per_", "1/").replace("sqrt_", "sqrt ")
     if quantity in ("omega", "pole", "pole_real", "pole_imag"):
@@ -138,14 +137,9 @@ def _factor(text: str, quantity: str, unit: str) -> float:
     else:
         factor = _share(plain, quantity)
     if math.isnan(factor):
-        wanted = UNIT_NEEDED.get(quantity, "none or %")
-        rule = f"the unit of {quantity} must be {wanted}, not {unit}"
+        rule = f"the unit of {quantity} must be {units}, not {unit}"
         raise ParameterError(Fault.of(("columns",), text, rule))
     return factor
-
-
-def _example(quantity: str) -> str:
-    return UNIT_NEEDED[quantity].split(",")[0].split(" or ")[0]
 
 
 def _rate(unit: str, quantity: str) -> float:

@@ -253,6 +253,9 @@ def _heads(names: list[str]) -> tuple[list[Head], list[Fault]]:
             heads.append(read_head(name))
         except ParameterError as error:
             faults += error.faults
+    if faults and len(names) == 1 and len(names[0].split()) > 1:
+        rule = "must be separated by commas, semicolons or tabs"
+        faults = [Fault.of(("columns",), names[0], rule)]
     return heads, faults
 
 
