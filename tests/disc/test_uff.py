@@ -106,6 +106,22 @@ def test_units_are_those_of_the_file(
     assert_right(read(tmp_path, dialect, r_0="100 mm"))
 
 
+def test_a_code_of_units_stands_for_its_factors(tmp_path: Path) -> None:
+    """Millimetres and milli-newtons, code 5, in a file that leaves the factors out."""
+    file = Dialect(length=1e3, force=1e3).write(tmp_path / "modes.unv", halves(MODES))
+    text = file.read_text()
+    millimetres = "\n".join([*begin(164), whole(5) + "mm (milli-newton)   " + whole(2), END, ""])
+    file.write_text(millimetres + text)
+    assert_right(dm.Disc.from_uff(file, R_0))
+    metres = millimetres.replace("         5mm", "         1mm")
+    file.write_text(metres + millimetres + text)
+    with pytest.raises(dm.ParameterError, match="must have one system of units"):
+        dm.Disc.from_uff(file, R_0)
+    file.write_text(millimetres.replace("         5mm", "        77mm") + text)
+    with pytest.raises(dm.ParameterError, match="must have the factors of its units, or a code"):
+        dm.Disc.from_uff(file, R_0)
+
+
 def test_units_may_be_stated_where_the_file_has_none(tmp_path: Path) -> None:
     dialect = Dialect(length=1e3, force=1.0)
     assert_right(read(tmp_path, dialect, units=("mm", "N")))
@@ -450,6 +466,9 @@ def test_the_command_line_reads_universal_files(
     assert "r_0: is required" in command.error("modes", "--from", str(file))
     both = command.error("modes", "--from", str(file), "--disc", str(table), "--r-0", "0.1")
     assert "disc: must be left out: --from gives the disc" in both
+    turned = Dialect(axis=(0, -1, 0), length=1e3).write(tmp_path / "mm.unv", halves(MODES))
+    units = ("--r-0", "0.1", "--axis", "-y", "--units", "mm,N", "--modal-mass", "1")
+    assert "-y through (0, 0, 0) m" in command.out("modes", "--from", str(turned), *units)
     assert "axis='w': must be" in command.error(
         "modes", "--from", str(file), "--r-0", "0.1", "--axis", "w"
     )

@@ -203,7 +203,8 @@ def _has_motion_in_plane(waves: Sequence[Wave]) -> bool:
 def _few_nodes(waves: Sequence[Wave], circle: Circle, unresolved: Sequence[float]) -> list[str]:
     """Doubts whether the nodes are enough for the modes."""
     most = circle.most_diameters
-    text = f"{circle.count} nodes on the circle tell modes of up to {most} nodal diameters apart"
+    text = f"{circle.count} nodes on the circle tell modes of up to "
+    text += f"{counted(most, 'nodal diameter')} apart"
     if unresolved:
         frequencies = ", ".join(f"{frequency:.5g}" for frequency in unresolved)
         return [f"{text}: the modes at {frequencies} Hz, which follow none of these, are left out"]
