@@ -48,6 +48,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         for function in (dm.plate_modes, dm.coupled_natural_frequencies, dm.residual_flexibility)
     ),
     (dm.steady_sliding, {}, {}),
+    (dm.split_growth, {"p": P, "split": 0.0}, {}),
     (dm.choose_modes, {"case": P}, {"case": "dict", "tolerance": "None"}),
     (
         dm.simulate,
@@ -94,7 +95,13 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot, {}, {"ax": "None"}),
     (RUN.__getitem__, {}, {}),
     (DISC.to_csv, {}, {"path": "text"}),
-    (dm.Disc.from_csv, {}, {"path": "text"}),
+    (dm.Disc.from_csv, {"path": "none.csv"}, {"path": "text"}),
+    (
+        dm.Disc.from_uff,
+        {"path": "none.uff", "r_0": 0.1},
+        {"path": "text", "axis": "text None"}
+        | dict.fromkeys(("centre", "units", "modal_mass"), "None"),
+    ),
     (
         RUN.animate,
         {"window": "all", "frames": 2},

@@ -37,6 +37,7 @@ _NAMES = {
     "stability.cycle": "floquet",
     "stability.lyapunov": "lyapunov_exponents",
     "stability.sliding": "steady_sliding",
+    "stability.splitting": "split_growth",
 }
 _HOMES = {name: module for module, names in _NAMES.items() for name in names.split()}
 
@@ -70,6 +71,7 @@ if TYPE_CHECKING:
     from disc_model.stability.cycle import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
+    from disc_model.stability.splitting import split_growth
     from disc_model.studies.functions import (
         basins,
         critical_speed,

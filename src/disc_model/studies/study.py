@@ -25,7 +25,7 @@ from pydantic import (
 from yaml.composer import ComposerError
 
 from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, values_text
-from disc_model.disc.given import read_disc
+from disc_model.disc.files.table import read_disc
 from disc_model.disc.plausibility import doubts
 from disc_model.display import counted
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
