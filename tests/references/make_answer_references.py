@@ -102,7 +102,8 @@ def region() -> tuple[list[str], Entry]:
         maps.append(np.array([replies.cell(solve, np.inf, index)[0] for index in cells]))
     loose, tight = maps
     rows = tight.reshape(replies.SIDE, replies.SIDE)
-    lines = ["".join("01"[int(separates)] for separates in row) for row in rows]
+    digits = rows.astype(int).astype(str)
+    lines = ["".join(row) for row in digits]
     return lines, entry(0.0, float(np.mean(loose != tight)), HEYOKA)
 
 

@@ -7,7 +7,7 @@ separation only. All is in one file because of numba's cache, which sees no othe
 
 # mypy: disable-error-code="no-untyped-def"
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
@@ -462,6 +462,42 @@ def rk4_step(modes, c, phase, direction, y, first, h, out, k, z):
         out[j] = y[j] + h / 6.0 * (first[j] + 2.0 * k[0, j] + 2.0 * k[1, j] + k[2, j])
 
 
+class Step(NamedTuple):
+    """A step within which there may be an event.
+
+    Attributes
+    ----------
+    y : state at its begin, (size of the state,)
+    first : rate of that state, (size of the state,)
+    length : s
+    at_root : whether a phase begins with it, perhaps at a root of an event function
+    """
+
+    y: Array
+    first: Array
+    length: float
+    at_root: bool
+
+
+class Work(NamedTuple):
+    """Work arrays of `rk4_run`, whose values nothing reads after the call that fills them.
+
+    Attributes
+    ----------
+    k : rates within a Runge-Kutta step, (3, size of the state)
+    z : states within it, (size of the state,)
+    probe : state at the place of a dip, (size of the state,)
+    trial : event functions there or at the end of a secant, (3,)
+    lows : event functions at the last place before the event, (3,)
+    """
+
+    k: Array
+    z: Array
+    probe: Array
+    trial: Array
+    lows: Array
+
+
 @_kernel
 def _dip(before, current, after):
     """Return the place of a minimum in the last of two equal steps, in steps.
@@ -495,67 +531,52 @@ def _first_dip(before, current, after, count):
 
 
 @_kernel
-def _search_dips(
-    modes, c, phase, direction, y, first, length, before, current, after, count, probe, trial, k, z
-):
+def _search_dips(modes, c, phase, direction, step, before, current, after, count, work):
     """Look for an event within a step over which no event function changes its sign.
 
-    y, first, length : state at the step's begin, its rate, and the step, s
+    step : see `Step`
     before, current, after : event functions a step before, at the begin and at the end; the last
         become those at the place that is returned
     count : number of event functions
-    probe, trial, k, z : work arrays
+    work : see `Work`
 
     Returns the index of the function of an event, or -1, the place in the step by which it has
     fallen below zero, s, and the number of Runge-Kutta steps taken.
     """
+    y, first, length, _ = step
+    probe = work.probe
+    trial = work.trial
     steps = 0
     for index in range(count):
         share = _dip(before[index], current[index], after[index])
         if share > 0.0:
-            rk4_step(modes, c, phase, direction, y, first, share * length, probe, k, z)
+            place = share * length
+            rk4_step(modes, c, phase, direction, y, first, place, probe, work.k, work.z)
             steps += 1
             switch_values(modes, c, phase, direction, probe, trial)
             cause = violated(trial, count)
             if cause >= 0:
                 after[:] = trial
-                return cause, share * length, steps
+                return cause, place, steps
     return -1, length, steps
 
 
 @_kernel
-def _locate(
-    modes,
-    c,
-    phase,
-    direction,
-    y,
-    first,
-    length,
-    at_root,
-    cause,
-    high,
-    current,
-    after,
-    count,
-    end,
-    lows,
-    trial,
-    k,
-    z,
-):
+def _locate(modes, c, phase, direction, step, cause, high, current, after, count, end, work):
     """Locate the first event within a step by secants, an end that stays twice counting half.
 
-    y, first, length : state at the step's begin, its rate, and the step, s
-    at_root : whether the phase begins with this step, perhaps at a root
+    step : see `Step`
     cause, high : index of the function of an event, and a place by which it has fallen below zero
     current, after : event functions at the begin and there
     count : number of event functions
     end : array to fill with the state at the event
-    lows, trial, k, z : work arrays
+    work : see `Work`
 
     Returns the index of the event's function, its place, s, and the number of Runge-Kutta steps.
     """
+    y, first, length, at_root = step
+    lows = work.lows
+    trial = work.trial
     low = 0.0
     at_low = current[cause]
     at_high = after[cause]
@@ -567,7 +588,7 @@ def _locate(
         middle = low + (high - low) * at_low / (at_low - at_high)
         if not low < middle < high or (low == 0.0 and at_root):
             middle = 0.5 * (low + high)
-        rk4_step(modes, c, phase, direction, y, first, middle, end, k, z)
+        rk4_step(modes, c, phase, direction, y, first, middle, end, work.k, work.z)
         steps += 1
         switch_values(modes, c, phase, direction, end, trial)
         other = violated(trial, count)
@@ -596,6 +617,22 @@ def _locate(
 
 
 @_kernel
+def _record(times, kinds, events, time, new, added):
+    """Append the first ``added`` kinds of ``new`` at a time; return the number of events.
+
+    times, kinds : arrays to fill, of which the first ``events`` are filled
+
+    Returns -1, and appends nothing, where the arrays are too short.
+    """
+    if events + added > len(times):
+        return -1
+    for j in range(added):
+        times[events + j] = time
+        kinds[events + j] = new[j]
+    return events + added
+
+
+@_kernel
 def rk4_run(modes, c, phase, direction, y, limits, track):
     """Take fixed steps from event to event, from local time 0 to an end.
 
@@ -620,12 +657,9 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
     before = np.empty(3)
     current = np.empty(3)
     after = np.empty(3)
-    # work arrays
     k = np.empty((3, size))
     z = np.empty(size)
-    probe = np.empty(size)
-    trial = np.empty(3)
-    lows = np.empty(3)
+    work = Work(k, z, np.empty(size), np.empty(3), np.empty(3))
     new = np.empty(2, np.int64)
 
     why = FINISHED
@@ -665,22 +699,9 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
         high = length
         # a call with many arrays in each step would take a third of its time
         if cause < 0 < count and _first_dip(before, current, after, conditions) >= 0:
+            step = Step(y, first, length, count == 0)
             cause, high, further = _search_dips(
-                modes,
-                c,
-                phase,
-                direction,
-                y,
-                first,
-                length,
-                before,
-                current,
-                after,
-                conditions,
-                probe,
-                trial,
-                k,
-                z,
+                modes, c, phase, direction, step, before, current, after, conditions, work
             )
             steps += further
         if cause < 0:
@@ -692,25 +713,9 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
             continue
 
         # the event
+        step = Step(y, first, length, count == 0)
         cause, place, further = _locate(
-            modes,
-            c,
-            phase,
-            direction,
-            y,
-            first,
-            length,
-            count == 0,
-            cause,
-            high,
-            current,
-            after,
-            conditions,
-            end,
-            lows,
-            trial,
-            k,
-            z,
+            modes, c, phase, direction, step, cause, high, current, after, conditions, end, work
         )
         steps += further
         y[:] = end
@@ -718,13 +723,11 @@ def rk4_run(modes, c, phase, direction, y, limits, track):
         origin = local
         count = 0
         phase, direction, added = switch(modes, c, phase, cause, y, new)
-        if events + added > len(times):
+        recorded = _record(times, kinds, events, local, new, added)
+        if recorded < 0:
             why = STALLED
             break
-        for j in range(added):
-            times[events + j] = local
-            kinds[events + j] = new[j]
-        events += added
+        events = recorded
         if stop and phase == SEPARATION:
             break
     final[:] = y
