@@ -3,11 +3,12 @@ dataset."""
 
 from __future__ import annotations
 
+import dataclasses
 import logging
 import math
 import os
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
@@ -37,8 +38,10 @@ from disc_model.simulation.case import (
     CaseSpec,
     Poincare,
     Ramp,
+    SampleTimes,
     Start,
     Windows,
+    angle_of_drive,
     pieces,
     ramp_faults,
     resolved_windows,
@@ -210,7 +213,12 @@ def simulate(  # noqa: PLR0913
 
 
 def snapshots(
-    p: Parameters, times: ArrayLike, *, tol: float = 1e-10, initial_state: State | None = None
+    p: Parameters,
+    times: ArrayLike,
+    *,
+    tol: float = 1e-10,
+    initial_state: State | None = None,
+    ramps: Ramp | tuple[Ramp, ...] = (),
 ) -> tuple[State, ...]:
     """States of the system at given times, with its modal coordinates.
 
@@ -218,7 +226,7 @@ def snapshots(
     ----------
     p : the case
     times : s, ascending, shape (n,); none before the initial state's
-    tol, initial_state : as in `disc_model.simulate`
+    tol, initial_state, ramps : as in `disc_model.simulate`
 
     Returns
     -------
@@ -238,6 +246,7 @@ def snapshots(
     >>> [state.phase for state in dm.snapshots(dm.Parameters(N=385, Omega=15.1), [0.0, 0.006])]
     ['stick', 'slip']
     """
+    ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
     numbers = states.finite_numbers(times)
     ascend = numbers is not None and not np.any(np.diff(numbers) < 0)
     starts = initial_state is None or isinstance(initial_state, State)
@@ -246,6 +255,7 @@ def snapshots(
         (ascend, "times", times, "must be finite and ascend"),
     )
     raise_faults(foreign_case(p) + wrong)
+    raise_faults([*ramp_faults(p, ramps, poincare=False)])
     wanted: list[float] = [] if numbers is None else numbers.tolist()
     state, reached = (
         states.static_start(p) if initial_state is None else initial_state,
@@ -256,7 +266,7 @@ def snapshots(
     for time in wanted:
         if time > state.time:
             state = (
-                simulate(p, time, tol=tol, events=False, initial_state=state)
+                simulate(p, time, tol=tol, events=False, initial_state=state, ramps=ramps)
                 .raise_for_status()
                 .final_state
             )
@@ -288,12 +298,22 @@ class _Run:
         at_switch = state is not None and states.write_state(case, state, self.state, self.key)
         most: float | None = self.execution.max_steps
         start, every_step = self.time, self.execution.audit_every_step
+        self.pieces = pieces(self.p, self.ramps)
+        # of the drive over its angle by this run's Omega and ramps alone, after another history
+        self.lead = 0.0
+        if state is not None and state.drive_angle is not None:
+            self.lead = float(state.drive_angle) - angle_of_drive(self.pieces, start)
         if (
             most is None
         ):  # twenty for each radian of the highest mode, far more than any of the published cases takes
             most = 10_000 + 20 * (self.t_end - start) / model.unit
         longest = event_loop.LONGEST_STICK * model.unit
-        self.collector = Collector(self.p, self.windows, self.events, start, self.t_end, longest)
+        grids = {
+            name: window.grid(self.p, start, self.t_end) for name, window in self.windows.items()
+        }
+        # the engine knows the angle without the lead
+        grids = {name: grid._replace(theta=grid.theta - self.lead) for name, grid in grids.items()}
+        self.collector = Collector(grids, self.windows, self.events, self.t_end, longest)
         self.wall_time = 0.0
         self.limits = event_loop.Limits(
             order,
@@ -310,7 +330,6 @@ class _Run:
             if every_step
             else 256,  # a compliant contact takes about four times as many steps per second
         )
-        self.pieces = pieces(self.p, self.ramps)
         # in reverse order, so that the first piece is current at the end; compiling here keeps it
         # out of the wall time
         for index, piece in reversed(tuple(enumerate(self.pieces))):
@@ -387,7 +406,10 @@ class _Run:
             message=message,
             event_rows=np.concatenate(self.collector.events),
             first_separation=self.collector.first_separation,
-            final_state=states.read_state(self.case, self.state, self.key),
+            final_state=dataclasses.replace(
+                states.read_state(self.case, self.state, self.key),
+                drive_angle=angle_of_drive(self.pieces, self.time) + self.lead,
+            ),
             u_0=self.model.u_0,
             statistics=self._statistics(),
             samples={name: samples.arrays() for name, samples in self.collector.samples.items()},
@@ -454,26 +476,24 @@ class Collector:
 
     def __init__(
         self,
-        p: Parameters,
+        grids: Mapping[str, SampleTimes],
         windows: Windows,
         events: bool,
-        start: float,
         t_end: float,
         longest_step: float,
     ) -> None:
-        grids = {name: window.grid(p, start, t_end) for name, window in windows.items()}
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
         longest = longest_step + dense_output.SAME_INSTANT * t_end
         per_step, folds, rows = 0, dict[str, int](), dict[str, float]()
-        for name, (_, interval, count, *_) in grids.items():
-            per_step += 1 + math.ceil(min(longest / interval, count))
+        for name, grid in grids.items():
+            per_step += 1 + math.ceil(min(longest / grid.interval, grid.number))
             folds[name] = getattr(windows[name], "envelope", None) or 1
-            rows[name] = float(count) / folds[name]
+            rows[name] = float(grid.number) / folds[name]
         size = 8.0 * len(dense_output.ROW) * (sum(rows.values()) + per_step)
         if rows and size > (room := _memory()):
             rule = f"must fit into memory: {size / 1e9:.3g} GB of samples in all, and there are {room / 1e9:.3g} GB"
             raise ParameterError(Fault(("windows", max(rows, key=rows.__getitem__)), "", rule))
-        self.samples = {name: _Samples(int(grid[2]), folds[name]) for name, grid in grids.items()}
+        self.samples = {name: _Samples(grid.number, folds[name]) for name, grid in grids.items()}
         self.first_separation = math.nan  # s
         self.keeps_events, self.events = events, list[Array]()
         capacity = BUFFER if grids else 0

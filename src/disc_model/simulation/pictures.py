@@ -170,7 +170,11 @@ class Pictures:
         times = np.linspace(float(samples["time"][0]), float(samples["time"][-1]), frames)
         api = import_module("disc_model.simulation.api")
         states = api.snapshots(
-            result.parameters, times, tol=result.tol, initial_state=result.initial_state
+            result.parameters,
+            times,
+            tol=result.tol,
+            initial_state=result.initial_state,
+            ramps=result.ramps,
         )
         return draw("animate", result.parameters, states, samples, path, fps)
 

@@ -74,6 +74,7 @@ class State:
         initial state with another u is refused, and its u_velocity is ignored
     a, b, alpha, beta : shape (n_modes,), in the order of `plate_modes`: modal displacements (m sqrt(kg)) and velocities
         along and across the slider's direction; b = beta = 0 for modes without nodal diameter
+    drive_angle : rad, by which the drive point has turned since the time 0, ramps included. None stands for Omega time
     case_key : the case in which it was computed; in any other case, the phase after an event is determined anew
     mode_amplitudes : kg^-1/2, shape (n_modes,), psi of the `plate_modes` to which a, b, alpha and beta belong. A case
         with other amplitudes refuses the state. None if the state was made by hand
@@ -104,6 +105,7 @@ class State:
     alpha: Array
     beta: Array
     time_low: float = 0.0
+    drive_angle: float | None = None
     case_key: str = ""
     mode_amplitudes: Array | None = None
     _roots: tuple[int, int] = (
@@ -115,11 +117,15 @@ class State:
         """Return a copy with some values changed; raises `ParameterError` for names and numbers
         that no state has.
 
-        A new time is exact and sets `time_low` to 0.  Any other change separates the state from the
-        case in which it was computed, and empties `case_key`.
+        A new time is exact: it sets `time_low` to 0 and `drive_angle` to None.  Any change but of
+        these three separates the state from the case in which it was computed, and empties
+        `case_key`.
         """
-        implied: dict[str, Any] = {"time_low": 0.0} if "time" in changes else {}
-        implied |= {} if changes.keys() <= {"time", "time_low"} else {"case_key": ""}
+        implied: dict[str, Any] = {}
+        if "time" in changes:
+            implied |= {"time_low": 0.0, "drive_angle": None}
+        if not changes.keys() <= {"time", "time_low", "drive_angle"}:
+            implied["case_key"] = ""
         known = [each.name for each in dataclasses.fields(self)]
         require(
             *(
@@ -132,7 +138,8 @@ class State:
                 (is_finite(x), name, x, "must be finite")
                 for name, x in changes.items()
                 if name in PLAIN
-            )
+            ),
+            angle_rule(changes.get("drive_angle"), ""),
         )
         return dataclasses.replace(self, **implied | changes)
 
@@ -141,6 +148,13 @@ class State:
             f"State(time={self.time:.9g} s, {self.phase}, psi={self.psi:.6g} rad, f={self.f:.6g} rad/s, "
             f"u={self.u:.6g} m, u_velocity={self.u_velocity:.6g} m/s, {len(self.a)} modes)"
         )
+
+    def slider_angle(self, p: Parameters) -> float:
+        """Angle of the slider on the disc, rad, from the place where it was at the time 0: that of
+        the drive point, less psi. Raises `ParameterError` unless `p` is the case."""
+        raise_faults(foreign_case(p))
+        drive = p.Omega * self.time if self.drive_angle is None else self.drive_angle
+        return drive - self.psi
 
     @property
     def parts(self) -> tuple[dict[str, Any], dict[str, Array]]:
@@ -304,8 +318,8 @@ def deflection(
     shapes = mode_shapes(p, radii)
     w = np.empty((len(states_in_order), len(radii), len(angles)))
     for i, state in enumerate(states_in_order):
-        # modal coordinates are relative to the slider, whose angle is Omega t - psi
-        turn = np.multiply.outer(modes.diameters, angles - (p.Omega * state.time - state.psi))
+        # modal coordinates are relative to the slider
+        turn = np.multiply.outer(modes.diameters, angles - state.slider_angle(p))
         w[i] = shapes.T @ (state.a[:, None] * np.cos(turn) + state.b[:, None] * np.sin(turn))
     coords = {
         "time": (
@@ -497,6 +511,7 @@ def _check(state: State, case: EngineCase) -> None:
         ),
         (known, path + "phase", state.phase, f"must be one of {', '.join(PHASES)}"),
         (signed, path + "direction", state.direction, "must be -1 or 1 in slip"),
+        angle_rule(state.drive_angle, path),
     )
     # the clock's compensation is at most a unit in the last place of the time
     small = abs(state.time_low) <= math.ulp(state.time)
@@ -512,6 +527,12 @@ def _check(state: State, case: EngineCase) -> None:
         ),
         amplitude_rule(state, case.amplitudes, path),
     )
+
+
+def angle_rule(drive_angle: object, path: str) -> tuple[bool, str, object, str]:
+    """The rule, for `require`, of a state's `drive_angle`."""
+    known = drive_angle is None or is_finite(drive_angle)
+    return known, path + "drive_angle", drive_angle, "must be a finite number, or None"
 
 
 def amplitude_rule(state: State, amplitudes: Array, path: str) -> tuple[bool, str, object, str]:
