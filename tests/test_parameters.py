@@ -1,10 +1,13 @@
 """Parameters: validation, one error for all faults, hashing, copies."""
 
+import copy
 import inspect
 import json
 import pickle
+import re
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -124,3 +127,57 @@ def test_a_ratio_stands_for_its_first_one_and_stays() -> None:
     ):
         with pytest.raises(ParameterError, match=rule):
             Parameters(N=1, Omega=2, **wrong)
+
+
+RATIOS = Parameters(N=385, Omega=15, mu_s=0.5, mu_k_over_mu_s=0.6, r_0_over_b=0.8)
+
+
+@pytest.mark.parametrize(
+    "p",
+    [
+        Parameters(N=385, Omega=15),
+        Parameters(N=385, Omega=15, friction_decay=0.1 + 0.2, contact_compliance="residual"),
+        Parameters(N=1, Omega=2, disc=Disc(diameters=[1], omega=[1500.0], amplitude=[2.0])),
+        RATIOS,
+    ],
+    ids=["paper", "laws", "disc", "ratios"],
+)
+def test_a_case_survives_json(p: Parameters) -> None:
+    """The infinite friction_decay became null, and a ratio a number."""
+    again = Parameters.model_validate_json(p.model_dump_json())
+    assert again == p
+    assert again.key == p.key
+    assert repr(again) == repr(p)
+    assert Parameters.model_validate(json.loads(p.model_dump_json())) == p
+
+
+@pytest.mark.parametrize(
+    "copied",
+    [
+        lambda p: Parameters.model_validate_json(p.model_dump_json()),
+        lambda p: Parameters.model_validate(p.model_dump(mode="json")),
+        lambda p: pickle.loads(pickle.dumps(p)),
+        copy.deepcopy,
+        Parameters.replace,
+        Parameters.model_copy,
+    ],
+)
+def test_a_ratio_stays_a_ratio_in_a_copy(copied: Callable[[Parameters], Parameters]) -> None:
+    again = copied(RATIOS)
+    assert again == RATIOS
+    changed = again.replace(mu_s=0.4, b=0.13)
+    assert (changed.mu_k, changed.r_0) == (0.24, pytest.approx(0.104))
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ('{"N": 1}', "Omega: is required"),
+        ('{"N": 1, "Omega": -1}', "Omega=-1: must be >= 0"),
+        ("[1]", "must be a mapping"),
+        ('{"N": 1,', "Invalid JSON: EOF while parsing a value at line 1 column 8"),
+    ],
+)
+def test_json_of_no_case_is_an_error_of_this_package(text: str, fault: str) -> None:
+    with pytest.raises(ParameterError, match=f"^{re.escape(fault)}"):
+        Parameters.model_validate_json(text)

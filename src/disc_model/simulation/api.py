@@ -164,9 +164,8 @@ def simulate(  # noqa: PLR0913
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
     time: Any = initial_state.time if isinstance(initial_state, State) else 0.0
     end: Any = t_end if duration is None else duration
-    if isinstance(end, str):
-        with suppress(ValueError):
-            end = number(in_si(end, "s", [], ()))
+    with suppress(ValueError):  # of what is no number, which the rules below report
+        end = number(in_si(end, "s", [], ()))
     if duration is not None and initial_state is not None and is_number(end):
         end = time + end
     begin = time if states.is_finite(time) else 0.0
@@ -247,7 +246,7 @@ def snapshots(
     ['stick', 'slip']
     """
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    numbers = states.finite_numbers(times)
+    numbers = states.finite_numbers(in_si(times, "s", [], ()))
     ascend = numbers is not None and not np.any(np.diff(numbers) < 0)
     starts = initial_state is None or isinstance(initial_state, State)
     wrong = violations(

@@ -18,10 +18,11 @@ from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, valu
 from disc_model.display import Summarised, counted, number_text
 from disc_model.engine.event_loop import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status, require, suggestion
-from disc_model.parameters import Parameters, in_words
+from disc_model.parameters import Parameters
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, line
 from disc_model.simulation.pictures import Pictures
 from disc_model.simulation.states import Array, State, is_finite_array
+from disc_model.units import in_si
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -113,6 +114,7 @@ class Result(Summarised, Pictures):
         ParameterError
             If the name is another one, or a time is not a finite number.
         """
+        seconds = in_si(times, "s", [], ())
         require(
             (
                 isinstance(name, str) and name in RAMPED,
@@ -120,10 +122,10 @@ class Result(Summarised, Pictures):
                 name,
                 f"must be one of {', '.join(RAMPED)}",
             ),
-            (is_finite_array(times, flat=False), "times", times, "must be finite numbers"),
+            (is_finite_array(seconds, flat=False), "times", times, "must be finite numbers"),
         )
         knots, values, _ = zip(*line(self.parameters, self.ramps, name), strict=True)
-        return np.asarray(np.interp(np.asarray(times, dtype=float), knots, values))
+        return np.asarray(np.interp(np.asarray(seconds, dtype=float), knots, values))
 
     def __getitem__(self, name: str) -> xr.Dataset:
         """The samples of a window along `time`, with units, by the window's name; raises
@@ -194,7 +196,7 @@ class Result(Summarised, Pictures):
         if self.initial_state is not None:
             states["initial_state"] = self.initial_state.parts
         described = {
-            "parameters": in_words(self.parameters.canonical),
+            "parameters": self.parameters.model_dump(mode="json"),
             **{which: values for which, (values, _) in states.items()},
             "windows": {
                 name: [type(window).__name__, window.model_dump()]

@@ -30,7 +30,7 @@ from disc_model.engine import layout
 from disc_model.engine.series import Series, build_series
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.units import is_number
+from disc_model.units import in_si, is_number, is_quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -141,7 +141,8 @@ class State:
             ),
             angle_rule(changes.get("drive_angle"), ""),
         )
-        return dataclasses.replace(self, **implied | changes)
+        plain = {name: float(x) for name, x in changes.items() if name in PLAIN}
+        return dataclasses.replace(self, **implied | changes | plain)
 
     def __repr__(self) -> str:
         return (
@@ -288,12 +289,10 @@ def deflection(
     import xarray as xr
 
     raise_faults(foreign_case(p))
-    modes, (low, high), radii, angles = (
-        mode_arrays(p),
-        radial_range(p),
-        finite_numbers(r),
-        finite_numbers(theta),
-    )
+    modes = mode_arrays(p)
+    low, high = radial_range(p)
+    radii = finite_numbers(in_si(r, "m", [], ()))
+    angles = finite_numbers(in_si(theta, "rad", [], ()))
     states_in_order: list[Any] = list(states) if np.iterable(states) else [states]
     within = radii is not None and radii.size and np.all((radii >= low) & (radii <= high))
     fits = [
@@ -560,6 +559,8 @@ def is_finite(value: object) -> bool:
 def is_finite_array(values: object, size: int | None = None, *, flat: bool = True) -> bool:
     """Whether values are finite real numbers, `size` of them if it is given, and one-dimensional if
     `flat`."""
+    if is_quantity(values):  # numpy would leave its unit out
+        return False
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):

@@ -154,6 +154,7 @@ def neutral_curves(
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
     raise_faults(wrong + (free_faults(p, [*bounds]) if free else []))
+    tol = float(tol)
     names = x, y = tuple(plane)
     curves, notes = list[StabilityCurve](), list[str]()
     span = np.array([high - low for low, high in plane.values()])
@@ -379,6 +380,7 @@ def critical(
         (good, "precision", precision, "must be a number > 0"),
     )
     raise_faults(case_faults(p, "critical") or wrong + free_faults(p, [name]))
+    tol = float(tol)
     values = np.linspace(ends[0], ends[1], points).tolist()
     for x in values:
         p.replace(**{name: x})
