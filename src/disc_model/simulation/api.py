@@ -46,7 +46,7 @@ from disc_model.simulation.case import (
     ramp_faults,
     resolved_windows,
 )
-from disc_model.simulation.result import Result
+from disc_model.simulation.result import BIN_ROW, FOLDED, SAMPLE_ROW, Result
 from disc_model.simulation.states import Array, State
 from disc_model.sources import git_commit, source_hash, versions
 from disc_model.units import (
@@ -465,8 +465,6 @@ BUFFER = (
 EVENT_BUFFER = (
     1 << 10
 )  # events between two pauses: a larger buffer takes longer to make than a short simulation
-_FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
-_FOLDED_ROW = ("time", *(f"{name}_{end}" for name in _FOLDED for end in ("min", "max")))
 
 
 class Collector:
@@ -526,7 +524,7 @@ class _Samples:
     some are filled."""
 
     def __init__(self, count: int, fold: int) -> None:
-        names = dense_output.ROW[1:] if fold == 1 else _FOLDED_ROW
+        names = SAMPLE_ROW if fold == 1 else BIN_ROW
         self.columns = {name: np.empty(count // fold) for name in names}
         self.fold, self.filled = fold, 0
         self.rest = np.empty((0, len(dense_output.ROW)))  # rows of the bin that is not full
@@ -549,7 +547,7 @@ class _Samples:
 def _fold(cells: Array) -> Array:
     """Rows of mean time and (min, max) of each folded column, from cells of shape (n, samples,
     columns)."""
-    columns = [cells[:, :, dense_output.ROW.index(name)] for name in ("time", *_FOLDED)]
+    columns = [cells[:, :, dense_output.ROW.index(name)] for name in ("time", *FOLDED)]
     ranges = [bound for column in columns[1:] for bound in (column.min(axis=1), column.max(axis=1))]
     return np.stack([columns[0].mean(axis=1), *ranges], axis=1)
 

@@ -4,17 +4,17 @@ states written and read, order and tolerance of series."""
 from __future__ import annotations
 
 import dataclasses
-import json
 import math
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from pydantic import Field
 
 from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
@@ -30,7 +30,7 @@ from disc_model.engine import layout
 from disc_model.engine.series import Series, build_series
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.units import in_si, is_number, is_quantity
+from disc_model.units import Count, Real, Strict, in_si, is_number, is_quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -159,9 +159,11 @@ class State:
 
     @property
     def parts(self) -> tuple[dict[str, Any], dict[str, Array]]:
-        """What files hold of it: values for JSON text, and arrays with one value a mode."""
+        """What files hold of it: values for JSON text, as `StateValues` reads them, and arrays with
+        one value a mode."""
         values = {each.name: getattr(self, each.name) for each in dataclasses.fields(self)}
         modal = {name: values.pop(name) for name in (*MODAL, "mode_amplitudes")}
+        values["roots"] = values.pop("_roots")
         return values, {
             name: np.asarray(array, float) for name, array in modal.items() if array is not None
         }
@@ -173,14 +175,15 @@ class State:
         Raises
         ------
         ParameterError
-            If the file has another suffix than .nc or .mat.
+            If the file has another suffix than .nc or .mat, or the state numbers that are not finite.
         disc_model.data.dataset.WriteError
             If the folder does not exist, or the disk is full.
         """
-        from disc_model.data import dataset
+        from disc_model.data import tables
 
+        require_finite(self)
         values, arrays = self.parts
-        dataset.save_tables({"state": arrays}, json.dumps(values, default=float), path)
+        tables.save_tables({"state": arrays}, StateValues(**values).model_dump_json(), path)
 
     @classmethod
     def load(cls, path: str | Path) -> State:
@@ -191,20 +194,57 @@ class State:
         ParameterError
             If the file holds no state.
         disc_model.data.dataset.UnreadableFile
-            If the file is damaged, or no such file.
+            If the file is damaged, or holds a state that cannot be.
+        disc_model.data.dataset.MissingFile
+            If there is no such file.
         """
-        from disc_model.data import dataset
+        from disc_model.data import tables
+        from disc_model.data.files import unreadable
 
-        text, tables = dataset.load_tables(path)
-        require(
-            (
-                text and [*tables] == ["state"],
-                "path",
-                str(path),
-                "must be a file written by State.save",
-            )
-        )
-        return cls(**json.loads(text), **tables["state"])
+        text, found = tables.load_tables(path)
+        holds_state = text and [*found] == ["state"]
+        require((holds_state, "path", str(path), "must be a file written by State.save"))
+        try:
+            state = stored_state(StateValues.model_validate_json(text), found["state"])
+            require_finite(state)
+        except ParameterError as error:
+            raise unreadable(path, error) from None
+        return state
+
+
+class StateValues(Strict):
+    """What a file holds of a `State` beside its arrays, checked but for what is finite."""
+
+    time: Real
+    time_low: Real
+    phase: Literal["stick", "slip", "separation"]
+    direction: Annotated[Count, Field(ge=-1, le=1)]
+    psi: Real
+    f: Real
+    u: Real
+    u_velocity: Real
+    drive_angle: Real | None
+    case_key: str
+    roots: tuple[Annotated[Count, Field(ge=0, le=3)], Annotated[Count, Field(ge=0, le=3)]]
+
+
+def stored_state(values: StateValues, arrays: Mapping[str, Array]) -> State:
+    """The state of a file, from what it holds. Raises `ParameterError` unless there is an array for
+    each modal variable, all of one length."""
+    names = [*MODAL, *["mode_amplitudes"] * ("mode_amplitudes" in arrays)]
+    rule = f"must be {', '.join(names)}"
+    require((sorted(arrays) == sorted(names), "arrays", ", ".join(sorted(arrays)), rule))
+    count = len(arrays["a"])
+    rule = f"must be {count} numbers, as many as of a"
+    require(*((len(x) == count, name, f"{len(x)} numbers", rule) for name, x in arrays.items()))
+    fields: dict[str, Any] = {**dict(values), **arrays}
+    return State(_roots=fields.pop("roots"), **fields)
+
+
+def require_finite(state: State) -> None:
+    """Raise `ParameterError` if a number of a state is not finite: nothing starts from there."""
+    numbers = {name: getattr(state, name) for name in (*PLAIN, *MODAL)}
+    require(*((np.all(np.isfinite(x)), name, x, "must be finite") for name, x in numbers.items()))
 
 
 def static_start(p: Parameters) -> State:
