@@ -11,8 +11,8 @@ import time as clock
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated, Any
+from functools import lru_cache, partial
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -40,6 +40,7 @@ from disc_model.simulation.case import (
     Ramp,
     SampleTimes,
     Start,
+    Window,
     Windows,
     angle_of_drive,
     pieces,
@@ -49,16 +50,7 @@ from disc_model.simulation.case import (
 from disc_model.simulation.result import BIN_ROW, FOLDED, SAMPLE_ROW, Result
 from disc_model.simulation.states import Array, State
 from disc_model.sources import git_commit, source_hash, versions
-from disc_model.units import (
-    TOLERANCES,
-    Count,
-    Strict,
-    content_key,
-    in_si,
-    is_number,
-    limits_faults,
-    number,
-)
+from disc_model.units import TOLERANCES, Count, Strict, content_key, in_si, limits_faults, number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -154,61 +146,94 @@ def simulate(  # noqa: PLR0913
     >>> run["late"]["P"].sizes, run["late"]["P"].attrs["units"]
     (Frozen({'time': 2001}), 'N')
     """
-    if (t_end is None) == (duration is None):
-        rule = (
-            "is required, or duration instead of it"
-            if t_end is None
-            else f"must be left out beside {duration=!s}"
-        )
-        raise ParameterError(Fault(("t_end",), "" if t_end is None else as_text(t_end), rule))
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    time: Any = initial_state.time if isinstance(initial_state, State) else 0.0
-    end: Any = t_end if duration is None else duration
-    with suppress(ValueError):  # of what is no number, which the rules below report
-        end = number(in_si(end, "s", [], ()))
-    if duration is not None and initial_state is not None and is_number(end):
-        end = time + end
-    begin = time if states.is_finite(time) else 0.0
-    later = is_number(end) and begin < end < math.inf
-    rule = (
-        ""
-        if later
-        else f"must be finite, in s or as '2 min', and > {as_text(begin)}, the time of the initial state"
+    span = _span_of(t_end, duration, initial_state)
+    raise_faults(
+        [
+            *foreign_case(p),
+            *limits_faults("tol", tol, TOLERANCES),
+            *span.faults,
+            *_option_faults(events, initial_state, stop_at, execution),
+        ]
     )
-    stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
-    rules = violations(
-        (isinstance(events, bool), "events", events, "must be True or False"),
-        (
-            initial_state is None or isinstance(initial_state, State),
-            "initial_state",
-            initial_state,
-            "must be a State",
-        ),
+    sampled = dict(resolved_windows({} if windows is None else windows, span.start, span.end))
+    sections = any(isinstance(window, Poincare) for window in sampled.values())
+    raise_faults([*ramp_faults(p, ramps, poincare=sections)])
+    run = partial(
+        _Run,
+        p=p,
+        t_end=span.end,
+        tol=float(tol),
+        initial_state=initial_state,
+        stop_at=stop_at,
+        ramps=ramps,
+        execution=execution,
+    )
+    if stop_at is not None and windows is not None:
+        sampled |= _windows_to_the_stop(windows, span.start, run)
+    return run(windows=sampled, events=events).complete()
+
+
+class _Span(NamedTuple):
+    """The times of a run, s, and what is wrong with them."""
+
+    start: float
+    end: float
+    faults: list[str]
+
+
+def _span_of(t_end: Any, duration: Any, initial_state: Any) -> _Span:
+    """The times of a run from an end or a duration, one of which must be given. They are plain
+    floats: others would make the engine compile again, and would round differently."""
+    if t_end is None and duration is None:
+        raise ParameterError(Fault(("t_end",), "", "is required, or duration instead of it"))
+    if t_end is not None and duration is not None:
+        rule = f"must be left out beside {duration=!s}"
+        raise ParameterError(Fault.of(("t_end",), t_end, rule))
+    name, value = ("t_end", t_end) if duration is None else ("duration", duration)
+    time = initial_state.time if isinstance(initial_state, State) else 0.0
+    start = float(time) if states.is_finite(time) else 0.0
+    end = math.nan
+    with suppress(ValueError):  # of what is no number
+        end = number(in_si(value, "s", [], ()))
+    if duration is not None:
+        end += start
+    rule = (
+        f"must be finite, in s or as '2 min', and > {as_text(start)}, the time of the initial state"
+    )
+    faults = violations(
         (states.is_finite(time), "initial_state.time", time, "must be finite"),
-        (later, "t_end" if duration is None else "duration", end, rule),
+        (start < end < math.inf, name, value, rule),
+    )
+    return _Span(start, end, faults)
+
+
+def _option_faults(
+    events: object, initial_state: object, stop_at: object, execution: object
+) -> list[str]:
+    """Faults of the options of `simulate` by themselves."""
+    stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
+    starts = initial_state is None or isinstance(initial_state, State)
+    return violations(
+        (isinstance(events, bool), "events", events, "must be True or False"),
+        (starts, "initial_state", initial_state, "must be a State"),
         (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
         (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
     )
-    raise_faults([*foreign_case(p), *limits_faults("tol", tol, TOLERANCES), *rules])
-    # numbers of other types would make the engine compile again, and would round differently
-    start, end = float(time), float(end)
-    windows = {} if windows is None else resolved_windows(windows, start, end)
-    if not isinstance(ramps, tuple) or ramps:
-        raise_faults(
-            [
-                *ramp_faults(
-                    p, ramps, poincare=any(isinstance(x, Poincare) for x in windows.values())
-                )
-            ]
-        )
-    run = _Run(p, end, float(tol), initial_state, windows, events, stop_at, ramps, execution)
-    code = run.advance()
-    tell = execution.progress or (lambda _: None)
-    while code == transitions.PAUSED:
-        tell(run.time)
-        code = run.advance()
-    tell(run.time)
-    return run.result(_STATUS[code])
+
+
+def _windows_to_the_stop(windows: Windows, start: float, run: Callable[..., _Run]) -> Windows:
+    """The windows that count back from the end of a run, with absolute times, if it stops before
+    its end: it is computed once more than else."""
+    from_the_end = {
+        name: window
+        for name, window in windows.items()
+        if isinstance(window, Window) and window.last is not None
+    }
+    if not from_the_end:
+        return {}
+    stopped = run(windows={}, events=False).complete().final_state.time
+    return resolved_windows(from_the_end, start, stopped) if stopped > start else {}
 
 
 def snapshots(
@@ -367,6 +392,16 @@ class _Run:
         )
         for sums in (buffers.counters, buffers.phase_times, buffers.audit):
             sums.fill(0)
+
+    def complete(self) -> Result:
+        """Compute to the end, and tell the progress."""
+        tell = self.execution.progress or (lambda _: None)
+        code = self.advance()
+        while code == transitions.PAUSED:
+            tell(self.time)
+            code = self.advance()
+        tell(self.time)
+        return self.result(_STATUS[code])
 
     @property
     def time(self) -> float:

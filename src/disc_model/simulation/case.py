@@ -108,7 +108,8 @@ class Window(Span):
     Parameters
     ----------
     start, stop : s, absolute times; from the start of the run to its end if not given
-    last : s, counted back from the end of the run, instead of start and stop
+    last : s, counted back from the end of the run, instead of start and stop. A run with ``stop_at`` ends where it
+        stops, and is computed twice for this
     rate : Hz
     theta : rad, angle of the point fixed to the disc at radius r_0 where ``w_point`` is taken
     envelope : if given, the least and the greatest of each ``envelope`` successive samples are kept instead of them;
