@@ -11,6 +11,8 @@ from pathlib import Path
 
 from disc_model.errors import DiscModelError, Fault, ParameterError, require
 
+SUFFIXES = (".nc", ".mat")
+"""Endings of the files in which results and states are saved."""
 _BLOCK = 1 << 20  # bytes that are read at once
 _DIGITS = hashlib.sha256().digest_size * 2  # of a checksum, as text
 _MARK = b"\ndisc_model: sha256 of the bytes before this line: "

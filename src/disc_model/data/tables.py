@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.dataset import read_tree, save
 from disc_model.data.files import (
+    SUFFIXES,
     MissingFile,
     check_mat,
     regular_file,
@@ -31,8 +32,9 @@ _MATLAB_NAME = re.compile(r"[A-Za-z]\w{0,62}", re.ASCII)
 
 def check_suffix(path: Path) -> Path:
     """A path, unless there is no form of files for its suffix; raises `ParameterError`."""
-    if path.suffix not in (".nc", ".mat"):
-        raise ParameterError(Fault.of(("path",), str(path), "must end in .nc or .mat"))
+    if path.suffix not in SUFFIXES:
+        rule = f"must end in {' or '.join(SUFFIXES)}"
+        raise ParameterError(Fault.of(("path",), str(path), rule))
     return path
 
 
