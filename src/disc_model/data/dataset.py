@@ -30,7 +30,7 @@ from disc_model.data.files import (
 from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.errors import DiscModelError, require
-from disc_model.parameters import RESIDUAL, SURFACE, Parameters
+from disc_model.parameters import PLATE, RESIDUAL, SURFACE, Parameters
 
 __all__ = ["MissingFile", "UnreadableFile", "WriteError", "load", "save"]
 
@@ -57,25 +57,31 @@ def scalars_dataset(
         name: ((), variable.dtype(known.get(name, variable.missing)), variable.attributes)
         for name, variable in SCALARS.items()
     }
-    numbers: dict[str, Any] = {
-        "disc": p.disc.model_dump_json() if p.disc else ""
-    }  # netCDF variables hold no mapping
-    if p.contact_compliance == RESIDUAL:
-        numbers["contact_compliance"] = (
-            math.nan
-        )  # if no modes are left out for it, which has made the case fail
-        with contextlib.suppress(DiscModelError):
-            numbers["contact_compliance"] = contact_compliance(p)
-    if p.friction_offset == SURFACE:  # nan if it follows from the table of a disc
-        numbers["friction_offset"] = p.h / 2 if p.disc is None else math.nan
-    for name, value in (p.model_dump() | numbers).items():
-        data[name] = (
-            (),
-            np.int8(CHOICES[name].index(value)) if name in CHOICES else value,
-            attributes(name),
-        )
+    for name, value in _parameter_values(p).items():
+        if name in CHOICES:
+            value = np.int8(CHOICES[name].index(value))
+        data[name] = ((), value, attributes(name))
     attrs = {"Conventions": CONVENTIONS, "parameters": p.json_in_words, "parameters_key": p.key}
     return xr.Dataset(data, attrs=attrs | {"status": status, "message": message})
+
+
+def _parameter_values(p: Parameters) -> dict[str, Any]:
+    """The parameters by name: numbers in place of words where these stand for one, and nan for what
+    has no value, or does not count beside another one."""
+    values: dict[str, Any] = p.model_dump()
+    values["disc"] = p.disc.model_dump_json() if p.disc else ""  # variables hold no mapping
+    if p.contact_compliance == RESIDUAL:
+        # nan if no modes are left out for it, which has made the case fail
+        values["contact_compliance"] = math.nan
+        with contextlib.suppress(DiscModelError):
+            values["contact_compliance"] = contact_compliance(p)
+    if p.friction_offset == SURFACE:  # nan if it follows from the table of a disc
+        values["friction_offset"] = p.h / 2 if p.disc is None else math.nan
+    unused: tuple[str, ...] = () if p.damping_ratio is None else ("D_star",)
+    if p.disc is not None:
+        unused = tuple(name for name in PLATE if isinstance(values[name], float))
+    values |= dict.fromkeys(unused, math.nan)
+    return {name: math.nan if value is None else value for name, value in values.items()}
 
 
 # ---- Trees and files

@@ -164,6 +164,20 @@ def animate(
 ) -> Any:
     """Make a film of disc, slider and contact force through states; written to a path if there is
     one."""
+    writer = film_writer(path, fps)
+    with drawing.styled():
+        figure = mpl.figure.Figure(figsize=(6.4, 2.7))
+        film = motion.film(
+            figure, motion.Motion.of(p, states), window["time"].values, window["P"].values
+        )
+        if path is not None:
+            film.save(path, writer=writer, fps=fps, dpi=100)
+        return film
+
+
+def film_writer(path: str | Path | None, fps: int) -> str:
+    """The program that writes a film to a path, "" without one; raises `ParameterError` if none
+    can, or the number of pictures in a second is none."""
     file = Path(path) if isinstance(path, str | Path) else Path()
     writer = {".gif": "pillow", ".mp4": "ffmpeg"}.get(file.suffix, "")
     available = not writer or mpl.animation.writers.is_available(writer)
@@ -178,14 +192,7 @@ def animate(
         (file.absolute().parent.is_dir(), "path", str(path), "must be in a folder that exists"),
         (available, "path", str(path), f"needs the program {writer}"),
     )
-    with drawing.styled():
-        figure = mpl.figure.Figure(figsize=(6.4, 2.7))
-        film = motion.film(
-            figure, motion.Motion.of(p, states), window["time"].values, window["P"].values
-        )
-        if path is not None:
-            film.save(path, writer=writer, fps=fps, dpi=100)
-        return film
+    return writer
 
 
 def plot_multipliers(cycle: FloquetResult, ax: Any = None) -> Axes:

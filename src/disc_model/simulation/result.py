@@ -144,9 +144,8 @@ class Result(Summarised, Pictures):
             raise ParameterError(
                 Fault.of(("name",), name, f"no such window{suggestion(name, self.samples)}")
             )
-        return series_dataset(self.samples[name], "time").assign_attrs(
-            theta=self.windows[name].theta
-        )
+        samples = series_dataset(self.samples[name], "time")
+        return samples.assign_attrs(theta=self.windows[name].theta, theta_units="rad")
 
     def to_tree(self) -> xr.DataTree:
         """Return the result in the layout of files, with CF attributes; see
