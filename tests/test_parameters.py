@@ -1,7 +1,6 @@
 """Parameters: validation, one error for all faults, hashing, copies."""
 
 import copy
-import inspect
 import json
 import pickle
 import re
@@ -22,7 +21,6 @@ def test_key_depends_on_values_not_on_spelling() -> None:
     key = Parameters(N=20, Omega=0.0).key
     assert key == Parameters(Omega=-0.0, N="20.0").key
     assert len(key) == 12
-    assert str(inspect.signature(Parameters)).startswith("(*, N, Omega, D_star=1e-05, c=0.0, ")
     assert int(key, 16) >= 0
     assert key != Parameters(N=20.000000000000004, Omega=0).key
 

@@ -2,6 +2,7 @@
 
 import inspect
 import math
+import pydoc
 import re
 from typing import Any
 
@@ -169,3 +170,33 @@ def test_a_wrong_argument_is_named(function, others, name, right, tmp_path, monk
             with pytest.raises(dm.ParameterError) as error:
                 function(**others | {name: value})
             assert any(name in re.findall(r"\w+", fault) for fault in error.value.faults), label
+
+
+MODELS = (dm.Parameters, dm.Disc, dm.Window, dm.Poincare, dm.Ramp, dm.Execution, StepControl)
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
+def test_help_shows_what_a_reader_knows(model: type) -> None:
+    """It had 500 lines of pydantic, and a function's address in the type of a number."""
+    signature = str(inspect.signature(model))
+    for inside in ("Annotated", "Validator", "pydantic", "0x", "ForwardRef"):
+        assert inside not in signature
+    text = pydoc.render_doc(model, renderer=pydoc.plaintext)
+    assert text.count("pydantic") == 1, "in the order of classes"
+    assert "model_post_init" not in text
+    assert len(text.splitlines()) < 200
+    assert {"replace", "model_validate_json"} <= {*dir(model)}
+    assert not [name for name in dir(model) if name.startswith("_")]
+
+
+def test_signatures_have_plain_types_and_defaults() -> None:
+    assert str(inspect.signature(dm.Window)) == (
+        "(*, start: float = 0.0, stop: float = inf, last: float | None = None, rate: float,"
+        " theta: float = 1.0, envelope: int | None = None)"
+    )
+    assert str(inspect.signature(dm.Parameters)).startswith(
+        "(*, N: float, Omega: float, D_star: float = 1e-05, c: float = 0.0, "
+    )
+    arguments = inspect.signature(dm.Disc).parameters
+    assert arguments["shapes"].annotation == tuple[tuple[float, ...], ...]
+    assert arguments["static_compliance"].default is None

@@ -795,12 +795,6 @@ def _documented() -> str:
 
 
 Parameters.__doc__ = _documented()
-_arguments = [
-    inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY) for name in Parameters.model_fields
-]
-Parameters.__signature__ = inspect.Signature(
-    [x.replace(default=DEFAULTS.get(x.name, x.empty)) for x in _arguments]
-)
 
 
 def in_words(values: Mapping[str, Any], words: Mapping[str, str] = CONTACTS) -> dict[str, Any]:

@@ -4,13 +4,26 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import inspect
 import json
 import math
 import numbers
+import operator
 import re
+import types
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Self, TypeGuard, get_args
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    Literal,
+    Self,
+    TypeGuard,
+    Union,
+    get_args,
+    get_origin,
+)
 
 from pydantic import (
     AfterValidator,
@@ -23,6 +36,11 @@ from pydantic import (
 )
 
 from disc_model.errors import Fault, ParameterError, faults_of, raise_faults
+
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass
+else:
+    ModelMetaclass = type(BaseModel)  # which pydantic does not make public
 
 # Least and greatest tolerance
 TOLERANCES = (1e-15, 1e-2)  # of a simulation: error of event times after a second of motion, s
@@ -291,7 +309,51 @@ def _marks(model: type[BaseModel]) -> dict[str, Unit]:
     return marks
 
 
-class Strict(BaseModel):
+def plain_type(annotation: Any) -> Any:
+    """A type as a reader knows it: without validators and units."""
+    if get_origin(annotation) is Annotated:
+        return plain_type(get_args(annotation)[0])
+    parts = get_args(annotation)
+    if not parts or get_origin(annotation) is Literal:
+        return annotation
+    if isinstance(annotation, types.UnionType) or get_origin(annotation) is Union:
+        return functools.reduce(operator.or_, map(plain_type, parts))
+    if get_origin(annotation) in (tuple, list, dict):
+        return types.GenericAlias(get_origin(annotation), tuple(map(plain_type, parts)))
+    return annotation
+
+
+def plain_signature(model: type[BaseModel]) -> inspect.Signature:
+    """The arguments of a model as a reader knows them: names, plain types and defaults."""
+    arguments = []
+    for name, field in model.model_fields.items():
+        default = field.get_default(call_default_factory=True, validated_data={})
+        arguments.append(
+            inspect.Parameter(
+                name,
+                inspect.Parameter.KEYWORD_ONLY,
+                default=inspect.Parameter.empty if field.is_required() else default,
+                annotation=plain_type(field.annotation),
+            )
+        )
+    return inspect.Signature(arguments)
+
+
+class _Model(ModelMetaclass):
+    """Models of which `dir`, and so help and completion, show their own names, not pydantic's."""
+
+    def __dir__(cls) -> list[str]:
+        own = {
+            name
+            for base in cls.__mro__
+            if issubclass(base, BaseModel) and base is not BaseModel
+            for name in vars(base)
+        }
+        own -= {"model_config", "model_post_init"}
+        return sorted(name for name in own if not name.startswith("_"))
+
+
+class Strict(BaseModel, metaclass=_Model):
     """Base of all models of input: immutable, no unknown keys, numbers converted to SI. Its
     `ParameterError` lists all faults, those of parts too; rules between values are checked where
     each by itself is right."""
@@ -306,6 +368,11 @@ class Strict(BaseModel):
                 super().__init__(**data)
             except ValidationError as error:
                 raise ParameterError(*faults_of(error, data, type(self))) from None
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
+        super().__pydantic_init_subclass__(**kwargs)
+        cls.__signature__ = plain_signature(cls)
 
     @model_validator(mode="wrap")
     @classmethod
