@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.spectra import Resonance, nearest_resonance
 from disc_model.data.variables import STABLE_CYCLES
-from disc_model.display import Drawn, counted
+from disc_model.display import Drawn, counted, html_table
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
@@ -310,6 +310,23 @@ class Critical(Drawn):
         crossings = counted(len(self.crossings), "crossing")
         seen = f"{len(self.values)} cycles, tongues down to {self.resolution:.2g} seen"
         return f"Critical({self.name}: {first}, {crossings}, {seen})"
+
+    def _repr_html_(self) -> str:
+        """The intervals of one stability in a notebook, and what may have been overlooked."""
+        unit = self.parameters.unit(self.name).removeprefix("1")
+        edges = [float(self.values[0]), *self.crossings.tolist(), float(self.values[-1])]
+        unstable = {float(low) for low, _ in self.unstable}
+        rows = [
+            (f"{low:.9g}", f"{high:.9g}", "unstable" if low in unstable else "stable")
+            for low, high in pairwise(edges)
+        ]
+        rows.append(("tongues overlooked", f"below {self.resolution:.2g} {unit}".strip(), ""))
+        head = (
+            f"{self.name} from",
+            f"to ({unit})" if unit else "to",
+            "motion near the static start",
+        )
+        return html_table(head, rows)
 
     @property
     def unstable(self) -> Array:
