@@ -2,6 +2,7 @@
 
 import copy
 import json
+import math
 import pickle
 import re
 import subprocess
@@ -23,6 +24,7 @@ def test_key_depends_on_values_not_on_spelling() -> None:
     assert len(key) == 12
     assert int(key, 16) >= 0
     assert key != Parameters(N=20.000000000000004, Omega=0).key
+    assert math.copysign(1, Parameters(N=20, Omega=-0.0).Omega) == 1
 
 
 @given(st.sampled_from(sorted(Parameters.model_fields)))
@@ -61,6 +63,12 @@ def test_laws_of_contact_change_the_key_only_where_they_are_not_the_papers() -> 
     for case, other in zip(cases, others, strict=True):
         assert Parameters(**json.loads(case.canonical_json)) == case
         assert {name: getattr(case, name) for name in other} == other
+
+
+def test_a_second_damping_is_refused_even_if_it_is_zero() -> None:
+    with pytest.raises(ParameterError, match=r"^D_star=0: must be left out where damping_ratio is"):
+        Parameters(N=1, Omega=2, damping_ratio=1e-3, D_star=0)
+    assert Parameters(N=1, Omega=2, damping_ratio=1e-3, D_star=1e-5).D_star == 1e-5
 
 
 def test_immutable_hashable_picklable() -> None:

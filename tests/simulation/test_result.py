@@ -129,6 +129,17 @@ def test_a_run_that_overflowed_is_saved_but_its_last_state_is_not(tmp_path: Path
     assert not (tmp_path / "state.nc").exists()
 
 
+def test_pictures_of_a_run_begin_where_it_begins() -> None:
+    run = simulate(P, duration=0.02, initial_state=simulate(P, 0.05).final_state)
+    for name in ("run", "late"):
+        time = run._case(name)[name]["time"].values
+        assert 0.05 <= time[0] <= time[-1] <= 0.07
+    whole = run._case("run")["run"]["time"].values
+    assert np.ptp(whole) == pytest.approx(0.02, rel=0.01)
+    half = run._case("late")["late"]["time"].values
+    assert half[[0, -1]] == pytest.approx([0.06, 0.07], abs=1e-3)
+
+
 # ---- Files that another program has put together
 
 
