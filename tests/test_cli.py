@@ -102,6 +102,19 @@ def test_module_runs_as_a_program() -> None:
     )
 
 
+def test_the_heads_of_modes_are_whole_in_80_columns(
+    command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    table = disc_model.Disc(
+        diameters=[0, 12], omega=[9_876.543, 98_765.432], amplitude=[1.23456, 12.3456]
+    )
+    table.to_csv(tmp_path / "disc.csv")
+    out = command.out("modes", "--disc", str(tmp_path / "disc.csv"), "--r-0", "0.11")
+    assert "…" not in out
+    assert all(word in out for word in ("amplitude", "98765.432", "12.346", "damping"))
+
+
 @pytest.mark.compiled
 def test_floquet_says_whether_the_quiet_motion_lasts(command: Command) -> None:
     assert re.fullmatch(r"kernels compiled and cached: \d+\.\d s\n", command.out("compile"))

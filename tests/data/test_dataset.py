@@ -121,6 +121,7 @@ def test_parameters_that_do_not_count_have_no_number_in_a_file(tmp_path: Path) -
     for name, word in (
         ("normalization", "orthonormal"), ("contact_force", "normal"), ("contact", "bilateral"),
     ):  # fmt: skip
+        assert found["damped"][name].dtype == np.int8
         assert flag_names(found["damped"][name]) == word
     table = merge_cases(found, {}).to_dataset()
     np.testing.assert_array_equal(table["damping_ratio"], [np.nan, 1e-3, np.nan])
