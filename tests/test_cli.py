@@ -179,11 +179,12 @@ def test_a_file_that_cannot_be_written_is_refused_before_the_simulation(
     assert re.search(rf"{option.strip('-')}='.*: {re.escape(rule)}", err)
 
 
-def test_a_backend_of_a_notebook_does_not_matter(tmp_path: Path) -> None:
+@pytest.mark.parametrize("backend", ["module://matplotlib_inline.backend_inline", "unknown"])
+def test_a_backend_of_a_notebook_does_not_matter(tmp_path: Path, backend: str) -> None:
     """Matplotlib refused it, and the name of the picture was blamed."""
     picture = tmp_path / "run.png"
     options = [sys.executable, "-m", "disc_model", *SHORT, "--plot", picture]
-    run(*options, MPLBACKEND="module://a_notebook.backend")
+    run(*options, MPLBACKEND=backend)
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from disc_model import Execution, Parameters, Result, simulate
 from disc_model.engine import audit
-from disc_model.errors import ParameterError, StepLimit
+from disc_model.errors import NonFinite, ParameterError, StepLimit
 from disc_model.simulation import api
 from tests.simulation.equal import same
 
@@ -42,6 +42,10 @@ def test_a_state_that_overflows_is_named():
         result = simulate(P, 0.01, initial_state=start.replace(phase="slip", direction=1, f=1e308))
     assert result.status == "non_finite"
     assert result.message == "non_finite: at t = 1e-06 s in slip"
+    with pytest.raises(
+        NonFinite, match=r"^non_finite: at t = 1e-06 s in slip. The state overflowed"
+    ):
+        result.raise_for_status()
 
 
 def test_a_duration_begins_at_the_initial_state():
