@@ -12,6 +12,7 @@ better, so that a relative step of 1e-4 leaves errors of some 1e-8 of a derivati
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
@@ -19,6 +20,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.disc.plausibility import ImplausibleValue
 from disc_model.display import Drawn, Summarised, html_table, number_text
 from disc_model.errors import (
     DiscModelError,
@@ -72,18 +74,16 @@ class Measurement:
 
     def __post_init__(self) -> None:
         faults: list[Fault] = []
-        quantity = self.quantity
-        unit = "" if callable(quantity) else unit_of(quantity) if isinstance(quantity, str) else ""
-        if not callable(quantity) and not unit:
-            faults.append(Fault.of(("quantity",), quantity, unknown_quantity(quantity)))
+        if not callable(self.quantity) and not self.unit:
+            faults.append(Fault.of(("quantity",), self.quantity, unknown_quantity(self.quantity)))
         for name in ("value", "uncertainty"):
-            number = in_si(getattr(self, name), unit, faults, (name,))
+            number = in_si(getattr(self, name), self.unit, faults, (name,))
             object.__setattr__(self, name, float(number) if is_number(number) else number)
         known = {fault.path for fault in faults}
         rules = (
-            (is_number(self.value), "value", self.value, "must be a finite number"),
+            (_is_finite(self.value), "value", self.value, "must be a finite number"),
             (
-                is_number(self.uncertainty) and self.uncertainty > 0,
+                _is_finite(self.uncertainty) and self.uncertainty > 0,
                 "uncertainty",
                 self.uncertainty,
                 "must be a standard deviation > 0",
@@ -105,6 +105,11 @@ class Measurement:
     def unit(self) -> str:
         """Unit of the value; "" for a quantity of one's own."""
         return unit_of(self.quantity) if isinstance(self.quantity, str) else ""
+
+
+def _is_finite(value: object) -> bool:
+    """Return whether a value is a finite number."""
+    return is_number(value) and math.isfinite(value)  # type: ignore[arg-type]
 
 
 def _short(value: object) -> str:
@@ -223,7 +228,7 @@ class Fit(Summarised, Drawn):
                 f"{each.uncertainty:.2g}",
                 f"{computed:.6g}",
                 f"{deviation:+.2f}",
-                each.unit.removeprefix("1") if each.unit == "1" else each.unit,
+                "" if each.unit == "1" else each.unit,
             )
             for each, computed, deviation in zip(
                 self.measurements, self.computed, self.deviations, strict=True
@@ -387,15 +392,18 @@ def fit(
         return problem.jacobian(x * problem.scale) * weights[:, None] * problem.scale
 
     ends = np.array([limits.get(name, (-math.inf, math.inf)) for name in vary]).T
-    search = least_squares(
-        deviations,
-        start / problem.scale,
-        jac=slopes,
-        bounds=ends / problem.scale,
-        xtol=TOLERANCE,
-        ftol=TOLERANCE,
-        gtol=TOLERANCE,
-    )
+    with warnings.catch_warnings():
+        # the start and the result are doubted, not what is tried on the way
+        warnings.simplefilter("ignore", ImplausibleValue)
+        search = least_squares(
+            deviations,
+            start / problem.scale,
+            jac=slopes,
+            bounds=ends / problem.scale,
+            xtol=TOLERANCE,
+            ftol=TOLERANCE,
+            gtol=TOLERANCE,
+        )
     return _result(problem, search, confidence)
 
 
@@ -537,7 +545,7 @@ def _bounds_faults(p: Parameters, vary: Sequence[str], bounds: object) -> list[s
             continue
         value = p.numbers[name]
         ends = in_si(pair, _unit_of_parameter(name), [], path)
-        good = isinstance(ends, tuple | list) and len(ends) == 2 and all(map(is_number, ends))
+        good = isinstance(ends, tuple | list) and len(ends) == 2 and all(map(_is_finite, ends))
         if not (good and ends[0] < ends[1] and ends[0] <= value <= ends[1]):
             rule = f"must be two ascending values around the start, {value:.6g}"
             faults.append(Fault.of(path, pair, rule))
