@@ -20,7 +20,7 @@ copyright = author
 release = disc_model.__version__
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "numpydoc"]
-exclude_patterns = ["_build", "drawings/*.py"]
+exclude_patterns = ["_build", "drawings/*.py", "measurements/*"]
 root_doc = "index"
 
 # ---- pages

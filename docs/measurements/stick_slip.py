@@ -54,15 +54,17 @@ def coefficients(table: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
     return static, kinetic
 
 
-def block(run: tuple[int, int], mu_s: float, mu_k: float) -> dm.Parameters:
-    """Return the case of a run: a block on a rigid disc, pressed on by its weight."""
+def block(
+    run: tuple[int, int], mu_s: float, mu_k: float, mass: float = MASS
+) -> dm.Parameters:
+    """Return the case of a run: a block on a rigid disc, pressed on by the stated weight."""
     stiffness, speed = run
     return dm.Parameters(
         N=MASS * GRAVITY,
         Omega=1e-6 * speed / RADIUS,
         n_diameters=-1,
         r_0=RADIUS,
-        m=MASS,
+        m=mass,
         k=0,
         k_p=stiffness,
         mu_s=mu_s,
@@ -70,9 +72,11 @@ def block(run: tuple[int, int], mu_s: float, mu_k: float) -> dm.Parameters:
     )
 
 
-def predicted(run: tuple[int, int], mu_s: float, mu_k: float) -> pd.DataFrame:
+def predicted(
+    run: tuple[int, int], mu_s: float, mu_k: float, mass: float = MASS
+) -> pd.DataFrame:
     """Return the slips of a simulated run, found as in the measured ones."""
-    p = block(run, mu_s, mu_k)
+    p = block(run, mu_s, mu_k, mass)
     loading = p.mu_s * p.N / (p.r_0 * p.k_p * p.Omega)
     repeating = 2 * (p.mu_s - p.mu_k) * p.N / (p.r_0 * p.k_p * p.Omega)
     swing = 2 * np.pi * np.sqrt(p.m / p.k_p)
@@ -115,12 +119,15 @@ def friction() -> tuple[float, float]:
     return float(np.median(static)), float(np.median(kinetic))
 
 
-def medians() -> dict[str, list[Comparison]]:
-    """Return A1, durations of slips in all runs, and A2, periods and falls in the others."""
+def medians(mass: float = MASS) -> dict[str, list[Comparison]]:
+    """Return A1, durations of slips in all runs, and A2, periods and falls in the others.
+
+    A block of another `mass` (kg) is used afterwards only.
+    """
     mu_s, mu_k = friction()
     found: dict[str, list[Comparison]] = {"duration": [], "period": [], "fall": []}
     for run in runs():
-        seen, model = measured(run), predicted(run, mu_s, mu_k)
+        seen, model = measured(run), predicted(run, mu_s, mu_k, mass)
         for quantity, unit, of in (
             ("duration", "s", duration),
             ("period", "s", period),
