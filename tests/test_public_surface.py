@@ -80,6 +80,16 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     ),
     (dm.plot_modes, {"p": P}, {"ax": "None", "most": "huge"}),
     (
+        dm.fit,
+        {"p": P, "vary": ["E"], "measured": {"frequency_0_0": (239.0, 1.0)}},
+        {"bounds": "None"},
+    ),
+    (
+        dm.Measurement,
+        {"quantity": "period", "value": 1.0, "uncertainty": 1.0},
+        {"value": "negative"},
+    ),
+    (
         dm.plot_sweep,
         {"study": GRID},
         {"ax": "None", "log": "True", "variable": "None", "x": "None"},

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from docs.measurements.signals import slips
 from scipy.io import loadmat
 from scipy.optimize import least_squares
 
 from disc_model.errors import script
-from docs.measurements.signals import slips
 
 TABLES = Path(__file__).parent / "tables"
 MOST = 600

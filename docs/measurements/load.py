@@ -1,7 +1,6 @@
 """Friction of PLA on silicone over the load: Coulomb's law makes it constant (E)."""
 
 import numpy as np
-
 from docs.measurements.comparison import Comparison, read
 
 CONSTANT = 0.10

@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
+from docs.measurements import load, stick_slip, wheel
+from docs.measurements.comparison import Comparison, read
 from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model.errors import script
 from disc_model.figures.drawing import BLACK, BLUE, GREY, SEPARATED, styled
-from docs.measurements import load, stick_slip, wheel
-from docs.measurements.comparison import Comparison, read
 
 DOCS = Path(__file__).parents[1]
 PAGE = DOCS / "measurements.md"
@@ -170,7 +170,9 @@ def draw_shapes() -> Figure:
         figure = Figure(figsize=(6.9, 2.0), layout="constrained")
         axes = figure.subplots(1, 4, sharey=True)
         fine = np.linspace(0, 165, 166)
-        for axis, (diameters, rows) in zip(axes, read("wheel.csv").groupby("diameters"), strict=True):
+        for axis, (diameters, rows) in zip(
+            axes, read("wheel.csv").groupby("diameters"), strict=True
+        ):
             response = rows["real"].to_numpy() + 1j * rows["imaginary"].to_numpy()
             axis.axhline(0, color=GREY, linewidth=0.6)
             model = wheel.shape(int(diameters), np.radians(fine))

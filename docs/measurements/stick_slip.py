@@ -2,10 +2,10 @@
 
 import numpy as np
 import pandas as pd
-
-import disc_model as dm
 from docs.measurements.comparison import Comparison, read, within
 from docs.measurements.signals import RATE, slips
+
+import disc_model as dm
 
 MASS = 30.7e-3
 """Mass of the slider, kg."""
@@ -54,9 +54,7 @@ def coefficients(table: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
     return static, kinetic
 
 
-def block(
-    run: tuple[int, int], mu_s: float, mu_k: float, mass: float = MASS
-) -> dm.Parameters:
+def block(run: tuple[int, int], mu_s: float, mu_k: float, mass: float = MASS) -> dm.Parameters:
     """Return the case of a run: a block on a rigid disc, pressed on by the stated weight."""
     stiffness, speed = run
     return dm.Parameters(
@@ -72,9 +70,7 @@ def block(
     )
 
 
-def predicted(
-    run: tuple[int, int], mu_s: float, mu_k: float, mass: float = MASS
-) -> pd.DataFrame:
+def predicted(run: tuple[int, int], mu_s: float, mu_k: float, mass: float = MASS) -> pd.DataFrame:
     """Return the slips of a simulated run, found as in the measured ones."""
     p = block(run, mu_s, mu_k, mass)
     loading = p.mu_s * p.N / (p.r_0 * p.k_p * p.Omega)

@@ -3,9 +3,9 @@
 import math
 
 import numpy as np
+from docs.measurements.comparison import Comparison, read, within
 
 import disc_model as dm
-from docs.measurements.comparison import Comparison, read, within
 
 SHAPES = 0.1
 """Greatest root mean square difference of a shape."""
@@ -38,9 +38,7 @@ def shapes() -> list[Comparison]:
         seen = (response / response[0]).real[1:]
         model = shape(int(diameters), angles)[1:]  # type: ignore[call-overload]
         error = float(np.sqrt(np.mean((seen - model) ** 2)))
-        found.append(
-            Comparison(f"{diameters} nodal diameters", error, 0.0, "", error < SHAPES)
-        )
+        found.append(Comparison(f"{diameters} nodal diameters", error, 0.0, "", error < SHAPES))
     return found
 
 
@@ -79,7 +77,12 @@ def plate(body: str, lowest: float, diameters: int) -> dm.Parameters:
     """Return a uniform plate whose mode with two nodal diameters has a given frequency (Hz)."""
     known = PLATES[body]
     start = dm.Parameters(
-        N=0, Omega=0, h=0.04 * known["b"], n_diameters=diameters, normalization="orthonormal", **known
+        N=0,
+        Omega=0,
+        h=0.04 * known["b"],
+        n_diameters=diameters,
+        normalization="orthonormal",
+        **known,
     )
     return dm.fit(start, ["h"], {"frequency_2_0": (lowest, 0.1)}).case
 

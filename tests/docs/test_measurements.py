@@ -4,9 +4,9 @@ import re
 
 import numpy as np
 import pytest
+from docs.measurements import load, report, signals, stick_slip, wheel
 
 import disc_model as dm
-from docs.measurements import load, report, signals, stick_slip, wheel
 
 PAGE = report.PAGE.read_text(encoding="utf-8")
 NUMBER = re.compile(r"\d+(?:\.\d+)?")

@@ -15,9 +15,7 @@ from disc_model.fitting.fit import _Problem
 from disc_model.fitting.prediction import Prediction
 
 DISC = dm.Parameters(N=385, Omega=15, n_diameters=2)
-BLOCK = dm.Parameters(
-    N=30, Omega=0.5, n_diameters=-1, m=0.2, k=0, k_p=2e3, mu_s=0.5, mu_k=0.3
-)
+BLOCK = dm.Parameters(N=30, Omega=0.5, n_diameters=-1, m=0.2, k=0, k_p=2e3, mu_s=0.5, mu_k=0.3)
 
 
 def synthetic(
@@ -71,9 +69,7 @@ VARIED: dict[Callable[..., Any], list[str]] = {
 
 def holds(fit: dm.Fit, truth: dm.Parameters) -> list[bool]:
     """Return for each parameter whether its interval holds the true value."""
-    return [
-        each.low <= truth.numbers[name] <= each.high for name, each in fit.parameters.items()
-    ]
+    return [each.low <= truth.numbers[name] <= each.high for name, each in fit.parameters.items()]
 
 
 def one_draw(draw: Callable[..., Any], seed: int) -> tuple[dm.Fit, dm.Parameters]:
@@ -98,9 +94,7 @@ def check_coverage(draw: Callable[..., Any], draws: int) -> None:
 
 
 @pytest.mark.parametrize("draw", [disc_friction, plate, block], ids=lambda draw: draw.__name__)
-def test_known_parameters_lie_within_the_intervals_of_a_few_draws(
-    draw: Callable[..., Any],
-) -> None:
+def test_known_parameters_lie_within_the_intervals_of_a_few_draws(draw: Callable[..., Any]) -> None:
     check_coverage(draw, 4)
 
 
@@ -246,11 +240,7 @@ def test_a_fit_shows_values_intervals_and_deviations() -> None:
 
 # ---- Wrong input
 
-GOOD: dict[str, Any] = {
-    "p": DISC,
-    "vary": ["E"],
-    "measured": {"frequency_2_0": (290.0, 1.0)},
-}
+GOOD: dict[str, Any] = {"p": DISC, "vary": ["E"], "measured": {"frequency_2_0": (290.0, 1.0)}}
 
 
 @pytest.mark.parametrize(
@@ -306,8 +296,8 @@ def test_parameters_that_act_alike_are_told_apart_from_others() -> None:
 
 
 def test_a_parameter_without_effect_is_named() -> None:
+    measured = {"frequency_0_0": (239.0, 0.5), "frequency_2_0": (292.0, 0.5)}
     with pytest.raises(dm.ParameterError, match=r"\['mu_s'\]: cannot be determined"):
-        measured = {"frequency_0_0": (239.0, 0.5), "frequency_2_0": (292.0, 0.5)}
         dm.fit(DISC, ["E", "mu_s"], measured)
 
 

@@ -7,9 +7,7 @@ import pytest
 import disc_model as dm
 from disc_model.fitting.prediction import Prediction, Unpredicted
 
-BLOCK = dm.Parameters(
-    N=30, Omega=0.5, n_diameters=-1, m=0.2, k=0, k_p=2e3, mu_s=0.5, mu_k=0.3
-)
+BLOCK = dm.Parameters(N=30, Omega=0.5, n_diameters=-1, m=0.2, k=0, k_p=2e3, mu_s=0.5, mu_k=0.3)
 """A block on a rigid disc."""
 DISC = dm.Parameters(N=385, Omega=15)
 

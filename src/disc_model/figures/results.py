@@ -409,7 +409,9 @@ def plot_fit(fit: Fit, ax: Any = None) -> np.ndarray:
         )
         shift = 100 * (fit.computed - value) / size
         left.plot(shift, rows, "D", color=SEPARATED, ms=3.5, mfc="none", label="computed")
-        left.set(xlabel="Difference from the measured value (%)", yticks=rows, ylim=(-0.7, count - 0.3))
+        left.set(
+            xlabel="Difference from the measured value (%)", yticks=rows, ylim=(-0.7, count - 0.3)
+        )
         left.set_yticklabels([each.name for each in fit.measurements], fontsize=7)
         left.margins(x=0.08)
         drawing.legend_above(left)

@@ -73,25 +73,20 @@ class Measurement:
     at: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        faults: list[Fault] = []
+        faults: list[str] = []
         if not callable(self.quantity) and not self.unit:
             faults.append(Fault.of(("quantity",), self.quantity, unknown_quantity(self.quantity)))
-        for name in ("value", "uncertainty"):
-            number = in_si(getattr(self, name), self.unit, faults, (name,))
-            object.__setattr__(self, name, float(number) if is_number(number) else number)
-        known = {fault.path for fault in faults}
-        rules = (
-            (_is_finite(self.value), "value", self.value, "must be a finite number"),
-            (
-                _is_finite(self.uncertainty) and self.uncertainty > 0,
-                "uncertainty",
-                self.uncertainty,
-                "must be a standard deviation > 0",
-            ),
-            (isinstance(self.at, Mapping), "at", self.at, "must give values by parameter"),
+        value = _number(self.value, self.unit, "value", faults)
+        uncertainty = _number(self.uncertainty, self.unit, "uncertainty", faults)
+        named = isinstance(self.at, Mapping) and all(isinstance(name, str) for name in self.at)
+        faults += violations(
+            (not uncertainty <= 0, "uncertainty", uncertainty, "must be a standard deviation > 0"),
+            (named, "at", self.at, "must give values by names of parameters"),
         )
-        faults += [fault for fault in violations(*rules) if fault.path not in known]  # type: ignore[attr-defined]
         raise_faults(faults)
+        # the class is frozen, and texts become numbers
+        object.__setattr__(self, "value", value)
+        object.__setattr__(self, "uncertainty", uncertainty)
 
     @property
     def name(self) -> str:
@@ -105,6 +100,16 @@ class Measurement:
     def unit(self) -> str:
         """Unit of the value; "" for a quantity of one's own."""
         return unit_of(self.quantity) if isinstance(self.quantity, str) else ""
+
+
+def _number(value: object, unit: str, name: str, faults: list[str]) -> float:
+    """Return a finite number in a unit; nan for anything else, which becomes a fault."""
+    wrong: list[Fault] = []
+    number = in_si(value, unit, wrong, (name,))
+    if not wrong and not _is_finite(number):
+        wrong.append(Fault.of((name,), value, "must be a finite number"))
+    faults += wrong
+    return math.nan if wrong else float(number)
 
 
 def _is_finite(value: object) -> bool:
@@ -141,6 +146,16 @@ class Fit(Summarised, Drawn):
     deviations : computed minus measured values, in standard deviations, (m,)
     chi_squared : sum of the squared deviations
     converged, message : whether and why the search ended at a minimum
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> p = dm.Parameters(N=385, Omega=15, normalization="orthonormal")
+    >>> found = dm.fit(p, ["E"], {"frequency_2_0": (295, 1)})
+    >>> found.parameters["E"].value / 1e9, found.predict("frequency_0_0")
+    (154.9..., (241.3..., 0.81...))
+    >>> found.plot()[1].get_xlabel()
+    'Deviation (standard deviations)'
     """
 
     _picture = "plot_fit"
@@ -183,9 +198,7 @@ class Fit(Summarised, Drawn):
         return np.asarray(self.covariance / np.outer(deviation, deviation))
 
     def predict(
-        self,
-        quantity: str | Callable[[Parameters], float],
-        at: Mapping[str, Any] | None = None,
+        self, quantity: str | Callable[[Parameters], float], at: Mapping[str, Any] | None = None
     ) -> tuple[float, float]:
         """Return a quantity of the fitted case, and its standard deviation from that of the
         parameters.
@@ -267,10 +280,7 @@ class _Problem:
         self.measurements = tuple(measurements)
         start = [case.numbers[name] for name in names]
         self.scale = np.array(
-            [
-                scales.get(name, abs(value)) or 1.0
-                for name, value in zip(names, start, strict=True)
-            ]
+            [scales.get(name, abs(value)) or 1.0 for name, value in zip(names, start, strict=True)]
         )
 
     def predictions(self, values: Array) -> Array:
@@ -368,11 +378,11 @@ def fit(
     Examples
     --------
     >>> import disc_model as dm
-    >>> p = dm.Parameters(N=385, Omega=15, n_diameters=2)
+    >>> p = dm.Parameters(N=385, Omega=15, normalization="orthonormal")
     >>> measured = {"frequency_0_0": (239.0, 0.5), "frequency_2_0": (292.5, 0.5)}
     >>> found = dm.fit(p, vary=["E", "nu"], measured=measured)
     >>> found
-    Fit(E=1.52...e+11 ± ..., nu=0.1... ± ...; chi squared ... with 0 degrees of freedom)
+    Fit(E=1.52256e+11 ± 4.5e+08, nu=0.208709 ± 0.0056; chi squared ... with 0 degrees of freedom)
     """
     from scipy.optimize import least_squares
 
@@ -427,7 +437,9 @@ def _result(problem: _Problem, search: Any, confidence: float) -> Fit:
     parameters = {
         name: Fitted(*map(float, row))
         for name, row in zip(
-            names, np.stack([fitted, deviation, fitted - reach, fitted + reach], axis=1), strict=True
+            names,
+            np.stack([fitted, deviation, fitted - reach, fitted + reach], axis=1),
+            strict=True,
         )
     }
     case = problem.case.replace(**{name: each.value for name, each in parameters.items()})
