@@ -272,7 +272,9 @@ class Sources:
         branch, point = np.unravel_index(ranges.argmin(), ranges.shape)
         unstable = np.flatnonzero(~stable[branch])
         ends = unstable[unstable < point].max() + 1, unstable[unstable > point].min() - 1
-        fold = np.nanargmax(speed[branch])
+        # the fold is a point of the branch, and stable or unstable by rounding
+        around = np.arange(ends[0] - 1, ends[1] + 2)
+        fold = around[np.nanargmax(speed[branch, around])]
         return (
             min(speed[branch, ends]),
             speed[branch, fold],
