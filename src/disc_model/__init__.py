@@ -25,6 +25,7 @@ _NAMES = {
     "errors": (
         "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite"
     ),
+    "fitting.fit": "fit Fit Measurement",
     "mode_choice": "choose_modes",
     "parameters": "Parameters Disc",
     "simulation.api": "simulate snapshots Execution",
@@ -60,6 +61,7 @@ if TYPE_CHECKING:
         StepLimit,
     )
     from disc_model.figures.results import plot_modes, plot_sweep
+    from disc_model.fitting.fit import Fit, Measurement, fit
     from disc_model.mode_choice import choose_modes
     from disc_model.parameters import Disc, Parameters
     from disc_model.simulation.api import Execution, simulate, snapshots

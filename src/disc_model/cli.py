@@ -24,6 +24,7 @@ from rich.console import Console
 from rich.table import Column, Table
 
 from disc_model import __version__
+from disc_model.data.files import SUFFIXES, regular_file
 from disc_model.disc.files.table import read_disc
 from disc_model.disc.files.universal_sets import is_universal_file
 from disc_model.disc.given import DiscReport
@@ -129,8 +130,14 @@ def model_line(p: Parameters) -> tuple[str, str]:
 
 def _writable(path: Path) -> Path:
     """Refuse a file that cannot be written, before the work instead of after it."""
-    if path.is_dir() or not path.parent.is_dir():
+    try:
+        regular_file(path)
+    except ParameterError as error:
+        raise ValueError(error.faults[0].rule) from None
+    if not path.parent.is_dir():
         raise ValueError("must be the name of a file in a folder that exists")
+    if not os.access(path.parent, os.W_OK):
+        raise ValueError("must be in a folder in which files can be written")
     return path
 
 
@@ -286,6 +293,12 @@ def compile_() -> None:
 # ---- A simulation
 
 
+def _savable(path: Path) -> Path:
+    if _writable(path).suffix not in SUFFIXES:
+        raise ValueError(f"must end in {' or '.join(SUFFIXES)}")
+    return path
+
+
 def _drawable(path: Path) -> Path:
     from matplotlib.backend_bases import FigureCanvasBase
 
@@ -305,8 +318,8 @@ class RunOptions(Strict):
     plot: Annotated[Path, AfterValidator(_drawable)] | None = Field(
         None, description="draw contact force and disc displacement"
     )
-    save: Annotated[Path, AfterValidator(_writable)] | None = Field(
-        None, description="write the result as netCDF, for disc_model.load"
+    save: Annotated[Path, AfterValidator(_savable)] | None = Field(
+        None, description="write the result as netCDF (.nc) or for MATLAB (.mat)"
     )
 
 
@@ -325,7 +338,7 @@ def run(p: Parameters, options: RunOptions) -> None:
     if options.plot is not None:
         from matplotlib import pyplot
 
-        pyplot.switch_backend("agg")
+        pyplot.switch_backend("agg")  # a program that calls `main` may have chosen another
         result.plot()
         pyplot.savefig(options.plot, dpi=150)
         print_rows([("figure", str(options.plot))])
@@ -492,6 +505,9 @@ def _all(
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; never shows a traceback for bad input."""
     arguments = (sys.argv[1:] if arguments is None else arguments) or ["--help"]
+    # figures are only saved, and the backend of a notebook may not be installed here; Snakemake's
+    # jobs inherit this
+    os.environ["MPLBACKEND"] = "agg"
     try:
         code = app(args=arguments, standalone_mode=False, prog_name="disc-model")
         message = "interrupted" if code == INTERRUPTED else ""

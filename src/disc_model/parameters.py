@@ -573,7 +573,9 @@ class Parameters(Strict):
         """Find the parameters that follow from ratios, and remember these."""
         if cls is not Parameters or not isinstance(data, dict) or not (data.keys() & RATIOS.keys()):
             return handler(data)
-        ratios, faults = {name: data[name] for name in RATIOS if name in data}, list[Fault]()
+        faults: list[Fault] = []
+        ratios = {name: data[name] for name in RATIOS if name in data}
+        ratios = in_si(ratios, "1", faults, ())
         for name, value in ratios.items():
             if RATIOS[name][0] in data:
                 faults.append(
@@ -592,6 +594,17 @@ class Parameters(Strict):
         p = handler(data)
         p.__pydantic_private__["_ratios"] = {name: float(value) for name, value in ratios.items()}
         return p
+
+    @pydantic.model_serializer(mode="wrap")
+    def _with_ratios_in_json(
+        self, handler: Any, info: pydantic.SerializationInfo
+    ) -> dict[str, Any]:
+        """In JSON, have the ratios by which the case was given, and not what follows from them."""
+        values = handler(self)
+        if info.mode != "json" or not self._ratios:
+            return values
+        follow = {RATIOS[name][0] for name in self._ratios}
+        return {name: x for name, x in values.items() if name not in follow} | self._ratios
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -782,12 +795,6 @@ def _documented() -> str:
 
 
 Parameters.__doc__ = _documented()
-_arguments = [
-    inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY) for name in Parameters.model_fields
-]
-Parameters.__signature__ = inspect.Signature(
-    [x.replace(default=DEFAULTS.get(x.name, x.empty)) for x in _arguments]
-)
 
 
 def in_words(values: Mapping[str, Any], words: Mapping[str, str] = CONTACTS) -> dict[str, Any]:

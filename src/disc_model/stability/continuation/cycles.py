@@ -119,6 +119,7 @@ def continue_cycle(  # noqa: PLR0913
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases)
     raise_faults(foreign_case(p) or wrong + free_faults(p, [name]))
+    tol = float(tol)
     start = p.numbers[name]
     slack = 1e-9 * (span[1] - span[0])  # ratios are rounded
     within = span[0] - slack <= start <= span[1] + slack
