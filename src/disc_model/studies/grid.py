@@ -406,8 +406,6 @@ class GridStudy:
             upper, lower = RATIOS.get(name, (name, ""))
             if "disc" in given and not {upper, lower}.isdisjoint((*PLATE, "damping_ratio")):
                 yield Fault(("axes", name), "", "must be left out where a disc is given")
-            if lower in scanned:
-                yield Fault(("axes", name), "", f"needs {lower}, which the {quantity} varies")
         for name in sorted({*REQUIRED}.difference(given)):
             yield Fault(("axes", name), "", "is required, here, in a zip or in base")
         if not self.dims:
@@ -447,27 +445,48 @@ class GridStudy:
                     )
 
     def _wrong_extent(self) -> Iterator[Fault]:
-        over, known = (
-            self.file.batch.over,
-            [*dict.fromkeys((*Parameters.model_fields, *self.varied))],
-        )
+        over = self.file.batch.over
         if self.options.tiled and len(_plane(self.dims, over)) != 2:
             rule = f"must name the two dimensions, single numbers, of {self.quantity}'s plane first"
             yield Fault.of(("batch", "over"), over and list(over), rule)
         if (size := math.prod(len(dim.values) for dim in self.dims)) > MOST_POINTS:
             yield Fault(("axes",), "", f"must make at most {MOST_POINTS} points, and not {size}")
-        unknown = [
-            (name, rule)
-            for rule in self.where
-            for name in compiled_rule(rule).co_names
-            if name not in known
-        ]
-        for name, rule in unknown:
-            yield Fault.of(
-                ("where",), rule, f"{name} is no value of a point{suggestion(name, known, False)}"
-            )
-        if self.where and not unknown and next(self.points_of(()), None) is None:
+        wrong_rules = [*self._wrong_rules()]
+        yield from wrong_rules
+        if self.where and not wrong_rules and next(self.points_of(()), None) is None:
             yield Fault(("where",), "", "leaves no point")
+
+    def _wrong_rules(self) -> Iterator[Fault]:
+        """Rules of the file may compare values of points only: what the quantity varies, what a
+        disc makes meaningless, and numbers of modes that are chosen later are none."""
+        unknown = self._unknown_at_points()
+        ratios = self.file.base.model_fields_set & RATIOS.keys()
+        fields = [*Parameters.model_fields, *self.varied, *sorted(ratios)]
+        known = [name for name in dict.fromkeys(fields) if name not in unknown]
+        for rule in self.where:
+            for name in compiled_rule(rule).co_names:
+                if name in unknown:
+                    yield Fault.of(("where",), rule, f"{name} is {unknown[name]}")
+                elif name not in known:
+                    told = suggestion(name, known, all_of_them=False)
+                    yield Fault.of(("where",), rule, f"{name} is no value of a point{told}")
+
+    def _unknown_at_points(self) -> dict[str, str]:
+        """Parameters without a value of their own at a point, and why they have none."""
+        reasons: dict[str, str] = {}
+        if "disc" in {*self.varied, *self.file.base.model_fields_set}:
+            reasons |= dict.fromkeys((*PLATE, "damping_ratio"), "no parameter of a given disc")
+        if self.mode_request is not None:
+            reasons |= dict.fromkeys(("n_diameters", "n_circles"), "chosen at each point")
+        by_quantity = f"varied by the quantity {self.quantity}"
+        for name in self.options.scanned:
+            reasons |= {name: by_quantity, RATIOS.get(name, (name,))[0]: by_quantity}
+        given = {*self.varied, *self.file.base.model_fields_set}
+        for ratio in RATIOS.keys() & given:
+            upper, lower = RATIOS[ratio]
+            if lower in reasons:
+                reasons[upper] = reasons[lower]
+        return reasons
 
     def _base_of_points(self) -> dict[str, Any]:
         """All values that do not vary; raises `ParameterError` with the rules that the first such

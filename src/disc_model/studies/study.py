@@ -230,8 +230,9 @@ class NamedCase(Strict):
         raise_faults(faults)
         events = spans.pop(("events",), None)
         windows = tuple((name, window) for (_, name), window in spans.items())
-        rest = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
+        rest = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "ramps")}
         rest |= {
+            "start": _with_ratios_of(p, self.start),
             "windows": windows,
             "poincare": record.poincare,
             "events": events and (events.start, events.stop),
@@ -245,6 +246,24 @@ class NamedCase(Strict):
         """Check the rules between the values of the case."""
         self.spec  # noqa: B018
         return self
+
+
+def _with_ratios_of(p: Parameters, start: Start) -> Start:
+    """The start with the numbers that follow, in its prerun, from ratios by which the case is
+    given, since the text of a `CaseSpec` has no ratios. Raises `ParameterError` with places in the
+    case."""
+    if start.prerun is None:
+        return start
+    changed = start.prerun.parameters
+    try:
+        before = p.replace(**changed)
+    except ParameterError as error:
+        place = ("start", "prerun", "parameters")
+        raise ParameterError(*(fault.inside(place) for fault in error.faults)) from None
+    followers = {upper for upper, lower in RATIOS.values() if lower in changed}
+    differing = [name for name in followers if getattr(before, name) != getattr(p, name)]
+    values = changed | {name: getattr(before, name) for name in sorted(differing)}
+    return start.replace(prerun=start.prerun.replace(parameters=values))
 
 
 # ---- Figures

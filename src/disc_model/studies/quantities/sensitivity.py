@@ -18,7 +18,7 @@ from disc_model.analysis.classify import share
 from disc_model.data import variables
 from disc_model.data.variables import EXCLUDED, SAMPLE, SCALARS, STABLE_CYCLES, Variable, flag_names
 from disc_model.errors import Fault, ParameterError, as_text, suggestion
-from disc_model.parameters import DEFAULTS, RELATED, Disc, Parameters, case_of
+from disc_model.parameters import DEFAULTS, RATIOS, RELATED, Disc, Parameters, case_of
 from disc_model.studies import quantity
 from disc_model.studies.quantity import (
     NUMBERS,
@@ -164,19 +164,16 @@ class Sensitivity(Quantity):
     def faults(self, grid: Any) -> Iterator[Fault]:
         """Distributions must be of numbers, of no parameter that varies otherwise, and within valid
         values."""
-        path, faults = (
-            ("options", "distributions"),
-            dict[str, Fault](),
-        )  # the first one of each name
+        path = ("options", "distributions")
+        faults: dict[str, Fault] = {}  # the first one of each name
         first = next(grid.points_along(grid.dims))
+        varied = {*grid.varied, *(RATIOS[name][0] for name in grid.varied if name in RATIOS)}
         for point in grid.points_of([*self.distributions, *RELATED]):
-            case = case_of({**grid.base, **first, **point}, grid.discs)
-            own = _own_values(case)
+            case = Parameters(**case_of({**grid.base, **first, **point}, grid.discs))
+            own = _own_values(dict(case))
             for name, distribution in self.distributions.items():
-                nominal, varies = (
-                    own.get(name),
-                    name in grid.varied or (name not in NUMBERS and "disc" in grid.varied),
-                )
+                nominal = own.get(name)
+                varies = name in varied or (name not in NUMBERS and "disc" in varied)
                 if name not in NUMBERS and (name not in own or name in DEFAULTS):
                     rule = f"must be of a parameter that is a number{suggestion(name, NUMBERS)}"
                 elif varies and not distribution.relative:
@@ -192,10 +189,10 @@ class Sensitivity(Quantity):
                 faults.setdefault(fault.path[0], Fault((*inside, *fault.path), fault.value, rule))
         yield from faults.values()
 
-    def _out_of_reach(self, case: Mapping[str, Any], own: Mapping[str, Any]) -> Iterator[Fault]:
+    def _out_of_reach(self, p: Parameters, own: Mapping[str, Any]) -> Iterator[Fault]:
         """Rules broken by an end of a distribution at a point; rules between parameters are tested
         at all corners."""
-        p, ends = Parameters(**case), dict[str, list[float]]()
+        ends: dict[str, list[float]] = {}
         for name, distribution in self.distributions.items():
             scale = own[name] if distribution.relative else 1.0
             ends[name] = [scale * distribution.low, scale * distribution.high]

@@ -6,6 +6,7 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field
 
 from disc_model.data.variables import Variable
+from disc_model.parameters import Parameters
 from disc_model.studies.quantity import STATUS, Coordinate, Free, Point, Quantity, Range, listed
 from disc_model.units import Count, Unit
 
@@ -49,12 +50,18 @@ class Sliding(Quantity):
     }
     cost: ClassVar = lambda o: 3e-3 * (o.scan.intervals + 1)
 
+    def _case_at(self, p: Parameters, value: float) -> Parameters:
+        """The case of a point at a value of the parameter."""
+        if self.parameter == "mu_k":
+            return p.replace(mu_k=value, mu_s=max(p.mu_s, value))
+        return p.replace(**{self.parameter: value})
+
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.sliding import SlidingStatus, follow_modes
 
         p, values = point.parameters, self.scan.values
-        least = {"mu_s": max(p.mu_s, values[-1])} if self.parameter == "mu_k" else {}
-        followed = follow_modes([p.replace(**{self.parameter: value}, **least) for value in values])
+        cases = [self._case_at(p, value) for value in values]
+        followed = follow_modes(cases)
         shape, message = (len(values), self.modes), ""
         columns = {
             name: column.empty(shape)
