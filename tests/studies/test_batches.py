@@ -1,6 +1,7 @@
 """Grid studies: what files may say, how grids become batches, and what of a grid is left out."""
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from disc_model import floquet
 from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
 from disc_model.mode_choice import choose_modes
+from disc_model.parameters import Parameters
 from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import failures, merge_batches
 from disc_model.studies.run import run_batch
@@ -45,6 +47,25 @@ def test_changes_change_only_the_batches_they_touch() -> None:
     assert not before & set(parse_grid(study(options={"horizon": 3})).batches)
     longer = {"blocks": [axes["Omega"], [12.5]]}
     assert len(set(parse_grid(study(axes={**axes, "Omega": longer})).batches) - before) == 3
+
+
+def test_an_axis_may_end_at_infinity() -> None:
+    """JSON has no infinity: the batches had a word in its place, and could not be merged."""
+    axes = {"friction_decay": [0.5, "inf", 2], "c_p": [0.0, 0.1]}
+    base = {"N": 300, "Omega": 14, "n_diameters": 1}
+    done = computed(quantity="floquet", base=base, axes=axes)
+    assert done["friction_decay"].values.tolist() == [0.5, 2, np.inf]
+    for decay in done["friction_decay"].values:
+        for c_p in done["c_p"].values:
+            own = floquet(Parameters(**base, friction_decay=decay, c_p=c_p))
+            found = done["growth_rate"].sel(friction_decay=decay, c_p=c_p)
+            np.testing.assert_equal(found.item(), own.growth_rate)
+    plane = computed(
+        quantity="regions", options={"horizon": 1}, base=base | {"c_p": 0.1}, axes={
+            "friction_decay": [0.5, math.inf], "mu_s": [0.3, 0.4],
+        }
+    )  # fmt: skip
+    assert plane["friction_decay"].values.tolist() == [0.5, np.inf]
 
 
 AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}

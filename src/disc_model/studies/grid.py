@@ -528,6 +528,10 @@ class GridStudy:
             name: [value[0] if len(value) == 1 else value for value in along]
             for name, along in self.values.items()
         }
+        endless = [name for name, along in values.items() if math.inf in along]
+        for field in ("x", "y"):
+            if (name := getattr(plot, field, None)) in endless:
+                return [Fault.of((field,), name, "has the value inf, which no axis can show")]
         if not isinstance(plot, General):
             quantities = plot.quantities or (plot.kind,)
             if self.quantity in quantities:
