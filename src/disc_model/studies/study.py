@@ -7,13 +7,12 @@ right.
 import json
 from collections import ChainMap
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from functools import cached_property, partial, reduce
+from functools import cached_property, reduce
 from glob import glob
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, Union
 
 import pydantic
-import yaml
 from pydantic import (
     AfterValidator,
     BeforeValidator,
@@ -22,13 +21,11 @@ from pydantic import (
     WithJsonSchema,
     create_model,
 )
-from yaml.composer import ComposerError
 
 from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, values_text
 from disc_model.disc.given import read_disc
 from disc_model.disc.plausibility import doubts
-from disc_model.display import counted
-from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
+from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kind import NORM, CasePlot, Kind, Plot, kind_of, kinds_in
 from disc_model.mode_choice import CHOSEN_BY, TRUSTED, ModeRequest, read_asked
 from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
@@ -52,6 +49,7 @@ from disc_model.studies.grid import (
     described,
 )
 from disc_model.studies.quantity import compiled_rule, quantity_names, quantity_of
+from disc_model.studies.reading import StudyError, read_file
 from disc_model.units import Finite, Positive, Seconds, Strict, Tolerance, must
 
 MODES = {
@@ -60,52 +58,6 @@ MODES = {
 }
 
 # ---- Reading
-
-
-class StudyError(DiscModelError, ValueError):
-    """A study file that breaks rules; lists every fault once, as ``path=value: rule``."""
-
-    def __init__(self, *faults: str, source: str = "study") -> None:
-        self.faults, self.source = tuple(dict.fromkeys(map(str, faults))), source
-        super().__init__(
-            "\n  ".join([f"{source}: {counted(len(self.faults), 'fault')}", *self.faults])
-        )
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return (partial(type(self), source=self.source), self.faults)
-
-
-def read_file(path: Path) -> Any:
-    """A YAML file's content; raises `StudyError` if it cannot be read or gives a key twice."""
-    try:
-        return yaml.load(path.read_text(encoding="utf-8"), _Loader)
-    except (
-        OSError,
-        yaml.YAMLError,
-        ValueError,
-        RecursionError,
-        AttributeError,
-        KeyError,
-        TypeError,
-    ) as error:
-        # ValueError and what follows: a value looks like a number or date, or has a tag, that it
-        # does not fit
-        raise StudyError(
-            f"cannot be read as YAML, whose values must fit their tags: {error}", source=str(path)
-        ) from None
-
-
-class _Loader(yaml.SafeLoader):
-    """Refuses a key that is given twice, of which YAML itself would take the last value."""
-
-    def compose_mapping_node(self, anchor: Any) -> yaml.MappingNode:
-        node = super().compose_mapping_node(anchor)
-        known = set[str]()
-        for key, _ in node.value:
-            if key.value in known and key.value != "<<":
-                raise ComposerError(None, None, f"{key.value} is given twice", key.start_mark)
-            known.add(key.value)
-        return node
 
 
 def mapping(value: Any) -> Mapping[Any, Any]:
