@@ -13,10 +13,13 @@ import shlex
 import sys
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NoReturn, get_args, get_origin
 
+import platformdirs
 import typer
 from pydantic import AfterValidator, Field
 from rich.console import Console
@@ -284,6 +287,8 @@ def study(
     _read(files)
     if find_spec("snakemake") is None:
         raise ModuleNotFoundError(name="snakemake")
+    _make_folder(directory)
+    _find_cache(directory)
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
     options = [
         *(target or []),
@@ -293,10 +298,40 @@ def study(
         str(directory),
     ]
     options += [*["--unlock"] * unlock, "--configfile", *(str(file.resolve()) for file in files)]
-    command = [sys.executable, "-m", "snakemake", "-s", str(snakefile), *options]
-    os.execv(
-        command[0], command
-    )  # Snakemake takes the place of this process: Ctrl-C and exit codes are its own
+    snakemake = import_module("snakemake.cli")
+    snakemake.main(["-s", str(snakefile), *options])  # ends with an exit code
+
+
+def _make_folder(directory: Path) -> None:
+    """Make the folder of results; raises `ParameterError` if that is impossible."""
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=directory):
+            pass
+    except FileExistsError:
+        raise ParameterError(
+            Fault(("directory",), repr(str(directory)), "must be a folder, and is a file")
+        ) from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise ParameterError(
+            Fault(("directory",), repr(str(directory)), f"cannot be written ({reason})")
+        ) from None
+
+
+def _find_cache(directory: Path) -> None:
+    """Let Snakemake keep its cache under the folder of results where the user's own cannot be
+    written, as without a home."""
+    own = platformdirs.user_cache_path("snakemake", "snakemake")
+    try:
+        own.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=own):
+            return
+    except OSError:
+        os.environ["XDG_CACHE_HOME"] = str(directory.resolve() / ".snakemake" / "cache")
+    if platformdirs.user_cache_path("snakemake", "snakemake") == own:  # not everywhere obeyed
+        rule = "must be a folder that can be written, because Snakemake keeps its cache there"
+        raise ParameterError(Fault((), "", f"{own}: {rule}"))
 
 
 def list_(
@@ -408,6 +443,7 @@ def _all(
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; never shows a traceback for bad input."""
     arguments = (sys.argv[1:] if arguments is None else arguments) or ["--help"]
+    os.environ["MPLBACKEND"] = "Agg"  # figures are files, whatever a notebook has chosen
     try:
         code = app(args=arguments, standalone_mode=False, prog_name="disc-model")
         message = "interrupted" if code == INTERRUPTED else ""
