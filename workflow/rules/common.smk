@@ -33,7 +33,7 @@ if find_spec("disc_model") is None and (SOURCES / "disc_model").is_dir():
 INTERPRETER = "python" if CONDA else sys.executable
 if CONDA or str(SOURCES) in sys.path:
     folders = filter(None, [str(SOURCES), os.environ.get("PYTHONPATH")])
-    os.environ["PYTHONPATH"] = os.pathsep.join(folders)
+    os.environ.update(PYTHONPATH=os.pathsep.join(folders))
 # In any locale; and jobs only write files, whatever a notebook from which they are started has chosen.
 os.environ.update(PYTHONUTF8="1", MPLBACKEND="Agg")
 # Commands leave out the folder of the scripts: Snakemake runs a job again if its command changes.
