@@ -14,7 +14,7 @@ from types import CodeType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
 from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, suggestion
@@ -225,7 +225,9 @@ Free = Annotated[
 
 
 class Quantity(Ruled):
-    """A quantity of grid studies: its fields are its options."""
+    """A quantity of grid studies: its fields are its options, each with its description below."""
+
+    model_config = ConfigDict(use_attribute_docstrings=True)
 
     COLUMNS: ClassVar[Mapping[str, Variable]] = {}
     COORDINATES: ClassVar[

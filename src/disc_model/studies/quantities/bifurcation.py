@@ -33,16 +33,18 @@ class Bifurcation(Start, Quantity):
     settled, up to `max_transient`.
     """
 
-    section: Literal["stroboscopic", "event"] = (
-        "stroboscopic"  # once a turn of the drive, or at events
-    )
+    section: Literal["stroboscopic", "event"] = "stroboscopic"
+    """whether samples are taken once a turn of the drive, or at events"""
     tol: Tolerance = 1e-10
-    transient: Seconds  # left out
+    """tolerance of simulations: error of event times after a second of motion"""
+    transient: Seconds
+    """time left out at the beginning; at events it is doubled until the motion has settled"""
     max_transient: Seconds = 480.0
+    """longest time left out"""
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
-    theta: Annotated[Finite, Unit("rad")] = (
-        1.0  # the disc's point whose displacement is sampled once a turn
-    )
+    """number of samples"""
+    theta: Annotated[Finite, Unit("rad")] = 1.0
+    """angle of the disc's point whose displacement is sampled once a turn"""
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {

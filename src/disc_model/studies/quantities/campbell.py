@@ -32,17 +32,16 @@ there and on neither side; there is no cycle; or fewer than three speeds, or an 
 class Campbell(Quantity):
     """Frequencies and growth rates of steady sliding and of the stick-slip cycle."""
 
-    modes: Annotated[Count, Field(ge=1, le=1000)] = (
-        12  # room for that many, the lowest in frequency
-    )
-    half_bandwidth: Annotated[Positive, Unit("Hz")] = (
-        1.0  # of the window about a crossing, see `effect_of`
-    )
-    min_rise: Annotated[Positive, Unit("1/s")] = (
-        0.01  # of a growth rate within the window, above those at its ends
-    )
+    modes: Annotated[Count, Field(ge=1, le=1000)] = 12
+    """room for that many modes, the lowest in frequency"""
+    half_bandwidth: Annotated[Positive, Unit("Hz")] = 1.0
+    """greatest difference of the frequencies that meet, in the window about a crossing"""
+    min_rise: Annotated[Positive, Unit("1/s")] = 0.01
+    """least rise of a growth rate in the window, above those at its ends, that counts"""
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100
+    """room for that many crossings"""
     tol: CycleTolerance = 1e-12
+    """tolerance of cycles: relative residual of the return map"""
     over: ClassVar = "Omega"
     COLUMNS: ClassVar = {
         "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),

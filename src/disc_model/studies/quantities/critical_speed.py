@@ -36,14 +36,19 @@ class CriticalSpeed(Quantity):
     """Scan of the speed, then bisection of each interval in which separation begins or ends."""
 
     tol: Tolerance = 1e-10
-    early_end: bool = True  # whether a simulation ends as soon as its outcome is known
-    # each has a critical speed of its own, all from the same simulations
+    """tolerance of simulations: error of event times after a second of motion"""
+    early_end: bool = True
+    """whether a simulation ends as soon as its outcome is known"""
     horizons: Annotated[
         tuple[Seconds, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))
     ]
+    """times within which separation must occur; each has a critical speed of its own"""
     scan: Annotated[Range, Unit("rad/s")]
-    precision: Speed = 0.1  # width of the last interval; the scan's step must be a multiple
+    """speeds that are looked at first, evenly spaced"""
+    precision: Speed = 0.1
+    """width to which crossings are bisected; the scan's step must be a multiple"""
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12
+    """room for that many crossings"""
 
     _rules = (
         (lambda o: o.scan.scale == "linear", "scan must be linear"),

@@ -15,6 +15,7 @@ class Floquet(Quantity):
     """The stick-slip cycle at each point and its growth rate, by Floquet multipliers."""
 
     tol: CycleTolerance = 1e-12
+    """tolerance of cycles: relative residual of the return map"""
     motions: ClassVar = 7
     motion: ClassVar = "The stick-slip cycle itself, stable or not."
     COLUMNS: ClassVar = {

@@ -28,10 +28,15 @@ class Hysteresis(Quantity):
     of the last one."""
 
     tol: Tolerance = 1e-10
+    """tolerance of simulations: error of event times after a second of motion"""
     scan: Annotated[Range, Unit("rad/s")]
-    dwell: Seconds  # at each speed; it is doubled until the motion has settled
+    """speeds of the sweep"""
+    dwell: Seconds
+    """time at each speed, doubled until the motion has settled"""
     max_dwell: Seconds = 480.0
-    evaluation_time: Seconds = 5.0  # the last stretch of a stay, which is described
+    """longest time at a speed"""
+    evaluation_time: Seconds = 5.0
+    """length of the last stretch at a speed, which is described"""
 
     _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
     scans: ClassVar = ("Omega",)

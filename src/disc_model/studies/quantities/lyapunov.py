@@ -19,12 +19,15 @@ class Lyapunov(Start, Quantity):
     """The largest Lyapunov exponents of the motion, without the one along it, which is zero."""
 
     tol: Tolerance = 1e-10
-    transient: Seconds  # left out
-    duration: Seconds  # averaging time of the rates
+    """tolerance of simulations: error of event times after a second of motion"""
+    transient: Seconds
+    """time left out at the beginning"""
+    duration: Seconds
+    """time over which rates are averaged"""
     exponents: Annotated[Count, Field(ge=1, le=7)] = 2
-    interval: Seconds = (
-        0.05  # between orthonormalisations; exponents below -400/s need a shorter one
-    )
+    """number of exponents, the largest ones"""
+    interval: Seconds = 0.05
+    """time between orthonormalisations; exponents below -400/s need a shorter one"""
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {

@@ -28,10 +28,15 @@ class HorizonOutcome(Start, Quantity):
     """Outcome of one simulation at each point, within a horizon."""
 
     tol: Tolerance = 1e-10
-    early_end: bool = True  # whether it ends as soon as the outcome is known
+    """tolerance of simulations: error of event times after a second of motion"""
+    early_end: bool = True
+    """whether a simulation ends as soon as its outcome is known"""
     horizon: Seconds
-    evaluation_time: Seconds = 1.0  # the late stretch
-    after_separation: Seconds = 5.0  # from the first separation to the end of the late stretch
+    """longest simulated time"""
+    evaluation_time: Seconds = 1.0
+    """length of the late stretch, over which ranges and shares are taken"""
+    after_separation: Seconds = 5.0
+    """time from the first separation to the end of the late stretch"""
 
     _rules = ((lambda o: o.evaluation_time <= min(o.after_separation, o.horizon), _TIMES),)
     motions: ClassVar = 4

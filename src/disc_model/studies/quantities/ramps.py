@@ -27,10 +27,15 @@ class Ramps(Quantity):
     """Slow ramps of the speed, up from the static start and down again, once for each rate."""
 
     tol: Tolerance = 1e-10
+    """tolerance of simulations: error of event times after a second of motion"""
     low: Speed
+    """speed at which the ramps begin and end"""
     high: Speed
+    """speed up to which they rise"""
     rates: Annotated[Range, Unit("rad/s^2")]
-    dwell: Seconds = 60.0  # at the highest speed, and at the lowest one at the end
+    """rates of the ramps, a run each"""
+    dwell: Seconds = 60.0
+    """time at the highest speed, and at the lowest one in the end"""
 
     _rules = (
         (lambda o: o.low < o.high, "low must be < high"),

@@ -20,10 +20,11 @@ class Regions(Quantity):
     """Outcomes over a plane of two parameters, computed more densely where they change."""
 
     tol: Tolerance = 1e-8
+    """tolerance of simulations: error of event times after a second of motion"""
     horizon: Seconds
-    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = (
-        8  # side of a first cell, in intervals of the grid
-    )
+    """longest simulated time"""
+    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8
+    """side of the first cells, in intervals of the grid"""
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
     tiled: ClassVar = True

@@ -98,18 +98,22 @@ class Sensitivity(Quantity):
     """The stick-slip cycle at samples of uncertain parameters, and the outcome of the static
     start."""
 
-    # by parameter, or by number of a mode of a disc, such as omega_2_0 for two nodal diameters and
-    # no circle
     distributions: Annotated[dict[str, Distribution], Field(min_length=1)]
+    """distributions by parameter, or by number of a mode of a disc, such as omega_2_0 for two nodal
+    diameters and no circle"""
     # the grid contains it: the result of a sample depends only on the seed and on its own number
     samples: Annotated[Count, Field(ge=2, le=2**16, exclude=True)] = 64
+    """number of samples, a power of two"""
     seed: Annotated[Count, Field(ge=0)] = 0
-    simulated_samples: Annotated[Count, Field(ge=0)] = (
-        0  # the first ones, whose motion is simulated as well
-    )
+    """whole number that determines the samples"""
+    simulated_samples: Annotated[Count, Field(ge=0)] = 0
+    """number of the first samples whose motion is simulated as well"""
     horizon: Seconds = 500.0
-    tol: CycleTolerance = 1e-12  # of the cycles
+    """longest simulated time of these"""
+    tol: CycleTolerance = 1e-12
+    """tolerance of cycles: relative residual of the return map"""
     motion_tol: Tolerance = 1e-10
+    """tolerance of simulations: error of event times after a second of motion"""
 
     @classmethod
     def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:

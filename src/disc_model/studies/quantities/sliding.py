@@ -16,11 +16,12 @@ _ONE, _EACH = ("value",), ("value", "mode")
 class Sliding(Quantity):
     """Modes of steady sliding along one parameter, each keeping its number."""
 
-    parameter: Free = "Omega"  # with mu_k, mu_s rises where that is larger
+    parameter: Free = "Omega"
+    """number of the case that varies; with mu_k, mu_s rises where that is larger"""
     scan: Annotated[Range, Unit(of="parameter")]
-    modes: Annotated[Count, Field(ge=1, le=2000)] = (
-        24  # room for that many, numbered by frequency at the first value
-    )
+    """its values"""
+    modes: Annotated[Count, Field(ge=1, le=2000)] = 24
+    """room for that many modes, numbered by frequency at the first value"""
     scans: ClassVar = ("parameter",)
     COLUMNS: ClassVar = {
         "status": STATUS,

@@ -28,17 +28,25 @@ class StabilityCurves(Quantity):
     """Neutral curves and folds of the stick-slip cycle in the plane of two parameters."""
 
     x: Free = "Omega"
+    """first number of the case that varies"""
     y: Free = "N"
-    x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]  # from, to
-    y_lines: Annotated[Range, Unit(of="y")]  # cycles are searched for along these lines
-    margin: Annotated[Real, Field(ge=0, le=1)] = (
-        0.0  # fraction of the range of y by which curves may leave it
-    )
-    points: Annotated[Count, Field(ge=2, le=10_000)] = 31  # of the search, along each line
-    max_step: Positive = 0.1  # arclength of the longest step along a curve
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100  # of a curve, in each direction
+    """second number of the case that varies"""
+    x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]
+    """least and greatest value of x"""
+    y_lines: Annotated[Range, Unit(of="y")]
+    """values of y along which cycles are searched for"""
+    margin: Annotated[Real, Field(ge=0, le=1)] = 0.0
+    """fraction of the range of y by which curves may leave it"""
+    points: Annotated[Count, Field(ge=2, le=10_000)] = 31
+    """number of points of the search along each line"""
+    max_step: Positive = 0.1
+    """arclength of the longest step along a curve"""
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100
+    """most points of a curve, in each direction"""
     max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
+    """room for that many curves"""
     tol: CycleTolerance = 1e-12
+    """tolerance of cycles: relative residual of the return map"""
 
     _rules = (
         (lambda o: o.x != o.y, "x and y must differ"),
