@@ -7,9 +7,8 @@ HEAD = """\
 # Options of quantities
 
 All keys under `options` of a study file, by [quantity](study_quantities.md). *Required* ones have no default. Numbers may
-have [units](study_reference.md#axes). A range is `{start: 5, stop: 50, count: 10}`, or has `step: 5` instead of `count`;
-[starts](study_reference.md#starts) explains `prerun` and `perturbation`, [sensitivity](study_quantities.md#sensitivity)
-`distributions`. `disc-model study my.yaml -n` shows the options of a study with the values that they have there.
+have [units](study_reference.md#axes). A range such as `{start: 5, stop: 50, count: 10}` has `step: 5` or `count`. [Starts](study_reference.md#starts)
+explains `prerun` and `perturbation`, [sensitivity](study_quantities.md#sensitivity) `distributions`. `disc-model study my.yaml -n` shows the options of a study with the values that they have there.
 
 | quantity | option | given as | unit | default | meaning |
 | --- | --- | --- | --- | --- | --- |

@@ -196,6 +196,25 @@ def test_a_study_is_handed_to_snakemake(command: Command, called: list[str], min
     assert {"-j2", "--unlock", "bench", "--dry-run", "--directory", folder} <= {*called}
 
 
+def test_a_dry_run_says_what_there_is_to_compute_and_by_which_options(
+    command: Command, called: list[str], mine: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "160")
+    options = ("--directory", str(mine.parent), "-j2", "-n")
+    out = command.out("study", str(mine), *options)
+    assert re.search(r"│ mine +│ floquet +│ 4 +│ 1 +│ less than 1 s │", out)
+    assert re.search(r"│ mine +│ simulation +│ 1 +│ 1 +│ less than 1 s │", out)
+    assert re.search(r"│ tol +│ 1e-12 +│ +│ tolerance of cycles", out)
+    assert "Estimated time: less than 1 s on 2 cores, to a factor of three" in out
+    folder = mine.parent / "results" / "mine" / "batches"
+    folder.mkdir(parents=True)
+    (folder / f"{next(iter(load_study(mine).grid.batches))}.nc").touch()  # type: ignore[union-attr]
+    out = command.out("study", str(mine), *options)
+    assert re.search(r"│ mine +│ floquet +│ 4 +│ 1, 1 there", out)
+    assert len(called) > 0
+    assert "plan of" not in command.out("study", str(mine), "--directory", str(mine.parent))
+
+
 def test_a_folder_that_cannot_hold_results_is_refused(
     command: Command, called: list[str], mine: Path
 ) -> None:

@@ -284,11 +284,13 @@ def study(
     ] = False,
 ) -> None:
     """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
-    _read(files)
+    chosen, grids, requested = _read(files)
     if find_spec("snakemake") is None:
         raise ModuleNotFoundError(name="snakemake")
     _make_folder(directory)
     _find_cache(directory)
+    if dry_run and not unlock:
+        _show_plan(chosen, [grids[name] for name in requested], directory / "results", cores)
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
     options = [
         *(target or []),
@@ -300,6 +302,46 @@ def study(
     options += [*["--unlock"] * unlock, "--configfile", *(str(file.resolve()) for file in files)]
     snakemake = import_module("snakemake.cli")
     snakemake.main(["-s", str(snakefile), *options])  # ends with an exit code
+
+
+def _show_plan(chosen: Study, grids: Sequence[GridStudy], results: Path, cores: int) -> None:
+    """Print what there is to compute, how long it may take, and the options of a single grid."""
+    from disc_model.studies import plan
+    from disc_model.studies.costs import machine_factor
+    from disc_model.studies.options import options_of, value_text
+
+    plans = [plan.plan_of(grid, results) for grid in grids]
+    if chosen.specs:
+        plans.append(plan.plan_of_cases(chosen.name, chosen.specs, results))
+    factor = machine_factor()
+    works = [factor * sum(each.seconds) for each in plans]
+    columns: dict[str, Iterable[str]] = {
+        "study": [each.name for each in plans],
+        "quantity": [each.quantity for each in plans],
+        "points": [str(each.points) for each in plans],
+        "batches": [
+            f"{each.batches}{f', {each.computed} there' * (each.computed > 0)}" for each in plans
+        ],
+        "work": map(plan.duration_text, works),
+    }
+    table(f"plan of {chosen.name}", columns, overflow="fold")
+    if len(grids) == 1:
+        values = grids[0].options
+        options = options_of(type(values))
+        columns = {
+            "option": [option.name for option in options],
+            "value": [value_text(getattr(values, option.name)) for option in options],
+            "unit": [option.unit.replace("`", "") for option in options],
+            "meaning": [option.meaning for option in options],
+        }
+        table(f"options of the quantity {grids[0].quantity}", columns, overflow="fold")
+    seconds = [factor * x for each in plans for x in each.seconds]
+    if seconds:
+        text = plan.duration_text(plan.time_on(cores, seconds))
+        typer.echo(
+            f"Estimated time: {text} on {cores} cores, to a factor of three; kernels that are not"
+            " compiled yet take 10 to 20 s each."
+        )
 
 
 def _make_folder(directory: Path) -> None:

@@ -22,13 +22,19 @@ def test_every_option_is_described_with_its_form_unit_and_default() -> None:
         assert {option.name for option in options} == set(quantity.model_fields)
         for option in options:
             assert option.meaning not in ("", "None"), (name, option.name)
-            assert (option.default == "required") == quantity.model_fields[option.name].is_required()
+            assert (option.default == "required") == quantity.model_fields[
+                option.name
+            ].is_required()
     basins = {option.name: option for option in options_of(quantity_of("basins"))}
     assert basins["energies"][1:4] == ("list of numbers", "J", "[0]")
     assert basins["n_starts"][1:4] == ("whole number from 1 to 100000", "", "1")
     assert basins["confidence"][1:4] == ("number > 0 and < 1", "", "0.95")
     branches = {option.name: option for option in options_of(quantity_of("branches"))}
-    assert branches["scan"][1:4] == ("range", "that of `parameter`", "required")
+    assert branches["scan"][1:4] == (
+        "range {start, stop, count or step}",
+        "that of `parameter`",
+        "required",
+    )
     assert branches["sweep_from"][1:4] == ("number", "that of `parameter`", "")
 
 

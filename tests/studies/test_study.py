@@ -114,7 +114,11 @@ def test_faults_between_studies_are_reported_together(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "content", "fault"),
     [
-        ("one", {"study": "one", "quantity": "outcome"}, "options.horizon: is required"),
+        (
+            "one",
+            {"study": "one", "quantity": "outcome"},
+            "options.horizon: is required: number > 0 (s), longest simulated time",
+        ),
         ("all", GRID | {"study": "all"}, "study = 'all': is the name of another folder of results"),
         ("five", {"study": "five", "cases": {"A": CASE}}, "study = 'five': must be a grid alone"),
     ],

@@ -63,7 +63,7 @@ def _form(schema: Mapping[str, Any]) -> str:
     if "enum" in schema:
         return " or ".join(f"`{word}`" for word in schema["enum"])
     if schema.get("$ref", "").endswith("/Range"):
-        return "range"
+        return "range {start, stop, count or step}"
     kind = schema.get("type", "object")
     if kind == "array":
         return "two numbers" if schema.get("maxItems") == 2 else "list of numbers"

@@ -48,6 +48,7 @@ from disc_model.studies.grid import (
     GridStudy,
     described,
 )
+from disc_model.studies.options import Option, options_of
 from disc_model.studies.quantity import compiled_rule, quantity_names, quantity_of
 from disc_model.studies.reading import StudyError, read_file
 from disc_model.units import Finite, Positive, Seconds, Strict, Tolerance, must
@@ -252,8 +253,25 @@ def _several(value: Any) -> Any:
 def _options(raw: Any, info: pydantic.ValidationInfo) -> Any:
     """The quantity with its options; what is given for an unknown one is checked once it is
     known."""
-    quantity = info.data.get("quantity")
-    return raw if quantity is None else quantity_of(quantity).model_validate(_mapping(raw))
+    name = info.data.get("quantity")
+    if name is None:
+        return raw
+    quantity = quantity_of(name)
+    try:
+        return quantity.model_validate(_mapping(raw))
+    except ParameterError as error:
+        known = {option.name: option for option in options_of(quantity)}
+        faults = [_with_form(fault, known) for fault in error.faults]
+        raise ParameterError(*faults) from None
+
+
+def _with_form(fault: Fault, known: Mapping[str, Option]) -> Fault:
+    """A fault of options, which says of a missing one what is to be given."""
+    option = known.get(fault.path[0]) if len(fault.path) == 1 else None
+    if option is None or fault.rule != "is required":
+        return fault
+    unit = f" ({option.unit})" if option.unit else ""
+    return Fault(fault.path, "", f"is required: {option.form}{unit}, {option.meaning}")
 
 
 # ---- The study

@@ -73,7 +73,8 @@ def raw(**changes) -> dict:
 def test_a_region_is_found_as_by_brute_force_with_fewer_points(
     made_up, tile: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(grid, "TILE", tile)
+    for limit in ("SMALLEST_TILE", "LARGEST_TILE"):
+        monkeypatch.setattr(grid, limit, tile)
     study = computed(**raw()).isel(normalization=0)
     assert not wrong(study).any()
     origin = flag_names(study["method"])

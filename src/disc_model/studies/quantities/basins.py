@@ -17,6 +17,7 @@ from disc_model.analysis.classify import share
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
 from disc_model.simulation.case import Start
 from disc_model.studies import quantity
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import STATUS, Coordinate, OutcomeResult, Point, Quantity, listed
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
@@ -120,7 +121,12 @@ class AttractorBasins(Start, Quantity):
         # room for twelve, those of most starts; there are seven at 10 rad/s and 385 N
         "attractor": Coordinate("1", "number of the attractor", lambda o: range(1, 13)),
     }
-    cost: ClassVar = lambda o: quantity.SIMULATED * len(o.energies) * o.n_starts * o.horizon / 6
+
+    def cost(self, unit: UnitCosts) -> float:
+        """The first starts find the attractors, in motions that may keep losing contact and go to
+        the horizon; most others come to a known one soon."""
+        starts = len(self.energies) * self.n_starts
+        return 2.0 * unit.second * self.horizon * (0.9 + 0.1 * starts)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Failed starts have a fraction of their own, and the point fails if all starts do."""

@@ -10,16 +10,8 @@ from disc_model.analysis.classify import ANSWER, Motion, Settling, closure, sett
 from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
 from disc_model.errors import require
 from disc_model.simulation.case import Poincare, Start
-from disc_model.studies.quantity import (
-    MOST,
-    SIMULATED,
-    STATUS,
-    Coordinate,
-    Point,
-    Quantity,
-    Result,
-    State,
-)
+from disc_model.studies.costs import UnitCosts
+from disc_model.studies.quantity import MOST, STATUS, Coordinate, Point, Quantity, Result, State
 from disc_model.units import Count, Finite, Seconds, Tolerance, Unit
 
 SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
@@ -83,7 +75,10 @@ class Bifurcation(Start, Quantity):
             "1", "number of the turn after the transient", lambda o: range(o.samples)
         )
     }
-    cost: ClassVar = lambda o: SIMULATED * (o.transient + o.max_transient / 2)
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Some transients are doubled to the longest, most are not."""
+        return 0.6 * unit.second * (self.transient + self.max_transient / 2)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         return (

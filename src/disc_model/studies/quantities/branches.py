@@ -13,6 +13,7 @@ from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.studies import quantity
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     STATUS,
     Coordinate,
@@ -97,7 +98,11 @@ class Branches(Quantity):
             "1", "number of the point along the branch", lambda o: range(2 * o.max_points)
         ),
     }
-    cost: ClassVar = lambda o: quantity.WORK
+
+    def cost(self, unit: UnitCosts) -> float:
+        """The sweep, whose stays are doubled once or twice, and some ten branches."""
+        sweep = 6 * unit.second * (self.scan.intervals + 1) * self.dwell
+        return sweep + 10 * unit.cycle * self.max_points
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.attractors import sweep

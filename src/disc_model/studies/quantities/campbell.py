@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from disc_model.data.variables import EXCLUDED, CycleStatus, Variable, flag_names
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantities.floquet import CYCLE_STATUSES
-from disc_model.studies.quantity import CYCLE, Coordinate, Dataset, Point, Quantity, along, listed
+from disc_model.studies.quantity import Coordinate, Dataset, Point, Quantity, along, listed
 from disc_model.units import Count, CycleTolerance, Positive, Unit
 
 KINDS = ("none", "disc", "slider")
@@ -95,7 +96,10 @@ class Campbell(Quantity):
             "1", "number of the crossing", lambda o: range(1, o.max_crossings + 1)
         )
     }
-    cost: ClassVar = lambda o: 1.5 * CYCLE
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Multipliers are assigned to modes besides."""
+        return 2 * unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.cycle import frequencies

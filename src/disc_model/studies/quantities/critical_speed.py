@@ -15,8 +15,8 @@ from pydantic import AfterValidator, Field
 
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.studies import quantity
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
-    SIMULATED,
     STATUS,
     Coordinate,
     OutcomeResult,
@@ -92,7 +92,10 @@ class CriticalSpeed(Quantity):
             "rad s-1", "speed of the drive point, in the scan", lambda o: o.scan.values
         ),
     }
-    cost: ClassVar = lambda o: SIMULATED * o.scan.intervals * o.horizons[-1] / 9
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Half of the speeds are followed to the longest horizon, with some ten by bisection."""
+        return 0.5 * unit.second * (self.scan.intervals + 1) * self.horizons[-1]
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.outcome import find_outcome

@@ -8,7 +8,8 @@ from pydantic import Field
 from disc_model.data.variables import Variable
 from disc_model.errors import SimulationError
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, State, along
+from disc_model.studies.costs import UnitCosts
+from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity, State, along
 from disc_model.units import Count, Seconds, Tolerance
 
 CONVERGED = ("unknown", "no", "yes")
@@ -52,7 +53,10 @@ class Lyapunov(Start, Quantity):
             "1", "number of the exponent, largest first", lambda o: range(o.exponents)
         )
     }
-    cost: ClassVar = lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration)
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Each exponent needs a change of its own, which costs more than the motion."""
+        return unit.second * (self.transient + 12 * self.exponents * self.duration)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.simulation.result import STATUS_OF

@@ -9,6 +9,7 @@ import numpy as np
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Outcome, Variable
 from disc_model.simulation.case import Start
 from disc_model.studies import quantity
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     STATUS,
     OutcomeResult,
@@ -73,7 +74,10 @@ class HorizonOutcome(Start, Quantity):
         "separation_fraction": Variable("1", "share of the late stretch spent separated"),
         "separation_rate": Variable("s-1", "separations per second over the late stretch"),
     }
-    cost: ClassVar = lambda o: quantity.SIMULATED * o.horizon / 2
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Motions end on average at a third of the horizon, and cost more once contact is lost."""
+        return 0.6 * unit.second * self.horizon
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         reached, result, late = _late(point, self)

@@ -7,8 +7,8 @@ from typing import Annotated, Any, ClassVar
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Ramp
 from disc_model.studies import quantity
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
-    SIMULATED,
     STATUS,
     Coordinate,
     Point,
@@ -59,9 +59,12 @@ class Ramps(Quantity):
     COORDINATES: ClassVar = {
         "rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)
     }
-    cost: ClassVar = lambda o: (
-        SIMULATED * sum(2 * ((o.high - o.low) / rate + o.dwell) for rate in o.rates.values)
-    )
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Both ramps and both stays, for each rate."""
+        rates = self.rates.values
+        stays = 2 * self.dwell * len(rates)
+        return unit.second * (stays + sum(2 * (self.high - self.low) / rate for rate in rates))
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         rows: list[dict[str, Any]] = []

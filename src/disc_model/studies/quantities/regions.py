@@ -7,7 +7,8 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Variable
-from disc_model.studies.quantity import COME_TO, STATUS, WORK, Made, Point, Quantity, State
+from disc_model.studies.costs import UnitCosts
+from disc_model.studies.quantity import COME_TO, STATUS, Made, Point, Quantity, State
 from disc_model.units import Count, Seconds, Tolerance
 
 METHODS = ("none", "multipliers", "simulation", "inferred", "settled")
@@ -59,7 +60,10 @@ class Regions(Quantity):
             "1", "number of other cycles known, followed from neighbours", whole=True
         ),
     }
-    cost: ClassVar = lambda o: WORK
+
+    def cost(self, unit: UnitCosts) -> float:
+        """A cycle or two at each point, and a motion at one of ten, some way to the horizon."""
+        return 2 * unit.cycle + 0.06 * unit.second * self.horizon
 
     def state_at(self, point: Point) -> State:
         from disc_model.simulation.api import simulate

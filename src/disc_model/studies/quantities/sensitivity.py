@@ -20,6 +20,7 @@ from disc_model.data.variables import EXCLUDED, SAMPLE, SCALARS, STABLE_CYCLES, 
 from disc_model.errors import Fault, ParameterError, as_text, suggestion
 from disc_model.parameters import DEFAULTS, RATIOS, RELATED, Disc, Parameters, case_of
 from disc_model.studies import quantity
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     NUMBERS,
     STATUS,
@@ -109,7 +110,7 @@ class Sensitivity(Quantity):
     simulated_samples: Annotated[Count, Field(ge=0)] = 0
     """number of the first samples whose motion is simulated as well"""
     horizon: Seconds = 500.0
-    """longest simulated time of these"""
+    """longest simulated time of a sample"""
     tol: CycleTolerance = 1e-12
     """tolerance of cycles: relative residual of the return map"""
     motion_tol: Tolerance = 1e-10
@@ -153,9 +154,11 @@ class Sensitivity(Quantity):
         ),
         **_with_interval("probability_separation", "probability of separation within the horizon"),
     }
-    cost: ClassVar = lambda o: (
-        quantity.CYCLE + quantity.SIMULATED * o.horizon / 4 * (o.simulated_samples > 0)
-    )
+
+    def cost(self, unit: UnitCosts) -> float:
+        """A cycle, and a motion if any sample has one: samples that are added keep their batches."""
+        simulated = self.simulated_samples > 0
+        return unit.cycle + 0.1 * unit.second * self.horizon * simulated
 
     @property
     def dimensions(self) -> Mapping[str, Blocks]:

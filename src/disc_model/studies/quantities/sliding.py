@@ -7,6 +7,7 @@ from pydantic import Field
 
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import STATUS, Coordinate, Free, Point, Quantity, Range, listed
 from disc_model.units import Count, Unit
 
@@ -19,7 +20,7 @@ class Sliding(Quantity):
     parameter: Free = "Omega"
     """number of the case that varies; with mu_k, mu_s rises where that is larger"""
     scan: Annotated[Range, Unit(of="parameter")]
-    """its values"""
+    """values of the parameter"""
     modes: Annotated[Count, Field(ge=1, le=2000)] = 24
     """room for that many modes, numbered by frequency at the first value"""
     scans: ClassVar = ("parameter",)
@@ -49,7 +50,10 @@ class Sliding(Quantity):
             "1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1)
         ),
     }
-    cost: ClassVar = lambda o: 3e-3 * (o.scan.intervals + 1)
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Eigenvalues at each value."""
+        return 0.6 * unit.cycle * (self.scan.intervals + 1)
 
     def _case_at(self, p: Parameters, value: float) -> Parameters:
         """The case of a point at a value of the parameter."""

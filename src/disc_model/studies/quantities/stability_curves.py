@@ -6,9 +6,9 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field
 
 from disc_model.data.variables import Variable
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     STATUS,
-    WORK,
     Coordinate,
     Free,
     Point,
@@ -82,7 +82,10 @@ class StabilityCurves(Quantity):
             "1", "number of the point along the curve", lambda o: range(2 * o.max_points)
         ),
     }
-    cost: ClassVar = lambda o: WORK
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Some ten curves."""
+        return 40 * unit.cycle * self.max_points
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.curves import neutral_curves
