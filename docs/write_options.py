@@ -6,9 +6,10 @@ from disc_model.studies.quantity import quantity_names, quantity_of
 HEAD = """\
 # Options of quantities
 
-All keys under `options` of a study file, by [quantity](study_quantities.md). *Required* ones have no default. Numbers may
-have [units](study_reference.md#axes). A range such as `{start: 5, stop: 50, count: 10}` has `step: 5` or `count`. [Starts](study_reference.md#starts)
-explains `prerun` and `perturbation`, [sensitivity](study_quantities.md#sensitivity) `distributions`. `disc-model study my.yaml -n` shows the options of a study with the values that they have there.
+All keys under `options` of a study file, by [quantity](study_quantities.md). *Required* ones have no default. Numbers
+may have [units](study_reference.md#axes). A range such as `{start: 5, stop: 50, count: 10}` has `step` or `count`.
+[Starts](study_reference.md#starts) explains `prerun` and `perturbation`, [sensitivity](study_quantities.md#sensitivity)
+`distributions`. `disc-model study my.yaml -n` shows the options of a study with their values.
 
 | quantity | option | given as | unit | default | meaning |
 | --- | --- | --- | --- | --- | --- |
