@@ -65,8 +65,12 @@ def test_a_case_without_a_disc_or_a_spring_costs_something() -> None:
 
 def growth(**changes: Any) -> GridStudy:
     axes = {"mu_s": {"start": 0.3, "stop": 0.6, "count": 101}, "c_p": [0.0, 0.01, 0.02]}
-    raw = {"study": "s", "quantity": "floquet", "base": {**PLATE, **changes.pop("base", {})}}
-    return parse_grid({**raw, "axes": axes, **changes})
+    raw: dict[str, Any] = {
+        "study": "s",
+        "quantity": "floquet",
+        "base": {**PLATE, **changes.pop("base", {})},
+    }
+    return parse_grid({**raw, "axes": axes} | changes)
 
 
 def sizes(grid: GridStudy) -> list[int]:
@@ -82,6 +86,19 @@ def test_batches_have_about_the_same_work_whatever_a_case_costs() -> None:
     assert max(dear.work.values()) < 1.5 * WORK
     assert min(sorted(dear.work.values())[1:]) > WORK / 3
     assert sum(sizes(dear)) == 303
+
+
+def test_few_batches_are_equal_and_of_many_a_value_at_the_end_changes_the_last() -> None:
+    """Of two batches, one had six sevenths of the points, and a core waited."""
+    axis = {"start": 0.3, "stop": 0.6, "count": 301}
+    axes = {"mu_s": axis}
+    assert sizes(growth(axes=axes, batch={"size": 200})) == [151, 150]
+    assert sizes(growth(axes=axes, batch={"size": 120})) == [101, 101, 99]
+    many = growth(axes=axes, batch={"size": 30})
+    assert sizes(many) == [30] * 10 + [1]
+    longer = {"mu_s": axis | {"stop": 0.601, "count": 302}}
+    after = growth(axes=longer, batch={"size": 30})
+    assert len(after.batches.keys() - many.batches.keys()) == 1
 
 
 def test_many_starts_of_one_point_each_share_the_work() -> None:

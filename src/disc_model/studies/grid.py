@@ -53,6 +53,7 @@ GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "
 REQUIRED = ("N", "Omega")  # parameters without a base value
 STATIC = "static"  # name of the default start
 MOST_POINTS = 1_000_000  # Snakemake takes hours over so many jobs; many more do not fit into memory
+FEW_PARTS = 3  # of a block; so many are equal
 # intervals along the side of a tile of a plane, whose cells are refined together
 SMALLEST_TILE = 8
 LARGEST_TILE = 32
@@ -646,7 +647,8 @@ class GridStudy:
 def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[Any, ...]]]:
     """The product of blocks in parts of at most `size`; each holds whole values of a block, and all
     of later blocks. Thus a further value of a dimension that is cut into single values adds parts
-    and keeps the others."""
+    and keeps the others. Few parts are made equal, so that no core waits; of many, all but the last
+    have the full size, so that a value that is added at the end changes the last alone."""
     first, *others = blocks
     within = math.prod(map(len, others))
     if within > size:
@@ -655,7 +657,11 @@ def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[An
         )
     else:
         count = size // within
-        yield from ([*product(first[i : i + count], *others)] for i in range(0, len(first), count))
+        parts = math.ceil(len(first) / count)
+        if parts <= FEW_PARTS:
+            count = math.ceil(len(first) / parts)
+        for i in range(0, len(first), count):
+            yield [*product(first[i : i + count], *others)]
 
 
 def _index_of(value: float, side: Sequence[Value]) -> int | None:
