@@ -261,6 +261,8 @@ DRY = (
     "host",
     "reason",
 )  # how many jobs of each kind, without their files
+# those that this process may use, which a cluster or a container may limit
+CORES = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 Files = Annotated[list[Path], typer.Argument(help="study files, later ones laid over earlier ones")]
 
 
@@ -268,7 +270,7 @@ def study(
     files: Files,
     cores: Annotated[
         int, typer.Option("--cores", "-j", min=1, help="jobs at the same time")
-    ] = os.cpu_count() or 1,
+    ] = CORES,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", "-n", help="only check, and list the jobs")
     ] = False,

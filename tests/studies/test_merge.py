@@ -8,6 +8,7 @@ import xarray as xr
 
 from disc_model.studies.merge import MergeError, failures, merge_batches
 from disc_model.studies.run import run_batch
+from tests.studies.conftest import computed
 from tests.studies.refused import parse_grid
 
 #: The slider stays where it is on the disc: nothing has to be computed.
@@ -37,6 +38,22 @@ def test_merged_points_are_in_the_order_of_the_grid(
     lines = list(failures(merged))
     assert len(lines) == 4
     assert lines[0].startswith("N = 100, Omega = 10: permanent stick: Nothing ever slips")
+
+
+def test_what_a_quantity_varies_is_no_value_of_the_base(fake_motions: None) -> None:
+    """A study of critical speeds stated a speed of 0, and one along mu_s the default."""
+    scan = {"start": 12, "stop": 13, "count": 2}
+    options = {"horizons": [900], "scan": scan, "precision": 1}
+    done = computed(quantity="critical_speed", options=options, axes={"N": [200], "c": [0.0]})
+    base = json.loads(done.attrs["base"])
+    assert not {"N", "c", "Omega"} & base.keys()
+    assert base["mu_s"] == 0.4
+    still = {"N": 200, "Omega": 20, "k_p": 0}
+    options = {"parameter": "mu_k_over_mu_s", "scan": {"start": 0.4, "stop": 0.5, "count": 2}}
+    done = computed(quantity="sliding", options=options, base=still, axes={"c": [0.0]})
+    base = json.loads(done.attrs["base"])
+    assert "mu_k" not in base
+    assert base["mu_s"] == 0.4
 
 
 def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
