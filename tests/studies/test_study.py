@@ -59,6 +59,8 @@ def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:
     entries = study.entries(grids)
     assert entries[CASES["study"], "f"].inputs == {"study": "other"}
     assert list(entries) == [(CASES["study"], "f"), ("other", "growth")]
+    # a figure of a section is one of the report's, any other a map or curve
+    assert [entry.category for entry in entries.values()] == ["Figures", "Maps and curves"]
     with pytest.raises(StudyError, match=r"figures\.f\.study='elsewhere': no such study"):
         parse_study(CASES | {"figures": {"f": growth | {"study": "elsewhere"}}}).grids([tmp_path])
     with pytest.raises(StudyError, match=r"figures\.growth\.study='small': no such study"):

@@ -45,12 +45,13 @@ def value_text(value: Any) -> str:
             return ""
         case bool():
             return str(value).lower()
-        case float() | int():
-            return f"{value:g}" if isinstance(value, float) else str(value)
+        case float():
+            return f"{value:g}"
         case list() | tuple():
             return f"[{', '.join(map(value_text, value))}]"
         case Mapping():
-            return f"{{{', '.join(f'{key}: {value_text(part)}' for key, part in value.items())}}}"
+            entries = [f"{key}: {value_text(part)}" for key, part in value.items()]
+            return "{" + ", ".join(entries) + "}"
         case _:
             return str(value)
 
@@ -77,8 +78,9 @@ def _limits(schema: Mapping[str, Any]) -> str:
     if "ge" in schema and "le" in schema:
         return f" from {schema['ge']:g} to {schema['le']:g}"
     signs = {"ge": ">=", "gt": ">", "le": "<=", "lt": "<"}
-    limits = [f"{sign} {schema[key]:g}" for key, sign in signs.items() if key in schema]
-    return f" {' and '.join(limits)}" if limits else ""
+    given = [key for key in signs if key in schema]
+    limits = [f"{signs[key]} {schema[key]:g}" for key in given]
+    return " " + " and ".join(limits) if limits else ""
 
 
 def _unit(field: Any, schema: Mapping[str, Any]) -> str:

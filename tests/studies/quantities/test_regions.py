@@ -102,6 +102,13 @@ def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
     assert len(study.batches.keys() - parse_grid(raw()).batches.keys()) == 1
 
 
+def test_a_mark_lies_at_its_own_value_and_at_no_value_beside() -> None:
+    close = [1.0, 1.0001, 1.0002]
+    assert [grid._index_of(value, close) for value in close] == [0, 1, 2]
+    assert grid._index_of(0.1 + 0.2, [0.2, 0.3]) == 1
+    assert grid._index_of(1.00005, close) is None
+
+
 @pytest.mark.compiled
 def test_motions_without_a_cycle_and_points_that_fail_are_named() -> None:
     """At rest, in steady sliding, and a case that cannot be computed."""
