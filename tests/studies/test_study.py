@@ -10,7 +10,7 @@ import yaml
 
 from disc_model import Parameters
 from disc_model.simulation.case import Window
-from disc_model.studies.study import StudyError, load_study, parse_study, study_from_config
+from disc_model.studies.study import StudyError, inherit, load_study, parse_study, study_from_config
 from tests.studies.refused import faults_of
 
 CASE = {"title": "", "parameters": {"N": 1, "Omega": 1}, "t_end": 1}
@@ -23,6 +23,7 @@ GRID: dict[str, Any] = {
         "growth": {"kind": "heat_map", "variable": "growth_rate", "x": "mu_s", "y": "mu_k"}
     },
 }
+OTHER_S = GRID | {"study": "six", "figures": {"f": GRID["figures"]["growth"] | {"study": "mine"}}}
 CASES: dict[str, Any] = {
     "study": "small",
     "base": {"N": 385, "c": 0.1},
@@ -80,6 +81,30 @@ def test_cases_inherit_and_override() -> None:
     assert a.windows == (("history", Window(start=0, stop=10, rate=100)),)
 
 
+def test_a_value_of_null_drops_what_is_inherited() -> None:
+    below = {"windows": {"late": {"rate": 1}, "whole": {"rate": 2}}, "title": "t"}
+    changes = {"windows": {"late": None}, "title": None, "new": None, "more": 3}
+    expected = {"windows": {"whole": {"rate": 2}}, "new": None, "more": 3}
+    assert inherit(below, changes) == expected
+    assert below["title"] == "t"
+
+
+def test_a_tolerance_is_that_of_all_cases_but_those_with_their_own() -> None:
+    a, b = parse_study(CASES | {"tol": 1e-7}).specs.values()
+    assert (a.tol, b.tol) == (1e-7, 1e-8)
+
+
+def test_a_case_may_have_a_disc_of_its_own(tmp_path: Path) -> None:
+    table = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n0,240,1.5\n1,250,2.1\n"
+    (tmp_path / "disc.csv").write_text(table)
+    own = {"A": CASE | {"parameters": {"N": 1, "Omega": 1, "disc": "disc.csv", "r_0": 0.11}}}
+    p = parse_study({"study": "s", "cases": own | {"B": CASE}}, tmp_path).specs["A"].parameters
+    assert p.disc is not None
+    assert p.disc.diameters == (0, 1)
+    [fault] = faults_of(parse_study, {"study": "s", "cases": own}, tmp_path / "elsewhere")
+    assert fault.startswith("cases.A.parameters.disc: ")
+
+
 # ---- files
 
 
@@ -123,6 +148,7 @@ def test_faults_between_studies_are_reported_together(tmp_path: Path) -> None:
         ),
         ("all", GRID | {"study": "all"}, "study = 'all': is the name of another folder of results"),
         ("five", {"study": "five", "cases": {"A": CASE}}, "study = 'five': must be a grid alone"),
+        ("six", OTHER_S, "study = 'six': must have no figures of other studies"),
     ],
 )
 def test_a_fault_of_another_file_is_named(
