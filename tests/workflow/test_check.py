@@ -2,15 +2,17 @@
 
 import io
 import os
+import runpy
 import time
 from pathlib import Path
 
 import pytest
 import xarray as xr
-from workflow.scripts import check
 
 from disc_model.data.dataset import save
+from tests.processes import ROOT
 
+SCRIPT = ROOT / "workflow" / "scripts" / "check.py"
 TOMORROW = time.time() + 86400
 
 
@@ -45,8 +47,9 @@ def test_links_are_not_followed(
     for path in (good, outside / "late.txt", results / "late.txt", results / "nowhere"):
         put_tomorrow(path)
     monkeypatch.setattr("sys.stdin", io.StringIO('["results/s/unknown.nc"]'))
+    monkeypatch.setattr("sys.argv", [str(SCRIPT)])
     monkeypatch.chdir(tmp_path)
-    check.main()
+    runpy.run_path(str(SCRIPT), run_name="__main__")
     shown = capsys.readouterr().out
     assert "results/nowhere.nc: there is no such file; removed" in shown
     assert "results/damaged.nc: cannot be read" in shown

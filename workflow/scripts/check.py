@@ -16,6 +16,17 @@ from disc_model.data.dataset import MissingFile, UnreadableFile, load
 from disc_model.errors import script
 
 
+def put_right(results: Path, now: float) -> Iterator[Path]:
+    """Files of which the time of change, in the future, has become `now` (s); of a symbolic link
+    its own."""
+    changeable = os.utime in os.supports_follow_symlinks
+    for path in results.rglob("*"):
+        is_link = path.is_symlink()
+        if path.lstat().st_mtime > now and (changeable or not is_link):
+            os.utime(path, (now, now), follow_symlinks=not is_link)
+            yield path
+
+
 @script
 def main(folder: str = "results") -> None:
     results = Path(folder)
@@ -42,14 +53,3 @@ def main(folder: str = "results") -> None:
         print(f"{len(early)} files had times in the future and now have the present one")
     if damaged or unrecorded or early:
         print("Run snakemake again: it makes anew what is needed.")
-
-
-def put_right(results: Path, now: float) -> Iterator[Path]:
-    """Files of which the time of change, in the future, has become `now` (s); of a symbolic link
-    its own."""
-    changeable = os.utime in os.supports_follow_symlinks
-    for path in results.rglob("*"):
-        is_link = path.is_symlink()
-        if path.lstat().st_mtime > now and (changeable or not is_link):
-            os.utime(path, (now, now), follow_symlinks=not is_link)
-            yield path
