@@ -52,9 +52,9 @@ def test_a_shipped_file_is_right(path: Path) -> None:
 
 def test_numbers_that_look_like_what_they_are_are_read(tmp_path: Path) -> None:
     """Zeros, hexadecimal numbers, digits in groups, leading zeros before a point, and texts."""
-    text = "a: [0, 00, 0x10, 1_000, 0.5, 007.5, -0, '010', '1:30', 1.5e+3]"
+    text = "a: [0, 00, 0x10, 1_000, 0.5, 007.5, -0, '010', '1:30', 1.5e+3, 12 rpm]"
     (path := tmp_path / "numbers.yaml").write_text(text)
-    expected = [0, 0, 16, 1000, 0.5, 7.5, 0, "010", "1:30", 1500.0]
+    expected = [0, 0, 16, 1000, 0.5, 7.5, 0, "010", "1:30", 1500.0, "12 rpm"]
     assert read_file(path) == {"a": expected}
 
 

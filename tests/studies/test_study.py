@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +10,10 @@ import pytest
 import yaml
 
 from disc_model import Parameters
+from disc_model.data.files import MissingFile, UnreadableFile
 from disc_model.simulation.case import Window
-from disc_model.studies.study import StudyError, inherit, load_study, parse_study, study_from_config
+from disc_model.studies.reading import StudyError
+from disc_model.studies.study import inherit, load_study, parse_study, study_from_config
 from tests.studies.refused import faults_of
 
 CASE = {"title": "", "parameters": {"N": 1, "Omega": 1}, "t_end": 1}
@@ -116,6 +119,19 @@ def test_keys_given_twice(tmp_path: Path) -> None:
         lambda file: study_from_config({"study": "x", "cases": {"A": CASE}}, [file]),
     ):
         assert re.search(r"N is given twice\n.* line 3, column 56", faults_of(load, path)[0])
+
+
+@pytest.mark.parametrize("read", [load_study, lambda path: study_from_config({}, [path])])
+def test_a_file_that_cannot_be_read_is_told_in_one_line(
+    read: Callable[[Path], object], tmp_path: Path
+) -> None:
+    with pytest.raises(MissingFile, match=r"^[^\n]*none\.yaml: there is no such file$"):
+        read(tmp_path / "none.yaml")
+    with pytest.raises(UnreadableFile, match=r"^[^\n]*: cannot be read: Is a directory$"):
+        read(tmp_path)
+    (path := tmp_path / "x.yaml").write_bytes(b"study: \xff\xfe")
+    with pytest.raises(UnreadableFile, match=r"^[^\n]*x\.yaml: cannot be read: 'utf-8' codec"):
+        read(path)
 
 
 def test_faults_between_studies_are_reported_together(tmp_path: Path) -> None:

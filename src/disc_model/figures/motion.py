@@ -460,10 +460,8 @@ class Motion(NamedTuple):
     @classmethod
     def of(cls, p: Parameters, states: Sequence[Any]) -> Self:
         """The motion through states such as those of `disc_model.snapshots`."""
-        time, psi, u = (
-            np.array([getattr(state, name) for state in states]) for name in ("time", "psi", "u")
-        )
-        slider = p.Omega * time - psi
+        time, u = (np.array([getattr(state, name) for state in states]) for name in ("time", "u"))
+        slider = np.array([state.slider_angle(p) for state in states])
         shapes = np.transpose([state.a + 1j * state.b for state in states])
         turned = shapes * np.exp(1j * np.multiply.outer(mode_arrays(p).diameters, slider))
         return cls(p, time, turned, slider, u, np.array([state.phase for state in states]))

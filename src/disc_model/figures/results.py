@@ -22,6 +22,7 @@ from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import is_number, is_whole
 
 if TYPE_CHECKING:
+    from disc_model.fitting.fit import Fit
     from disc_model.stability.continuation import Branch
     from disc_model.stability.curves import Critical, NeutralCurves
     from disc_model.stability.cycle import FloquetResult
@@ -164,6 +165,20 @@ def animate(
 ) -> Any:
     """Make a film of disc, slider and contact force through states; written to a path if there is
     one."""
+    writer = film_writer(path, fps)
+    with drawing.styled():
+        figure = mpl.figure.Figure(figsize=(6.4, 2.7))
+        film = motion.film(
+            figure, motion.Motion.of(p, states), window["time"].values, window["P"].values
+        )
+        if path is not None:
+            film.save(path, writer=writer, fps=fps, dpi=100)
+        return film
+
+
+def film_writer(path: str | Path | None, fps: int) -> str:
+    """The program that writes a film to a path, "" without one; raises `ParameterError` if none
+    can, or the number of pictures in a second is none."""
     file = Path(path) if isinstance(path, str | Path) else Path()
     writer = {".gif": "pillow", ".mp4": "ffmpeg"}.get(file.suffix, "")
     available = not writer or mpl.animation.writers.is_available(writer)
@@ -178,14 +193,7 @@ def animate(
         (file.absolute().parent.is_dir(), "path", str(path), "must be in a folder that exists"),
         (available, "path", str(path), f"needs the program {writer}"),
     )
-    with drawing.styled():
-        figure = mpl.figure.Figure(figsize=(6.4, 2.7))
-        film = motion.film(
-            figure, motion.Motion.of(p, states), window["time"].values, window["P"].values
-        )
-        if path is not None:
-            film.save(path, writer=writer, fps=fps, dpi=100)
-        return film
+    return writer
 
 
 def plot_multipliers(cycle: FloquetResult, ax: Any = None) -> Axes:
@@ -376,6 +384,44 @@ def plot_exponents(lyapunov: Lyapunov, ax: Any = None) -> Axes:
         )
         axes.legend()
     return axes
+
+
+def plot_fit(fit: Fit, ax: Any = None) -> np.ndarray:
+    """Draw computed over measured values, both relative to the measured ones, and their deviations
+    in standard deviations; two panels with a row for each measurement, the first on top."""
+    count = len(fit.measurements)
+    rows = np.arange(count)[::-1]
+    value = np.array([each.value for each in fit.measurements])
+    error = np.array([each.uncertainty for each in fit.measurements])
+    size = np.where(value == 0, error, np.abs(value))
+    height = 1.0 + 0.18 * count
+    with canvas(ax, PAGE, height, 1, 2, sharey=True) as [left, right]:
+        left.errorbar(
+            100 * (value - value) / size,
+            rows,
+            xerr=100 * error / size,
+            fmt="o",
+            color=BLACK,
+            ms=3.5,
+            capsize=2,
+            linewidth=0.8,
+            label="measured, standard deviation",
+        )
+        shift = 100 * (fit.computed - value) / size
+        left.plot(shift, rows, "D", color=SEPARATED, ms=3.5, mfc="none", label="computed")
+        left.set(
+            xlabel="Difference from the measured value (%)", yticks=rows, ylim=(-0.7, count - 0.3)
+        )
+        left.set_yticklabels([each.name for each in fit.measurements], fontsize=7)
+        left.margins(x=0.08)
+        drawing.legend_above(left)
+        right.axvspan(-2, 2, color=GREY, alpha=0.15, linewidth=0)
+        right.axvline(0, color=GREY, linewidth=0.6)
+        right.plot(fit.deviations, rows, "D", color=SEPARATED, ms=3.5, mfc="none")
+        span = max(3.0, 1.1 * float(np.abs(fit.deviations).max()))
+        right.set(xlabel="Deviation (standard deviations)", xlim=(-span, span))
+        right.set_title(f"chi squared {fit.chi_squared:.3g}, {fit.freedom} degrees of freedom")
+    return np.array([left, right], dtype=object)
 
 
 SHARES = ("basin_fraction_by_energy", "basin_fraction")

@@ -13,13 +13,13 @@ import yaml
 from yaml.composer import ComposerError
 from yaml.constructor import ConstructorError
 
+from disc_model.data.files import MissingFile, unreadable
 from disc_model.display import counted
 from disc_model.errors import DiscModelError
 
 MOST_EXPANDED = 50_000
-"""Greatest number of values that a file may have by its aliases, beyond those that it spells out. Ten levels of ten
-aliases, in 300 bytes, stand for ten thousand million."""
-
+"""Greatest number of values that a file may have by its aliases, beyond those that it spells out.
+Ten levels of ten aliases, in 300 bytes, stand for ten thousand million."""
 
 MOST_SHOWN = 50  # greatest number of faults in a message
 
@@ -44,19 +44,21 @@ def read_file(path: Path) -> Any:
 
     Raises
     ------
+    MissingFile
+        If there is no such file.
+    UnreadableFile
+        If it is no file, or no text in UTF-8.
     StudyError
-        If there is no such file, it cannot be read, or it is not the YAML that a study may have.
+        If it is not the YAML that a study may have.
     """
     try:
-        if path.exists() and not path.is_file():
-            raise StudyError("must be the name of a file", source=str(path))
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
-        raise StudyError("there is no such file", source=str(path)) from None
+        raise MissingFile(f"{path}: there is no such file") from None
     except OSError as error:
-        raise StudyError(f"cannot be read: {error.strerror}", source=str(path)) from None
+        raise unreadable(path, error.strerror) from None
     except ValueError as error:  # a name with a null byte, or a text in another encoding
-        raise StudyError(f"cannot be read: {error}", source=str(path)) from None
+        raise unreadable(path, error) from None
     try:
         return yaml.load(text, _Loader)
     except yaml.YAMLError as error:

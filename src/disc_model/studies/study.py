@@ -23,7 +23,7 @@ from pydantic import (
 )
 
 from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, values_text
-from disc_model.disc.given import read_disc
+from disc_model.disc.files.table import read_disc
 from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kind import NORM, CasePlot, Kind, Plot, kind_of, kinds_in

@@ -41,7 +41,7 @@ from disc_model.figures.kind import (
 )
 from disc_model.figures.motion import Motion, draw_power, draw_scale, span_of, spectrum_of
 from disc_model.parameters import Parameters
-from disc_model.simulation.case import Window
+from disc_model.simulation.case import Ramp, Window, angle_of_drive, pieces
 from disc_model.units import Finite, Positive, Unit
 
 # ---- Contact and its losses, as in figures 2, 3, 10, 13 and 23
@@ -302,7 +302,10 @@ def motion_of(case: xr.DataTree) -> Motion:
     at_slider[1:] += 1j * solution[len(harmonics) :]
     amplitudes = at_slider / mode_arrays(p).psi[:, None]
     time, psi, u = (windows[0][name].values for name in ("time", "psi", "u"))
-    return Motion(p, time, amplitudes, p.Omega * time - psi, u, flag_names(windows[0]["phase"]))
+    ramps = [Ramp(**ramp) for ramp in json.loads(case.attrs.get("ramps", "[]"))]
+    intervals = pieces(p, ramps)
+    drive = np.array([angle_of_drive(intervals, t) for t in time])
+    return Motion(p, time, amplitudes, drive - psi, u, flag_names(windows[0]["phase"]))
 
 
 # ---- A vibration over a run and its spectra in time, as in figures 24 to 29
