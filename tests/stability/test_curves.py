@@ -12,7 +12,7 @@ from disc_model.stability.return_map import ReturnMap
 @pytest.mark.compiled
 def test_a_seed_met_on_the_way_to_another_modulus_is_a_cycle_there():
     """E scales the coordinates of the section."""
-    seed = curves._first_event(Parameters(N=385, Omega=15), "E", 1.4e11, 1e-12, [])
+    seed = curves._border(Parameters(N=385, Omega=15), "E", 1.4e11, 1e-12, [])
     assert seed is not None
     assert seed.kind == "fold"
     # twice the stick-slip rate meets the mode's frequency, sqrt(E), at Omega = 15.0949 for 150 GPa
@@ -61,7 +61,8 @@ def test_bounds_may_have_units_and_those_of_another_kind_are_refused():
     p = Parameters(N=385, Omega=14.95, mu_k_over_mu_s=0.6)
     found = curves.critical(p, "Omega", ("142.5 rpm", 15), points=3)
     assert found.values[[0, -1]].tolist() == pytest.approx([142.5 * math.tau / 60, 15])
-    assert "has left 14.9226 .. 15" in continue_cycle(p, "Omega", ("142.5 rpm", "15 rad/s")).ended
+    branch = continue_cycle(p, "Omega", ("142.5 rpm", "15 rad/s"))
+    assert "the bound Omega = 14.9226 rad/s was reached" in branch.ended
     plane = curves.neutral_curves(
         p, {"Omega": ("142.5 rpm", 15), "h": ("2 mm", "2.1 mm")}, [0.00205], points=2
     )

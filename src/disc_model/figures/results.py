@@ -258,6 +258,16 @@ def plot_eigenvalues(sliding: SteadySliding, ax: Any = None) -> Axes:
     return axes
 
 
+SPECIAL_MARKS = {  # kinds of special points: mark, colour, and name in the legend
+    "fold": ("s", SEPARATED, "fold"),
+    "period_doubling": ("D", BLUE, "period doubling"),
+    "neimark_sacker": ("o", BLUE, "Neimark-Sacker bifurcation"),
+    "branch_point": ("*", BLACK, "branch point"),
+    "grazing": ("X", SEPARATED, "grazing"),
+}
+MOST_VALUES = 1  # special points of one kind whose values stand in a legend
+
+
 def plot_branch(branch: Branch, y: str, ax: Any = None) -> Axes:
     """Draw a variable of the cycles along a branch over its parameter, or its second parameter over
     its first."""
@@ -268,14 +278,14 @@ def plot_branch(branch: Branch, y: str, ax: Any = None) -> Axes:
         name, scale = drawing.axis_of(second[0])
         values = branch.values[:, 1] * scale
     else:
-        labels = {
-            "growth_rate": "Growth rate of the cycle (1/s)",
-            "period": "Period (ms)",
-            "stick_fraction": "Stick",
-        }
-        known = isinstance(y, str) and y in labels
-        require((known, "y", y, f"must be one of {', '.join(labels)}"))
-        name, values = labels[y], getattr(branch, y) * (1e3 if y == "period" else 1.0)
+        known = isinstance(y, str) and y in branch.variables
+        require((known, "y", y, f"must be one of {', '.join(branch.variables)}"))
+        scale = 1e3 if y == "period" else 1.0
+        values = getattr(branch, y) * scale
+        attributes = branch.variables[y].attributes
+        if y == "period":
+            attributes["units"] = "ms"
+        name, _ = drawing.label_of(xr.DataArray(values, name=y, attrs=attributes))
     with canvas(ax, 1.3 * COLUMN, 2.8, title=_stated(branch.case, *branch.parameters)) as [axes]:
         draw_branch(axes, x, values, branch.growth_rate < 0, BLACK)
         axes.plot(x, values, ".", color=BLACK, markersize=3)  # what lies between is not computed
@@ -283,17 +293,29 @@ def plot_branch(branch: Branch, y: str, ax: Any = None) -> Axes:
             general.scale_rates(axes)
         for width, text in ((2.0, "stable"), (0.7, "unstable")):
             axes.plot([], [], color=BLACK, linewidth=width, label=text)
-        folds = np.reshape(branch.folds, (-1, len(branch.parameters)))
-        if len(folds):
-            i = [int(np.argmin(np.abs(branch.values - fold).sum(axis=1))) for fold in folds]
-            text = "fold at " + ", ".join(f"{fold:.5g}" for fold in folds[:, 0] * factor)
-            axes.plot(
-                folds[:, 0] * factor, values[i], "s", color=SEPARATED, markersize=4, label=text
-            )
+        _mark_special_points(axes, branch, factor, y, scale)
         axes.margins(0.04)
         axes.set(xlabel=label, ylabel=name)
-        drawing.legend_above(axes)
+        drawing.legend_above(axes, ncols=3, fontsize=7, columnspacing=1.0)
     return axes
+
+
+def _mark_special_points(axes: Axes, branch: Branch, factor: float, y: str, scale: float) -> None:
+    """Mark the special points of a branch; the legend has their values, or their number if they are
+    many."""
+    for kind, (mark, colour, name) in SPECIAL_MARKS.items():
+        special = [each for each in branch.special if each.kind == kind]
+        if not special:
+            continue
+        places = np.array([each.values[0] for each in special]) * factor
+        heights = np.array([getattr(each, y) for each in special]) * scale
+        if len(special) <= MOST_VALUES:
+            text = f"{name} at " + ", ".join(f"{place:.5g}" for place in places)
+        else:
+            text = f"{len(special)} {name}s"
+        axes.plot(
+            places, heights, mark, label=text, color=colour, markersize=4, markeredgewidth=0.5
+        )
 
 
 def plot_neutral_curves(curves: NeutralCurves, ax: Any = None) -> Axes:

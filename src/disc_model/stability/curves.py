@@ -29,9 +29,16 @@ from disc_model.stability.continuation import (
     interval_in_si,
 )
 from disc_model.stability.cycle import FloquetResult, find_cycle
-from disc_model.stability.return_map import Array, ReturnMap, case_faults
+from disc_model.stability.return_map import Array, case_faults
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
+MOST_ON_LINE = 500  # points of a branch between two points of a line
+BORDER_KINDS: Mapping[str, Kind] = {
+    "fold": "fold",
+    "neimark_sacker": "neutral",
+    "period_doubling": "neutral",
+}
+"""Special points of a branch, and the borders on which they lie."""
 MOST_POINTS = 100_000  # largest number of points along a line: an hour of work
 
 
@@ -89,9 +96,13 @@ class NeutralCurves(Drawn):
 
 
 class _Seed(NamedTuple):
+    """A special point of a branch from which a curve is followed: its kind, its case, its point of
+    the section, its critical multiplier, and its period, s."""
+
     kind: Kind
     case: Parameters
     point: Array
+    mu: complex
     period: float
 
 
@@ -138,7 +149,7 @@ def neutral_curves(
     """
     raise_faults(foreign_case(p))
     # a curve ends where a shorter step would be needed, as where an event grazes
-    steps = BORDER.replace(longest=longest, shortest=1e-4, max_points=max_points)
+    steps = BORDER.replace(longest=longest, shortest=1e-5, max_points=max_points)
     free = isinstance(bounds, Mapping) and len(bounds) == 2
     plane: Any = {name: interval_in_si(name, ends) for name, ends in bounds.items()} if free else {}
     within = free and all(ends is not None for ends in plane.values())
@@ -169,7 +180,14 @@ def neutral_curves(
             )
             try:
                 branch = continue_border(
-                    seed.kind, seed.case, names, plane, guess=seed.point, tol=tol, steps=steps
+                    seed.kind,
+                    seed.case,
+                    names,
+                    plane,
+                    guess=seed.point,
+                    mu=seed.mu,
+                    tol=tol,
+                    steps=steps,
                 )
             except ParameterError as error:
                 notes.append(f"{seed.kind} near {where}: {error}")
@@ -192,47 +210,32 @@ def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str])
         for begin, end in ((i, i + 1), (i + 1, i)):
             if np.isnan(growth[begin]):
                 continue
-            if seed := _first_event(cases[begin], name, cases[end].numbers[name], tol, notes):
+            seed = _border(cases[begin], name, cases[end].numbers[name], tol, notes)
+            if seed is not None:
                 yield seed
-                if seed.kind == "neutral":
-                    break
 
 
-def _first_event(
-    case: Parameters, name: str, end: float, tol: float, notes: list[str]
-) -> _Seed | None:
-    """The first fold or crossing of the unit circle between a case and another value of a
-    parameter."""
+def _border(case: Parameters, name: str, end: float, tol: float, notes: list[str]) -> _Seed | None:
+    """The special point of a branch from a case to another value of a parameter at which a stable
+    cycle first gains or loses stability, or ends; without a stable one, the first special point."""
     begin = case.numbers[name]
-    bounds, direction = (min(begin, end), max(begin, end)), 1 if begin < end else -1
+    bounds = (min(begin, end), max(begin, end))
+    direction = 1 if begin < end else -1
     try:
-        steps = StepControl(scale=abs(end - begin), max_points=40, beyond=True)
+        steps = StepControl(scale=abs(end - begin), max_points=MOST_ON_LINE)
         branch = continue_cycle(case, name, bounds, direction=direction, tol=tol, steps=steps)
     except ParameterError as error:
         notes.append(f"{name}={begin:.6g}: {error}")
         return None
-    values, growth = branch.values[:, 0], branch.growth_rate
-    turns = np.flatnonzero(np.diff(values)[:-1] * np.diff(values)[1:] < 0) + 1
-    crossings = np.flatnonzero(growth[:-1] * growth[1:] < 0)
-    fold = int(turns[0]) if len(turns) else len(values)
-    if len(crossings) and crossings[0] + 1 < fold:
-        kind: Kind = "neutral"
-        i = int(crossings[0])
-        j = i if abs(growth[i]) < abs(growth[i + 1]) else i + 1
-    elif len(turns):
-        kind, j = "fold", fold
-    else:
-        if branch.ended.startswith(UNLOCATED):
-            notes.append(branch.ended)
-        return None
-    moved = case.replace(**{name: float(values[j])})
-    point = branch.points[j]
-    scale, new = (ReturnMap(each, tol).scale for each in (case, moved))
-    if not np.array_equal(
-        scale, new
-    ):  # frequencies scale the coordinates, and the branch uses those of its first case
-        point = point / scale * new
-    return _Seed(kind, moved, point, float(branch.period[j]))
+    if branch.ended.startswith(UNLOCATED):
+        notes.append(branch.ended)
+    borders = [special for special in branch.special if special.kind in BORDER_KINDS]
+    stable = branch.growth_rate < 0
+    beside = [each for each in borders if stable[each.after : each.after + 2].any()]
+    for special in [*beside, *borders][:1]:
+        kind = BORDER_KINDS[special.kind]
+        return _Seed(kind, special.case, special.point, special.multiplier, special.period)
+    return None
 
 
 def _known(

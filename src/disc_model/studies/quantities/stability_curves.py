@@ -1,7 +1,9 @@
 """Neutral curves and folds of the stick-slip cycle, by continuation in two parameters."""
 
+from __future__ import annotations
+
 from dataclasses import asdict
-from typing import Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from pydantic import Field
 
@@ -18,6 +20,9 @@ from disc_model.studies.quantity import (
     listed,
 )
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Unit
+
+if TYPE_CHECKING:
+    from disc_model.stability.curves import StabilityCurve
 
 KINDS = ("none", "neutral", "fold")
 SIDES = ("no", "yes")
@@ -41,7 +46,7 @@ class StabilityCurves(Quantity):
     """number of points of the search along each line"""
     max_step: Positive = 0.1
     """arclength of the longest step along a curve"""
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200
     """most points of a curve, in each direction"""
     max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
     """room for that many curves"""
@@ -93,27 +98,40 @@ class StabilityCurves(Quantity):
         lines = self.y_lines
         margin = self.margin * (lines.stop - lines.start)
         bounds = {self.x: self.x_range, self.y: (lines.start - margin, lines.stop + margin)}
-        how: dict[str, Any] = {
-            "points": self.points,
-            "max_points": self.max_points,
-            "longest": self.max_step,
-        }
-        curves = neutral_curves(point.parameters, bounds, lines.values, tol=self.tol, **how)
-        rows = []
-        for curve in sorted(
-            curves, key=lambda curve: -len(curve.period)
-        ):  # the array holds the longest curve
-            row = {
-                name: getattr(curve, name) for name in ("kind", "adjoins_stable_cycle", "period")
-            }
-            row |= {"x": curve.values[:, 0], "y": curve.values[:, 1]}
-            row |= {
-                "multiplier_re": curve.multipliers.real,
-                "multiplier_im": curve.multipliers.imag,
-            }
-            rows.append(
-                row
-                | {f"resonance_{name}": value for name, value in asdict(curve.resonance).items()}
-            )
-        counts = {"n_curves": len(curves), "n_continuation_failures": len(curves.failures)}
-        return listed(rows) | counts | {"status": "ok"}, ""
+        curves = neutral_curves(
+            point.parameters,
+            bounds,
+            lines.values,
+            points=self.points,
+            max_points=self.max_points,
+            longest=self.max_step,
+            tol=self.tol,
+        )
+        # those beside a stable cycle first, in case there are more than the array holds
+        rows = [_row(curve) for curve in sorted(curves, key=_importance, reverse=True)]
+        columns: dict[str, Any] = listed(rows[: self.max_curves])
+        columns["n_curves"] = len(curves)
+        columns["n_continuation_failures"] = len(curves.failures)
+        columns["status"] = "ok"
+        return columns, ""
+
+
+def _importance(curve: StabilityCurve) -> tuple[int, int]:
+    """The number of points of a curve beside a stable cycle, and that of all."""
+    return int(curve.adjoins_stable_cycle.sum()), len(curve.period)
+
+
+def _row(curve: StabilityCurve) -> dict[str, Any]:
+    """The columns of a curve."""
+    row: dict[str, Any] = {
+        "kind": curve.kind,
+        "adjoins_stable_cycle": curve.adjoins_stable_cycle,
+        "period": curve.period,
+        "x": curve.values[:, 0],
+        "y": curve.values[:, 1],
+        "multiplier_re": curve.multipliers.real,
+        "multiplier_im": curve.multipliers.imag,
+    }
+    for name, value in asdict(curve.resonance).items():
+        row[f"resonance_{name}"] = value
+    return row
