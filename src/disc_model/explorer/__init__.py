@@ -47,7 +47,10 @@ def study_contents(
 ) -> dict[str, Any]:
     """Contents of a merged study: fixed parameters, dimensions, variables, messages; motions, and a
     text on these."""
-    study = study.transpose(*study.sizes)
+    numbers = {str(name): x for name, x in study.coords.items() if x.dtype.kind == "f"}
+    endless = [name for name, x in numbers.items() if np.isinf(x.values).any()]
+    study = _in_words(study.transpose(*study.sizes), endless)
+    motions = None if motions is None else _in_words(motions, endless)
     base = json.loads(study.attrs.get("base", "{}"))
     messages = None
     if "message" in study:  # as indices into the distinct ones; most points share theirs
@@ -70,6 +73,16 @@ def study_contents(
         "messages": messages,
         "motions": None if motions is None else motion_contents(motions, text),
     }
+
+
+def _in_words(dataset: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
+    """A dataset with some of its coordinates as texts, because JSON has no infinity."""
+    texts = {}
+    for name in names:
+        coordinate = dataset[name]
+        words = [f"{value:.12g}" for value in coordinate.values]
+        texts[name] = (coordinate.dims, words, coordinate.attrs)
+    return dataset.assign_coords(texts)
 
 
 def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:

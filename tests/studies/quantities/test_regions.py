@@ -77,7 +77,8 @@ def raw(**changes) -> dict:
 def test_a_region_is_found_as_by_brute_force_with_fewer_points(
     made_up, tile: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(grid, "TILE", tile)
+    for limit in ("SMALLEST_TILE", "LARGEST_TILE"):
+        monkeypatch.setattr(grid, limit, tile)
     study = computed(**raw()).isel(normalization=0)
     assert not wrong(study).any()
     origin = flag_names(study["method"])
@@ -146,6 +147,13 @@ def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
     assert sampled == [[187.5, 12.03125]]
     # only the tile in which the mark lies is another batch
     assert len(study.batches.keys() - parse_grid(raw()).batches.keys()) == 1
+
+
+def test_a_mark_lies_at_its_own_value_and_at_no_value_beside() -> None:
+    close = [1.0, 1.0001, 1.0002]
+    assert [grid._index_of(value, close) for value in close] == [0, 1, 2]
+    assert grid._index_of(0.1 + 0.2, [0.2, 0.3]) == 1
+    assert grid._index_of(1.00005, close) is None
 
 
 @pytest.mark.compiled

@@ -11,6 +11,7 @@ from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIE
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Start
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     MOST,
     SIMULATED,
@@ -35,16 +36,18 @@ class Bifurcation(Start, Quantity):
     settled, up to `max_transient`.
     """
 
-    section: Literal["stroboscopic", "event"] = (
-        "stroboscopic"  # once a turn of the drive, or at events
-    )
+    section: Literal["stroboscopic", "event"] = "stroboscopic"
+    """whether samples are taken once a turn of the drive, or at events"""
     tol: Tolerance = 1e-10
-    transient: Seconds  # left out
+    """tolerance of simulations: error of event times after a second of motion"""
+    transient: Seconds
+    """time left out at the beginning; at events it is doubled until the motion has settled"""
     max_transient: Seconds = 480.0
+    """longest time left out"""
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
-    theta: Annotated[Finite, Unit("rad")] = (
-        1.0  # the disc's point whose displacement is sampled once a turn
-    )
+    """number of samples"""
+    theta: Annotated[Finite, Unit("rad")] = 1.0
+    """angle of the disc's point whose displacement is sampled once a turn"""
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {
@@ -83,7 +86,10 @@ class Bifurcation(Start, Quantity):
             "1", "number of the turn after the transient", lambda o: range(o.samples)
         )
     }
-    cost: ClassVar = lambda o: SIMULATED * (o.transient + o.max_transient / 2)
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Some transients are doubled to the longest, most are not."""
+        return 0.6 * unit.second * (self.transient + self.max_transient / 2)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         return (

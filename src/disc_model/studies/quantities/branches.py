@@ -13,6 +13,7 @@ from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.studies import quantity
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     STATUS,
     Coordinate,
@@ -34,24 +35,27 @@ class Branches(Quantity):
     and down."""
 
     parameter: Free = "Omega"
-    scan: Annotated[
-        Range, Unit(of="parameter")
-    ]  # cycles are followed between its first value and its last
-    sweep_from: Annotated[Finite | None, Unit(of="parameter")] = (
-        None  # the rising sweep leaves out values below
-    )
-    dwell: Seconds  # at each value; it is doubled until the motion has settled
+    """number of the case along which cycles are followed"""
+    scan: Annotated[Range, Unit(of="parameter")]
+    """values of the sweep; cycles are followed between the first and the last"""
+    sweep_from: Annotated[Finite | None, Unit(of="parameter")] = None
+    """value at which the rising sweep begins; the first one if not given"""
+    dwell: Seconds
+    """time at each value, doubled until the motion has settled"""
     max_dwell: Seconds = 480.0
-    evaluation_time: Seconds = 2.0  # the last stretch of a stay, over which the range is taken
-    releases: Annotated[Count, Field(ge=1, le=100)] = (
-        4  # greatest number of a cycle that is followed
-    )
-    max_step: Positive = 0.05  # arclength of the longest step along a branch
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = (
-        300  # of a branch, in each direction, folds included
-    )
+    """longest time at a value"""
+    evaluation_time: Seconds = 2.0
+    """length of the last stretch at a value, over which the range is taken"""
+    releases: Annotated[Count, Field(ge=1, le=100)] = 4
+    """greatest number of releases of a cycle that is followed"""
+    max_step: Positive = 0.05
+    """arclength of the longest step along a branch"""
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 300
+    """most points of a branch, in each direction, folds included"""
     max_branches: Annotated[Count, Field(ge=1, le=1000)] = 12
+    """room for that many branches"""
     tol: Tolerance = 1e-10
+    """tolerance of simulations: error of event times after a second of motion"""
 
     _rules = (
         (lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),
@@ -94,7 +98,11 @@ class Branches(Quantity):
             "1", "number of the point along the branch", lambda o: range(2 * o.max_points)
         ),
     }
-    cost: ClassVar = lambda o: quantity.WORK
+
+    def cost(self, unit: UnitCosts) -> float:
+        """The sweep, whose stays are doubled once or twice, and some ten branches."""
+        sweep = 6 * unit.second * (self.scan.intervals + 1) * self.dwell
+        return sweep + 10 * unit.cycle * self.max_points
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.attractors import sweep

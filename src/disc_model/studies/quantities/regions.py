@@ -7,7 +7,8 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Variable
-from disc_model.studies.quantity import COME_TO, STATUS, WORK, Made, Point, Quantity, State
+from disc_model.studies.costs import UnitCosts
+from disc_model.studies.quantity import COME_TO, STATUS, Made, Point, Quantity, State
 from disc_model.units import Count, Seconds, Tolerance
 
 METHODS = ("none", "multipliers", "simulation", "inferred")
@@ -21,10 +22,11 @@ class Regions(Quantity):
     separate wherever they are computed."""
 
     tol: Tolerance = 1e-10
+    """tolerance of simulations: error of event times after a second of motion"""
     horizon: Seconds
-    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = (
-        8  # side of a first cell, in intervals of the grid
-    )
+    """longest simulated time"""
+    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8
+    """side of the first cells, in intervals of the grid"""
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
     tiled: ClassVar = True
@@ -59,7 +61,10 @@ class Regions(Quantity):
             "1", "number of other cycles known, followed from neighbours", whole=True
         ),
     }
-    cost: ClassVar = lambda o: WORK
+
+    def cost(self, unit: UnitCosts) -> float:
+        """A cycle or two at each point, and a motion at one of ten, some way to the horizon."""
+        return 2 * unit.cycle + 0.06 * unit.second * self.horizon
 
     def state_at(self, point: Point) -> State:
         from disc_model.simulation.api import simulate

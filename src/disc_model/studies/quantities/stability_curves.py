@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 from pydantic import Field
 
 from disc_model.data.variables import Variable
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     STATUS,
-    WORK,
     Coordinate,
     Free,
     Point,
@@ -33,17 +33,25 @@ class StabilityCurves(Quantity):
     """Neutral curves and folds of the stick-slip cycle in the plane of two parameters."""
 
     x: Free = "Omega"
+    """first number of the case that varies"""
     y: Free = "N"
-    x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]  # from, to
-    y_lines: Annotated[Range, Unit(of="y")]  # cycles are searched for along these lines
-    margin: Annotated[Real, Field(ge=0, le=1)] = (
-        0.0  # fraction of the range of y by which curves may leave it
-    )
-    points: Annotated[Count, Field(ge=2, le=10_000)] = 31  # of the search, along each line
-    max_step: Positive = 0.1  # arclength of the longest step along a curve
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200  # of a curve, in each direction
+    """second number of the case that varies"""
+    x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]
+    """least and greatest value of x"""
+    y_lines: Annotated[Range, Unit(of="y")]
+    """values of y along which cycles are searched for"""
+    margin: Annotated[Real, Field(ge=0, le=1)] = 0.0
+    """fraction of the range of y by which curves may leave it"""
+    points: Annotated[Count, Field(ge=2, le=10_000)] = 31
+    """number of points of the search along each line"""
+    max_step: Positive = 0.1
+    """arclength of the longest step along a curve"""
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200
+    """most points of a curve, in each direction"""
     max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
+    """room for that many curves"""
     tol: CycleTolerance = 1e-12
+    """tolerance of cycles: relative residual of the return map"""
 
     _rules = (
         (lambda o: o.x != o.y, "x and y must differ"),
@@ -79,7 +87,10 @@ class StabilityCurves(Quantity):
             "1", "number of the point along the curve", lambda o: range(2 * o.max_points)
         ),
     }
-    cost: ClassVar = lambda o: WORK
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Some ten curves."""
+        return 40 * unit.cycle * self.max_points
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.curves import neutral_curves
