@@ -11,7 +11,7 @@ import pytest
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.parameters import Parameters
 from disc_model.stability.linear_motion import NearCycle
-from disc_model.stability.outcome import OutcomeResult, Stage
+from disc_model.stability.outcome import OutcomeResult
 from disc_model.studies import refinement
 from disc_model.studies.refinement import Tile
 
@@ -39,15 +39,14 @@ class MadeUp:
     """A plane in which outcomes and starts are as said, and the places that were computed."""
 
     def __init__(self) -> None:
-        self.outcome: Callable[[Index, float], OutcomeResult] = lambda index, furthest: quiet()
+        self.outcome: Callable[[Index], OutcomeResult] = lambda index: quiet()
         self.starts: dict[Index, NearCycle] = {}
         self.computed: list[Index] = []
-        self.whole: list[Index] = []
 
-    def find_outcome(self, p: Parameters, horizon: float, **how: Any) -> OutcomeResult:
+    def find_outcome(self, p: Parameters, horizon: float, **_: Any) -> OutcomeResult:
         index = place(p)
-        (self.computed if how["furthest"] else self.whole).append(index)
-        return self.outcome(index, how["furthest"])
+        self.computed.append(index)
+        return self.outcome(index)
 
     def start(self, p: Parameters) -> Any:
         return self.starts.get(place(p), NO_CYCLE)
@@ -66,9 +65,8 @@ def separation() -> OutcomeResult:
     return OutcomeResult(Outcome.SEPARATION, 1.0)
 
 
-def growing(*, extrapolated: bool = False) -> OutcomeResult:
-    cycle = near() if extrapolated else None
-    return OutcomeResult(Outcome.GROWING, 1.0, extrapolated=cycle)
+def growing() -> OutcomeResult:
+    return OutcomeResult(Outcome.GROWING, 1.0)
 
 
 @pytest.fixture
@@ -95,66 +93,45 @@ def test_multipliers_decide_where_the_start_stays_near_its_cycle(plane: MadeUp) 
     assert {row["method"] for row in rows} == {"multipliers"}
 
 
-@pytest.mark.parametrize(
-    ("stage", "simulated", "method"),
-    [
-        (Stage.STEADY, 400.0, "settled"),
-        (Stage.HORIZON, 100.0, "simulation"),
-        (Stage.SETTLED, 0.0, "multipliers"),
-    ],
-)
-def test_a_row_says_how_its_outcome_is_known(
-    plane: MadeUp, stage: Stage, simulated: float, method: str
-) -> None:
-    result = OutcomeResult(Outcome.OTHER_CYCLE, simulated, stage=stage)
-    plane.outcome = lambda index, furthest: result
+@pytest.mark.parametrize(("simulated", "method"), [(100.0, "simulation"), (0.0, "multipliers")])
+def test_a_row_says_how_its_outcome_is_known(plane: MadeUp, simulated: float, method: str) -> None:
+    plane.outcome = lambda index: OutcomeResult(Outcome.OTHER_CYCLE, simulated)
     assert row_at(plane.tile(1, 1, 1), (0, 0))["method"] == method
 
 
-@pytest.mark.parametrize("right", [Outcome.SEPARATION, Outcome.GROWING])
-def test_an_extrapolated_outcome_is_confirmed_between_two_equal_others(
-    plane: MadeUp, right: Outcome
+def test_separation_is_inferred_only_in_cells_that_separate_at_corners_and_in_the_middle(
+    plane: MadeUp,
 ) -> None:
-    """Between neighbours that differ a border passes, and there is nothing to doubt."""
-
-    def outcome(index: Index, furthest: float) -> OutcomeResult:
-        if index[1] == 0 or furthest == 0:
-            return separation()
-        return growing(extrapolated=True) if index[1] == 1 else OutcomeResult(right, 1.0)
-
-    plane.outcome = outcome
-    tile = plane.tile(1, 3, 1)
-    confirmed = right is Outcome.SEPARATION
-    assert plane.whole == ([(0, 1)] if confirmed else [])
-    expected = Outcome.SEPARATION if confirmed else Outcome.GROWING
-    row = row_at(tile, (0, 1))
-    assert row["outcome"] == expected
-    assert row["simulated_time"] == (2.0 if confirmed else 1.0)
-
-
-def test_stripes_of_separation_between_growing_corners_are_looked_for(plane: MadeUp) -> None:
-    plane.outcome = lambda index, _: separation() if index == (2, 2) else growing()
+    plane.outcome = lambda index: growing() if index == (2, 2) else separation()
     tile = plane.tile(9, 9, 8)
-    assert row_at(tile, (2, 2))["outcome"] == Outcome.SEPARATION
-    assert row_at(tile, (7, 7))["method"] == "inferred"
+    assert row_at(tile, (2, 2))["outcome"] == Outcome.GROWING
+    assert row_at(tile, (2, 2))["method"] == "simulation"
+    row = row_at(tile, (7, 6))
+    assert (row["outcome"], row["method"]) == (Outcome.SEPARATION, "inferred")
+    assert (7, 6) not in plane.computed
 
 
-def test_a_growing_cycle_inside_a_calm_cell_is_computed(plane: MadeUp) -> None:
-    plane.starts = {(1, 1): near()}
-    plane.outcome = lambda index, _: growing() if index == (1, 1) else quiet()
+def test_no_other_outcome_is_inferred(plane: MadeUp) -> None:
+    plane.outcome = lambda index: growing()
+    plane.tile(5, 5, 4)
+    assert sorted(plane.computed) == [(i, j) for i in range(5) for j in range(5)]
+
+
+def test_a_first_cell_is_divided_before_anything_is_inferred(plane: MadeUp) -> None:
+    plane.outcome = lambda index: separation()
     tile = plane.tile(5, 5, 4)
-    assert row_at(tile, (1, 1))["outcome"] == Outcome.GROWING
-    assert row_at(tile, (3, 3))["outcome"] == Outcome.QUIET
-    assert (3, 3) not in plane.computed
+    corners = {(i, j) for i in (0, 2, 4) for j in (0, 2, 4)}
+    middles = {(i, j) for i in (1, 3) for j in (1, 3)}
+    assert set(plane.computed) == corners | middles
+    assert row_at(tile, (3, 4))["outcome"] == Outcome.SEPARATION
 
 
-def test_an_edge_between_equal_corners_of_a_small_cell_is_presumed(plane: MadeUp) -> None:
-    plane.outcome = lambda index, _: quiet() if index[0] < 2 else separation()
-    tile = plane.tile(3, 3, 2)
-    assert sorted(plane.computed) == [(0, 0), (0, 2), (1, 0), (1, 1), (1, 2), (2, 0), (2, 2)]
-    for index, expected in {(0, 1): Outcome.QUIET, (2, 1): Outcome.SEPARATION}.items():
-        row = row_at(tile, index)
-        assert (row["outcome"], row["method"]) == (expected, "inferred")
+def test_a_quiet_point_inside_a_cell_that_separates_is_shown_as_quiet(plane: MadeUp) -> None:
+    plane.starts = {(1, 2): near(stable=True)}
+    plane.outcome = lambda index: separation()
+    tile = plane.tile(5, 5, 4)
+    assert row_at(tile, (1, 2))["outcome"] == Outcome.QUIET
+    assert (1, 1) in plane.computed
 
 
 @pytest.mark.parametrize(

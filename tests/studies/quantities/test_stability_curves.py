@@ -29,7 +29,7 @@ def test_curves_may_leave_the_range_of_lines_by_the_margin(
     ((bounds, along, how),) = asked
     assert bounds == {"Omega": (3, 18), "N": pytest.approx(wanted)}
     assert along == [180, 300, 420]
-    assert (how["points"], how["longest"], how["max_points"], how["tol"]) == (9, 0.2, 100, 1e-12)
+    assert (how["points"], how["longest"], how["max_points"], how["tol"]) == (9, 0.2, 200, 1e-12)
     assert (values["n_curves"], values["n_continuation_failures"]) == (0, 0)
 
 

@@ -14,7 +14,6 @@ from disc_model.simulation.case import Poincare, Start
 from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     MOST,
-    SIMULATED,
     STATUS,
     Arrival,
     Coordinate,
