@@ -8,7 +8,7 @@ import pytest
 
 from disc_model import sources
 from disc_model.sources import ASIDE, PACKAGE, git_commit, source_files, source_hash
-from disc_model.studies.quantity import quantity_names
+from disc_model.studies.registry import quantity_names
 
 SCRIPTS = Path(__file__).parents[1] / "workflow" / "scripts"
 BODY = "import os\n\ndef f(x, *, y=1.0):\n    return [x, 'text', None] + y\n"

@@ -28,6 +28,7 @@ ASIDE = {  # modules that are not followed where they are imported, since they d
     "mode_choice": "is an entry point, where modes are chosen by the motion",
     "disc.plausibility": "warns",
     "studies.costs": "estimates",
+    "studies.registry": "names all quantities, and a batch has its own as an entry point",
     "display": "shows to a reader",
     "simulation.pictures": "draws for a reader",
 }

@@ -8,7 +8,7 @@ from disc_model.errors import ParameterError
 from disc_model.figures.general import General
 from disc_model.figures.kind import CasePlot, Plot, kind_of, kinds_in
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import quantity_names
+from disc_model.studies.registry import quantity_names
 from tests.processes import python
 
 KINDS = kinds_in("")

@@ -1,7 +1,7 @@
 # A page that shows every grid study, motions and the report's figures: `snakemake explorer`, not part of `all`.
 from itertools import chain
 
-from disc_model.studies.quantity import quantity_of
+from disc_model.studies.registry import quantity_of
 
 # Studies of a whole plane come first.
 PLANES = ("outcome", "regions")

@@ -23,9 +23,7 @@ def cases_made_of():
 
 def merge_plan(study):
     """Data of a merge beyond its files, as JSON."""
-    grid = GRIDS[study]
-    plan = {"batches": sorted(grid.batches), "grid": grid.grid, "attrs": grid.attrs}
-    return json.dumps(plan, sort_keys=True)
+    return GRIDS[study].merge_plan.text
 
 
 @cache
