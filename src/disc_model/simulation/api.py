@@ -49,7 +49,7 @@ from disc_model.simulation.case import (
 )
 from disc_model.simulation.result import BIN_ROW, FOLDED, SAMPLE_ROW, Result
 from disc_model.simulation.states import Array, State
-from disc_model.sources import git_commit, source_hash, versions
+from disc_model.sources import PHYSICS, git_commit, source_hash, versions
 from disc_model.units import TOLERANCES, Count, Strict, content_key, in_si, limits_faults, number
 
 if TYPE_CHECKING:
@@ -677,7 +677,7 @@ def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
     if truncation:
         tree.attrs["truncation"] = truncation
     tree.attrs |= {
-        "source_hash": source_hash(__name__),
+        "source_hash": source_hash(*PHYSICS),
         "git_commit": git_commit(),
         "versions": json_attribute(versions()),
         "specification": spec.beside,

@@ -9,7 +9,7 @@ import pydantic
 from pydantic import Field
 
 from disc_model.data.variables import CHOICES, START
-from disc_model.parameters import Disc
+from disc_model.parameters import FORMAT, Disc
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import Value
 from disc_model.units import Strict, canonical_json, content_key
@@ -109,7 +109,7 @@ class Batch(Strict):
     starts: dict[str, Start] = Field({})
     discs: dict[str, Disc] = Field({})
     tile: TileSides | None = None
-    format: Literal[1] = 1
+    format: Literal[1] = FORMAT
 
     @pydantic.model_validator(mode="after")
     def _with_infinities(self) -> Self:

@@ -71,7 +71,7 @@ def _quantity(
     row, message = quantity.compute_point(Point(case, begin))
     coordinates = coordinates_of(quantity.COORDINATES, quantity)
     columns = variables_of(quantity.COLUMNS, coordinates, [row], {POINT: 1})
-    attrs = {"parameters": case.json_in_words, "message": message}
+    attrs = {"parameters": case.canonical_json, "message": message}
     dataset = xr.Dataset(columns, coordinates, attrs).isel({POINT: 0})
     for flag in [flag for flag, variable in dataset.items() if "flag_meanings" in variable.attrs]:
         words = flag_names(dataset[flag])
@@ -356,7 +356,7 @@ def sweep(
     sizes = {name: len(values) for name, values in call.axes.items()}
     variables, fixed = _stacked(rows, sizes)
     base = canonical_json({**case.stated, "disc": case.canonical.get("disc")})
-    attrs = {"function": call.title, "parameters": case.json_in_words, "base": base}
+    attrs = {"function": call.title, "parameters": case.canonical_json, "base": base}
     return xr.Dataset(variables, {**fixed, **coordinates}, attrs)
 
 

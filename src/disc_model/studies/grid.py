@@ -397,12 +397,6 @@ class GridStudy:
         return self.points_along([dim for dim in self.dims if not wanted.isdisjoint(dim.names)])
 
     @property
-    def sources(self) -> tuple[str, ...]:
-        """Modules by which its points are computed and that are loaded by name, as
-        `disc_model.sources` has them."""
-        return (f"studies.quantities.{self.quantity}",)
-
-    @property
     def grid(self) -> tuple[GridAxis, ...]:
         """Dimensions with their values, for `disc_model.studies.merge`."""
         return tuple(GridAxis(names=dim.names, values=dim.values) for dim in self.dims)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple,
 import numpy as np
 from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
-from disc_model.data.variables import Variable
+from disc_model.data.variables import CycleStatus, Variable
 from disc_model.errors import DiscModelError, Fault, Status
 from disc_model.parameters import DEFAULTS, RATIOS, Parameters, with_ratios
 from disc_model.simulation.case import Start
@@ -139,6 +139,7 @@ def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
 # ---- Quantities
 STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
 STATUS = Variable("1", "what became of the computation", STATUSES)
+CYCLE_STATUSES = (*(status.value for status in CycleStatus), "failed")
 
 Row = Mapping[str, Any]
 Made = Parameters | DiscModelError  # parameters, or the error in their place

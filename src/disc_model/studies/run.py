@@ -13,7 +13,7 @@ from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Var
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters, case_of
 from disc_model.simulation.case import Start
-from disc_model.sources import git_commit, source_hash, versions
+from disc_model.sources import BATCHES, git_commit, quantity_file, source_hash, versions
 from disc_model.studies.batch import Batch, TileSides
 from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, tried
 from disc_model.studies.registry import quantity_of
@@ -57,7 +57,7 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
     attrs = {
         "Conventions": CONVENTIONS,
         "specification": text,
-        "source_hash": source_hash(__name__, type(quantity).__module__),
+        "source_hash": source_hash(*BATCHES, quantity_file(batch.quantity)),
         "git_commit": git_commit(),
         "versions": json_attribute(versions()),
     }

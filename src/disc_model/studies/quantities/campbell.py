@@ -17,8 +17,15 @@ from pydantic import Field
 
 from disc_model.data.variables import EXCLUDED, CycleStatus, Variable, flag_names
 from disc_model.studies.costs import UnitCosts
-from disc_model.studies.quantities.floquet import CYCLE_STATUSES
-from disc_model.studies.quantity import Coordinate, Dataset, Point, Quantity, along, listed
+from disc_model.studies.quantity import (
+    CYCLE_STATUSES,
+    Coordinate,
+    Dataset,
+    Point,
+    Quantity,
+    along,
+    listed,
+)
 from disc_model.units import Count, CycleTolerance, Positive, Unit
 
 KINDS = ("none", "disc", "slider")
