@@ -51,7 +51,10 @@ rule compute_motions:
     params:
         batch=lambda wildcards: GRIDS[wildcards.study].motions[wildcards.key],
         code=lambda wildcards: code_of(
-            "compute_motions", *BATCHES, "studies/motions.py", own_file(wildcards.study)
+            "compute_motions",
+            *BATCHES,
+            "studies/motions.py",
+            own_file(wildcards.study),
         ),
     shell:
         "job compute_motions {output} <<< {params.batch:q} > {log} 2>&1"
