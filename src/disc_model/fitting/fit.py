@@ -325,7 +325,8 @@ class _Problem:
         for i, name in enumerate(self.names):
             step = np.zeros(len(values))
             step[i] = STEP * self.scale[i]
-            above, below = self.trial(values + step), self.trial(values - step)
+            above = self.trial(values + step)
+            below = self.trial(values - step)
             if np.isnan(above).any() and np.isnan(below).any():
                 rule = "cannot be varied here: the measured quantities are missing on both sides"
                 raise ParameterError(Fault.of(("vary", name), float(values[i]), rule))
@@ -422,7 +423,8 @@ def _result(problem: _Problem, search: Any, confidence: float) -> Fit:
     singular."""
     from scipy.stats import norm
 
-    names, scale = problem.names, problem.scale
+    names = problem.names
+    scale = problem.scale
     _, sizes, directions = np.linalg.svd(search.jac, full_matrices=False)
     if sizes[-1] <= SINGULAR * sizes[0]:
         weak = [name for name, part in zip(names, directions[-1], strict=True) if abs(part) > 0.1]

@@ -266,9 +266,11 @@ def perturb(
     modes = mode_arrays(p)
     give = modes.psi / modes.omega**2
     speed = state.f + f
-    phase, direction = state.phase, state.direction
+    phase = state.phase
+    direction = state.direction
     if f and phase != "separation":
-        phase, direction = ("slip" if speed else "stick"), int(np.sign(speed))
+        phase = "slip" if speed else "stick"
+        direction = int(np.sign(speed))
     return state.replace(
         a=state.a + u * give / (modes.psi @ give),
         alpha=state.alpha + u_velocity * modes.psi / (modes.psi @ modes.psi),
@@ -284,11 +286,13 @@ def transfer_state(p: Parameters, state: State) -> State:
     """A state of another case at time 0 of case `p`, with the same modal coordinates and distance
     of slider and disc, which is zero in rigid contact. A state with another number of modes is
     passed on, and `simulate` refuses it."""
-    psi, amplitudes = mode_arrays(p).psi, state.mode_amplitudes
+    psi = mode_arrays(p).psi
+    amplitudes = state.mode_amplitudes
     if len(psi) != len(state.a):
         return state.replace(time=0.0)
     more = np.zeros_like(psi) if amplitudes is None else psi - amplitudes
-    u, slope = state.u + float(more @ state.a), float(more @ (mode_arrays(p).diameters * state.b))
+    u = state.u + float(more @ state.a)
+    slope = float(more @ (mode_arrays(p).diameters * state.b))
     if state.phase != "separation" and p.contact_compliance == 0:
         u = float(psi @ state.a)
     velocity = state.u_velocity + float(more @ state.alpha) + state.f * slope
@@ -421,12 +425,16 @@ def engine_case(p: Parameters) -> EngineCase:
         normal=p.contact_force == "normal",
         friction_decay=p.friction_decay,
     )
-    pairs, single = np.flatnonzero(modes.diameters > 0), np.flatnonzero(modes.diameters == 0)
-    lane, width, n_modes = layout.pair_lanes(len(pairs)), len(model.shift), len(modes.diameters)
+    pairs = np.flatnonzero(modes.diameters > 0)
+    single = np.flatnonzero(modes.diameters == 0)
+    lane = layout.pair_lanes(len(pairs))
+    width = len(model.shift)
+    n_modes = len(modes.diameters)
     places = np.full((4, n_modes), -1)
     places[:, pairs] = lane + np.array([[0], [layout.HALF], [width], [width + layout.HALF]])
     places[0::2, single] = 2 * width + np.arange(len(single)) + np.array([[0], [len(single)]])
-    present, start = np.flatnonzero(places >= 0), layout.build_state(model)
+    present = np.flatnonzero(places >= 0)
+    start = layout.build_state(model)
     point = np.zeros((3, len(start.disc)))
     point[0, places[0]] = point[1, places[2]] = modes.psi
     point[2, places[1, pairs]] = (modes.diameters * modes.psi)[pairs]
@@ -447,7 +455,8 @@ def take_workspace(case: EngineCase, order: int) -> Workspace:
             build_series(case.model, order),
         )
     for state in workspace[:2]:
-        state.disc[:], state.x[:] = case.start.disc, case.start.x
+        state.disc[:] = case.start.disc
+        state.x[:] = case.start.x
     return workspace
 
 
@@ -485,7 +494,8 @@ def write_state(case: EngineCase, source: State, state: layout.EngineState, key:
     state.disc[case.places] = np.concatenate((source.a, source.b, source.alpha, source.beta))[
         case.present
     ]
-    x, row = state.x, case.point[0]
+    x = state.x
+    row = case.point[0]
     if (
         source.phase != "separation" and not case.model.compliant
     ):  # the disc determines u, which would be ignored
@@ -515,9 +525,11 @@ def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
     """Adapt a state at an event of another case: an event function that vanishes there need not
     vanish here. Returns whether the engine must determine if contact lasts: a slider that rests on
     the disc is put into contact."""
-    x, sizes = state.x, np.abs(case.point).dot(np.abs(state.disc))
+    x = state.x
+    sizes = np.abs(case.point).dot(np.abs(state.disc))
     w, velocity, slope = case.point.dot(state.disc)
-    f, begins = x[layout.F], bool(x[layout.KNOWN_FORCE])
+    f = x[layout.F]
+    begins = bool(x[layout.KNOWN_FORCE])
     opening = x[layout.U_VELOCITY] - velocity - f * slope
     touches = abs(x[layout.U] - w) <= SAME_HEIGHT * sizes[0]
     rests = abs(opening) <= SAME_HEIGHT * (sizes[1] + abs(f) * sizes[2])
@@ -535,7 +547,8 @@ def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
 
 def _check(state: State, case: EngineCase) -> None:
     """Raise `ParameterError` if a state cannot be the initial one of a case."""
-    n_modes, path = len(case.amplitudes), "initial_state."
+    n_modes = len(case.amplitudes)
+    path = "initial_state."
     rule = f"must be {n_modes} finite numbers, one per row of plate_modes"
     known = isinstance(state.phase, str) and state.phase in PHASES
     signed = is_number(state.direction) and (state.direction in (-1, 1) or state.phase != "slip")
@@ -577,7 +590,8 @@ def angle_rule(drive_angle: object, path: str) -> tuple[bool, str, object, str]:
 def amplitude_rule(state: State, amplitudes: Array, path: str) -> tuple[bool, str, object, str]:
     """The rule, for `require`, that a state's `mode_amplitudes` are those of a case, shape
     (n_modes,)."""
-    stated, same = state.mode_amplitudes, True
+    stated = state.mode_amplitudes
+    same = True
     if stated is not None and stated is not amplitudes:
         # modes from two processors differ by at most 1e-13 (measured)
         within = 1e-9 * np.max(np.abs(amplitudes), initial=0.0)
