@@ -71,9 +71,10 @@ def test_a_history_has_a_panel_for_each_variable() -> None:
     np.testing.assert_allclose(
         top.lines[0].get_ydata(), 1e3 * simulated(True)["spectrum_c/w_point"].values
     )  # mm
-    assert top.get_ylabel() == r"Disc at $r_0$, $\theta$ = 0.5 rad (mm)", (
-        "at the angle that was recorded"
-    )
+    label = " ".join(top.get_ylabel().split())
+    assert label == r"Disc at $r_0$, $\theta$ = 0.5 rad (mm)", "at the angle that was recorded"
+    assert top.get_ylabel().count("\n") == 1, "no longer than the axis"
+
     assert bottom.get_ylabel() == "Angle ψ (rad)"
     assert "first separation 54.42 s" in said_in(figure)
     ranges = asked("history", window="history", variables=["P", "psi"], until=30)

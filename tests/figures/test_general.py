@@ -81,12 +81,12 @@ def test_scales_of_colours_fit_what_is_shown(study: xr.Dataset) -> None:
     one = mesh(mapped(study, "period")).norm
     assert (one.vmin, one.vmax) == pytest.approx((1.0, 1.11))
     assert isinstance(mesh(mapped(study, "period", log=True)).norm, LogNorm)
-    figure = mapped(study, "status")
-    assert isinstance(mesh(figure).norm, BoundaryNorm)
-    assert [text.get_text() for text in figure.axes[-1].get_yticklabels()] == [
-        "ok",
-        "no cycle found",
-    ]
+    assert labels(mapped(study, "status")) == ["ok", "no cycle found"]
+    study["releases"] = study["status"] + np.int64(1)
+    study["releases"].attrs = {"long_name": "number of releases", "units": "1"}
+    counts = mapped(study, "releases")
+    assert isinstance(mesh(counts).norm, BoundaryNorm)
+    assert [text.get_text() for text in counts.axes[-1].get_yticklabels()] == ["0", "1", "2"]
 
 
 def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """What results draw of themselves."""
 
 import functools
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from matplotlib import pyplot
 from PIL import Image
 
 import disc_model as dm
+from disc_model.figures.motion import draw_spectrum
 from tests.figures.reading import labels
 
 P = dm.Parameters(N=385, Omega=15.1)
@@ -53,6 +55,10 @@ def test_pictures_are_drawn_on_the_axes_that_are_given() -> None:
     figure, axes = pyplot.subplots(2, 2)
     assert run().plot_phase_portrait(ax=axes[0, 0]) is axes[0, 0]
     assert labels(axes[0, 0]) == ["stick", "slip", "separation"]
+    axes[0, 0].set_title("Mine")
+    run().plot_phase_portrait(ax=axes[0, 0])
+    legend = axes[0, 0].get_legend().get_window_extent()
+    assert axes[0, 0].get_window_extent().containsy(legend.y1), "the place of a title stays free"
     run().plot_spectrum(ax=axes[0, 1], highest=300)
     assert axes[0, 1].get_xlim()[1] == pytest.approx(300, abs=0.2)
     run().plot_poincare(ax=axes[1])
@@ -73,6 +79,29 @@ def test_pictures_are_drawn_on_the_axes_that_are_given() -> None:
         dm.ParameterError, match=r"ax=.*: must be 6 axes of matplotlib, one for each panel"
     ):
         run().plot(ax=axes[0])
+
+
+def test_names_of_lines_stay_in_a_narrow_spectrum_and_apart() -> None:
+    """At 84 mm names overlapped and left the axes, and the range ended below the main line."""
+    time = np.arange(0, 4, 1 / 8000)
+    signal = sum(
+        size * np.sin(2 * np.pi * frequency * time)
+        for frequency, size in ((70, 0.3), (1900, 1.0), (1920, 0.9), (1940, 0.8), (3000, 1e-4))
+    )
+    samples = xr.Dataset({"psi": ("time", signal)}, {"time": time})
+    figure, ax = pyplot.subplots(figsize=(84 / 25.4, 2.2), layout="constrained")
+    draw_spectrum(ax, samples, "psi")
+    figure.draw_without_rendering()
+    assert 1940 < ax.get_xlim()[1] < 3000, "to where the energy is"
+    frame, boxes = ax.get_window_extent(), [text.get_window_extent() for text in ax.texts]
+    assert {"70.0 Hz", "1900.0 Hz"} <= {text.get_text() for text in ax.texts}
+    for box in boxes:
+        assert frame.x0 <= box.x0
+        assert box.x1 <= frame.x1
+        assert box.y1 <= frame.y1
+    assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
+    assert ax.get_title(loc="left") == ""
+    assert ax.get_ylabel() == "Angle ψ, amplitude (rad)"
 
 
 def test_a_film_has_its_frames(tmp_path: Path) -> None:
@@ -123,7 +152,8 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
     outcomes = plane.assign(
         outcome=(("Omega", "N"), [["quiet", "quiet"], ["separation", "quiet"], ["quiet", "quiet"]])
     )
-    assert labels(dm.plot_sweep(outcomes, "outcome").figure) == ["quiet", "unresolved"]
+    named = labels(dm.plot_sweep(outcomes, "outcome").figure)
+    assert named == ["quiet", "separation", "unresolved"]
     with pytest.raises(
         dm.ParameterError, match="variable='perod': must be one over the grid, did you mean period"
     ):
@@ -140,6 +170,32 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
         counted, {"branch": [0, 1], "branch_point": [0, 1, 2], "sweep_value": [10.0, 11.0]}
     )
     np.testing.assert_allclose(dm.plot_sweep(branches).lines[0].get_ydata(), [1, 2])
+
+
+def test_a_sweep_of_sliding_is_not_called_a_cycle() -> None:
+    """The growth of steady sliding was that of the stick-slip cycle, and its dots a stable cycle."""
+    axes = {"Omega": [10.0, 20.0, 40.0], "N": [50.0, 300.0]}
+    sliding = dm.sweep(dm.steady_sliding, P.replace(c_p=0.5), **axes)
+    assert (sliding["growth_rate"] < 0).sel(N=50).all()
+    assert (sliding["growth_rate"] > 0).sel(N=300).all()
+    figure = dm.plot_sweep(sliding).figure
+    assert " ".join(figure.axes[1].get_ylabel().split()) == "Growth rate of steady sliding (1/s)"
+    assert "stable" in labels(figure)
+    assert "stable cycle" not in labels(figure)
+    [line] = dm.plot_sweep(sliding.sel(N=300)).lines[:1]
+    assert " ".join(line.axes.get_ylabel().split()) == "Growth rate of steady sliding (1/s)"
+
+
+def test_sliding_that_grows_is_not_painted_as_steady() -> None:
+    case = P.replace(friction_offset="surface", normalization="orthonormal")
+    plane = dm.sweep(dm.floquet, case, Omega=[10.0, 60.0], N=[300.0, 2000.0])
+    plane["status"] = plane["status"].where(plane["Omega"] < 60, "no_stick_slip")
+    plane["growth_rate"] = plane["growth_rate"].where(plane["Omega"] < 60)
+    plane["sliding_growth_rate"].loc[{"Omega": 60.0}] = [-0.1, 1.2]
+    assert {"steady sliding", "unstable steady sliding"} <= set(labels(dm.plot_sweep(plane).figure))
+    assert "slides without sticking" in labels(
+        dm.plot_sweep(plane.drop_vars("sliding_growth_rate")).figure
+    )
 
 
 def test_shares_of_starts_are_bars_of_the_outcomes_that_occur() -> None:

@@ -141,6 +141,13 @@ def lines(
     ]
 
 
+def highest_line(time: Array, values: Array, floor: float) -> float:
+    """Frequency of the highest line, Hz, whose amplitude is at least `floor` times that of the
+    strongest; half the sampling rate if there is no line."""
+    found = lines(time, values, floor=floor)
+    return found[-1].frequency if found else rate_of(time, values) / 2
+
+
 def strongest(time: Array, values: Array, near: float, within: float) -> Line:
     """Find the strongest line within `within` Hz of the frequency `near`; raises ValueError if
     there is none."""

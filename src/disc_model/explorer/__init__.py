@@ -21,18 +21,8 @@ from numpy.typing import NDArray
 from PIL import Image, ImageOps
 
 from disc_model.data.variables import attributes
-from disc_model.figures.drawing import (
-    BLACK,
-    BLUE,
-    BROWN,
-    GREEN,
-    GREY,
-    ORANGE,
-    PHASE_COLOURS,
-    PURPLE,
-    SKY,
-    VERMILION,
-)
+from disc_model.figures.classes import looks_of
+from disc_model.figures.drawing import PHASE_COLOURS
 from disc_model.parameters import RATIOS, Parameters
 
 # ---- Contents of studies: numbers packed, words as they are
@@ -157,13 +147,16 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
 
 
 def _variable(variable: xr.DataArray) -> dict[str, Any]:
-    """Numbers as 32-bit floats of `BITS`; flags as bytes with words."""
+    """Numbers as 32-bit floats of `BITS`; flags as bytes with words and their looks, those of the
+    figures."""
     attrs, values = variable.attrs, variable.values
     described = _named(str(variable.name), attrs) | {"dims": list(variable.dims)}
     if "flag_meanings" in attrs:
         words = str(attrs["flag_meanings"]).split()
         codes = np.atleast_1d(attrs.get("flag_values", range(len(words))))
-        return described | {"flags": words, "data": packed(np.searchsorted(codes, values), "u1")}
+        looks = [look._asdict() | {"ink": look.ink} for look in looks_of(words).values()]
+        data = packed(np.searchsorted(codes, values), "u1")
+        return described | {"flags": words, "looks": looks, "data": data}
     return described | {"data": packed(shortened(values), "<f4")}
 
 
@@ -181,25 +174,6 @@ SCRIPTS = (
     "motion",
     "start",
 )  # in the order of their dependence
-PALETTE = (
-    BLUE,
-    ORANGE,
-    SKY,
-    GREEN,
-    PURPLE,
-    BROWN,
-    GREY,
-    VERMILION,
-)  # of flags whose words have no colour of their own
-WORDS = {
-    "ok": SKY,
-    "quiet": BLUE,
-    "stable": BLUE,
-    "growing": ORANGE,
-    "unstable": ORANGE,
-    "failed": BLACK,
-}
-WORDS = PHASE_COLOURS | WORDS
 
 
 class Picture(NamedTuple):
@@ -218,8 +192,7 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
             kind: [to_hex(colour) for colour in colours(range(256))]
             for kind, colours in maps.items()
         },
-        "palette": PALETTE,
-        "words": WORDS,
+        "phases": PHASE_COLOURS,
         "parameters": [*Parameters.model_fields, *RATIOS],
     }
     texts = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)

@@ -19,15 +19,8 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data import dataset, variables
-from disc_model.data.variables import (
-    EXCLUDED,
-    SHOWN,
-    WITHOUT_CYCLE,
-    axis_of,
-    flag_names,
-    stated_in,
-    typeset,
-)
+from disc_model.data.variables import EXCLUDED, SHOWN, axis_of, flag_names, stated_in, typeset
+from disc_model.figures.classes import name_of
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -52,6 +45,10 @@ mpl, cm = _Deferred("matplotlib"), _Deferred("cmcrameri.cm")
 logging.getLogger("fontTools").setLevel(
     logging.WARNING
 )  # its reports on fonts would fill the logs of figures
+
+WITHOUT_CYCLE = {"no_cycle", "separates", "no_stick_slip", "steady_sliding"}
+WITHOUT_CYCLE |= {"unstable_sliding", "at_rest"}
+"""Statuses of points that were computed, and have no stick-slip cycle."""
 
 COLUMN = 84 / 25.4  # width of one column, inch
 PAGE = 174 / 25.4  # width of both columns, inch
@@ -216,7 +213,7 @@ def as_numbers(variable: xr.DataArray) -> tuple[list[str], xr.DataArray]:
             distinct.tolist(),
             variable.copy(data=places.reshape(variable.shape).astype(float)),
         )
-    return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words], variable
+    return [name_of(word) for word in words], variable
 
 
 def picked(study: xr.Dataset, values: Mapping[str, float | str]) -> xr.Dataset:
@@ -230,15 +227,22 @@ def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
     """Points where a variable has no value, by the word of their status; without those that a rule
     excludes."""
     words, gone = statuses(study), variable.isnull()
-    names = {str(word): WITHOUT_CYCLE.get(str(word), "failed") for word in np.unique(words)} | {
-        "ok": "no value"
-    }
-    names.pop(EXCLUDED, None)
-    each = {
-        name: gone & words.isin([word for word in names if names[word] == name])
-        for name in names.values()
-    }
-    return {name: mask for name, mask in each.items() if mask.any()}
+    masks: dict[str, xr.DataArray] = {}
+    for word in map(str, np.unique(words)):
+        here = gone & (words == word)
+        if word == EXCLUDED or not here.any():
+            continue
+        name = name_of(class_of_gap(word))
+        masks[name] = masks[name] | here if name in masks else here
+    return masks
+
+
+def class_of_gap(status: str) -> str:
+    """The class of a point without a value: its status, "failed" for a failure of the computation,
+    and "no_value" for a point that was computed."""
+    if status == "ok":
+        return "no_value"
+    return status if status in (*WITHOUT_CYCLE, EXCLUDED) else "failed"
 
 
 def what_case(values: Mapping[str, Any]) -> str:
@@ -445,14 +449,15 @@ def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **
 
 def say(
     ax: Axes, text: str, point: tuple[float, float], offset: tuple[float, float], **look: Any
-) -> None:
-    """Write a few words beside a point, on the side to which an offset in points leads."""
+) -> Any:
+    """Write a few words beside a point, on the side to which an offset in points leads; returns the
+    text."""
     across, up = np.sign(offset)
     ha, va = (
         {-1: "right", 0: "center", 1: "left"}[across],
         {-1: "top", 0: "center", 1: "bottom"}[up],
     )
-    ax.annotate(text, point, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
+    return ax.annotate(text, point, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
 
 
 def say_beside(ax: Axes, height: float, text: str, gap: float = 2, **look: Any) -> None:
@@ -472,13 +477,6 @@ def letters(axes: Sequence[Axes] | np.ndarray, titles: Iterable[str] = (), **loo
         ax.set_title(f"({text}) {title}".strip() if len(axes) > 1 else title, loc="left", **look)
 
 
-def legend_above(ax: Axes, **look: Any) -> Any:
-    """Draw a legend in one row above the right end of the axes, where it covers nothing."""
-    return ax.legend(
-        loc="lower right", bbox_to_anchor=(1, 1), **{"borderaxespad": 0.2, "ncols": 4, **look}
-    )
-
-
 def normalizations(study: xr.Dataset) -> list[str]:
     """Normalizations for which a grid study has values."""
     if "normalization" in study.coords:
@@ -493,12 +491,21 @@ def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
 
 
 def statuses(study: xr.Dataset) -> xr.DataArray:
-    """The status of each point of a grid study, as a word; "ok" without one."""
-    return (
-        study["status"].copy(data=flag_names(study["status"]))
-        if "status" in study
-        else xr.DataArray("ok")
-    )
+    """The status of each point of a grid study, as a word; "ok" without one.
+
+    A motion that never sticks again is "steady_sliding" or "unstable_sliding" where the study knows
+    the growth rate of steady sliding.
+    """
+    if "status" not in study:
+        return xr.DataArray("ok")
+    words = study["status"].copy(data=flag_names(study["status"]).astype(object))
+    if "sliding_growth_rate" in study:
+        rate = study["sliding_growth_rate"]
+        largest = rate.max([dim for dim in rate.dims if dim not in words.dims])
+        slides = words == "no_stick_slip"
+        words = words.where(~(slides & (largest < 0)), "steady_sliding")
+        words = words.where(~(slides & (largest >= 0)), "unstable_sliding")
+    return words.astype(str)
 
 
 def failed(study: xr.Dataset) -> xr.DataArray:

@@ -10,9 +10,11 @@ import numpy as np
 import xarray as xr
 from pydantic import Field
 
-from disc_model.data.variables import EXCLUDED, stated_in
+from disc_model.data.variables import EXCLUDED, flag_names, stated_in
 from disc_model.errors import Fault, as_text, suggestion
 from disc_model.figures import drawing
+from disc_model.figures.cells import class_cells, edges_of, entries, looks_in, paint, scale_of
+from disc_model.figures.classes import LOOKS, UNRESOLVED
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -25,32 +27,11 @@ from disc_model.figures.drawing import (
     mpl,
     panels,
 )
+from disc_model.figures.growth import growth_panels, is_growth
 from disc_model.figures.kind import NORM, Plot, Values
-from disc_model.figures.maps import (
-    CELL_LOOKS,
-    CYCLE_LOOKS,
-    edges_of,
-    growth_panels,
-    outcome_cells,
-    patches,
-    scale_of,
-)
+from disc_model.figures.legends import figure_legend
 from disc_model.units import UNITS, Finite, Unit
 
-COLOURS = (
-    drawing.BLUE,
-    drawing.ORANGE,
-    drawing.GREEN,
-    drawing.VERMILION,
-    drawing.SKY,
-    drawing.PURPLE,
-    GREY,
-)
-HATCH: dict[str, Any] = {
-    "facecolor": "white",
-    "hatch": "//////",
-    "edgecolor": GREY,
-}  # look of missing values
 LINEAR = 0.1  # growth rate up to which its scale is linear, 1/s; a greater step breaks the line, or finds another cycle
 FEW = 12  # counts below which each has a colour of its own
 MARKS = "os^Dv<>"  # marks of the lines; they are open, so that lines on top of each other show
@@ -173,51 +154,75 @@ def draw_maps(
 ) -> list[Artist]:
     """Draw a variable in colour, a panel for each value of a third dimension; returns entries of a
     legend."""
-    ruled = "status" in study and EXCLUDED in study["status"].attrs.get("flag_meanings", "")
-    left_out = drawing.statuses(study) == EXCLUDED
-    array = study[variable].where(~left_out) if ruled else study[variable]
+    array = as_classes(study[variable])
     by = remaining(array, (x, y))
-    handles: list[Artist] = []
-    if variable == "growth_rate" and not log:
-        grids = [plane.transpose(y, x, ...) for _, plane in drawing.slices(study, by)]
-        handles = patches(CYCLE_LOOKS, growth_panels(figure, axes, grids))
-    elif variable == "outcome":
-        shown = [panel.transpose(y, x) for _, panel in drawing.slices(array, by)]
-        used = [outcome_cells(ax, panel) for ax, panel in zip(axes, shown, strict=True)]
-        handles = patches(CELL_LOOKS, set().union(*used))
+    planes = [plane.transpose(y, x, ...) for _, plane in drawing.slices(study, by)]
+    if is_growth(variable) and not log:
+        handles = growth_panels(figure, axes, planes, variable)
+    elif array.dtype.kind in "UO" or "flag_meanings" in array.attrs:
+        panels = [plane.transpose(y, x) for _, plane in drawing.slices(array, by)]
+        handles = class_panels(axes, panels, [drawing.statuses(plane) for plane in planes])
     else:
-        words, array = drawing.as_numbers(array)
-        colours = _colours(array, words, log)
-        if array.dtype.kind == "i" and not words and array.max() < FEW:  # a count
-            words = [str(count) for count in range(int(array.max()) + 1)]
-            colours = in_steps([cm.batlow(i / len(words)) for i in range(len(words))])
-        for ax, (_, panel) in zip(axes, drawing.slices(array, by), strict=True):
-            ax.patch.set(linewidth=0, **HATCH)
-            mesh = _cells(ax, panel.transpose(y, x), **colours)
-        if ruled:
-            for ax, (_, panel) in zip(axes, drawing.slices(left_out, by), strict=False):
-                _cells(
-                    ax,
-                    panel.where(panel).transpose(y, x),
-                    cmap=mpl.colors.ListedColormap(["white"]),
-                )
-            handles += patches(CYCLE_LOOKS, {EXCLUDED})
-        bar = figure.colorbar(
-            mesh, ax=list(axes), pad=0.01, aspect=30, label=drawing.label_of(array)[0]
-        )
-        if log and colours["norm"].vmax < 10 * colours["norm"].vmin:
-            bar.ax.yaxis.set_minor_formatter("{x:g}")
-        if words:
-            bar.set_ticks(range(len(words)), labels=words)
-            bar.minorticks_off()
-        elif gaps := drawing.gaps(study, array):
-            handles.append(mpl.patches.Patch(label=", ".join(gaps), **HATCH))
+        handles = number_panels(figure, axes, planes, variable, log)
     axes[0].set(
         xscale=scale(x, study[x].values), yscale=scale(y, study[y].values)
     )  # axes are shared
     for ax in axes:
         ax.set(xlabel=drawing.label_of(array[x])[0], ylabel=drawing.label_of(array[y])[0])
     return handles
+
+
+def as_classes(array: xr.DataArray) -> xr.DataArray:
+    """The variable, with the words "no" and "yes" for False and True."""
+    if array.dtype.kind != "b":
+        return array
+    return array.copy(data=np.where(array.values, "yes", "no"))
+
+
+def class_panels(
+    axes: Sequence[Axes], panels: Sequence[xr.DataArray], statuses: Sequence[xr.DataArray]
+) -> list[Artist]:
+    """Draw a flag in the colours and patterns of its classes, but what a study's rule leaves out;
+    returns entries of a legend."""
+    looks = {**looks_in(panels[0]), EXCLUDED: LOOKS[EXCLUDED]}
+    used: set[str] = set()
+    for ax, panel, status in zip(axes, panels, statuses, strict=True):
+        words = panel.copy(data=flag_names(panel).astype(object))
+        shown = words.where(status != EXCLUDED, EXCLUDED).astype(str).transpose(*panel.dims)
+        used |= class_cells(ax, shown, looks)
+    return entries(used, {**looks, UNRESOLVED.label: UNRESOLVED})
+
+
+def number_panels(
+    figure: FigureBase, axes: Sequence[Axes], planes: Sequence[xr.Dataset], variable: str, log: bool
+) -> list[Artist]:
+    """Draw numbers on one scale of colours, a panel for each plane, and classes where there is
+    none; returns entries of a legend."""
+    arrays = [plane[variable] for plane in planes]
+    first = arrays[0]
+    counts = first.dtype.kind == "i" and max(int(array.max()) for array in arrays) < FEW
+    if counts:
+        words = [str(count) for count in range(max(int(array.max()) for array in arrays) + 1)]
+        colours = in_steps([cm.batlow(i / len(words)) for i in range(len(words))])
+    else:
+        colours = _colours(np.concatenate([array.values.ravel() for array in arrays]), first, log)
+    used: set[str] = set()
+    for ax, plane, array in zip(axes, planes, arrays, strict=True):
+        mesh = _cells(ax, array, **colours)
+        status = drawing.statuses(plane).broadcast_like(array).transpose(*array.dims)
+        gaps = array.isnull() | (status == EXCLUDED)
+        words_of_gaps = np.vectorize(drawing.class_of_gap, otypes=[str])(status.values)
+        missing = np.where(gaps.values, words_of_gaps, "")
+        paint(ax, edges_of(array), missing, LOOKS)
+        used |= set(missing.flat)
+    bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30)
+    bar.set_label(fill(drawing.label_of(first)[0], 40))
+    if log and colours["norm"].vmax < 10 * colours["norm"].vmin:
+        bar.ax.yaxis.set_minor_formatter("{x:g}")
+    if counts:
+        bar.set_ticks(range(len(words)), labels=words)
+        bar.minorticks_off()
+    return entries(used)
 
 
 class HeatMap(General):
@@ -246,8 +251,7 @@ class HeatMap(General):
         for ax in axes[-columns:]:  # below some of them there is none
             ax.set_xlabel(axes[-1].get_xlabel())
             ax.tick_params(labelbottom=True)
-        if handles:
-            figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))
+        figure_legend(figure, handles)
         return figure
 
 
@@ -256,14 +260,14 @@ def _cells(ax: Axes, plane: xr.DataArray, **colours: Any) -> Any:
     return ax.pcolormesh(*edges_of(plane), plane.values.astype(float), rasterized=True, **colours)
 
 
-def _colours(array: xr.DataArray, words: Sequence[str], log: bool) -> dict[str, Any]:
-    if words:
-        return in_steps([COLOURS[i % len(COLOURS)] for i in range(len(words))])
-    values = array.values[np.isfinite(array.values)]
+def _colours(numbers: np.ndarray, array: xr.DataArray, log: bool) -> dict[str, Any]:
+    """Colour map and scale of numbers, for matplotlib: logarithmic, around zero, or between the
+    least and the greatest."""
+    values = numbers[np.isfinite(numbers)]
     if log:
         above = values[values > 0]
         low, high = (above.min(), above.max()) if above.size else (1.0, 10.0)
-        growth = array.name == "growth_rate"  # which has the red half of the scale of maps
+        growth = is_growth(array.name)  # which has the red half of the scale of maps
         cmap = mpl.colors.ListedColormap(cm.vik(np.linspace(0.55, 1, 256))) if growth else cm.batlow
         return {"cmap": cmap, "norm": mpl.colors.LogNorm(low, high if high > low else 10 * low)}
     low, high = (float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
@@ -303,7 +307,7 @@ def draw_lines(
     by, (label, along) = remaining(array, [x]), drawing.along(array[x])
     lines = drawing.slices(array, by)
     colours = [cm.batlow(i / len(lines)) for i in range(len(lines))] if by else [BLACK]
-    rates = variable == "growth_rate" and not log
+    rates = is_growth(variable) and not log
     look: dict[str, Any] = {
         "markersize": 3,
         "markerfacecolor": "none",
@@ -400,5 +404,5 @@ class CurvePlot(General):
                 # longer names do not fit beside the panel
                 beside = len(labels) > 4 and max(map(len, labels)) < 25 and not self.panels
                 corner: Any = "outside right upper" if beside else "outside lower right"
-                figure.legend(handles, labels, ncols=1 if self.by else 2, loc=corner)
+                figure_legend(figure, handles, columns=1 if self.by else 2, loc=corner)
         return figure

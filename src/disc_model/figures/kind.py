@@ -21,6 +21,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import SERIES, SHOWN
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures import drawing
+from disc_model.figures.labels import break_labels
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Window
 from disc_model.units import Strict, in_si
@@ -124,6 +125,7 @@ class Kind(Strict):
             with drawing.styled():
                 figure, title, values = self.drawn_with_head(inputs)
                 drawing.restate_axes(figure)
+                break_labels(figure)
                 text = drawing.head_text(figure.get_figwidth(), self.title or title, values)
                 if text and not self.caption:
                     self.place_title(figure, text)

@@ -3,7 +3,7 @@ regions of outcomes; and charts over speed and preload: onset and end of separat
 ramps."""
 
 import math
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
 from itertools import chain, pairwise
 from typing import Any, ClassVar, Literal, NamedTuple
@@ -14,16 +14,11 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from disc_model.analysis.spectra import Resonance
-from disc_model.data.variables import (
-    EXCLUDED,
-    WITHOUT_CYCLE,
-    axis_of,
-    flag_names,
-    stated_in,
-    typeset,
-)
+from disc_model.data.variables import axis_of, flag_names, stated_in, typeset
 from disc_model.errors import Fault
 from disc_model.figures import drawing
+from disc_model.figures.cells import class_cells, edges_of, entries, paint, scale_of, unresolved
+from disc_model.figures.classes import LOOKS, UNRESOLVED
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -37,215 +32,13 @@ from disc_model.figures.drawing import (
     mpl,
     panels,
 )
+from disc_model.figures.growth import growth_panels, stability_of
 from disc_model.figures.kind import CURVES, Plot, Role, Roles, Values
+from disc_model.figures.legends import figure_legend
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Strict, Units
 
 Array = NDArray[np.float64]
-Names = NDArray[np.str_]
-Edges = tuple[Array, Array]
-
-# ---- Cells in flat colours, and a hatch for single ones
-
-
-class Look(NamedTuple):
-    """Appearance of cells: fill or hatch, and label."""
-
-    label: str
-    face: str
-    hatch: str = ""
-
-
-UNRESOLVED = Look(
-    "unresolved", "none", 8 * "/"
-)  # two lines of its hatch fit into a fiftieth of a panel
-OUTCOME_LOOKS = {  # in all maps and charts, distinct in grey print by darkness or a hatch
-    "quiet": Look("quiet", "#f3f6f8"),
-    "steady_sliding": Look("steady sliding", "#e3d5ee", 3 * "|"),
-    "at_rest": Look("permanent stick", "#c4e3cd", 3 * "-"),
-    "growing": Look("growing, in contact", "#c2ccd6"),
-    "other_cycle": Look("another cycle in contact", "#86a0b8"),
-    "separation": Look("separation", "#bb5200"),
-    "undecided": Look("undecided", "#43372a"),
-    "failed": Look("failed", "#222222"),
-}
-CYCLE_LOOKS = {  # where no cycle is followed; decay, whose sign a grey print does not show; rates of another cycle
-    "steady_sliding": OUTCOME_LOOKS["steady_sliding"],
-    "at_rest": OUTCOME_LOOKS["at_rest"],
-    "separates": Look(WITHOUT_CYCLE["separates"], "#f3c9ae", 6 * "\\"),
-    "nearby_only": Look("cycle nearby, not followed", "#f2e6a2", 5 * "-"),
-    "no_cycle": Look(WITHOUT_CYCLE["no_cycle"], "#b5b5b5", 4 * "x"),
-    "stable": Look("stable cycle", "none", 3 * "."),
-    "alone": UNRESOLVED,
-    "failed": OUTCOME_LOOKS["failed"],
-    EXCLUDED: Look("left out by the study's rule", "white"),
-}
-CELL_LOOKS = OUTCOME_LOOKS | {"fine": UNRESOLVED}
-GREYNESS = np.array([0.299, 0.587, 0.114])  # weights of red, green and blue in grey print
-
-
-def unresolved(words: Names) -> NDArray[np.bool_]:
-    """Cells between two that have one other word: single ones, and strips that are one cell
-    wide."""
-    around = np.pad(words, 1)
-    pairs = ((around[:-2, 1:-1], around[2:, 1:-1]), (around[1:-1, :-2], around[1:-1, 2:]))
-    return np.asarray(
-        np.any([(word == other) & (word != words) & (word != "") for word, other in pairs], axis=0)
-    )
-
-
-def scale_of(name: str, values: Array) -> str:
-    """Scale of an axis: logarithmic for values over decades, most at the lower end; with a linear
-    start from 0."""
-    positive = values[values > 0]
-    decades = name not in ("N", "Omega") and positive.size > 1 and positive[-1] / positive[0] > 15
-    if not decades or np.median(values) - values[0] > 0.25 * (values[-1] - values[0]):
-        return "linear"
-    return "log" if values[0] > 0 else "symlog"
-
-
-def edges_of(plane: xr.DataArray) -> Edges:
-    """Edges of the cells around the points, halfway between neighbours, in the units of the axes;
-    across, then up."""
-    sides = []
-    for name in map(str, plane.dims):
-        values = plane[name].values * drawing.label_of(plane[name])[1]
-        log = scale_of(name, values) == "log"
-        sides.append(np.exp(drawing.edges(np.log(values))) if log else drawing.edges(values))
-    return sides[1], sides[0]
-
-
-def fill(
-    ax: Axes, sides: Edges, words: Names, looks: Mapping[str, Look], below: Array | None = None
-) -> None:
-    """Fill and hatch cells in the look of their word, if it has one, over colours `below`, shape
-    (rows, columns, 4)."""
-    colours = np.zeros((*words.shape, 4))
-    for word, look in looks.items():
-        colours[words == word] = mpl.colors.to_rgba(look.face)
-    if colours.any():
-        ax.pcolormesh(*sides, colours, rasterized=True)
-    light, (x, y) = np.ones(words.shape), sides  # lightness of the page
-    for layer in (colours if below is None else below, colours):
-        light = np.where(layer[..., 3] > 0, layer[..., :3] @ GREYNESS, light)
-    for word, look in looks.items():
-        for ink, ground in ((BLACK, light >= 0.5), ("white", light < 0.5)):
-            row, column = np.nonzero(ground & (words == word))
-            if (
-                look.hatch and row.size
-            ):  # all as one path, since paths of each cell take a hundred times as long
-                corners = [
-                    (x[column + across], y[row + up])
-                    for across, up in ((0, 0), (1, 0), (1, 1), (0, 1))
-                ]
-                polygons = np.moveaxis(np.array(corners), (0, 1, 2), (1, 2, 0))
-                outline = mpl.path.Path.make_compound_path_from_polys(polygons)
-                ax.add_patch(
-                    mpl.patches.PathPatch(
-                        outline, fill=False, hatch=look.hatch, ec=ink, lw=0, zorder=1.1
-                    )
-                )
-
-
-def outcome_cells(ax: Axes, outcome: xr.DataArray) -> set[str]:
-    """Fill cells in the look of their outcome, hatched where unresolved; returns the used keys of
-    `CELL_LOOKS`."""
-    words = flag_names(outcome)
-    words = np.where(unresolved(words), "fine", words)
-    fill(ax, edges_of(outcome), words, CELL_LOOKS)
-    return set(words.flat)
-
-
-def patches(looks: Mapping[str, Look], words: Container[str]) -> list[Artist]:
-    """Legend entries of the looks that are among words."""
-    used = [
-        (look, {"ec": BLACK if look.hatch else GREY, "lw": 0.4})
-        for name, look in looks.items()
-        if name in words
-    ]
-    return [mpl.patches.Patch(fc=x.face, hatch=x.hatch, label=x.label, **edge) for x, edge in used]
-
-
-# ---- The one scale of colours for growth rates of the stick-slip cycle
-GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates are larger
-
-
-def growth_norm(rates: Array) -> drawing.Normalize:
-    """A colour scale that is nearly linear near 0 and nearly logarithmic beyond a thirtieth of its
-    end."""
-    sizes = np.abs(rates[np.isfinite(rates)])
-    greatest = float(sizes.max()) if sizes.size and np.median(sizes) > GREATEST else GREATEST
-    return mpl.colors.AsinhNorm(linear_width=1 / 30 * greatest, vmin=-greatest, vmax=greatest)
-
-
-def growth_panels(
-    figure: drawing.FigureBase, axes: Sequence[Axes], planes: Sequence[xr.Dataset]
-) -> set[str]:
-    """Draw `growth_rate` (1/s) of `regions` or `floquet` on one scale of colours, dotted where it
-    is negative, hatched where isolated, or the status where no cycle is followed; returns the used
-    keys of `CYCLE_LOOKS`, and ""."""
-    norm = growth_norm(np.concatenate([plane["growth_rate"].values.ravel() for plane in planes]))
-    used: set[str] = set()
-    for ax, data in zip(axes, planes, strict=True):
-        sides, without = edges_of(data["growth_rate"]), cycles_of(data)
-        rates = np.ma.masked_invalid(data["growth_rate"].values)
-        mesh = ax.pcolormesh(*sides, rates, cmap=drawing.cm.vik, norm=norm, rasterized=True)
-        fill(ax, sides, without, CYCLE_LOOKS)
-        hatched = np.where(
-            isolated(data), "alone", np.where((rates < 0).filled(False), "stable", "")
-        )
-        fill(ax, sides, hatched, CYCLE_LOOKS, mesh.to_rgba(rates))
-        used |= {*without.flat, *hatched.flat}
-    label = "Growth rate of the\nstick-slip cycle (1/s)"
-    bar = figure.colorbar(
-        mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30, label=label
-    )
-    largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
-    bar.set_ticks([-largest, -largest / 10, 0, largest / 10, largest])
-    bar.minorticks_off()
-    return used
-
-
-def stability_of(data: xr.Dataset) -> Names:
-    """Stability of the followed cycle, or the word of the quantity `regions` where there is
-    none."""
-    rate = data["growth_rate"].values
-    return np.where(rate < 0, "stable", np.where(rate > 0, "unstable", flag_names(data["cycle"])))
-
-
-def cycles_of(data: xr.Dataset) -> Names:
-    """Words where no cycle is followed, a key of `CYCLE_LOOKS`, otherwise ""; of `regions` or
-    `floquet`."""
-    rate = data["growth_rate"].values
-    words = np.full(rate.shape, "no_cycle")
-    if "cycle" in data:
-        words = flag_names(data["cycle"])
-    elif "status" in data:
-        words = flag_names(data["status"])
-        words = np.select(
-            [words == "ok", words == "no_stick_slip"], ["no_cycle", "steady_sliding"], words
-        )
-        words = np.where(np.isin(words, [*CYCLE_LOOKS]), words, "failed")
-    if "sliding_growth_rate" in data:
-        # growing steady sliding is no lasting motion
-        grows = ~(data["sliding_growth_rate"].values < 0)
-        words = np.where((words == "steady_sliding") & grows, "no_cycle", words)
-    return np.where(np.isfinite(rate), "", words)
-
-
-def isolated(data: xr.Dataset) -> NDArray[np.bool_]:
-    """Cells whose growth rate (of another cycle, or a narrow resonance) or stability differs from
-    that around them."""
-    rate = data["growth_rate"].values
-    share = np.where(np.isfinite(rate), growth_norm(rate)(np.nan_to_num(rate)), np.nan).clip(0, 1)
-    padded = np.pad(share, 1, constant_values=np.nan)
-    around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
-    like = (
-        np.abs(share[..., None, None] - around) < 0.1
-    )  # of the colour scale; each cell equals itself
-    cells = (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)
-    return cells | unresolved(stability_of(data)) if "cycle" in data else cells
-
 
 # ---- Neutral curves and folds of the cycle over speed and preload
 SPEED, LOAD = axis_of("Omega")[0], axis_of("N")[0]
@@ -414,8 +207,9 @@ class RegionMap(Plot):
         shown = [drawing.of(study, norm).transpose(self.y, self.x, ...) for norm in norms]
         figure, axes = panels(PAGE, 5.6, 2, len(norms), sharex=True, sharey=True)
         above, below = axes[: len(norms)], axes[len(norms) :]
-        drawing.letters(axes, [drawing.MODES[norm] for norm in norms])
-        gaps = growth_panels(figure, below, shown) - {"alone"}
+        # one alone stands in the figure's title
+        drawing.letters(axes, [drawing.MODES[norm] for norm in norms] if len(norms) > 1 else [])
+        growth = growth_panels(figure, below, shown)
         # branches are continued along the study's first dimension, which may be either axis
         upward = [name for name in study["outcome"].dims if name in (self.x, self.y)] == [
             self.y,
@@ -424,7 +218,7 @@ class RegionMap(Plot):
         outcomes: set[str] = set()
         lines: list[Artist] = []
         for upper, lower, plane in zip(above, below, shown, strict=True):
-            outcomes |= outcome_cells(upper, plane["outcome"])
+            outcomes |= class_cells(upper, plane["outcome"], LOOKS)
             for ax in (upper, lower):
                 lines += (
                     _curves(ax, plane, overlays["curves"])
@@ -434,17 +228,14 @@ class RegionMap(Plot):
         _set_scales(axes, study, self.axes)
         named = {line.get_label(): line for line in lines}.values()
         marks = _marks(axes[0], self) if norms[0] == "as_published" else []
-        handles = [*patches(CELL_LOOKS, outcomes), *named, *marks]
-        figure.legend(
-            handles=handles,
-            loc="outside upper center",
-            ncols=min(len(handles), 4),
-            title_fontsize=8,
-        )
-        without, said = patches(CYCLE_LOOKS, gaps), "\n".join(_captions(study, self))
-        figure.legend(
-            handles=without, loc="outside lower center", ncols=max(len(without), 1), title=said
-        )
+        handles = [*entries(outcomes, {**LOOKS, UNRESOLVED.label: UNRESOLVED}), *named, *marks]
+        figure_legend(figure, handles, loc="outside upper center", columns=4, title_fontsize=8)
+        said = "\n".join(_captions(study, self))
+        unresolved_too = UNRESOLVED.label in outcomes  # named above
+        below_said = [
+            x for x in growth if not (unresolved_too and x.get_label() == UNRESOLVED.label)
+        ]
+        figure_legend(figure, below_said, loc="outside lower center", title=said)
         return figure
 
 
@@ -496,7 +287,7 @@ def _captions(study: xr.Dataset, plot: RegionMap) -> Iterator[str]:
     outcomes = drawing.of(study, "as_published")["outcome"]
     for name, mark in plot.marks.items():
         outcome = str(flag_names(outcomes.sel({plot.x: mark.x, plot.y: mark.y}, method="nearest")))
-        label, of_paper = OUTCOME_LOOKS[outcome].label, OUTCOME_LOOKS[mark.paper_outcome].label
+        label, of_paper = LOOKS[outcome].label, LOOKS[mark.paper_outcome].label
         if label != of_paper and not mark.assumed:
             still = f"still growing at {horizon:g} s" if outcome == "growing" else label
             yield f"{name}: paper: “{of_paper}”, static start: {still}."
@@ -545,7 +336,7 @@ def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
         "path_effects": edge["path_effects"],
     }
     said = [
-        (f"paper: {OUTCOME_LOOKS[name].label}", shape)
+        (f"paper: {LOOKS[name].label}", shape)
         for name, shape in PAPER_MARKERS.items()
         if name in outcomes
     ]
@@ -584,7 +375,7 @@ def _set_scales(axes: Sequence[Axes], study: xr.Dataset, names: Mapping[str, str
 # ---- Onset and end of separation over speed and preload
 CYCLE, BASINS = Role("regions", ("N", "Omega")), Role("basins", ("Omega",))
 ONSET, END = SEPARATED, drawing.BLUE  # speeds at which separation begins, and at which it ends
-CONTACT = OUTCOME_LOOKS["growing"]._replace(
+CONTACT = LOOKS["growing"]._replace(
     label="oscillations grow, or another\ncycle is reached, in contact"
 )
 ONSETS: dict[str, Any] = {
@@ -657,12 +448,7 @@ class CriticalSpeed(Plot):
             ax.set_xlabel(SPEED)
             handles += ax.get_legend_handles_labels()[0]
         axes[0].set_ylabel(LOAD)
-        figure.legend(
-            handles=handles,
-            loc="outside lower center",
-            ncols=3 if len(axes) > 1 else 1,
-            columnspacing=1.0,
-        )
+        figure_legend(figure, handles, loc="outside lower center", columns=3, columnspacing=1.0)
         return figure
 
 
@@ -726,10 +512,10 @@ def _behind(ax: Axes, cycle: xr.Dataset) -> list[Artist]:
     words = flag_names(cycle["outcome"])
     words = np.where(words == "other_cycle", "growing", words)
     horizon = stated_in(cycle, "options")["horizon"]
-    apart = OUTCOME_LOOKS["separation"]._replace(label=f"separation within {horizon:g} s")
-    looks = OUTCOME_LOOKS | {"growing": CONTACT, "separation": apart}
-    fill(ax, edges_of(cycle["growth_rate"]), words, looks)
-    return patches(looks, words)
+    apart = LOOKS["separation"]._replace(label=f"separation within {horizon:g} s")
+    looks = {**LOOKS, "growing": CONTACT, "separation": apart}
+    paint(ax, edges_of(cycle["growth_rate"]), words, looks)
+    return entries(words.flat, looks)
 
 
 def _beside(
@@ -834,5 +620,7 @@ class RampedSpeeds(Plot):
         ax.set_xscale("log")
         ax.margins(x=0.04)
         ax.set(xlabel="Ramp rate (rad/s²)", ylabel=SPEED, ylim=(options["low"], options["high"]))
-        figure.legend(loc="outside lower center", ncols=1)
+        figure_legend(
+            figure, ax.get_legend_handles_labels()[0], loc="outside lower center", columns=1
+        )
         return figure

@@ -5,7 +5,6 @@ import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
-from textwrap import fill
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
 import numpy as np
@@ -18,12 +17,13 @@ from disc_model.analysis.spectra import (
     RESOLVED,
     TimeFrequency,
     amplitude_spectrum,
+    highest_line,
     lines,
     time_frequency,
 )
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import PHASES, values_text
+from disc_model.data.variables import PHASES, flag_names, values_text
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.errors import Fault
 from disc_model.figures import drawing
@@ -41,6 +41,8 @@ from disc_model.figures.drawing import (
     panels,
 )
 from disc_model.figures.kind import HIGHEST, CasePlot, Need, Recorded, Sampled, Samples, as_spectrum
+from disc_model.figures.legends import figure_legend
+from disc_model.figures.phases import spans_in
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
 from disc_model.units import Positive, Unit
@@ -74,20 +76,14 @@ def draw_history(
     of a legend."""
     for ax, name in zip(axes, variables, strict=True):
         drawing.show(ax, case, window, name, named=ax is axes[0])
-        ax.set_ylabel(
-            fill(ax.get_ylabel(), 40 if "$" in ax.get_ylabel() else 20)
-        )  # markup is not shown
         ax.label_outer()
     axes[-1].locator_params(axis="x", nbins=6)
     axes[-1].ticklabel_format(axis="x", useOffset=False)
-    phase = window["phase"].values if "phase" in window else np.array([])
-    spans = {
-        name: drawing.spans(window["time"].values, phase == PHASES.index(name)) for name in SHADES
-    }
-    if not 0 < max(map(len, spans.values())) <= MOST_SHADED:
+    spans = spans_in(case, window)
+    if not 0 < max(len(spans[name]) for name in SHADES) <= MOST_SHADED:
         return []
-    for name, of_phase in spans.items():
-        bars = [(start, stop - start) for start, stop in of_phase]
+    for name in SHADES:
+        bars = [(start, stop - start) for start, stop in spans[name]]
         for ax in axes:
             ax.broken_barh(
                 bars,
@@ -98,9 +94,7 @@ def draw_history(
                 **SHADES[name],
             )
     looks = SHADES | {"slip": {"facecolor": "white", "edgecolor": GREY, "linewidth": 0.5}}
-    return [
-        mpl.patches.Patch(label=name, **looks[name]) for i, name in enumerate(PHASES) if i in phase
-    ]
+    return [mpl.patches.Patch(label=name, **looks[name]) for name in PHASES if spans[name]]
 
 
 def _as_either(window: Window) -> str:
@@ -141,34 +135,39 @@ class History(CasePlot):
                 f"has {shown.sizes['time']} samples in {self.window}, at least 2 are needed"
             )
         drawing.letters(axes)
-        if handles := draw_history(axes, case, shown, self.variables):
-            figure.legend(handles=handles, loc="outside lower right", ncols=3)
+        figure_legend(figure, draw_history(axes, case, shown, self.variables))
         figure.align_ylabels()
         return figure
 
 
-def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
-    """Draw one variable over another, coloured by phase."""
+LINES = {"stick": 0.5, "slip": 0.5, "separation": 1.5}
+"""Widths of the lines of phases in a portrait, distinct in grey print, points."""
+
+
+def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> list[Artist]:
+    """Draw one variable over another, coloured by phase; returns entries of a legend."""
     (across, in_x, _), (up, in_y, _) = (drawing.sampled(name, samples) for name in (x, y))
-    for i, name in enumerate(PHASES):
-        inside = samples["phase"].values == i
-        width = 1.5 if name == "separation" else 0.5  # distinct in grey print
-        if inside.any():
+    words = flag_names(samples["phase"])
+    inside = {name: words == name for name in PHASES}
+    for name, mask in inside.items():
+        if mask.any():
             # broken where the phase changes, so that no chord is drawn across others
-            height = np.where(inside, samples[y].values * in_y, np.nan)
-            colour = drawing.PHASE_COLOURS[name]
+            height = np.where(mask, samples[y].values * in_y, np.nan)
             ax.plot(
                 samples[x].values * in_x,
                 height,
-                color=colour,
-                linewidth=width,
+                color=drawing.PHASE_COLOURS[name],
+                linewidth=LINES[name],
                 label=name,
                 rasterized=True,
             )
     ax.margins(0.04)
-    for line in drawing.legend_above(ax).get_lines():
-        line.set_linewidth(line.get_linewidth() + 0.5)
     ax.set(xlabel=across, ylabel=up)
+    return [
+        drawing.sample(color=drawing.PHASE_COLOURS[name], linewidth=LINES[name] + 0.5, label=name)
+        for name, mask in inside.items()
+        if mask.any()
+    ]
 
 
 class Portrait(CasePlot):
@@ -181,7 +180,8 @@ class Portrait(CasePlot):
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         figure, [ax] = panels(drawing.COLUMN, 2.7)
-        draw_portrait(ax, dataset.samples(cases[0], self.window), self.x, self.y)
+        samples = dataset.samples(cases[0], self.window)
+        figure_legend(figure, draw_portrait(ax, samples, self.x, self.y))
         return figure
 
 
@@ -192,7 +192,7 @@ MARKS: dict[str, dict[str, Any]] = {  # by stage, told apart by shape as well as
     "separated": {"marker": "^", "color": SEPARATED, "s": 8, "linewidths": 0},
 }
 SMALL = 0.2  # share of both axes below which a section has an inset
-BY_SEPARATION = ("in contact, before", "in contact, after", "separated")
+BY_SEPARATION = ("in contact, before the first separation", "in contact, after it", "separated")
 BY_SETTLING = ("not shown to have settled", "settled", "separated")
 BY_HALVES = ("first half of the run", "second half, not shown to have settled", "separated")
 
@@ -304,20 +304,24 @@ class PoincareSections(CasePlot):
             handles = draw_sections(
                 row.subplots(1, 2), case, samples, sections, values_text(differing)
             )
-            row.legend(
-                handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2
-            )
+            figure_legend(row, handles, handletextpad=0.2)
         drawing.letters(figure.axes)
         return figure
 
 
 # ---- Spectra, and spectrograms
 FLOOR = -100.0  # least power shown, dB below the reference
+WEAKEST = 0.01  # amplitude over that of the strongest line, of lines that have to be on the axis
+ROOM_BEYOND = 1.15  # highest frequency shown over that of the highest such line
+HEADROOM = 6.0  # upper end of the axis over the greatest amplitude: room for its name
+MOST_NAMED = 5  # lines whose frequencies are written
 
 
-def draw_spectrum(ax: Axes, samples: xr.Dataset, variable: str, highest: float) -> None:
-    """Draw the amplitude of a variable over the frequency, up to one in Hz; raises `Missing` if it
-    does not vibrate."""
+def draw_spectrum(
+    ax: Axes, samples: xr.Dataset, variable: str, highest: float | None = None
+) -> None:
+    """Draw the amplitude of a variable over the frequency, up to one in Hz, or to where its lines
+    end; raises `Missing` if it does not vibrate."""
     label, factor, colour = drawing.sampled(variable, samples)
     time, values, least = samples["time"].values, samples[variable].values, 4 * RESOLVED
     if time.size < least:
@@ -325,33 +329,40 @@ def draw_spectrum(ax: Axes, samples: xr.Dataset, variable: str, highest: float) 
             f"recorded {time.size} samples, and a spectrum takes {least}: a line is {least // 2} bins wide"
         )
     frequency, amplitude = amplitude_spectrum(time, values)
+    if highest is None:
+        highest = min(ROOM_BEYOND * highest_line(time, values, WEAKEST), float(frequency[-1]))
     shown = (frequency > 0) & (frequency <= highest)
     frequency, amplitude = frequency[shown], factor * amplitude[shown]
     if not amplitude.any():
         raise Missing(f"did not vibrate at up to {highest:g} Hz")
     ax.semilogy(frequency, amplitude, color=colour, linewidth=0.7)
-    largest, (name, _, unit) = amplitude.max(), label.rpartition(" (")
-    ax.set(
-        xlabel="Frequency (Hz)",
-        ylabel=f"Amplitude ({unit}" if name else "Amplitude",
-        xlim=(0, frequency[-1]),
-    )
-    ax.set_ylim(max(amplitude.min(), 10 ** (FLOOR / 20) * largest) / 2, 3 * largest)
-    ax.set_title(name or label, loc="left")
-    named: list[float] = []
-    # the strongest, where there is room for their names
-    for line in sorted(lines(time, values, below=highest), key=lambda line: -line.amplitude):
-        if len(named) < 5 and all(
-            abs(line.frequency - other) > 0.09 * frequency[-1] for other in named
-        ):
-            named.append(line.frequency)
-            drawing.say(
-                ax,
-                f"{line.frequency:.1f} Hz",
-                (line.frequency, factor * line.amplitude),
-                (3, 2),
-                fontsize=7,
-            )
+    name, _, unit = label.rpartition(" (")
+    title = f"{name}, amplitude ({unit}" if name else f"{label}, amplitude"
+    largest = amplitude.max()
+    ax.set(xlabel="Frequency (Hz)", ylabel=title, xlim=(0, frequency[-1]))
+    ax.set_ylim(max(amplitude.min(), 10 ** (FLOOR / 20) * largest) / 2, HEADROOM * largest)
+    found = lines(time, values, below=highest)
+    name_lines(ax, [(line.frequency, factor * line.amplitude) for line in found])
+
+
+def name_lines(ax: Axes, peaks: Sequence[tuple[float, float]]) -> None:
+    """Write the frequencies, Hz, of the strongest lines beside their peaks: inside the axes, and
+    where one does not cover another."""
+    page: Any = ax.get_figure(root=True)
+    page.draw_without_rendering()  # sets the size of the axes
+    frame = ax.get_window_extent()
+    taken: list[Any] = []
+    for frequency, height in sorted(peaks, key=lambda peak: -peak[1]):
+        if len(taken) == MOST_NAMED:
+            return
+        for offset in ((3, 2), (-3, 2)):
+            name = drawing.say(ax, f"{frequency:.1f} Hz", (frequency, height), offset, fontsize=7)
+            box = name.get_window_extent().padded(1)
+            inside = frame.x0 <= box.x0 and box.x1 <= frame.x1 and box.y1 <= frame.y1
+            if inside and not any(box.overlaps(other) for other in taken):
+                taken.append(box)
+                break
+            name.remove()
 
 
 class Spectrum(CasePlot):
@@ -360,9 +371,7 @@ class Spectrum(CasePlot):
     kind: Literal["spectrum"] = "spectrum"
     window: Samples
     variable: Sampled = "w_point"
-    highest: Annotated[Positive, Unit("Hz")] = (
-        HIGHEST  # a window of a lower rate shows half of that
-    )
+    highest: Annotated[Positive, Unit("Hz")] | None = None  # up to where its lines end
 
     def draw(self, *cases: xr.DataTree) -> Figure:
         figure, [ax] = panels(drawing.COLUMN, 2.4)

@@ -22,6 +22,9 @@ from disc_model.data.variables import (
 )
 from disc_model.errors import Fault, suggestion
 from disc_model.figures import drawing
+from disc_model.figures.cells import edges_of, entries, paint
+from disc_model.figures.classes import LOOKS as CLASSES
+from disc_model.figures.classes import STABLE
 from disc_model.figures.drawing import (
     BLACK,
     BLUE,
@@ -37,7 +40,7 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.general import LINEAR, scale_rates, unknown
 from disc_model.figures.kind import NORM, Plot, Role, Roles, Values
-from disc_model.figures.maps import OUTCOME_LOOKS, Look, edges_of, fill, patches
+from disc_model.figures.legends import figure_legend, legend_above
 from disc_model.units import Finite, Positive, Unit
 
 # ---- Samples once a turn
@@ -133,16 +136,14 @@ class Bifurcation(Plot):
         axes[1].yaxis.set_major_formatter("{x:g}")
         drawing.mark_failed(axes[1], at[~repeats], name="not shown to repeat")
         if not repeats.all():
-            drawing.legend_above(axes[1])
+            legend_above(axes[1])
         if "lyapunov" in overlays:
             _exponents(axes[2], overlays["lyapunov"], self.x)
         drawing.letters(axes)
         for panel in axes:
             panel.margins(x=0.01)  # no dot is cut at the edge
         drawing.mark_cases(axes, {case: value * factor for case, value in self.paper_cases.items()})
-        for line in drawing.legend_above(
-            ax
-        ).get_lines():  # the diagram's dots are too small for a legend
+        for line in legend_above(ax).get_lines():  # the diagram's dots are too small for a legend
             line.set_markersize(6)
         return figure
 
@@ -185,7 +186,7 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
         ax.plot([], [], "o", label="not converged", **ring)
     drawing.mark_failed(ax, along[np.isnan(exponent[0].values)])
     ax.set_ylabel("Lyapunov\nexponents,\nwithout the\ntrivial one (1/s)")
-    drawing.legend_above(ax)
+    legend_above(ax)
 
 
 # ---- Branches of cycles
@@ -279,7 +280,14 @@ class Branches(Plot):
         handles += simulated.values()
         labels += [f"simulated, {text}" for text in simulated]
         beside = {tuple: mpl.legend_handler.HandlerTuple(None)}
-        figure.legend(handles, labels, loc="outside lower center", ncols=3, handler_map=beside)
+        figure_legend(
+            figure,
+            handles,
+            loc="outside lower center",
+            columns=3,
+            labels=labels,
+            handler_map=beside,
+        )
         return figure
 
 
@@ -410,19 +418,22 @@ class LateRange(Plot):
             settled | {"label": "settled in contact"},
         ]
         handles = [drawing.sample(**{"color": GREY} | look) for look in looks]
-        figure.legend(handles=handles, loc="outside lower center", ncols=4, columnspacing=1.0)
+        figure_legend(figure, handles, loc="outside lower center", columns=4, columnspacing=1.0)
         return figure
 
 
 # ---- Outcomes of many starts
-LOOKS = {  # of outcomes, as in maps; a hatch where another one is as dark in grey print
-    "quiet": OUTCOME_LOOKS["quiet"],
-    "other_cycle": OUTCOME_LOOKS["other_cycle"],
-    "separating": OUTCOME_LOOKS["separation"]._replace(label="separating"),
-    "quasi_periodic": Look("quasi-periodic", "#b5dcf2", 4 * "\\"),
-    "irregular": Look("irregular", drawing.BROWN, 4 * "/"),
-    **{name: OUTCOME_LOOKS[name] for name in ("steady_sliding", "at_rest", "undecided", "failed")},
-}
+STACKED = (  # order in which shares of outcomes are stacked
+    "quiet",
+    "other_cycle",
+    "separating",
+    "quasi_periodic",
+    "irregular",
+    "steady_sliding",
+    "at_rest",
+    "undecided",
+    "failed",
+)
 LARGEST = 36.0  # area of the mark of an attractor that all starts reach, square points
 
 
@@ -455,17 +466,17 @@ class BasinShares(Plot):
             ax.margins(x=0.04)
             ax.set_xlabel(label)
             drawing.mark_failed(ax, along[drawing.failed(study).values])
-        undecided = LOOKS["undecided"]._replace(
+        undecided = CLASSES["undecided"]._replace(
             label=f"undecided after {stated_in(study, 'options')['horizon']:g} s"
         )
-        handles = patches(LOOKS | {"undecided": undecided}, classes)
-        figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
+        handles = entries(classes, {**CLASSES, "undecided": undecided})
+        figure_legend(figure, handles, loc="outside lower center")
         return figure
 
 
 def outcomes_in(shares: xr.DataArray) -> list[str]:
     """The outcomes that occur among the starts, in the order in which their shares are stacked."""
-    return [class_ for class_ in LOOKS if (shares.sel(attractor_class=class_) > 0).any()]
+    return [class_ for class_ in STACKED if (shares.sel(attractor_class=class_) > 0).any()]
 
 
 def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: np.ndarray) -> None:
@@ -475,8 +486,8 @@ def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: n
     shares = shares.sel(attractor_class=[*classes]).transpose("attractor_class", ...)
     below = shares.cumsum("attractor_class") - shares.fillna(0)
     for class_, heights, bottoms in zip(classes, shares, below, strict=True):
-        look = LOOKS[class_]
-        ax.bar(along, heights, width, bottoms, fc=look.face, hatch=look.hatch, ec=BLACK, lw=0.4)
+        look = CLASSES[class_]
+        ax.bar(along, heights, width, bottoms, fc=look.face, hatch=look.hatch, ec=look.ink, lw=0.4)
     ax.set(ylim=(0, 1))
 
 
@@ -485,7 +496,8 @@ def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
     kinds, starts = flag_names(study["attractor_kind"]), study["attractor_starts"].values
     ranges = 1e3 * study["attractor_range"].values
     total = study.sizes["energy"] * study.sizes["start"]
-    for class_, look in LOOKS.items():
+    for class_ in STACKED:
+        look = CLASSES[class_]
         point, number = np.nonzero((kinds == class_) & (starts > 0))
         area = LARGEST * starts[point, number] / total
         mark: dict[str, Any] = {
@@ -499,7 +511,7 @@ def _attractors(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
         ax.scatter(
             [], [], LARGEST * part, facecolor="none", edgecolor=BLACK, linewidth=0.4, label=text
         )
-    drawing.legend_above(ax)
+    legend_above(ax)
     ax.set(ylabel="Slider range (mm)")
     if np.any(ranges > 0):
         ax.set_yscale("log")
@@ -535,7 +547,7 @@ def _kicks(ax: Axes, study: xr.Dataset, along: np.ndarray) -> None:
                 color=SEPARATED,
                 fontsize=7,
             )
-    drawing.legend_above(ax, columnspacing=0.7, handlelength=1.0, handletextpad=0.4)
+    legend_above(ax, columnspacing=0.7, handlelength=1.0, handletextpad=0.4)
 
 
 # ---- Probability of instability against each uncertain parameter
@@ -604,7 +616,8 @@ class Sensitivity(Plot):
             labels=[typeset(presentation_of(name)[1]) or name.replace("_", " ") for name in names],
         )
         axes[0].minorticks_off()
-        figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+        handles = axes[0].get_legend_handles_labels()[0]
+        figure_legend(figure, handles, loc="outside lower center", columns=2)
         return figure
 
 
@@ -926,24 +939,24 @@ class RootLocus(Plot):
 
 
 AGREEMENTS = {  # what linear analysis of steady sliding says (dots: stable), and what the motion from the start does
-    "stable_quiet": Look("stable, and the motion quiet", OUTCOME_LOOKS["quiet"].face, 3 * "."),
-    "stable_grows": Look(
-        "stable, but the motion leaves the quiet cycle in contact",
-        OUTCOME_LOOKS["growing"].face,
-        3 * ".",
+    "stable_quiet": STABLE._replace(
+        label="stable, and the motion quiet", face=CLASSES["quiet"].face
     ),
-    "stable_separates": Look(
-        "stable, but the motion separates", OUTCOME_LOOKS["separation"].face, 3 * "."
+    "stable_grows": STABLE._replace(
+        label="stable, but the motion leaves the quiet cycle in contact",
+        face=CLASSES["growing"].face,
     ),
-    "unstable_quiet": Look("unstable, but the motion stays quiet", OUTCOME_LOOKS["quiet"].face),
-    "unstable_grows": Look(
-        "unstable, and the motion grows, or reaches another cycle, in contact",
-        OUTCOME_LOOKS["growing"].face,
+    "stable_separates": STABLE._replace(
+        label="stable, but the motion separates", face=CLASSES["separation"].face
     ),
-    "unstable_separates": Look(
-        "unstable, and the motion separates", OUTCOME_LOOKS["separation"].face
+    "unstable_quiet": CLASSES["quiet"]._replace(label="unstable, but the motion stays quiet"),
+    "unstable_grows": CLASSES["growing"]._replace(
+        label="unstable, and the motion grows, or reaches another cycle, in contact"
     ),
-    "unknown": Look("undecided, or no steady sliding", OUTCOME_LOOKS["undecided"].face),
+    "unstable_separates": CLASSES["separation"]._replace(
+        label="unstable, and the motion separates"
+    ),
+    "unknown": CLASSES["undecided"]._replace(label="undecided, or no steady sliding"),
 }
 
 
@@ -974,23 +987,29 @@ class SlidingOutcome(Plot):
             )
             plane, linear = common_points(plane, linear, (self.x, self.y))
             words = agreement(linear["largest_growth_rate"].values, flag_names(plane["outcome"]))
-            fill(ax, edges_of(plane["outcome"]), words, AGREEMENTS)
+            paint(ax, edges_of(plane["outcome"]), words, AGREEMENTS)
             each.append(words)
             ax.set(xlabel=drawing.axis_of(self.x)[0], ylabel=drawing.axis_of(self.y)[0])
             ax.label_outer()
-        drawing.letters(axes, [drawing.MODES[norm] for norm in norms])
+        if len(norms) > 1:  # one alone stands in the figure's title
+            drawing.letters(axes, [drawing.MODES[norm] for norm in norms])
         names, looks = ("(a) ", "(b) ") if len(each) > 1 else ("",), {}
         for word, look in AGREEMENTS.items():
             shares = [
-                f"{letter}{100 * np.mean(words == word):.0f} %"
+                f"{letter}{percent(np.mean(words == word))}"
                 for letter, words in zip(names, each, strict=False)
             ]
             looks[word] = look._replace(label=f"{look.label}: {', '.join(shares)}")
-        handles = patches(looks, {*np.concatenate(each, axis=None)})
-        figure.legend(
-            handles=handles, loc="outside lower center", ncols=1, title="Steady sliding is"
+        handles = entries(np.concatenate(each, axis=None), looks)
+        figure_legend(
+            figure, handles, loc="outside lower center", columns=1, title="Steady sliding is"
         )
         return figure
+
+
+def percent(share: float) -> str:
+    """A share in whole percent; one that rounds to nothing is not called nothing."""
+    return "< 1 %" if 0 < share < 0.005 else f"{100 * share:.0f} %"
 
 
 def common_points(data: xr.Dataset, other: xr.Dataset, names: Iterable[str]) -> list[xr.Dataset]:

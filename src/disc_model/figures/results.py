@@ -15,9 +15,11 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.figures import drawing, general, motion
+from disc_model.figures.cells import entries
 from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, PAGE, SEPARATED, Axes, mpl
-from disc_model.figures.maps import patches
-from disc_model.figures.over_parameter import LOOKS, draw_branch, draw_shares, outcomes_in
+from disc_model.figures.labels import break_labels
+from disc_model.figures.legends import figure_legend, legend_above, legend_inside
+from disc_model.figures.over_parameter import draw_branch, draw_shares, outcomes_in
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import is_number, is_whole
 
@@ -61,6 +63,7 @@ def canvas(
     with drawing.styled():
         figure = mpl.pyplot.figure(figsize=(width, height), layout="constrained")
         yield list(figure.subplots(rows, columns, squeeze=False, **shared).flat)
+        break_labels(figure)
         if title is not None:
             figure.suptitle(drawing.head_text(width, "", title), fontsize=8)
 
@@ -112,16 +115,20 @@ def plot_run(
         if ax is None:
             axes[0].figure.align_ylabels()
         if handles and ax is None:
-            axes[0].figure.legend(handles=handles, loc="outside lower right", ncols=3)
+            figure_legend(axes[0].figure, handles)
         elif handles:
-            drawing.legend_above(axes[0], handles=handles)
+            legend_inside(axes[0], handles)
     return grid if rows * columns > 1 else grid[0, 0]
 
 
 def plot_phase_portrait(case: xr.DataTree, window: str, x: str, y: str, ax: Any = None) -> Axes:
     samples = window_of(case, window, ("x", x), ("y", y), samples=True)
     with canvas(ax, COLUMN, 2.9, title=_stated(case)) as [axes]:
-        motion.draw_portrait(axes, samples, x, y)
+        handles = motion.draw_portrait(axes, samples, x, y)
+        if ax is None:
+            figure_legend(axes.figure, handles)
+        else:
+            legend_inside(axes, handles)
     return axes
 
 
@@ -133,12 +140,10 @@ def plot_spectrum(
     samples = window_of(case, window, ("variable", variable), samples=True)
     span = float(np.ptp(samples["time"].values)) if samples["time"].size else 0.0
     half = (samples["time"].size - 1) / (2 * span) if span else 0.0  # of the rate
-    highest = min(motion.HIGHEST, half) if highest is None else highest
     least = 1 / span if span else 0.0  # resolution
     rule = f"must be within {least:.3g} Hz, the resolution, and {half:.6g} Hz, half the rate of the window"
-    require(
-        (not span or least <= highest <= half * (1 + 1e-9), "highest", highest, rule)
-    )  # the span is rounded
+    within = highest is None or not span or least <= highest <= half * (1 + 1e-9)
+    require((within, "highest", highest, rule))  # the span is rounded
     try:
         with canvas(ax, 1.3 * COLUMN, 2.6, title=_stated(case)) as [axes]:
             motion.draw_spectrum(axes, samples, variable, highest)
@@ -151,9 +156,7 @@ def plot_poincare(case: xr.DataTree, ax: Any = None) -> np.ndarray:
     with canvas(ax, PAGE, 2.9, 1, 2, _stated(case)) as axes:
         handles = motion.draw_sections(axes, case, dataset.group(case, "poincare"))
         if ax is None:
-            axes[0].figure.legend(
-                handles=handles, loc="outside lower right", ncols=len(handles), handletextpad=0.2
-            )
+            figure_legend(axes[0].figure, handles, handletextpad=0.2)
         else:
             axes[1].legend(handles=handles, fontsize="small")
     return np.array(axes)
@@ -284,7 +287,7 @@ def plot_branch(branch: Branch, y: str, ax: Any = None) -> Axes:
             )
         axes.margins(0.04)
         axes.set(xlabel=label, ylabel=name)
-        drawing.legend_above(axes)
+        legend_above(axes)
     return axes
 
 
@@ -314,7 +317,7 @@ def plot_neutral_curves(curves: NeutralCurves, ax: Any = None) -> Axes:
         for kind, (colour, text) in kinds.items():
             if any(curve.kind == kind for curve in curves):
                 axes.plot([], [], color=colour, linewidth=2.0, label=f"cycle {text}")
-        drawing.legend_above(axes)
+        legend_above(axes)
     return axes
 
 
@@ -338,7 +341,7 @@ def plot_critical(critical: Critical, ax: Any = None) -> Axes:
         )
         general.scale_rates(axes)
         axes.set(xlabel=label, ylabel="Growth rate of the cycle (1/s)", xlim=(x[0], x[-1]))
-        drawing.legend_above(axes)
+        legend_above(axes)
     return axes
 
 
@@ -521,7 +524,7 @@ def plot_sweep(
         if named in SHARES and not log:
             (label, along), handles = (
                 drawing.along(study[across]),
-                patches(LOOKS, outcomes_in(study[named])),
+                entries(outcomes_in(study[named])),
             )
             places = (
                 np.arange(along.size) if across == "energy" else along
@@ -538,6 +541,5 @@ def plot_sweep(
             handles = general.draw_maps(axes.figure, [axes], study, named, across, up, log)
             if study[up].dtype.kind == "i" and axes.get_yscale() == "linear":
                 axes.locator_params(axis="y", integer=True)
-        if handles:
-            axes.figure.legend(handles=handles, loc="outside lower right", ncols=3)
+        figure_legend(axes.figure, handles)
     return axes

@@ -103,8 +103,8 @@ class Pictures:
         highest: float | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Draw the amplitude of a variable over the frequency, up to the highest in Hz, 1000 or
-        half the window's rate.
+        """Draw the amplitude of a variable over the frequency, up to `highest` in Hz, or to where
+        its lines fall below a hundredth of the strongest.
 
         Without a named window it is that of the last 8 s, or of the second half of a shorter run,
         with 16 samples in a period of the highest mode. What vibrates faster than half a window's

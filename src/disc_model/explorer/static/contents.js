@@ -58,7 +58,7 @@ function value(study, variable, place) {
 
 function shown(study, variable, place) {
   const found = value(study, variable, place);
-  return variable.flags ? variable.flags[found] : withUnit(number(found), Number.isNaN(found) ? "1" : variable.unit);
+  return variable.flags ? variable.looks[found].label : withUnit(number(found), Number.isNaN(found) ? "1" : variable.unit);
 }
 
 function messageAt(study, place) {

@@ -42,7 +42,8 @@ function drawMap() {
     };
     const lost = failed(study, place);
     if (!curve && variable.flags) seen.flags.add(numbers[n]);
-    if (!curve && Number.isFinite(numbers[n])) fill(variable.flags ? flagColour(variable, numbers[n]) : colours.colour(numbers[n]));
+    if (!curve && Number.isFinite(numbers[n]))
+      (variable.flags ? flagFills(ink, variable, numbers[n]) : [colours.colour(numbers[n])]).forEach(fill);
     else if (!curve && !lost) seen.empty = true;
     if (variable !== study.status && lost) {
       seen.hatched = true;
@@ -114,19 +115,20 @@ function markChosen(ink) {
 
 function legend(seen, dots) {
   const { study, variable } = view;
-  const entries = [...seen.flags].sort((a, b) => a - b).map((code) => [flagColour(variable, code), variable.flags[code]]);
+  const entries = [...seen.flags].sort((a, b) => a - b)
+    .map((code) => [swatchOf(variable.looks[code]), variable.looks[code].label]);
   if (seen.empty) entries.push([style("--empty"), "no number"]);
   if (seen.hatched) entries.push(["hatched", "no result; the point's status says why"]);
-  if (dots) entries.push(["dotted", `${dots[1].title}: ${dots[2]}`]);
+  if (dots) entries.push(["dotted", `${dots[1].title}: ${labelOf(dots[1], dots[2])}`]);
   element("legend").replaceChildren(...entries.map(legendEntry));
 }
 
 function legendEntry([look, text]) {
   const item = document.createElement("li");
-  const swatch = document.createElement("span");
-  swatch.className = "swatch";
+  const swatch = look instanceof Node ? look : document.createElement("span");
+  swatch.classList.add("swatch");
   if (["hatched", "dotted"].includes(look)) swatch.classList.add(look);
-  else swatch.style.background = look;
+  else if (!(look instanceof Node)) swatch.style.background = look;
   item.append(swatch, text);
   return item;
 }

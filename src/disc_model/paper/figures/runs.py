@@ -39,6 +39,7 @@ from disc_model.figures.kind import (
     as_samples,
     as_spectrum,
 )
+from disc_model.figures.legends import legend_above
 from disc_model.figures.motion import Motion, draw_power, draw_scale, span_of, spectrum_of
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
@@ -103,7 +104,7 @@ class ContactForce(CasePlot):
         axes[1].plot(window["time"], window["P"], color=drawing.FORCE)
         axes[1].set(xlabel=f"Time after {start:.5f} s (ms)", ylabel=drawing.axis_of("P")[0])
         if spans:
-            drawing.legend_above(axes[1])
+            legend_above(axes[1])
         drawing.letters(axes)
         for (
             ax
@@ -136,7 +137,7 @@ class OneSeparation(CasePlot):
         gap.plot(part["time"], (part["u"] - part["w"]) * 1e6, color=BLACK)
         gap.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel="Gap (μm)")
         drawing.letters(axes)
-        drawing.legend_above(both)
+        legend_above(both)
         figure.align_ylabels()
         return figure
 
@@ -164,7 +165,7 @@ class LightSlider(CasePlot):
             )
         drawing.show_thickness(ax, case, "y")
         ax.set_xlabel(f"Time after {start:.4f} s (ms)")
-        drawing.legend_above(ax)
+        legend_above(ax)
         return figure
 
 

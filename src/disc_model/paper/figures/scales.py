@@ -11,8 +11,11 @@ import xarray as xr
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import plate_modes
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, Axes, Figure, mpl, panels
+from disc_model.figures.cells import edges_of, paint, patches
+from disc_model.figures.classes import Look
+from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, Axes, Figure, panels
 from disc_model.figures.kind import Plot, Role, Roles
+from disc_model.figures.legends import figure_legend
 from disc_model.parameters import Parameters
 
 SCALES = ("as_published", "orthonormal")
@@ -26,8 +29,13 @@ LOOKS: tuple[dict[str, Any], ...] = (
         "linestyle": "none",
     },
 )
-CELLS = ("white", "#f2b69c", "#d5e5f3", "#8a8a8a")
-"""Neither separates; only as published; only by Eq. (17), hatched; both. They differ in grey print."""
+CELLS = {
+    "neither": Look("with neither", "#ffffff"),
+    "published": Look("only as published", "#f2b69c"),
+    "orthonormal": Look("only by Eq. (17)", "#d5e5f3", 4 * "\\"),
+    "both": Look("with both", "#8a8a8a"),
+}
+"""With which normalization the static start separates. They differ in grey print."""
 
 
 class Scales(Plot):
@@ -56,6 +64,12 @@ class Scales(Plot):
         )
         _times(axes[2], points, section2.first_separations(points))
         drawing.letters(axes)
+        figure_legend(
+            figure,
+            patches(CELLS.values()),
+            loc="outside lower center",
+            title="(b) The static start separates",
+        )
         return figure
 
 
@@ -77,45 +91,17 @@ def _amplitudes(ax: Axes, p: Parameters) -> None:
 
 def _regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset]) -> None:
     outcome = study["outcome"].sel(normalization=[*SCALES]).transpose("normalization", "N", "Omega")
-    apart = flag_names(outcome) == "separation"
-    cells = apart[0] + 2 * apart[1].astype(int)
-    across, up = (drawing.edges(study[name].values) for name in ("Omega", "N"))
-    ax.pcolormesh(
-        across,
-        up,
-        cells,
-        cmap=mpl.colors.ListedColormap(CELLS),
-        vmin=-0.5,
-        vmax=3.5,
-        rasterized=True,
-    )
-    ax.pcolor(
-        across,
-        up,
-        np.ma.masked_where(cells != 2, cells),
-        facecolor="none",
-        hatch=8 * "/",
-        linewidth=0,
-    )
+    published, orthonormal = flag_names(outcome) == "separation"
+    words = np.where(published, "published", "neither")
+    words = np.where(orthonormal, "orthonormal", words)
+    words = np.where(published & orthonormal, "both", words)
+    paint(ax, edges_of(outcome[0]), words, CELLS)
     for name, point in points.items():
         x, y = float(point["Omega"]), float(point["N"])
         fill = SEPARATED if np.all(flag_names(point["outcome"]) == "separation") else "white"
         ax.plot(x, y, "o", color=BLACK, markerfacecolor=fill, markersize=5, clip_on=False)
         side = (5 if name in ("Fig. 2", "Fig. 7") else -5, 0)
         drawing.say(ax, name, (x, y), side, fontsize=7, path_effects=drawing.halo())
-    ax.text(0.68, 0.62, "both", transform=ax.transAxes, ha="center", va="center", fontsize=7)
-    line: dict[str, Any] = {
-        "arrowstyle": "-",
-        "shrinkA": 0,
-        "shrinkB": 0,
-        "path_effects": drawing.halo(3),
-    }
-    look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 7, "arrowprops": line}
-    for words, area, corner in (
-        ("only by\nEq. (17)", (0.26, 0.76), (0.12, 0.71)),
-        ("only as published", (0.37, 0.18), (0.27, 0.06)),
-    ):
-        ax.annotate(words, area, corner, "axes fraction", "axes fraction", **look)
     ax.set(xlabel=drawing.label_of(study["Omega"])[0], ylabel=drawing.label_of(study["N"])[0])
 
 

@@ -26,6 +26,8 @@ from disc_model.figures.drawing import (
     panels,
 )
 from disc_model.figures.kind import CasePlot, Need, Ranges, as_samples
+from disc_model.figures.legends import legend_above
+from disc_model.figures.phases import spans_between
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Positive, Unit
 
@@ -112,11 +114,12 @@ class Composite(CasePlot):
         if part.sizes["time"] < 2:
             raise Missing(f"has no samples from {start:g} s on")
         time, words = 1e3 * (part["time"].values - start), flag_names(part["phase"])
+        spans = spans_between(case, start, start + STRETCH)
         for word, look in PHASES.items():
-            for i, (a, b) in enumerate(drawing.stretches(words == word)):
+            for i, (begin, end) in enumerate(spans[word]):
                 label = "_nolegend_" if i else word
                 force.axvspan(
-                    time[a], time[min(b, time.size - 1)], label=label, linewidth=0, **look
+                    1e3 * (begin - start), 1e3 * (end - start), label=label, linewidth=0, **look
                 )
         # zero, and not drawn, in separation, since no line leads to the force after an impact
         force.plot(time, part["P"].where(words != "separation"), color=BLACK, linewidth=1.1)
@@ -127,7 +130,7 @@ class Composite(CasePlot):
         )
         force.set_ylim(bottom=0)
         if force.patches:
-            drawing.legend_above(force)
+            legend_above(force)
         drawing.letters(axes)
         return figure
 
