@@ -209,7 +209,7 @@ class Branches(Plot):
     def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
         """Draw one point: a line for each branch, thick where it is stable, and triangles for the
         sweep up and down."""
-        study = study.squeeze()
+        study = study.squeeze([str(dim) for dim in study["status"].dims])  # keeps a single branch
         name = str(stated_in(study, "options")["parameter"])
         label, factor = drawing.axis_of(name)
         figure, [ax] = panels(PAGE, 3.6)
