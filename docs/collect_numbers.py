@@ -289,7 +289,8 @@ class Sources:
     def compared(self, normalization: str, word: str = "") -> int:
         """Number of points where steady sliding and the motion are compared; with a key of
         `AGREEMENTS`."""
-        from disc_model.figures.over_parameter import agreement, common_points
+        from disc_model.figures.selection import common_points
+        from disc_model.figures.sliding_outcome import agreement
 
         studies = (self.grid("map_c_p"), self.grid("sliding").rename(value="c_p"))
         moved, slid = (
@@ -369,7 +370,7 @@ class Sources:
 
     def thirds(self, study: str, N: float, parameter: str) -> np.ndarray:
         """Probability of instability in thirds of a parameter's range."""
-        from disc_model.figures.over_parameter import probabilities
+        from disc_model.figures.sensitivity import probabilities
 
         return probabilities(self.uncertain(study, N), parameter)[:, 0]
 

@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 
 from disc_model import Parameters, Poincare, Window, simulate
 from disc_model.figures.drawing import save
-from disc_model.figures.kind import kind_of
+from disc_model.figures.kinds import kind_of
+from disc_model.figures.render import render
 from tests.damages import damaged
 from tests.figures.reading import assert_fit_for_print
 
@@ -40,7 +41,7 @@ def simulated(separates: bool) -> xr.DataTree:
 def asked(kind: str, case: xr.DataTree | None = None, **phrase: Any) -> Figure:
     """A figure of a case as a file asks for it; fit for print."""
     plot = kind_of(kind).model_validate({"kind": kind, "case": "A", **phrase})
-    figure = plot.render({"A": simulated(True) if case is None else case})
+    figure = render(plot, {"A": simulated(True) if case is None else case})
     assert_fit_for_print(figure)
     return figure
 

@@ -5,9 +5,9 @@ import pytest
 import xarray as xr
 from matplotlib.text import Annotation
 
-from disc_model.figures import maps as drawn
+from disc_model.figures import ramps as drawn
+from disc_model.figures.borders import Curve
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
-from disc_model.figures.maps import Curve
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES

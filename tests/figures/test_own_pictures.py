@@ -10,7 +10,8 @@ from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import disc_model as dm
-from disc_model.figures import motion
+from disc_model.figures.disc import Motion
+from disc_model.figures.disc import film as film_of
 from disc_model.simulation.api import snapshots
 from tests.figures.measured import Shown, assert_shows, drawn_values
 
@@ -132,7 +133,7 @@ def test_a_film_is_in_milliseconds_newtons_and_millimetres() -> None:
     times = np.linspace(float(late["time"][0]), float(late["time"][-1]), 4)
     states = snapshots(P, times)
     figure = pyplot.figure()
-    film = motion.film(figure, motion.Motion.of(P, states), late["time"].values, late["P"].values)
+    film = film_of(figure, Motion.of(P, states), late["time"].values, late["P"].values)
     film._draw_frame(3)
     _, circle, trace = figure.axes
     assert trace.get_xlabel() == "Time (ms)"

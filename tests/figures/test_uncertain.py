@@ -4,8 +4,8 @@ another."""
 import numpy as np
 import pytest
 
-from disc_model.figures.drawing import spans
-from disc_model.figures.over_parameter import probabilities
+from disc_model.figures.selection import spans
+from disc_model.figures.sensitivity import probabilities
 from tests.figures.reading import draw
 from tests.studies.conftest import SMALL, computed
 from tests.studies.quantities import test_sensitivity as uncertain

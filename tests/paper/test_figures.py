@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 from disc_model import Parameters, Window, simulate
 from disc_model.data.variables import flag_names
 from disc_model.figures.drawing import COLUMN, PAGE
-from disc_model.figures.kind import CasePlot
-from disc_model.paper.figures.runs import motion_of
+from disc_model.figures.kinds import CasePlot
+from disc_model.figures.render import render
+from disc_model.paper.figures.instants import motion_of
 from disc_model.studies.study import load_study
 from tests.damages import DAMAGES, damaged
 from tests.figures.reading import assert_fit_for_print, labels
@@ -33,7 +34,7 @@ MOVED = {
 
 def drawn(name: str, case: xr.DataTree) -> Figure:
     plot = FIGURES[name].model_copy(update=MOVED.get(name, {}))
-    return plot.render(dict.fromkeys(plot.cases, case))
+    return render(plot, dict.fromkeys(plot.cases, case))
 
 
 @pytest.mark.parametrize(
@@ -90,8 +91,9 @@ def test_captions_say_nothing_that_a_legend_finds_out() -> None:
 def test_areas_of_the_figure_on_both_scales_have_names() -> None:
     """Two names stood on white, which was a third area."""
     plot, maps = STUDY.figures["figB2"], evidence.scans()
-    figure = plot.render(
-        {"study": xr.DataTree(maps["map_N"]), **{n: xr.DataTree(maps[n]) for n in plot.overlays}}
+    figure = render(
+        plot,
+        {"study": xr.DataTree(maps["map_N"]), **{n: xr.DataTree(maps[n]) for n in plot.overlays}},
     )
     named = ["with neither", "only as published", "only by Eq. (17)", "with both"]
     assert labels(figure)[:4] == named
@@ -138,11 +140,12 @@ def test_the_figure_on_both_scales_counts_what_vanishes() -> None:
     plot = STUDY.figures["figB2"]
     changes = {name: {"first_separation": [[[90]], [[np.nan]]]} for name in ("map_m", "map_D_star")}
     for lost, maps in ((0, evidence.scans()), (2, evidence.scans(**changes))):
-        figure = plot.render(
+        figure = render(
+            plot,
             {
                 "study": xr.DataTree(maps["map_N"]),
                 **{n: xr.DataTree(maps[n]) for n in plot.overlays},
-            }
+            },
         )
         assert_fit_for_print(figure)
         assert figure.axes[2].get_title(loc="right") == f"{lost} of 9: none by Eq. (17)"

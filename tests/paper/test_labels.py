@@ -9,8 +9,11 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.kind import kinds_in
-from disc_model.paper.figures import runs, scales, schematic
+from disc_model.figures.kinds import kinds_in
+from disc_model.figures.render import render
+from disc_model.paper.figures import scales
+from disc_model.paper.figures.instants import motion_of
+from disc_model.paper.figures.kinds import STRETCH
 from tests.figures.measured import Shown, assert_shows, drawn_values
 from tests.figures.test_cases import simulated
 from tests.paper import evidence
@@ -135,7 +138,7 @@ def test_a_response_has_its_variable_in_its_unit_and_looks_in_milliseconds() -> 
 
 
 def test_instants_are_in_millimetres_and_milliseconds() -> None:
-    motion = runs.motion_of(case())
+    motion = motion_of(case())
     figure = drawn("figB1", case())
     circle = next(ax for ax in figure.axes if ax.get_xlabel() == "Angle θ (rad)")
     assert circle.get_ylabel() == "Deflection at $r_0$ (mm)"
@@ -164,7 +167,7 @@ def test_the_composite_is_in_newtons_millimetres_and_milliseconds() -> None:
     assert growth.get_xlabel() == "Time (s)"
     assert force.get_xlabel() == "Time after 57 s (ms)"
     assert force.get_ylabel() == "Contact force (N)"
-    assert force.get_xlim() == pytest.approx((0, 1e3 * schematic.STRETCH))
+    assert force.get_xlim() == pytest.approx((0, 1e3 * STRETCH))
     inside = (window("spectrum_d", "time") >= 57) & (window("spectrum_d", "time") <= 57.04)
     assert drawn_values(force, "y").max() == pytest.approx(window("spectrum_d", "P")[inside].max())
 
@@ -179,8 +182,9 @@ def test_the_schematic_has_radii_in_millimetres() -> None:
 
 def test_the_figure_on_both_scales_has_amplitudes_per_kilogram_and_times_in_seconds() -> None:
     plot, maps = STUDY.figures["figB2"], evidence.scans()
-    figure = plot.render(
-        {"study": xr.DataTree(maps["map_N"]), **{n: xr.DataTree(maps[n]) for n in plot.overlays}}
+    figure = render(
+        plot,
+        {"study": xr.DataTree(maps["map_N"]), **{n: xr.DataTree(maps[n]) for n in plot.overlays}},
     )
     modes = scales.plate_modes(scales.Parameters(N=385, Omega=15, normalization="orthonormal"))
     squares = modes["psi"].to_numpy() ** 2

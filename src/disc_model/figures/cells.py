@@ -5,21 +5,28 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
+from matplotlib.patches import Patch, PathPatch
+from matplotlib.path import Path
 from numpy.typing import NDArray
 
 from disc_model.data.variables import Outcome, flag_names
-from disc_model.figures import drawing
-from disc_model.figures.classes import BLUE, GREEN, LOOKS, RED, UNRESOLVED, Look, looks_of
-from disc_model.figures.drawing import GREY, Artist, Axes, mpl
+from disc_model.figures import selection
+from disc_model.figures.classes import LOOKS, UNRESOLVED, WEIGHTS, Look, looks_of
+from disc_model.figures.drawing import DECADES, GREY, wide
+from disc_model.figures.words import measured
 
 Array = NDArray[np.float64]
 Words = NDArray[np.str_]
 Mask = NDArray[np.bool_]
 Colours = NDArray[np.float64]  # red, green, blue and opacity along the last dimension
 
-DECADES_FROM = (
-    15  # ratio of the largest to the least positive value from which a scale may be logarithmic
-)
+DECADES_FROM = 15
+"""Ratio of the largest to the least positive value from which a scale may be logarithmic."""
+MARKED = {**LOOKS, UNRESOLVED.label: UNRESOLVED}
+"""Looks of classes, and of the mark of unresolved ones."""
 
 
 class Edges(NamedTuple):
@@ -28,6 +35,9 @@ class Edges(NamedTuple):
 
     across: Array
     up: Array
+
+
+# ---- Scales and edges
 
 
 def scale_of(name: str, values: Array) -> str:
@@ -51,10 +61,19 @@ def edges_of(plane: xr.DataArray) -> Edges:
 
 
 def _edges_along(coordinate: xr.DataArray) -> Array:
-    _, values = drawing.along(coordinate)
+    values = measured(coordinate).values
     if scale_of(str(coordinate.name), values) == "log":
-        return np.exp(drawing.edges(np.log(values)))
-    return drawing.edges(values)
+        return np.exp(selection.edges(np.log(values)))
+    return selection.edges(values)
+
+
+def decades_between(values: Array) -> list[float]:
+    """Ticks of a logarithmic axis from the least positive to the greatest value."""
+    least = values[values > 0][0]
+    return [tick for tick in DECADES if 0.999 * least <= tick <= 1.001 * values[-1]]
+
+
+# ---- Painting
 
 
 def unresolved(words: Words) -> Mask:
@@ -73,7 +92,7 @@ def paint(ax: Axes, edges: Edges, words: Words, looks: Mapping[str, Look]) -> Co
     """Paint each cell in the look of its word, if it has one; returns the colours."""
     colours = np.zeros((*words.shape, 4))
     for word, look in looks.items():
-        colours[words == word] = mpl.colors.to_rgba(look.face)
+        colours[words == word] = to_rgba(look.face)
     if colours.any():
         ax.pcolormesh(*edges, colours, rasterized=True)
     for word, look in looks.items():
@@ -84,7 +103,7 @@ def paint(ax: Axes, edges: Edges, words: Words, looks: Mapping[str, Look]) -> Co
 
 def lay_over(ax: Axes, edges: Edges, cells: Mask, mark: Look, below: Colours) -> None:
     """Hatch some cells with a mark, in black or white, whichever is seen on the colours `below`."""
-    lightness = below[..., :3] @ np.array([RED, GREEN, BLUE])
+    lightness = below[..., :3] @ np.array(WEIGHTS)
     light = (lightness >= 0.5) | (below[..., 3] == 0)  # nothing is painted on the white page
     _hatch(ax, edges, cells & light, mark.hatch, "#000000")
     _hatch(ax, edges, cells & ~light, mark.hatch, "#ffffff")
@@ -97,14 +116,15 @@ def _hatch(ax: Axes, edges: Edges, cells: Mask, hatch: str, ink: str) -> None:
         return
     x = edges.across[column[:, None] + np.array([0, 1, 1, 0])]
     y = edges.up[row[:, None] + np.array([0, 0, 1, 1])]
-    outline = mpl.path.Path.make_compound_path_from_polys(np.stack([x, y], axis=-1))
-    ax.add_patch(mpl.patches.PathPatch(outline, fill=False, hatch=hatch, ec=ink, lw=0, zorder=1.1))
+    outline = Path.make_compound_path_from_polys(np.stack([x, y], axis=-1))
+    ax.add_patch(PathPatch(outline, fill=False, hatch=hatch, ec=ink, lw=0, zorder=1.1))
 
 
 def class_cells(ax: Axes, plane: xr.DataArray, looks: Mapping[str, Look]) -> set[str]:
     """Paint cells in the look of their class. Those of motions are hatched, too, where they are
     unresolved; returns the classes and marks that occur."""
-    words, edges = flag_names(plane), edges_of(plane)
+    words = flag_names(plane)
+    edges = edges_of(plane)
     colours = paint(ax, edges, words, looks)
     used = set(words.flat)
     single = unresolved(words)
@@ -114,23 +134,26 @@ def class_cells(ax: Axes, plane: xr.DataArray, looks: Mapping[str, Look]) -> set
     return used
 
 
+# ---- Legends
+
+
 def looks_in(flag: xr.DataArray) -> dict[str, Look]:
     """Looks of all words that a flag can have; of those that occur if it holds words."""
     meanings = flag.attrs.get("flag_meanings", "").split()
     return looks_of(meanings or np.unique(flag_names(flag)))
 
 
-def patches(looks: Iterable[Look]) -> list[Artist]:
-    """Legend entries of classes and marks."""
-    return [patch_of(look) for look in looks]
-
-
 def patch_of(look: Look) -> Artist:
     """The legend entry of a class or mark."""
     edge = look.ink if look.hatch else GREY
-    return mpl.patches.Patch(
-        facecolor=look.face, hatch=look.hatch, edgecolor=edge, linewidth=0.4, label=look.label
+    return Patch(
+        facecolor=look.face, hatch=look.hatch, edgecolor=edge, linewidth=wide(0.4), label=look.label
     )
+
+
+def patches(looks: Iterable[Look]) -> list[Artist]:
+    """Legend entries of classes and marks."""
+    return [patch_of(look) for look in looks]
 
 
 def entries(used: Iterable[str], looks: Mapping[str, Look] = LOOKS) -> list[Artist]:

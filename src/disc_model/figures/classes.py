@@ -25,14 +25,14 @@ class Look(NamedTuple):
         return "#ffffff" if self.face != "none" and lightness(self.face) < 0.5 else "#000000"
 
 
-RED, GREEN, BLUE = 0.299, 0.587, 0.114
-"""Weights of the three colours in grey print."""
+WEIGHTS = (0.299, 0.587, 0.114)
+"""Weights of red, green and blue in grey print."""
 
 
 def lightness(colour: str) -> float:
     """Lightness in grey print of a colour ``#rrggbb``, from 0 for black to 1 for white."""
-    red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
-    return RED * red + GREEN * green + BLUE * blue
+    channels = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    return sum(weight * channel for weight, channel in zip(WEIGHTS, channels, strict=True))
 
 
 # ---- Marks that lie over classes, and never stand in their place

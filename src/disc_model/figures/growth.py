@@ -5,13 +5,18 @@ from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
+from cmcrameri import cm
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.colors import AsinhNorm
+from matplotlib.figure import FigureBase
 from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
-from disc_model.figures import drawing
 from disc_model.figures.cells import Mask, Words, edges_of, entries, lay_over, paint, unresolved
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED
-from disc_model.figures.drawing import Artist, Axes, mpl
+from disc_model.figures.selection import class_of_gap, statuses_like
+from disc_model.figures.words import label_of
 
 Array = NDArray[np.float64]
 
@@ -27,18 +32,18 @@ def is_growth(name: object) -> bool:
     return str(name).endswith("growth_rate")
 
 
-def growth_norm(rates: Array) -> drawing.Normalize:
+def growth_norm(rates: Array) -> AsinhNorm:
     """A colour scale that is nearly linear near 0 and nearly logarithmic beyond a thirtieth of its
     end."""
     sizes = np.abs(rates[np.isfinite(rates)])
     greatest = GREATEST
     if sizes.size and np.median(sizes) > GREATEST:
         greatest = float(sizes.max())
-    return mpl.colors.AsinhNorm(linear_width=LINEAR_SHARE * greatest, vmin=-greatest, vmax=greatest)
+    return AsinhNorm(linear_width=LINEAR_SHARE * greatest, vmin=-greatest, vmax=greatest)
 
 
 def growth_panels(
-    figure: drawing.FigureBase,
+    figure: FigureBase,
     axes: Sequence[Axes],
     planes: Sequence[xr.Dataset],
     name: str = "growth_rate",
@@ -51,10 +56,11 @@ def growth_panels(
     norm = growth_norm(np.concatenate([plane[name].values.ravel() for plane in planes]))
     used: set[str] = set()
     for ax, plane in zip(axes, planes, strict=True):
-        edges, rates = edges_of(plane[name]), plane[name].values
+        edges = edges_of(plane[name])
+        rates = plane[name].values
         words = classes_without_rate(plane, name)
         mesh = ax.pcolormesh(
-            *edges, np.ma.masked_invalid(rates), cmap=drawing.cm.vik, norm=norm, rasterized=True
+            *edges, np.ma.masked_invalid(rates), cmap=cm.vik, norm=norm, rasterized=True
         )
         painted = paint(ax, edges, words, MAP_LOOKS)
         colours = np.where(np.isfinite(rates)[..., None], mesh.to_rgba(rates), painted)
@@ -63,9 +69,8 @@ def growth_panels(
             if cells.any():
                 lay_over(ax, edges, cells, MAP_LOOKS[mark], colours)
                 used.add(mark)
-    label = drawing.label_of(planes[0][name])[0]
     bar = figure.colorbar(mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30)
-    bar.set_label(drawing.fill(label, 24 if len(axes) > 1 else 32))
+    bar.set_label(label_of(planes[0][name])[0])
     largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
     bar.set_ticks([-largest, -largest / 10, 0, largest / 10, largest])
     bar.minorticks_off()
@@ -88,9 +93,7 @@ def classes_without_rate(plane: xr.Dataset, name: str = "growth_rate") -> Words:
     if name == "growth_rate" and "cycle" in plane:
         words = flag_names(plane["cycle"])
     else:
-        statuses = drawing.statuses(plane).broadcast_like(plane[name]).transpose(*plane[name].dims)
-        words = statuses.values.astype(str)
-        words = np.vectorize(drawing.class_of_gap, otypes=[str])(words)
+        words = np.vectorize(class_of_gap, otypes=[str])(statuses_like(plane, plane[name]))
     return np.where(np.isfinite(rate), "", words)
 
 

@@ -4,7 +4,7 @@ import math
 import re
 from typing import Any
 
-from disc_model.figures.drawing import Figure
+from matplotlib.figure import Figure
 
 BEYOND = 1.15  # length of a label over that of its axis, at most
 MARKUP = re.compile(r"\\\w+|[${}_^]")  # of mathematical text; a symbol for a command

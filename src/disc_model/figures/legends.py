@@ -5,7 +5,9 @@ from functools import partial
 from textwrap import fill
 from typing import Any
 
-from disc_model.figures.drawing import Artist, Axes, FigureBase
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import FigureBase
 
 PAGE_SHARE = 0.98  # of the width of a figure that its legend may have
 NARROWEST = 12  # characters to which a name is broken at most
@@ -52,7 +54,6 @@ def legend_above(
     entries = list(handles) or ax.get_legend_handles_labels()[0]
     if not entries:
         return None
-
     draw = partial(
         ax.legend,
         handles=entries,
@@ -68,6 +69,21 @@ def legend_inside(ax: Axes, handles: Sequence[Artist] = (), **look: Any) -> Lege
     """Draw a legend inside the axes, where it covers least."""
     entries = list(handles) or ax.get_legend_handles_labels()[0]
     return ax.legend(handles=entries, loc="best", **look) if entries else None
+
+
+def legend_below(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
+    """Draw a legend below the label of the horizontal axis, in as many columns as the axes are
+    wide."""
+    if not handles:
+        return None
+    page: Any = ax.get_figure(root=True)
+    page.draw_without_rendering()  # sets the places
+    lowest = ax.xaxis.get_tightbbox()
+    bottom = 0.0 if lowest is None else ax.transAxes.inverted().transform((0, lowest.y0))[1]
+    draw = partial(
+        ax.legend, handles=list(handles), loc="upper left", bbox_to_anchor=(0, bottom), **look
+    )
+    return _widest_that_fits(draw, len(handles), float(ax.bbox.width))
 
 
 def _room_above(ax: Axes) -> float:

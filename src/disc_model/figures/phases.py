@@ -9,7 +9,7 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES, flag_names
-from disc_model.figures import drawing
+from disc_model.figures import selection
 
 Span = tuple[float, float]  # s, begin and end
 Spans = Mapping[str, Sequence[Span]]  # by phase
@@ -50,4 +50,4 @@ def spans_in(case: xr.DataTree, window: xr.Dataset) -> Spans:
     try:
         return spans_between(case, float(time[0]), float(time[-1]))
     except Missing:
-        return {phase: drawing.spans(time, words == phase) for phase in PHASES}
+        return {phase: selection.spans(time, words == phase) for phase in PHASES}

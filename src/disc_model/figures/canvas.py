@@ -1,0 +1,158 @@
+"""The page of a picture that a result draws of itself: a figure of its own, or a reader's axes, and
+what the reader asks of its legend, labels and title."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+from matplotlib import pyplot
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+
+from disc_model.errors import require
+from disc_model.figures.drawing import large, readers_style
+from disc_model.figures.labels import break_labels
+from disc_model.figures.legends import figure_legend, legend_below, legend_inside
+from disc_model.figures.words import head_text
+
+Place = Literal["inside", "below"]
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """What a reader asks of a picture.
+
+    ax : axes to draw on, one or several; None for a new figure
+    legend : whether there is a legend; or options of `Axes.legend`, such as its place
+    labels : other words for labels of axes, which are called "x" and "y", and for entries of the
+        legend, which are called as they are without
+    title : another title; "" for none, None for the usual one
+    """
+
+    ax: Any = None
+    legend: bool | Mapping[str, Any] = True
+    labels: Mapping[str, str] | None = None
+    title: str | None = None
+
+    def check(self) -> None:
+        """Raise `ParameterError` if a wish cannot be understood."""
+        labels = self.labels or {}
+        require(
+            (
+                isinstance(self.legend, bool | Mapping),
+                "legend",
+                self.legend,
+                "must be True, False, or options of a legend of matplotlib",
+            ),
+            (
+                isinstance(labels, Mapping)
+                and all(isinstance(text, str) for text in (*labels, *labels.values())),
+                "labels",
+                self.labels,
+                "must be texts by the texts they replace, or by x and y",
+            ),
+            (isinstance(self.title, str | None), "title", self.title, "must be a text"),
+        )
+
+
+@dataclass
+class Page:
+    """Axes that a picture is drawn on, and the entries of its legend.
+
+    axes : one for each panel, row by row
+    own : whether the figure is a new one
+    handles : entries of the legend; none if there is none
+    beside : where the legend stands on a reader's axes
+    note : what stands above the first panel, unless the reader asks for another title
+    """
+
+    axes: list[Axes]
+    own: bool
+    handles: Sequence[Artist] = field(default_factory=list)
+    beside: Place = "inside"
+    note: str = ""
+
+    @property
+    def ax(self) -> Axes:
+        """The first panel."""
+        return self.axes[0]
+
+    @property
+    def figure(self) -> Any:
+        return self.ax.get_figure()
+
+    def explain(self, handles: Sequence[Artist], beside: Place = "inside") -> None:
+        """Set the entries of the legend, and where it stands on a reader's axes."""
+        self.handles = handles
+        self.beside = beside
+
+
+@contextmanager
+def page_for(
+    wishes: Wishes,
+    width: float,
+    height: float,
+    rows: int = 1,
+    columns: int = 1,
+    *,
+    title: str = "",
+    **shared: Any,
+) -> Iterator[Page]:
+    """The page of a picture, which is finished by its legend, labels and title.
+
+    A new figure has a size in inches, the style of this package where the reader has none, and a
+    title with the values of a case. A reader's axes keep their figure's title.
+    """
+    wishes.check()
+    if wishes.ax is not None:
+        page = Page(_given(wishes.ax, rows * columns), own=False)
+        yield page
+        _finish(page, wishes)
+        return
+    with readers_style():
+        figure = pyplot.figure(figsize=(width, height), layout="constrained")
+        page = Page(list(figure.subplots(rows, columns, squeeze=False, **shared).flat), own=True)
+        yield page
+        usual = head_text(width, "", title) if wishes.title is None else wishes.title
+        if usual:
+            figure.suptitle(usual, fontsize=large(8))
+        _finish(page, wishes)
+        break_labels(figure)
+
+
+def _given(ax: Any, count: int) -> list[Axes]:
+    """The axes of a reader, if they are as many as panels; raises `ParameterError`."""
+    given = list(np.ravel(np.asarray(ax, dtype=object)))
+    fit = len(given) == count and all(isinstance(each, Axes) for each in given)
+    require((fit, "ax", given, f"must be {count} axes of matplotlib, one for each panel"))
+    return given
+
+
+def _finish(page: Page, wishes: Wishes) -> None:
+    """Write the legend, and the labels and title that a reader asks for."""
+    labels = wishes.labels or {}
+    for ax in page.axes:
+        if ax.get_xlabel():
+            ax.set_xlabel(labels.get("x", ax.get_xlabel()))
+        if ax.get_ylabel():
+            ax.set_ylabel(labels.get("y", ax.get_ylabel()))
+    for handle in page.handles:
+        known = str(handle.get_label())
+        handle.set_label(labels.get(known, known))
+    if wishes.title is None and page.note:
+        page.ax.set_title(page.note, loc="left")
+    elif wishes.title is not None and not page.own:
+        page.ax.set_title(wishes.title)
+    if not page.handles or wishes.legend is False:
+        return
+    options = dict(wishes.legend) if isinstance(wishes.legend, Mapping) else {}
+    if options:
+        page.ax.legend(handles=list(page.handles), **options)
+    elif page.own:
+        figure_legend(page.figure, page.handles)
+    elif page.beside == "below":
+        legend_below(page.ax, page.handles)
+    else:
+        legend_inside(page.ax, page.handles)

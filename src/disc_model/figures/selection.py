@@ -1,0 +1,204 @@
+"""Selection of what a figure shows from a study or a case. Nothing here draws."""
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from disc_model.data import dataset
+from disc_model.data.variables import EXCLUDED, flag_names, stated_in
+from disc_model.figures.classes import name_of
+from disc_model.figures.words import named_value, rank_of, value_text
+
+Array = NDArray[np.float64]
+NORM = "normalization"  # the dimension that a study may have beside those that a figure requires
+WITHOUT_CYCLE = (
+    "no_cycle",
+    "separates",
+    "no_stick_slip",
+    "steady_sliding",
+    "unstable_sliding",
+    "at_rest",
+)
+"""Statuses of points that were computed, and have no stick-slip cycle."""
+
+
+class Part(NamedTuple):
+    """A part of a study, in a panel or a line of its own: what sets it apart, with the name of the
+    dimension and without, and its data."""
+
+    name: str
+    value: str
+    data: xr.Dataset
+
+
+# ---- Parts of a study
+
+
+def picked(study: xr.Dataset, values: Mapping[str, float | str]) -> xr.Dataset:
+    """A grid study at values of some dimensions; dimensions of one value are dropped."""
+    for dim, value in values.items():
+        study = study.sel({dim: value}, method=None if isinstance(value, str) else "nearest")
+    return study.squeeze()
+
+
+def normalizations(study: xr.Dataset) -> list[str]:
+    """Normalizations for which a grid study has values."""
+    if NORM in study.coords:
+        return [str(name) for name in np.atleast_1d(study[NORM].values)]
+    base = stated_in(study, "base")
+    return ["given" if base.get("disc") else base[NORM]]
+
+
+def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
+    """Values of a grid study for one normalization."""
+    return study.sel({NORM: normalization}) if NORM in study.dims else study
+
+
+def parts_along(
+    study: xr.Dataset, by: str | None, words: Mapping[str, str] | None = None
+) -> list[Part]:
+    """The parts of a study along a dimension, in order: words as in `WORDS`, or by the number that
+    they begin with. The study itself without a dimension.
+
+    words : other words for values along the dimension
+    """
+    if by is None or by not in study.dims:
+        return [Part("", "", study)]
+    if words:
+        known = [words.get(str(value), value) for value in study[by].values]
+        study = study.assign_coords({by: known})
+    # a zip has several coordinates
+    names = [str(name) for name, values in study.coords.items() if values.dims == (by,)]
+    slices = [study.isel({by: i}) for i in range(study.sizes[by])]
+    slices.sort(key=lambda data: [rank_of(data[name].item()) for name in names])
+    parts = []
+    for data in slices:
+        name = ", ".join(named_value(data, name) for name in names)
+        value = ", ".join(value_text(data, name) for name in names)
+        parts.append(Part(name, value, data))
+    return parts
+
+
+def titles_of(parts: Sequence[Part]) -> list[str]:
+    """Titles of the panels of parts: the dimension is named in the first one only."""
+    return [part.value if i else part.name for i, part in enumerate(parts)]
+
+
+def alike(data: xr.Dataset, part: xr.Dataset, by: str) -> xr.Dataset:
+    """A further study with the value of a dimension, and the normalization, that a part of the
+    first study has."""
+    for dim in dict.fromkeys([by, NORM]):
+        if dim not in data.dims:
+            continue
+        value = part[dim].item() if dim in part.coords else normalizations(part)[0]
+        data = data.sel({dim: value})
+    return data
+
+
+def common_points(data: xr.Dataset, other: xr.Dataset, names: Sequence[str]) -> list[xr.Dataset]:
+    """Two studies at the values of some dimensions that both have."""
+    for name in names:
+        same = np.isclose(data[name].values[:, None], other[name].values, rtol=1e-9, atol=0)
+        data = data.isel({name: same.any(axis=1)})
+        other = other.isel({name: same.any(axis=0)})
+    return [data, other]
+
+
+def remaining(array: xr.DataArray, axes: Sequence[str]) -> str | None:
+    """The dimension that is on no axis, if there is one."""
+    return next((str(name) for name in array.dims if name not in axes), None)
+
+
+# ---- Points without a value
+
+
+def statuses(study: xr.Dataset) -> xr.DataArray:
+    """The status of each point of a grid study, as a word; "ok" without one.
+
+    A motion that never sticks again is "steady_sliding" or "unstable_sliding" where the study knows
+    the growth rate of steady sliding.
+    """
+    if "status" not in study:
+        return xr.DataArray("ok")
+    words = study["status"].copy(data=flag_names(study["status"]).astype(object))
+    if "sliding_growth_rate" in study:
+        rate = study["sliding_growth_rate"]
+        largest = rate.max([dim for dim in rate.dims if dim not in words.dims])
+        slides = words == "no_stick_slip"
+        words = words.where(~(slides & (largest < 0)), "steady_sliding")
+        words = words.where(~(slides & (largest >= 0)), "unstable_sliding")
+    return words.astype(str)
+
+
+def statuses_like(study: xr.Dataset, array: xr.DataArray) -> NDArray[np.str_]:
+    """The status of each point, in the shape of a variable of the study."""
+    words = statuses(study).broadcast_like(array).transpose(*array.dims)
+    return np.asarray(words.values, dtype=str)
+
+
+def failed(study: xr.Dataset) -> xr.DataArray:
+    """Points of a grid study that failed."""
+    return statuses(study) != "ok"
+
+
+def class_of_gap(status: str) -> str:
+    """The class of a point without a value: its status, "failed" for a failure of the computation,
+    and "no_value" for a point that was computed."""
+    if status == "ok":
+        return "no_value"
+    return status if status in (*WITHOUT_CYCLE, EXCLUDED) else "failed"
+
+
+def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
+    """Points where a variable has no value, by the name of their class; without those that a rule
+    excludes."""
+    words, gone = statuses(study), variable.isnull()
+    masks: dict[str, xr.DataArray] = {}
+    for word in map(str, np.unique(words)):
+        here = gone & (words == word)
+        if word == EXCLUDED or not here.any():
+            continue
+        name = name_of(class_of_gap(word))
+        masks[name] = masks[name] | here if name in masks else here
+    return masks
+
+
+# ---- Stretches along an axis
+
+
+def edges(values: Array) -> Array:
+    """Edges of cells around ascending values: halfway between neighbours, and the first and last
+    value."""
+    return np.concatenate([values[:1], 0.5 * (values[1:] + values[:-1]), values[-1:]])
+
+
+def stretches(mask: np.ndarray) -> list[tuple[int, int]]:
+    """Runs of True: index of the first element, and the index after the last."""
+    borders = np.flatnonzero(np.diff(np.concatenate([[0], mask, [0]])))
+    return [(first, after) for first, after in borders.reshape(-1, 2).tolist()]
+
+
+def spans(along: Array, mask: np.ndarray) -> list[tuple[float, float]]:
+    """Ranges of ascending values in which a mask holds, up to halfway to their neighbours."""
+    borders = edges(along).tolist()
+    return [(borders[first], borders[after]) for first, after in stretches(mask)]
+
+
+def broken(x: Array, y: Array, jump: float, height: Array | None = None) -> list[Array]:
+    """A line with gaps where its height, y unless given, changes by more than `jump`."""
+    heights = y if height is None else height
+    places = np.flatnonzero(np.abs(np.diff(heights)) > jump) + 1
+    return [np.insert(values.astype(float), places, np.nan) for values in (x, y)]
+
+
+# ---- Windows of a case
+
+
+def history(case: xr.DataTree, window: str = "history", until: float | None = None) -> xr.Dataset:
+    """Ranges in a window, up to a time in s; two bins define the bin width."""
+    ranges = dataset.samples(case, window, envelope=True)
+    shown = ranges.sel(time=slice(until))
+    return shown if shown.sizes["time"] > 1 else ranges
