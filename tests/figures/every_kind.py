@@ -421,7 +421,7 @@ def campbell() -> Example:
             ),
             Shown(1, "x", SPEED, study["Omega"], "rad/s", "linear"),
             Shown(
-                1, "y", "Largest growth rate of the cycle", study["growth_rate"], "1/s", "symlog"
+                1, "y", "Largest growth rate of the cycle", study["growth_rate"], "1/s", "linear"
             ),
         ),
     )

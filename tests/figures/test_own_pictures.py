@@ -3,6 +3,7 @@ them."""
 
 import functools
 import re
+from typing import Any
 
 import numpy as np
 import pytest
@@ -78,7 +79,7 @@ def test_eigenvalues_are_in_hertz_and_per_second() -> None:
 
 
 @functools.cache
-def branch() -> dm.stability.continuation.Branch:
+def branch() -> Any:
     return dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.0))
 
 

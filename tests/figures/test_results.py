@@ -112,7 +112,8 @@ def test_a_film_has_its_frames(tmp_path: Path) -> None:
 
 def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
     cycle = dm.floquet(P.replace(Omega=15))
-    assert "stable, growth rate -0.105/s" in cycle.plot().get_title(loc="left")
+    words = " ".join(cycle.plot().get_title(loc="left").split())
+    assert "stable, growth rate -0.105/s" in words
     sliding, neutral = dm.steady_sliding(P), dm.steady_sliding(P.replace(mu_s=0, mu_k=0, D_star=0))
     assert labels(neutral.plot().figure) == ["decays"]
     assert labels(sliding.plot().figure) == ["decays", "grows"]

@@ -101,9 +101,17 @@ def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: A
     below = shares.cumsum("attractor_class") - shares.fillna(0)
     for word, heights, bottoms in zip(classes, shares, below, strict=True):
         look = LOOKS[word]
-        fill: dict[str, Any] = {"fc": look.face, "hatch": look.hatch, "ec": look.ink}
-        ax.bar(along, heights, width, bottoms, lw=wide(0.4), **fill)
-    ax.set(ylim=(0, 1))
+        ax.bar(
+            along,
+            heights,
+            width,
+            bottoms,
+            lw=wide(0.4),
+            fc=look.face,
+            hatch=look.hatch,
+            ec=look.ink,
+        )
+    ax.set_ylim((0, 1))
 
 
 # ---- Attractors
@@ -128,7 +136,7 @@ def _draw_attractors(ax: Axes, study: xr.Dataset, along: Array) -> None:
     for text, share in AREAS.items():
         ax.scatter([], [], LARGEST * share, facecolor="none", label=text, **edge)
     legend_above(ax)
-    ax.set(ylabel="Slider range (mm)")
+    ax.set_ylabel("Slider range (mm)")
     if np.any(ranges > 0):
         ax.set_yscale("log")
 
@@ -148,11 +156,18 @@ def _draw_kicks(ax: Axes, study: xr.Dataset, along: Array) -> None:
     ax.plot(along, sample, "_", color=BLACK, markersize=mark(6), label="least that separates")
     shown = np.where(bound > 0, bound, np.nan)
     ax.plot(along, shown, "v-", color=SEPARATED, markersize=mark(3.5), label="by bisection")
-    ax.set(ylabel="Critical energy (J)")
+    ax.set_ylabel("Critical energy (J)")
     if np.any(sample > 0):
         ax.set_yscale("log")
         # energy 0 has no place on this logarithmic scale
-        place: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "fontsize": large(7)}
         for x in along[bound == 0]:
-            drawing.say(ax, "0", (x, 0), (0, 2), color=SEPARATED, **place)
+            drawing.say(
+                ax,
+                "0",
+                (x, 0),
+                (0, 2),
+                color=SEPARATED,
+                xycoords=("data", "axes fraction"),
+                fontsize=large(7),
+            )
     legend_above(ax, columns=2, columnspacing=0.7, handlelength=1.0, handletextpad=0.4)

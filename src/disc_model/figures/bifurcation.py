@@ -107,7 +107,6 @@ def _draw_idle(ax: Axes, study: xr.Dataset, along: Array) -> None:
     moving = (phases_of(study) != "none").any(axis=1)
     idle = ~moving & ~failed(study).values
     slides = flag_names(study["kind"]) == "steady_sliding"
-    look: dict[str, Any] = {"color": GREY, "markersize": mark(4)}
     edge = ax.get_xaxis_transform()
     for label, shape, mask in (
         ("steady sliding", "_", idle & slides),
@@ -115,7 +114,15 @@ def _draw_idle(ax: Axes, study: xr.Dataset, along: Array) -> None:
     ):
         places = along[mask]
         if places.size:
-            ax.plot(places, np.full(places.size, IDLE), shape, label=label, transform=edge, **look)
+            ax.plot(
+                places,
+                np.full(places.size, IDLE),
+                shape,
+                label=label,
+                transform=edge,
+                color=GREY,
+                markersize=mark(4),
+            )
 
 
 def _draw_periods(ax: Axes, study: xr.Dataset, along: Array) -> None:
@@ -124,7 +131,8 @@ def _draw_periods(ax: Axes, study: xr.Dataset, along: Array) -> None:
     period = study["period_events"].values[moving]
     repeats = period > 0
     ax.plot(along[moving][repeats], period[repeats], ".", color=BLACK, markersize=mark(3))
-    ax.set(yscale="log", ylabel="Period\n(events)")
+    ax.set_yscale("log")
+    ax.set_ylabel("Period\n(events)")
     ax.set_ylim(0.4, None)  # room for crosses below period 1
     ax.yaxis.set_major_formatter("{x:g}")
     drawing.mark_failed(ax, along[moving][~repeats], name="not shown to repeat")

@@ -20,9 +20,8 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 NEAR = 3.0  # Hz, from a resonance, within which a fold has its name
-BOUNDING = (
-    0.5  # share of points from which a stretch of a curve bounds a cycle, as cells are coarser
-)
+BOUNDING = 0.5
+"""Share of points from which a stretch of a curve bounds a cycle, as cells are coarser."""
 
 
 class Curve(NamedTuple):
@@ -58,7 +57,9 @@ def curves_of(data: xr.Dataset) -> list[Curve]:
         adjoins = flag_names(points["adjoins_stable_cycle"]) == "yes"
         border = adjoins & np.isfinite(points["x"].values)
         if border.sum() > 1:
-            label = _resonance_of(points) if kinds[i] == "fold" else ""
+            label = ""
+            if kinds[i] == "fold":
+                label = _resonance_of(points)
             curve = Curve(points["x"].values, points["y"].values, str(kinds[i]), label)
             curves.append(curve.within(border))
     return curves

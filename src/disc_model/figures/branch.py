@@ -58,7 +58,8 @@ def plot_branch(
         ]
         handles += _draw_folds(axes, branch, x, values, factor)
         axes.margins(0.04)
-        axes.set(xlabel=across, ylabel=label)
+        axes.set_xlabel(across)
+        axes.set_ylabel(label)
         page.explain(handles)
     return page.ax
 
@@ -86,5 +87,6 @@ def _draw_folds(
     text = f"fold at {', '.join(places)}"
     if len(folds) > MOST_FOLDS:
         text = f"{len(folds)} folds"
-    look: dict[str, Any] = {"color": SEPARATED, "markersize": mark(4), "label": text}
-    return ax.plot(folds[:, 0] * factor, values[nearest], "s", **look)
+    return ax.plot(
+        folds[:, 0] * factor, values[nearest], "s", color=SEPARATED, markersize=mark(4), label=text
+    )

@@ -52,8 +52,10 @@ def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
 
     places = {case: value * factor for case, value in plot.paper_cases.items()}
     drawing.mark_cases([ax], places, 0.05)
-    ax.set(xlabel=label, ylabel="Range of the slider's height (mm)")
-    ax.set(xlim=(along[0], along[-1]), ylim=(LOWEST * 0.8, None))
+    ax.set_xlabel(label)
+    ax.set_ylabel("Range of the slider's height (mm)")
+    ax.set_xlim((along[0], along[-1]))
+    ax.set_ylim(bottom=0.8 * LOWEST)
     _legend(figure, study)
     return figure
 
@@ -70,10 +72,9 @@ def draw_branch(
     height = np.log(y) if factor < np.inf else None
     ax.plot(*broken(x, y, np.log(factor), height), color=color, linewidth=wide(THIN))
     # a segment is stable where both its ends are
-    thick: dict[str, Any] = {"linewidth": wide(STABLE), "solid_capstyle": "butt"}
     for first, last in stretches(stable[:-1] & stable[1:]):
         part = slice(first, last + 1)
-        ax.plot(x[part], y[part], color=color, **thick)
+        ax.plot(x[part], y[part], color=color, linewidth=wide(STABLE), solid_capstyle="butt")
 
 
 def _draw_sliding(ax: Axes, study: xr.Dataset, along: Array) -> None:

@@ -31,6 +31,8 @@ Mask = NDArray[np.bool_]
 MOST = 5  # number of peaks that are named at most
 NEAR = 0.01  # share of the speeds shown within which peaks are one, and crossings belong to a peak
 ROOM = 1.06  # highest frequency of the axis over that of the modes
+BESIDE_MEETING = ((4, -1), (-4, -1), (4, 4), (-4, 4))  # points, of names beside crossings,
+BESIDE_PEAK = ((2, 3), (-2, 3), (2, 10), (-2, 10))  # and beside peaks
 NAMES_APART = 0.035  # of the axis, least distance of the names of modes
 
 
@@ -48,8 +50,9 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
         study = study.sel({NORM: chosen})
     parts = parts_along(study, plot.by, plot.names)
     width = WIDTHS[plot.width or "page"]
-    shared: dict[str, Any] = {"sharex": True, "sharey": "row"}
-    figure, axes = drawing.panels(width, 5.4, 2, len(parts), height_ratios=[3, 2], **shared)
+    figure, axes = drawing.panels(
+        width, 5.4, 2, len(parts), height_ratios=[3, 2], sharex=True, sharey="row"
+    )
     above = axes[: len(parts)]
     below = axes[len(parts) :]
     for top, bottom, part in zip(above, below, parts, strict=True):
@@ -62,7 +65,10 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     below[0].set_ylim(min(1.3 * low, -LINEAR), max(3 * high, LINEAR))
     above[0].set_ylabel("Frequency in the slider's frame (Hz)")
     below[0].set_ylabel("Largest growth rate\nof the cycle (1/s)")
-    drawing.letters(axes, titles_of(parts) if len(parts) > 1 else [])
+    drawing.letters(axes, titles_of(parts))
+    figure.draw_without_rendering()  # sets the size of the panels
+    for top, bottom, part in zip(above, below, parts, strict=True):
+        _name_peaks(top, bottom, part.data.transpose("Omega", ...))
     return figure
 
 
@@ -124,20 +130,49 @@ def _draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, alone: bo
     if peak.crossing is None:
         return
 
-    symbol = "f_Ω"
-    line = study["rotation_frequency"]
-    if flag_names(peak.crossing["crossing_line"]) == "stick_slip":
-        symbol = "f_s"
-        line = study["stick_slip_frequency"]
+    by_slips = flag_names(peak.crossing["crossing_line"]) == "stick_slip"
+    line = study["stick_slip_frequency" if by_slips else "rotation_frequency"]
     multiple = float(peak.crossing["crossing_multiple"])
-    dashes: dict[str, Any] = {"linewidth": wide(0.8), "linestyle": (0, (4, 2)), "zorder": 0}
-    top.plot(study["Omega"], multiple * line, color=GREY, **dashes)
-    meeting = float(peak.crossing["crossing_Omega"]), float(peak.crossing["crossing_frequency"])
-    top.plot(*meeting, **_dot(alone=False))
-    name = f"{multiple:g} ${symbol}$"
-    drawing.say(top, name, meeting, (4, -1), fontsize=large(6), path_effects=drawing.halo())
-    beside = (speed, rate)
-    drawing.say(bottom, name, beside, (2, 3), fontsize=large(7), path_effects=drawing.halo())
+    top.plot(
+        study["Omega"],
+        multiple * line,
+        color=GREY,
+        linewidth=wide(0.8),
+        linestyle=(0, (4, 2)),
+        zorder=0,
+    )
+    top.plot(*_meeting(peak.crossing), **_dot(alone=False))
+
+
+def _meeting(crossing: xr.Dataset) -> tuple[float, float]:
+    """Speed and frequency at which a mode meets a multiple, rad/s and Hz."""
+    return float(crossing["crossing_Omega"]), float(crossing["crossing_frequency"])
+
+
+def _name_peaks(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
+    """Write the multiples at peaks and at crossings, where there is room."""
+    halo = drawing.halo()
+    above: list[Any] = []
+    below: list[Any] = []
+    for peak in peaks(study):
+        if peak.crossing is None:
+            continue
+        name = _multiple(peak.crossing)
+        meeting = _meeting(peak.crossing)
+        drawing.say_free(
+            top, name, meeting, BESIDE_MEETING, above, fontsize=large(6), path_effects=halo
+        )
+        place = (study["Omega"].values[peak.place], study["growth_rate"].values[peak.place])
+        drawing.say_free(
+            bottom, name, place, BESIDE_PEAK, below, fontsize=large(7), path_effects=halo
+        )
+
+
+def _multiple(crossing: xr.Dataset) -> str:
+    """The multiple of a frequency that a mode meets."""
+    by_slips = flag_names(crossing["crossing_line"]) == "stick_slip"
+    symbol = "f_s" if by_slips else "f_Ω"
+    return f"{float(crossing['crossing_multiple']):g} ${symbol}$"
 
 
 # ---- Selection

@@ -108,8 +108,12 @@ def page_for(
     wishes.check()
     if wishes.ax is not None:
         page = Page(_given(wishes.ax, rows * columns), own=False)
+        figure: Any = page.ax.get_figure(root=True)
+        before = set(figure.axes)
         yield page
         _finish(page, wishes)
+        bars = [ax for ax in figure.axes if ax not in before]
+        break_labels(figure, [*page.axes, *bars])
         return
     with readers_style():
         figure = pyplot.figure(figsize=(width, height), layout="constrained")

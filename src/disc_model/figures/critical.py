@@ -32,13 +32,23 @@ def plot_critical(
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
         axes = page.ax
         entry = "unstable near the static start"
-        shade: dict[str, Any] = {"color": SEPARATED, "alpha": 0.3, "linewidth": wide(0.8)}
         for ends in critical.unstable * factor:
-            axes.axvspan(*ends, zorder=0, label=entry, **shade)
+            axes.axvspan(
+                *ends, zorder=0, label=entry, color=SEPARATED, alpha=0.3, linewidth=wide(0.8)
+            )
             entry = "_nolegend_"
-        line: dict[str, Any] = {"markersize": mark(3), "linewidth": wide(0.7)}
-        axes.plot(x, critical.growth_rate, ".-", color=BLACK, label="cycles computed", **line)
+        axes.plot(
+            x,
+            critical.growth_rate,
+            ".-",
+            color=BLACK,
+            label="cycles computed",
+            markersize=mark(3),
+            linewidth=wide(0.7),
+        )
         scale_rates(axes)
-        axes.set(xlabel=label, ylabel="Growth rate of the cycle (1/s)", xlim=(x[0], x[-1]))
+        axes.set_xlabel(label)
+        axes.set_ylabel("Growth rate of the cycle (1/s)")
+        axes.set_xlim((x[0], x[-1]))
         page.explain(axes.get_legend_handles_labels()[0])
     return page.ax

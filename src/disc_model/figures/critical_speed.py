@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -17,17 +17,7 @@ from disc_model.figures import drawing
 from disc_model.figures.borders import curves_of, draw_curves, parts_of, passes
 from disc_model.figures.cells import edges_of, entries, paint
 from disc_model.figures.classes import LOOKS
-from disc_model.figures.drawing import (
-    BLACK,
-    BLUE,
-    ORANGE,
-    PAGE,
-    PAPER,
-    SEPARATED,
-    WIDTHS,
-    mark,
-    wide,
-)
+from disc_model.figures.drawing import BLACK, BLUE, ORANGE, PAPER, SEPARATED, WIDTHS, mark, wide
 from disc_model.figures.kinds.maps import CriticalSpeed
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import failed, stretches
@@ -51,19 +41,21 @@ def draw(plot: CriticalSpeed, study: xr.Dataset, overlays: Mapping[str, xr.Datas
     loads = study["N"].values
 
     # panels
-    width = WIDTHS[plot.width or ("page" if sweep is not None else "column")]
-    count = 1 if sweep is None else 2
-    columns = count if width == PAGE else 1
-    rows = count // columns
-    figure, axes = drawing.panels(width, 3.8 * rows, rows, columns, sharex=True, sharey=True)
-    speeds = study["scan_Omega"].values if cycle is None else cycle["Omega"].values
+    usual, count = ("column", 1) if sweep is None else ("page", 2)
+    width = WIDTHS[plot.width or usual]
+    figure, axes = drawing.row_of_panels(width, count, 3.8, 3.8, sharex=True, sharey=True)
+    speeds = study["scan_Omega"].values
+    if cycle is not None:
+        speeds = cycle["Omega"].values
     axes[0].set_xlim(speeds.min(), speeds.max())
     axes[0].set_ylim(0.95 * loads.min(), 1.02 * loads.max())
     drawing.mark_failed(axes[0], loads[lost], on="y")
     study = study.isel(N=~lost).sortby("N")
 
     # from the static start
-    handles: list[Artist] = [] if cycle is None else _behind(axes[0], cycle)
+    handles: list[Artist] = []
+    if cycle is not None:
+        handles += _behind(axes[0], cycle)
     if "curves" in overlays:
         handles += _curves(axes[0], overlays["curves"], cycle)
     horizon = float(study["horizon"].max())
@@ -114,8 +106,9 @@ def _curves(ax: Axes, curves: xr.Dataset, cycle: xr.Dataset | None) -> list[Arti
     apart = cycle["outcome"].copy(data=flag_names(cycle["outcome"]) == "separation")
     shown = []
     for curve in parts_of(found, cycle):
-        near = bool(passes(curve, apart).any())
-        shown.append(curve if near else curve._replace(label=""))
+        if not passes(curve, apart).any():
+            curve = curve._replace(label="")
+        shown.append(curve)
     return draw_curves(ax, shown)
 
 
@@ -124,14 +117,19 @@ def _paper_points(ax: Axes, points: Mapping[str, tuple[float, float]]) -> None:
     if not points:
         return
     load, speed = np.transpose([*points.values()])
-    hollow: dict[str, Any] = {
-        "mfc": "none",
-        "mec": PAPER,
-        "path_effects": drawing.halo(2.1, BLACK),
-        "zorder": 5,
-        "clip_on": False,
-    }
-    ax.plot(speed, load, "*", ms=10, mew=1.1, label="paper", **hollow)
+    ax.plot(
+        speed,
+        load,
+        "*",
+        ms=10,
+        mew=1.1,
+        label="paper",
+        mfc="none",
+        mec=PAPER,
+        path_effects=drawing.halo(2.1, BLACK),
+        zorder=5,
+        clip_on=False,
+    )
 
 
 # ---- Onsets
@@ -192,9 +190,18 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, label: str) -> None:
     for load, row in zip(loads, speeds, strict=True):
         for speed in row:
             points += [(speed, load), gap]
-    look: dict[str, Any] = {"c": "white", "marker": "o", "ms": mark(2.4), "mec": BLACK, "mew": 0.5}
     outline = drawing.halo(1.3, BLACK)
-    ax.plot(*np.reshape(points, (-1, 2)).T, path_effects=outline, zorder=1.9, label=label, **look)
+    ax.plot(
+        *np.reshape(points, (-1, 2)).T,
+        path_effects=outline,
+        zorder=1.9,
+        label=label,
+        c="white",
+        marker="o",
+        ms=mark(2.4),
+        mec=BLACK,
+        mew=0.5,
+    )
 
 
 # ---- Sweeps
@@ -209,9 +216,20 @@ def _beside(
     lost = failed(sweep).values
     onset = np.where(lost, np.nan, sweep["onset_speed"].values)
     end = np.where(lost, np.nan, sweep["offset_speed"].values)
-    look: dict[str, Any] = {"markersize": mark(4), "markerfacecolor": "none", "clip_on": False}
-    ax.plot(onset, loads, "^", color=ONSET, label="sweep up: separation begins", **look)
-    ax.plot(end, loads, "v", color=END, label="sweep down: separation ends", **look)
+    for speeds, shape, colour, label in (
+        (onset, "^", ONSET, "sweep up: separation begins"),
+        (end, "v", END, "sweep down: separation ends"),
+    ):
+        ax.plot(
+            speeds,
+            loads,
+            shape,
+            color=colour,
+            markersize=mark(4),
+            markerfacecolor="none",
+            clip_on=False,
+            label=label,
+        )
     drawing.mark_failed(ax, loads[lost], on="y")
     if basins is not None:
         _coexistence(ax, basins)
@@ -229,11 +247,20 @@ def _coexistence(ax: Axes, basins: xr.Dataset) -> None:
     quiet = basins["basin_fraction_low"].sel(attractor_class="quiet")
     apart = basins["separating_fraction_low"]
     both = ((quiet > 0) & (apart > 0)).values
-    look: dict[str, Any] = {"color": ORANGE, "ec": ORANGE, "alpha": 0.6, "lw": wide(0.8)}
     label = f"quiet or separating,\ncomputed at {load:g} N"
     for first, after in stretches(both):
         width = speeds[after - 1] - speeds[first]
-        ax.barh(load, width, BAR, speeds[first], label=label, **look)
+        ax.barh(
+            load,
+            width,
+            BAR,
+            speeds[first],
+            label=label,
+            color=ORANGE,
+            ec=ORANGE,
+            alpha=0.6,
+            lw=wide(0.8),
+        )
         label = "_nolegend_"
 
 
@@ -248,7 +275,14 @@ def _stable_cycles(ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset) -> None:
     within = (speeds >= lowest[:, None]) & (speeds <= highest)
     stable = (cycle["growth_rate"].values < 0) & within
     shown = np.ma.masked_where(~stable, stable)
-    look: dict[str, Any] = {"alpha": 0.25, "shading": "nearest", "rasterized": True}
-    ax.pcolormesh(speeds, loads, shown, cmap=ListedColormap([ORANGE]), **look)
+    ax.pcolormesh(
+        speeds,
+        loads,
+        shown,
+        cmap=ListedColormap([ORANGE]),
+        alpha=0.25,
+        shading="nearest",
+        rasterized=True,
+    )
     label = "the cycle is stable where the\nsweep down still separates"
     ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label=label)

@@ -12,8 +12,7 @@ from matplotlib.figure import Figure
 
 from disc_model.data.variables import stated_in
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, PAGE, WIDTHS, large, mark, wide
-from disc_model.figures.growth import is_growth
+from disc_model.figures.drawing import BLACK, GREY, WIDTHS, large, mark, wide
 from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.legends import figure_legend
@@ -31,6 +30,8 @@ from disc_model.figures.words import as_numbers, measured
 LINEAR = 0.1
 """Growth rate up to which its scale is linear, 1/s; a greater step breaks the line, or finds another
 cycle."""
+RATE = "growth_rate"
+"""Growth rate of a motion, with narrow peaks of tens beside hundredths."""
 MARKS = "os^Dv<>"
 """Marks of the lines; they are open, so that lines on top of each other show."""
 MARKED = 12  # points of a line without gaps that have a mark, about
@@ -43,23 +44,24 @@ APART = 0.05  # least distance of the ends of lines that are named there, as a s
 def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw a line, or one for each value of a second dimension, in one panel or several."""
     panels = panels_of(plot, picked(study, plot.at))
-    width = WIDTHS[plot.width or ("page" if len(panels) > 1 else "column")]
-    columns = len(panels) if width == PAGE else 1
-    rows = len(panels) // columns
-    height = 2.9 if rows == 1 else 2.2 * rows
-    figure, axes = drawing.panels(width, height, rows, columns, sharey=True)
+    usual = "page" if len(panels) > 1 else "column"
+    width = WIDTHS[plot.width or usual]
+    figure, axes = drawing.row_of_panels(width, len(panels), 2.9, 2.2, sharey=True)
     marks: dict[str, str] = {}
     for ax, part in zip(axes, panels, strict=True):
         draw_lines(ax, part.data, plot.variable, plot.x, plot.log, marks)
         ax.label_outer()
     if plot.limits is not None:
         axes[0].set_ylim(plot.limits)
-    drawing.letters(axes, titles_of(panels), pad=20 if plot.panels == "each" else None)
-    _name_lines(figure, axes, several=bool(plot.panels), one=plot.by is None)
+    pad = None
+    if plot.panels == "each":  # for the rows of missing values
+        pad = 20
+    drawing.letters(axes, titles_of(panels), pad=pad)
+    _name_lines(figure, axes, several=bool(plot.panels))
     return figure
 
 
-def panels_of(plot: CurvePlot, study: xr.Dataset) -> list[Part]:
+def panels_of(plot: CurvePlot, study: xr.Dataset) -> list[Part[xr.Dataset]]:
     """The part of a study in each panel."""
     if plot.panels == "each":
         return parts_along(study, plot.by, plot.names)
@@ -74,7 +76,7 @@ def panels_of(plot: CurvePlot, study: xr.Dataset) -> list[Part]:
     return [Part("", "", part) for part in chosen]
 
 
-def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool, one: bool) -> None:
+def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool) -> None:
     """Name lines at their ends, if there is room, or in a legend."""
     unnamed: dict[str, Artist] = {}
     for ax in axes:
@@ -85,7 +87,7 @@ def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool, one: bool) 
     if len(unnamed) > MOST_BESIDE and longest < LONGEST_BESIDE and not several:
         figure_legend(figure, [*unnamed.values()], columns=1, loc="outside right upper")
     else:
-        figure_legend(figure, [*unnamed.values()], columns=2 if one else 3)
+        figure_legend(figure, [*unnamed.values()], columns=3)
 
 
 # ---- Lines
@@ -105,25 +107,28 @@ def draw_lines(
     Panels of a figure share `marks`, by the names of lines, so that a line has the same mark in all
     of them.
     """
-    marks = {} if marks is None else marks
+    if marks is None:
+        marks = {}
     names, array = as_numbers(as_classes(study[variable]))
     label, values = measured(array)
     array = array.copy(data=values)
     by = remaining(array, [x])
     across = measured(array[x])
-    rates = is_growth(variable) and not log
+    rates = variable == RATE and not log
 
     # lines, in the colours of their order
-    parts = parts_along(array.to_dataset(name="value"), by)
-    colours = [cm.batlow(i / len(parts)) for i in range(len(parts))] if by else [BLACK]
-    gapless = not (names or rates or array.isnull().any())
-    every = max(1, across.values.size // MARKED) if gapless else 1
-    for colour, part in zip(colours, parts, strict=True):
+    parts = parts_along(array, by)
+    every = 1
+    if not (names or rates or array.isnull().any()):
+        every = max(1, across.values.size // MARKED)
+    jump = LINEAR if rates else np.inf
+    line = "" if names else "-"
+    for colour, part, title in zip(_colours(parts), parts, titles_of(parts), strict=True):
         shape = marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
-        heights = part.data["value"].values
-        points = broken(across.values, heights, LINEAR if rates else np.inf)
-        style = shape if names else f"{shape}-"
-        ax.plot(*points, style, color=colour, label=part.name or None, markevery=every, **_look())
+        points = broken(across.values, part.data.values, jump)
+        ax.plot(
+            *points, f"{shape}{line}", color=colour, label=title or None, markevery=every, **_look()
+        )
 
     # scales and labels
     if log:
@@ -131,11 +136,19 @@ def draw_lines(
     if rates:
         scale_rates(ax)
     ax.set_xscale(scale(array[x]))
-    ax.set(xlabel=across.label, ylabel=label)
+    ax.set_xlabel(across.label)
+    ax.set_ylabel(label)
     if names:
         ax.set_yticks(range(len(names)), labels=names)
     ax.margins(0.03)
     _mark_gaps(ax, study, array, x, marks)
+
+
+def _colours(parts: Sequence[Part[Any]]) -> list[Any]:
+    """Colours of lines in their order; a single one is black."""
+    if len(parts) == 1:
+        return [BLACK]
+    return [cm.batlow(i / len(parts)) for i in range(len(parts))]
 
 
 def _look() -> dict[str, Any]:
@@ -155,17 +168,25 @@ def _mark_gaps(
     by = remaining(array, [x])
     across = measured(array[x]).values
     top = ABOVE
-    place: dict[str, Any] = {"transform": ax.get_xaxis_transform(), "clip_on": False}
     for name, gone in gaps(study, array).items():
-        parts = parts_along(gone.to_dataset(name="gone"), by)
-        for i, part in enumerate(parts):
-            mask = part.data["gone"].values
+        parts = parts_along(gone, by)
+        for colour, part in zip(_colours(parts), parts, strict=True):
+            mask = part.data.values
             if not mask.any():
                 continue
-            shape = marks[part.name] if by else "x"
-            colour = cm.batlow(i / len(parts)) if by else BLACK
+            shape = "x"
+            if by is not None:
+                shape = marks[part.name]
             row = np.full(int(mask.sum()), top)
-            ax.plot(across[mask], row, shape, color=colour, **_look(), **place)
+            ax.plot(
+                across[mask],
+                row,
+                shape,
+                color=colour,
+                transform=ax.get_xaxis_transform(),
+                clip_on=False,
+                **_look(),
+            )
             top += 0.05
         if array.name == "first_separation" and name == "no value":
             name = f"none within {stated_in(study, 'options')['horizon']:g} s"
@@ -174,7 +195,8 @@ def _mark_gaps(
 
 
 def scale_rates(ax: Axes) -> None:
-    """Scale an axis of growth rates, as peaks of tens occur beside hundredths, and mark zero."""
+    """Scale an axis of growth rates, as peaks of tens occur beside hundredths, and mark zero. Where
+    all rates drawn are small, the scale is linear."""
 
     def between(rate: float, _: float) -> str:
         """Within about a decade, labels of some ticks between its ends, so that nobody reads the
@@ -183,9 +205,10 @@ def scale_rates(ax: Axes) -> None:
         near = max(map(abs, ax.get_ylim())) < 20 * LINEAR
         return f"{rate:g}" if leading in "25" and near else ""
 
-    ax.set_yscale("symlog", linthresh=LINEAR, subs=range(2, 10))
-    ax.yaxis.set_major_formatter("{x:g}")
-    ax.yaxis.set_minor_formatter(between)
+    if max(map(abs, ax.dataLim.intervaly)) > LINEAR:
+        ax.set_yscale("symlog", linthresh=LINEAR, subs=range(2, 10))
+        ax.yaxis.set_major_formatter("{x:g}")
+        ax.yaxis.set_minor_formatter(between)
     ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
 
 

@@ -114,8 +114,9 @@ def colour_of(motion: Motion, i: int, otherwise: str = SLIDER) -> str:
 def draw_plane(ax: Axes, plane: Plane, values: Array, scale: Normalize) -> Any:
     """Draw values over the disc from above, in mm; blue below the plane of the disc at rest, red
     above it."""
-    look: dict[str, Any] = {"shading": "gouraud", "rasterized": True}
-    mesh = ax.pcolormesh(plane.x, plane.y, values, cmap=cm.vik, norm=scale, **look)
+    mesh = ax.pcolormesh(
+        plane.x, plane.y, values, cmap=cm.vik, norm=scale, shading="gouraud", rasterized=True
+    )
     inner = Circle((0, 0), 1e3 * plane.r[0], fc="0.85", ec=GREY, lw=wide(0.6))
     outer = Circle((0, 0), 1e3 * plane.r[-1], fc="none", ec=GREY, lw=wide(0.6), clip_on=False)
     ax.add_patch(inner)
@@ -169,7 +170,9 @@ def draw_circle(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> N
     ax.plot(theta, deflection, color=drawing.DISC, **look)
     angle = motion.slider[i] % (2 * np.pi)
     ax.plot(angle, 1e3 * motion.u[i], "s", ms=size, mfc=colour_of(motion, i), mec=BLACK, mew=0.6)
-    ax.set(xlabel="Angle θ (rad)", ylabel="Deflection at $r_0$ (mm)", xlim=(0, 2 * np.pi))
+    ax.set_xlabel("Angle θ (rad)")
+    ax.set_ylabel("Deflection at $r_0$ (mm)")
+    ax.set_xlim((0, 2 * np.pi))
 
 
 # ---- A film
@@ -196,9 +199,16 @@ def film(figure: Figure, motion: Motion, time: Array, force: Array) -> FuncAnima
         circle.set_title(words, color=colour_of(motion, i, BLACK))
 
         trace.plot(1e3 * (time - begin), force, color=GREY, lw=wide(0.7))
-        point: dict[str, Any] = {"ms": 4, "mfc": colour_of(motion, i), "mec": BLACK}
-        trace.plot(1e3 * (now - begin), np.interp(now, time, force), "o", **point)
-        trace.set(xlabel="Time (ms)", ylabel="Contact force P (N)")
+        trace.plot(
+            1e3 * (now - begin),
+            np.interp(now, time, force),
+            "o",
+            ms=4,
+            mfc=colour_of(motion, i),
+            mec=BLACK,
+        )
+        trace.set_xlabel("Time (ms)")
+        trace.set_ylabel("Contact force P (N)")
         trace.set_xlim(1e3 * (time[[0, -1]] - begin))
         return [disc, circle, trace]
 

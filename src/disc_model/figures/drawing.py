@@ -119,20 +119,35 @@ def new_figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained")
 
 
-def panels(
-    width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any
-) -> tuple[Figure, list[Axes]]:
+Panels = tuple[Figure, list[Axes]]
+
+
+def panels(width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any) -> Panels:
     """A figure of a size in inches with panels, row by row; `shared` as `Figure.subplots` has
     it."""
     figure = new_figure(width, height)
     return figure, list(figure.subplots(rows, columns, squeeze=False, **shared).flat)
 
 
+def row_of_panels(width: float, count: int, height: float, stacked: float, **shared: Any) -> Panels:
+    """A figure with panels beside each other on a page, or below each other in one column.
+
+    width : of the figure, inch
+    count : number of panels
+    height : of a row of panels, inch
+    stacked : of each of several panels below each other, inch
+    shared : as `Figure.subplots` has it
+    """
+    if width == PAGE or count == 1:
+        return panels(width, height, 1, count, **shared)
+    return panels(width, stacked * count, count, 1, **shared)
+
+
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
     """Write a figure with its title; equal figures give equal bytes. Further files have the layout
     of the first."""
-    stamp = "CreationDate" if Path(path).suffix == ".pdf" else "Software"
-    metadata: dict[str, Any] = {stamp: None}
+    stamps = {".pdf": "CreationDate"}
+    metadata: dict[str, Any] = {stamps.get(Path(path).suffix, "Software"): None}
     if title:
         metadata["Title"] = title
     with styled():
@@ -222,11 +237,15 @@ def show(ax: Axes, case: xr.DataTree, window: xr.Dataset, name: str, *, named: b
         values = window[name].values * factor
         ax.plot(window["time"], values, color=colour, linewidth=wide(0.6))
         ax.set_xlim(*window["time"].values[[0, -1]])
-    ax.set(xlabel="Time (s)", ylabel=label)
+    ax.set_xlabel("Time (s)")
+    ax.set_ylabel(label)
     mark_first_separation(ax, case, named=named)
 
 
 # ---- Marks
+
+ABOVE = 1.04  # height of a bar above a panel, as a share of it,
+RIGHT = 1.02  # and place of one beside it
 
 
 def headroom(ax: Axes, share: float) -> None:
@@ -251,25 +270,38 @@ def show_thickness(ax: Axes, case: xr.DataTree, along: Literal["x", "y"]) -> Non
     """Draw a bar as long as the disc is thick, beside a panel whose axis is a displacement in mm,
     if it finds room."""
     thickness = json.loads(case.attrs.get("parameters", "{}")).get("h")
-    low, high = ax.get_xlim() if along == "x" else ax.get_ylim()
-    share = 1e3 * thickness / (high - low) if thickness else 1.0
+    if not thickness:
+        return
+    low, high = {"x": ax.get_xlim, "y": ax.get_ylim}[along]()
+    share = 1e3 * thickness / (high - low)
     if share > 0.8:
         return
-    look: dict[str, Any] = {
-        "color": BLACK,
-        "linewidth": 2.5,
-        "solid_capstyle": "butt",
-        "transform": ax.transAxes,
-        "clip_on": False,
-    }
-    place: dict[str, Any] = {"xycoords": "axes fraction", "fontsize": large(6)}
-    text = f"thickness {1e3 * thickness:g} mm"
+    start: tuple[float, float] = (RIGHT, 0)
+    end: tuple[float, float] = (RIGHT, share)
+    offset = (3, 1)
+    rotation = 90
     if along == "x":
-        ax.plot([1 - share, 1], [1.04, 1.04], **look)
-        say(ax, text, (1 - share, 1.04), (-3, 0), **place)
-    else:
-        ax.plot([1.02, 1.02], [0, share], **look)
-        say(ax, text, (1.02, 0), (3, 1), rotation=90, **place)
+        start = (1 - share, ABOVE)
+        end = (1, ABOVE)
+        offset = (-3, 0)
+        rotation = 0
+    ax.plot(
+        *zip(start, end, strict=True),
+        color=BLACK,
+        linewidth=2.5,
+        solid_capstyle="butt",
+        transform=ax.transAxes,
+        clip_on=False,
+    )
+    say(
+        ax,
+        f"thickness {1e3 * thickness:g} mm",
+        start,
+        offset,
+        xycoords="axes fraction",
+        fontsize=large(6),
+        rotation=rotation,
+    )
 
 
 def mark_printed(ax: Axes, time: float) -> None:
@@ -280,10 +312,26 @@ def mark_printed(ax: Axes, time: float) -> None:
         return
     bottom, top = ax.get_ylim()
     ax.set_ylim(bottom - 0.13 * (top - bottom), top)
-    look: dict[str, Any] = {"marker": "^", "c": PAPER, "mec": BLACK, "ms": 6, "zorder": 6}
-    ax.plot([time], [0], transform=ax.get_xaxis_transform(), clip_on=False, **look)
-    place: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "fontsize": large(6)}
-    say(ax, f"paper: {time:g} s", (time, 0), (-6, 4), path_effects=halo(), **place)
+    ax.plot(
+        [time],
+        [0],
+        transform=ax.get_xaxis_transform(),
+        clip_on=False,
+        marker="^",
+        c=PAPER,
+        mec=BLACK,
+        ms=6,
+        zorder=6,
+    )
+    say(
+        ax,
+        f"paper: {time:g} s",
+        (time, 0),
+        (-6, 4),
+        path_effects=halo(),
+        xycoords=("data", "axes fraction"),
+        fontsize=large(6),
+    )
 
 
 def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:
@@ -297,8 +345,15 @@ def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **
     usual.update(look)
     ax.axvline(time, **usual)
     if named:
-        place: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "fontsize": large(7)}
-        say(ax, f"first separation {time:.2f} s", (time, 1), (0, 2), color=SEPARATED, **place)
+        say(
+            ax,
+            f"first separation {time:.2f} s",
+            (time, 1),
+            (0, 2),
+            color=SEPARATED,
+            xycoords=("data", "axes fraction"),
+            fontsize=large(7),
+        )
 
 
 def mark_failed(
@@ -329,6 +384,29 @@ def say(
     return ax.annotate(text, point, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
 
 
+def say_free(
+    ax: Axes,
+    text: str,
+    point: tuple[float, float],
+    offsets: Iterable[tuple[float, float]],
+    taken: list[Any],
+    **look: Any,
+) -> bool:
+    """Write a few words beside a point, by the first of some offsets at which they lie in the panel
+    and cover nothing that is taken; returns whether there is one. Boxes of words are added to those
+    taken. The figure has its final size."""
+    frame = ax.get_window_extent()
+    for offset in offsets:
+        name = say(ax, text, point, offset, **look)
+        box = name.get_window_extent().padded(1)
+        inside = frame.x0 <= box.x0 and box.x1 <= frame.x1 and box.y1 <= frame.y1
+        if inside and not any(box.overlaps(other) for other in taken):
+            taken.append(box)
+            return True
+        name.remove()
+    return False
+
+
 def say_beside(ax: Axes, height: float, text: str, gap: float = 2, **look: Any) -> None:
     """Write a line's name at its right end, outside the panel, after a gap in points."""
     say(ax, text, (1, height), (gap, 0), xycoords=("axes fraction", "data"), **look)
@@ -343,9 +421,11 @@ def letters(axes: Sequence[Axes] | np.ndarray, titles: Iterable[str] = (), **loo
     """Write the letters of panels, and the subjects of the first ones; a single panel has no
     letter."""
     subjects = chain(titles, repeat(""))
+    if len(axes) == 1:
+        axes[0].set_title(next(subjects), loc="left", **look)
+        return
     for ax, text, title in zip(axes, "abcdefghijkl", subjects, strict=False):
-        name = f"({text}) {title}".strip() if len(axes) > 1 else title
-        ax.set_title(name, loc="left", **look)
+        letter(ax, text, title, **look)
 
 
 def set_label(ax: Axes, along: Literal["x", "y"], variable: xr.DataArray) -> None:

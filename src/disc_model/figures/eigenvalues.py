@@ -43,13 +43,16 @@ def plot_eigenvalues(
             (~grows, "o", BLUE, "decays"),
             (grows, "D", SEPARATED, "grows"),
         ):
-            look: dict[str, Any] = {"color": colour, "markersize": mark(4), "label": name}
-            axes.plot(rate[mask], frequency[mask], shape, **look)
+            axes.plot(
+                rate[mask], frequency[mask], shape, color=colour, markersize=mark(4), label=name
+            )
         for x, y in zip(rate[grows], frequency[grows], strict=True):
             drawing.say(axes, f"{y:.0f} Hz", (x, y), (4, 0), fontsize=large(7), color=SEPARATED)
         span = max(map(abs, axes.get_xlim())) * ROOM
-        axes.set(xlabel="Growth rate (1/s)", ylabel="Frequency (Hz)")
-        axes.set(xlim=(-span, span), ylim=(0, None))
+        axes.set_xlabel("Growth rate (1/s)")
+        axes.set_ylabel("Frequency (Hz)")
+        axes.set_xlim((-span, span))
+        axes.set_ylim(bottom=0)
         axes.margins(y=0.08)
         handles = [line for line in axes.lines if line.get_label() in ("decays", "grows")]
         page.explain([line for line in handles if np.size(line.get_xdata())])

@@ -48,8 +48,10 @@ def plot_exponents(
                 label=name,
             )
         axes.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
-        axes.set(xlabel="Number", ylabel="Lyapunov exponent (1/s)")
-        axes.set(xticks=number, xlim=(0.5, number[-1] + 0.5))
+        axes.set_xlabel("Number")
+        axes.set_ylabel("Lyapunov exponent (1/s)")
+        axes.set_xticks(number)
+        axes.set_xlim((0.5, number[-1] + 0.5))
         lost = counted(lyapunov.separations, "separation")
         page.note = f"over {lyapunov.duration:g} s, {lost}"
         page.explain(axes.get_legend_handles_labels()[0])

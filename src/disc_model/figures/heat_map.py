@@ -3,7 +3,6 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -44,7 +43,6 @@ from disc_model.figures.words import label_of, measured
 
 FEW = 12  # counts below which each has a colour of its own
 IN_A_ROW = 4  # panels on a page
-TITLE_CHARACTER = 0.08  # inch, width of a character of a panel's title
 
 
 def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -64,8 +62,7 @@ def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -
     if len(axes) > 1:
         for ax, letter, title in zip(axes, "abcdef", titles, strict=False):
             unbroken = title.replace(" = ", "\u00a0=\u00a0")  # a value stays beside its name
-            room = round(width / columns / TITLE_CHARACTER)
-            ax.set_title(fill(f"({letter}) {unbroken}", room), loc="left")
+            drawing.letter(ax, letter, unbroken)
     for ax in axes:
         ax.label_outer()
     for ax in axes[-columns:]:  # below some of them there is none
@@ -75,7 +72,7 @@ def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -
     return figure
 
 
-def parts_of(plot: General, study: xr.Dataset) -> list[Part]:
+def parts_of(plot: General, study: xr.Dataset) -> list[Part[xr.Dataset]]:
     """The parts of a study in the panels of a general figure."""
     chosen = picked(study, plot.at)
     by = remaining(chosen[plot.variable], [*plot.axes.values()])
@@ -103,7 +100,8 @@ def draw_maps(
     else:
         handles = number_panels(figure, axes, planes, variable, log)
     up, across = (first[str(name)] for name in first.dims)
-    axes[0].set(xscale=scale(across), yscale=scale(up))  # axes are shared
+    axes[0].set_xscale(scale(across))
+    axes[0].set_yscale(scale(up))
     for ax in axes:
         drawing.set_label(ax, "x", across)
         drawing.set_label(ax, "y", up)

@@ -66,10 +66,18 @@ def plot_run(
 
     rows, columns = len(variables), len(windows)
     width = PAGE if columns > 1 else COLUMN
-    shared: dict[str, Any] = {"sharex": "col", "sharey": "row" if columns > 1 else False}
     wishes = Wishes(ax, legend, labels, title)
     height = 0.7 + 1.25 * rows
-    with page_for(wishes, width, height, rows, columns, title=stated(case), **shared) as page:
+    with page_for(
+        wishes,
+        width,
+        height,
+        rows,
+        columns,
+        title=stated(case),
+        sharex="col",
+        sharey="row" if columns > 1 else False,
+    ) as page:
         grid: Any = np.array(page.axes, dtype=object).reshape(rows, columns)
         for column, window in zip(grid.T, shown, strict=True):
             handles = draw_history(column, case, window, variables)

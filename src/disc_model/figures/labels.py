@@ -1,22 +1,38 @@
-"""Labels of axes that are no longer than their axes."""
+"""Labels and titles that are no longer than their axes."""
 
 import math
 import re
+from collections.abc import Sequence
 from typing import Any
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 BEYOND = 1.15  # length of a label over that of its axis, at most
 MARKUP = re.compile(r"\\\w+|[${}_^]")  # of mathematical text; a symbol for a command
 
 
-def break_labels(figure: Figure) -> None:
-    """Break labels of axes into lines where they are longer than their axes."""
+def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
+    """Break labels and titles of axes, all those of a figure unless some are given, into lines where
+    they are longer than the axes."""
     figure.draw_without_rendering()  # sets the sizes
-    for ax in figure.axes:
+    for ax in figure.axes if axes is None else axes:
         box = ax.get_window_extent()
         _break(ax.xaxis.label, "width", BEYOND * box.width)
         _break(ax.yaxis.label, "height", BEYOND * box.height)
+        for title in titles_of(ax):
+            _break(title, "width", box.width)
+
+
+def titles_of(ax: Axes) -> list[Text]:
+    """The titles of axes, that have a text, at the left, in the middle and at the right."""
+    texts = {ax.get_title(loc) for loc in ("left", "center", "right")} - {""}
+    return [
+        child
+        for child in ax.get_children()
+        if isinstance(child, Text) and child not in ax.texts and child.get_text() in texts
+    ]
 
 
 def _break(label: Any, direction: str, room: float) -> None:

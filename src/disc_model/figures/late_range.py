@@ -10,18 +10,7 @@ from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
-from disc_model.figures.drawing import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    PAGE,
-    PURPLE,
-    WIDTHS,
-    large,
-    mark,
-    wide,
-)
+from disc_model.figures.drawing import BLACK, BLUE, GREEN, GREY, PURPLE, WIDTHS, large, mark, wide
 from disc_model.figures.kinds.motions import LateRange
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.words import label_of
@@ -42,18 +31,25 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     outcomes = study["outcome"].copy(data=flag_names(study["outcome"]))
     names = study[plot.by].values
     width = WIDTHS[plot.width or "page"]
-    columns = len(names) if width == PAGE else 1
-    rows = len(names) // columns
-    figure, axes = drawing.panels(width, 0.8 + 2.2 * rows, rows, columns, sharex=True, sharey=True)
+    figure, axes = drawing.row_of_panels(width, len(names), 3.0, 2.4, sharex=True, sharey=True)
     for ax, name in zip(axes, names, strict=True):
         chosen = {plot.by: name}
         _draw_panel(ax, ranges.sel(chosen), outcomes.sel(chosen))
         ax.margins(x=0.05)
-        ax.set(yscale="log", ylim=(SMALLEST, LARGEST), xlabel=label_of(study["Omega"])[0])
+        ax.set_yscale("log")
+        ax.set_ylim((SMALLEST, LARGEST))
+        ax.set_xlabel(label_of(study["Omega"])[0])
         ax.set_ylabel("Slider, peak to peak (thicknesses)")
         ax.label_outer()
-    say: dict[str, Any] = {"transform": axes[0].transAxes, "va": "top", "c": GREY}
-    axes[0].text(0.03, 0.99, "beyond linear plate theory", size=large(6), **say)
+    axes[0].text(
+        0.03,
+        0.99,
+        "beyond linear plate theory",
+        size=large(6),
+        transform=axes[0].transAxes,
+        va="top",
+        c=GREY,
+    )
     drawing.letters(axes, [plot.names.get(str(name), str(name)) for name in names])
     _legend(figure, study["N"].values)
     return figure

@@ -9,9 +9,12 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import FigureBase
 
+from disc_model.figures.words import CHARACTER
+
 PAGE_SHARE = 0.98  # of the width of a figure that its legend may have
 NARROWEST = 12  # characters to which a name is broken at most
 EDGE = 0.04  # inch, kept free beside a legend above a panel
+LETTER = 0.3  # inch, kept free for the letter of one of several panels
 
 Legend = Any
 
@@ -42,6 +45,10 @@ def figure_legend(
         return None
     page: Any = figure
     count = max(len(handles), 1)
+    if look.get("title"):
+        room = round(page.bbox.width / page.get_figure(root=True).dpi / CHARACTER)
+        lines = [fill(line, room) for line in look["title"].splitlines()]
+        look["title"] = "\n".join(lines)
     draw = partial(page.legend, handles=list(handles), loc=loc, **look)
     return _widest_that_fits(draw, min(columns or count, count), PAGE_SHARE * page.bbox.width)
 
@@ -89,8 +96,11 @@ def legend_below(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
 def _room_above(ax: Axes) -> float:
     """Width, in pixels, that a legend above the axes can have: their own, or up to the left edge
     of the page where no axes are in between."""
-    figure, place = ax.get_figure(root=True), ax.get_subplotspec()
-    if figure is None or place is None or not place.is_first_col():
+    figure: Any = ax.get_figure(root=True)
+    place = ax.get_subplotspec()
+    if len(figure.axes) > 1:
+        return float(ax.bbox.width - LETTER * figure.dpi)
+    if place is None or not place.is_first_col():
         return float(ax.bbox.width)
     return float(ax.bbox.x1 - EDGE * figure.dpi)
 

@@ -39,11 +39,14 @@ def plot_multipliers(
         ):
             if mask.any():
                 shown = values[mask]
-                look: dict[str, Any] = {"color": colour, "markersize": mark(4), "label": name}
-                axes.plot(shown.real, shown.imag, shape, **look)
+                axes.plot(
+                    shown.real, shown.imag, shape, color=colour, markersize=mark(4), label=name
+                )
         words = f"largest |κ| = {abs(values[0]):.5g}"
         axes.text(0, 0.08, words, ha="center", fontsize=large(7))
-        axes.set(xlabel="Re κ", ylabel="Im κ", aspect="equal")
+        axes.set_xlabel("Re κ")
+        axes.set_ylabel("Im κ")
+        axes.set_aspect("equal")
         axes.margins(0.12)
         page.note = f"{_stability(cycle)}, period {period_text(cycle.period)}"
         page.explain(axes.get_legend_handles_labels()[0])

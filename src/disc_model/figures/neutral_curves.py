@@ -40,7 +40,10 @@ def plot_neutral_curves(
     case = stated(curves.parameters, *curves.bounds)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0, title=case) as page:
         axes = page.ax
-        axes.set(xlabel=across, ylabel=up, xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+        axes.set_xlabel(across)
+        axes.set_ylabel(up)
+        axes.set_xlim((low[0], high[0]))
+        axes.set_ylim((low[1], high[1]))
         names: list[np.ndarray] = []
         for curve in curves:
             points = curve.values * factors
@@ -71,5 +74,6 @@ def _name(ax: Axes, points: np.ndarray, text: str, colour: str, taken: list[np.n
         return
     i = free[free.size // 2]
     taken.append(share[i])
-    look: dict[str, Any] = {"fontsize": large(6), "color": colour, "path_effects": drawing.halo()}
-    drawing.say(ax, text, points[i], (8, 0), **look)
+    drawing.say(
+        ax, text, points[i], (8, 0), fontsize=large(6), color=colour, path_effects=drawing.halo()
+    )

@@ -46,13 +46,13 @@ MANY = 2000  # points from which marks are drawn as pixels
 def draw(plot: PoincareSections, *cases: xr.DataTree) -> Figure:
     """Draw the sections of cases, a row each, on common axes."""
     width = WIDTHS[plot.width or "page"]
-    height = 2.75 if width == PAGE else 2.3
+    rows_of_case, height = (1, 2.75) if width == PAGE else (2, 4.6)
     figure = drawing.new_figure(width, height * len(cases))
     rows = np.atleast_1d(np.asarray(figure.subfigures(len(cases), 1)))
     sections = [dataset.samples(case, "poincare", at_least=1) for case in cases]
     differing = _differing([json.loads(case.attrs["parameters"]) for case in cases])
     for row, case, samples, values in zip(rows, cases, sections, differing, strict=True):
-        axes = row.subplots(1, 2)
+        axes = list(np.ravel(row.subplots(rows_of_case, 2 // rows_of_case)))
         handles = draw_sections(axes, case, samples, sections, values_text(values))
         figure_legend(row, handles, handletextpad=0.2)
     drawing.letters(figure.axes)
@@ -168,7 +168,10 @@ def draw_sections(
     for ax, name in zip(axes, SECTIONS, strict=True):
         x = _axis(name, samples, compared)
         y = _axis(f"{name}_velocity", samples, compared)
-        ax.set(xlabel=x.label, ylabel=y.label, xlim=(x.low, x.high), ylim=(y.low, y.high))
+        ax.set_xlabel(x.label)
+        ax.set_ylabel(y.label)
+        ax.set_xlim((x.low, x.high))
+        ax.set_ylim((y.low, y.high))
         _draw_points(ax, x, y, found.masks)
         if max(x.share, y.share) < SMALL:
             _draw_inset(ax, x, y, found.masks)

@@ -64,5 +64,6 @@ def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> list[Artist]
         ax.plot(samples[x].values * in_x, height, linewidth=width, rasterized=True, **look)
         handles.append(drawing.sample(linewidth=width + 0.5, **look))
     ax.margins(0.04)
-    ax.set(xlabel=across, ylabel=up)
+    ax.set_xlabel(across)
+    ax.set_ylabel(up)
     return handles

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from itertools import chain
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -25,16 +24,28 @@ def draw(plot: RampedSpeeds, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))
     gone = study["rate_status"].values != 0
     figure, [ax] = drawing.panels(WIDTHS[plot.width or "column"], 3.4)
-    look: dict[str, Any] = {"markersize": mark(4), "linewidth": wide(0.8)}
-    ax.plot(rates, onset, "^-", color=ONSET, label="onset, rising ramp", **look)
-    ax.plot(rates, end, "v-", color=END, label="end, falling ramp", **look)
+    for speeds, shape, colour, label in (
+        (onset, "^-", ONSET, "onset, rising ramp"),
+        (end, "v-", END, "end, falling ramp"),
+    ):
+        ax.plot(
+            rates, speeds, shape, color=colour, markersize=mark(4), linewidth=wide(0.8), label=label
+        )
 
     late = rates[np.isnan(onset) & ~gone]
     if late.size:
         top = np.full(late.size, options["high"])
-        hollow: dict[str, Any] = {"color": ONSET, "markerfacecolor": "white", "clip_on": False}
         name = "none up to the highest speed"
-        ax.plot(late, top, "^", markersize=mark(4), label=name, **hollow)
+        ax.plot(
+            late,
+            top,
+            "^",
+            markersize=mark(4),
+            label=name,
+            color=ONSET,
+            markerfacecolor="white",
+            clip_on=False,
+        )
 
     limit = _end_of_cycle(study, overlays, onset)
     if limit is not None:
@@ -43,7 +54,8 @@ def draw(plot: RampedSpeeds, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     drawing.mark_failed(ax, rates[gone])
     ax.set_xscale("log")
     ax.margins(x=0.04)
-    ax.set(xlabel="Ramp rate (rad/s²)", ylabel=axis_of("Omega")[0])
+    ax.set_xlabel("Ramp rate (rad/s²)")
+    ax.set_ylabel(axis_of("Omega")[0])
     ax.set_ylim(options["low"], options["high"])
     handles = ax.get_legend_handles_labels()[0]
     figure_legend(figure, handles, loc="outside lower center", columns=1)

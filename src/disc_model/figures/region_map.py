@@ -38,9 +38,16 @@ Segment = list[tuple[float, float]]
 
 PAPER_MARKERS = {"quiet": "o", "growing": "^", "separation": "s"}
 """The marker of each outcome of the paper."""
-TOGETHER = (
-    0.02  # distance of two marks, as a share of the panel, from which one surrounds the other
-)
+JOINED = ("branch_continues_first", "branch_continues_second")
+"""Whether the branch continues along the study's first and second dimension."""
+CAPS: dict[str, Any] = {"neutral": "projecting", "fold": None}
+"""Ends of the segments of borders; dashes have none."""
+TOGETHER = 0.02
+"""Distance of two marks, as a share of the panel, from which one surrounds the other."""
+USUAL_SIZE = 55.0  # of a mark, square points,
+SURROUNDING = 140.0  # and of one around another
+RIGHT_EDGE = 0.85  # share of the panel from which names stand on the left of their marks
+LOWER_EDGE = 0.15  # and below which they stand above
 
 
 def draw(plot: RegionMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -49,8 +56,7 @@ def draw(plot: RegionMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     parts = parts_along(study, plot.by, plot.names)
     planes = [part.data.transpose(plot.y, plot.x, ...) for part in parts]
     figure, above, below = _panels(plot, len(parts))
-    titles = titles_of(parts) if len(parts) > 1 else []  # one alone stands in the figure's title
-    drawing.letters([*above, *below], titles)
+    drawing.letters([*above, *below], titles_of(parts))
 
     # cells and lines
     growth = growth_panels(figure, below, planes)
@@ -65,8 +71,9 @@ def draw(plot: RegionMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
 
     # marks and legends
     first = _with_paper(parts, study)
-    marks = [] if first is None else _marks(above[0], plot)
-    named = [*entries(outcomes, MARKED), *lines.values(), *marks]
+    named = [*entries(outcomes, MARKED), *lines.values()]
+    if first is not None:
+        named += _marks(above[0], plot)
     figure_legend(figure, named, loc="outside upper center", columns=4, title_fontsize=large(8))
     if UNRESOLVED.label in outcomes:  # named above
         growth = [entry for entry in growth if entry.get_label() != UNRESOLVED.label]
@@ -87,13 +94,16 @@ def _panels(plot: RegionMap, count: int) -> tuple[Figure, list[Axes], list[Axes]
     return figure, axes[:count], axes[count:]
 
 
-def _with_paper(parts: Sequence[Part], study: xr.Dataset) -> xr.Dataset | None:
+def _with_paper(parts: Sequence[Part[xr.Dataset]], study: xr.Dataset) -> xr.Dataset | None:
     """The part of a study in the first panel, if it has the paper's normalization, to which its
     marks belong."""
     data = parts[0].data
-    norms = [str(data[NORM].item())] if NORM in data.coords and not data[NORM].ndim else []
-    known = norms or normalizations(study)
-    return data if known[0] == "as_published" else None
+    norm = normalizations(study)[0]
+    if NORM in data.coords and not data[NORM].ndim:
+        norm = str(data[NORM].item())
+    if norm != "as_published":
+        return None
+    return data
 
 
 # ---- Lines
@@ -131,16 +141,16 @@ def _borders(ax: Axes, plane: xr.Dataset, upward: bool) -> list[Artist]:
     """Draw borders between resolved cells: where one cycle changes its stability, and where a
     stable one ends: the next cell has none and does not stay quiet. Upward: the study's first
     dimension is the vertical one."""
-    names = ["branch_continues_first", "branch_continues_second"]
-    up, right = names if upward else names[::-1]
+    up, right = JOINED
+    if not upward:
+        up, right = right, up
     edges = edges_of(plane["outcome"])
     rows = _segments(plane, edges, up, vertical=True)
     columns = _segments(plane, edges, right, vertical=False)
     drawn = []
     for kind in BORDERS:
         segments = rows[kind] + columns[kind]
-        capstyle: Any = "projecting" if kind == "neutral" else None
-        ax.add_collection(LineCollection(segments, capstyle=capstyle, **border(kind)))
+        ax.add_collection(LineCollection(segments, capstyle=CAPS[kind], **border(kind)))
         if segments:
             drawn.append(drawing.sample(**border(kind)))
     return drawn
@@ -156,21 +166,29 @@ def _segments(
     unstable = state == "unstable"
     ends = (flag_names(plane["cycle"]) == "no_cycle") & (flag_names(plane["outcome"]) != "quiet")
 
-    here: Any = np.s_[:-1, :] if vertical else np.s_[:, :-1]
-    ahead: Any = np.s_[1:, :] if vertical else np.s_[:, 1:]
+    here: Any = np.s_[:, :-1]
+    ahead: Any = np.s_[:, 1:]
+    if vertical:
+        here = np.s_[:-1, :]
+        ahead = np.s_[1:, :]
     same = flag_names(plane[joined])[here] == "yes"
     changes = (stable[here] & unstable[ahead]) | (unstable[here] & stable[ahead])
     stops = (stable[here] & ends[ahead]) | (ends[here] & stable[ahead])
     found = {"neutral": np.argwhere(changes & same), "fold": np.argwhere(stops)}
 
-    x, y = edges
     segments: dict[str, list[Segment]] = {}
     for kind, cells in found.items():
-        if vertical:
-            segments[kind] = [[(x[j], y[i + 1]), (x[j + 1], y[i + 1])] for i, j in cells]
-        else:
-            segments[kind] = [[(x[j + 1], y[i]), (x[j + 1], y[i + 1])] for i, j in cells]
+        segments[kind] = [_edge(edges, i, j, vertical) for i, j in cells]
     return segments
+
+
+def _edge(edges: Edges, row: int, column: int, vertical: bool) -> Segment:
+    """The edge between a cell and the one above it, or the one on its right."""
+    x, y = edges
+    corner = (x[column + 1], y[row + 1])
+    if vertical:
+        return [(x[column], y[row + 1]), corner]
+    return [(x[column + 1], y[row]), corner]
 
 
 # ---- The paper's cases
@@ -187,44 +205,71 @@ def _captions(study: xr.Dataset, first: xr.Dataset | None, plot: RegionMap) -> I
         outcome = str(flag_names(point))
         label = LOOKS[outcome].label
         of_paper = LOOKS[mark.paper_outcome].label
-        if label != of_paper and not mark.assumed:
-            still = f"still growing at {horizon:g} s" if outcome == "growing" else label
-            yield f"{name}: paper: “{of_paper}”, static start: {still}."
+        if label == of_paper or mark.assumed:
+            continue
+        if outcome == "growing":
+            label = f"still growing at {horizon:g} s"
+        yield f"{name}: paper: “{of_paper}”, static start: {label}."
 
 
 def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
     """Mark cases by the shape of the paper's outcome, with names towards the middle; returns
     entries of a legend."""
     outline = drawing.halo(2.4, BLACK)
-    edge: dict[str, Any] = {"edgecolor": PAPER, "linewidth": 1.4, "path_effects": outline}
-    words: dict[str, Any] = {"fontsize": large(7), "zorder": 5, "annotation_clip": False}
     places: list[tuple[float, float]] = []
     for name, mark in plot.marks.items():
         point = _point(plot, mark)
         across, up = (ax.transData + ax.transAxes.inverted()).transform(point)
-        surrounds = any(math.dist((across, up), other) < TOGETHER for other in places)
+        size = USUAL_SIZE
+        offset = _away_from_edges(across, up)
+        if any(math.dist((across, up), other) < TOGETHER for other in places):
+            size = SURROUNDING  # so that the other mark stays visible
+            offset = (-8, 6)
         places.append((across, up))
-        size = 140.0 if surrounds else 55.0  # the other mark stays visible
         shape = PAPER_MARKERS[mark.paper_outcome]
-        ax.scatter(*point, size, marker=shape, facecolor="none", zorder=4, clip_on=False, **edge)
-        beside = (-6 if across > 0.85 else 6, -5 if up > 0.15 else 5)
+        ax.scatter(
+            *point,
+            size,
+            marker=shape,
+            facecolor="none",
+            zorder=4,
+            clip_on=False,
+            edgecolor=PAPER,
+            linewidth=1.4,
+            path_effects=outline,
+        )
         drawing.say(
             ax,
             name,
             point,
-            (-8, 6) if surrounds else beside,
+            offset,
             path_effects=drawing.halo(2.0),
-            **words,
+            fontsize=large(7),
+            zorder=5,
+            annotation_clip=False,
         )
-    ring: dict[str, Any] = {"ls": "", "mfc": "none", "ms": 6, "mew": 1.4, "mec": PAPER}
     outcomes = {mark.paper_outcome for mark in plot.marks.values()}
     return [
         drawing.sample(
-            marker=shape, label=f"paper: {LOOKS[name].label}", path_effects=outline, **ring
+            marker=shape,
+            label=f"paper: {LOOKS[name].label}",
+            path_effects=outline,
+            ls="",
+            mfc="none",
+            ms=6,
+            mew=1.4,
+            mec=PAPER,
         )
         for name, shape in PAPER_MARKERS.items()
         if name in outcomes
     ]
+
+
+def _away_from_edges(across: float, up: float) -> tuple[float, float]:
+    """Offset in points of the name of a mark at a place of the panel, towards its middle."""
+    right = -6 if across > RIGHT_EDGE else 6
+    above = -5 if up > LOWER_EDGE else 5
+    return right, above
 
 
 def _point(plot: RegionMap, mark: Mark) -> tuple[float, float]:
@@ -251,10 +296,13 @@ def _set_scale(ax: Axes, which: str, scale: str, values: Array) -> None:
     """Set the scale of one axis of a panel, and limits with some room beside its values."""
     axis = getattr(ax, f"{which}axis")
     if scale != "linear":
-        start = {"linthresh": values[1], "linscale": 0.4} if scale == "symlog" else {}
-        getattr(ax, f"set_{which}scale")(scale, **start)
         ticks = decades_between(values)
-        axis.set_major_locator(FixedLocator([0.0, *ticks] if scale == "symlog" else ticks))
+        start = {}
+        if scale == "symlog":
+            ticks = [0.0, *ticks]
+            start = {"linthresh": values[1], "linscale": 0.4}
+        getattr(ax, f"set_{which}scale")(scale, **start)
+        axis.set_major_locator(FixedLocator(ticks))
         axis.set_major_formatter("{x:g}")
         axis.set_minor_formatter(NullFormatter())
     if scale == "symlog":

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, PAGE, WIDTHS, large, mark, wide
+from disc_model.figures.drawing import BLACK, WIDTHS, large, mark, wide
 from disc_model.figures.kinds.motions import RootLocus
 from disc_model.figures.mode_names import named_modes
 from disc_model.figures.selection import parts_along, titles_of
@@ -24,15 +24,11 @@ def draw(plot: RootLocus, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     """Draw the plane of growth rate and frequency, for each value of the compared dimension."""
     parts = parts_along(study, plot.by, plot.names)
     width = WIDTHS[plot.width or "page"]
-    columns = len(parts) if width == PAGE else 1
-    rows = len(parts) // columns
-    height = 4.8 if rows == 1 else 3.4 * rows
-    figure, axes = drawing.panels(width, height, rows, columns, sharex=True, sharey=True)
+    figure, axes = drawing.row_of_panels(width, len(parts), 4.8, 3.4, sharex=True, sharey=True)
     for ax, part in zip(axes, parts, strict=True):
         points = _draw_panel(ax, part.data.squeeze())
         ax.label_outer()
-    if len(parts) > 1:
-        drawing.letters(axes, titles_of(parts))
+    drawing.letters(axes, titles_of(parts))
     label = measured(parts[0].data["value"]).label
     figure.colorbar(points, ax=axes, label=label, pad=0.01, aspect=30)
     return figure
@@ -42,11 +38,19 @@ def _draw_panel(ax: Axes, study: xr.Dataset) -> Any:
     """Draw points, with a ring where a mode begins, and its name on the side from which it leads
     away."""
     along = measured(study["value"]).values
-    colours: dict[str, Any] = {"cmap": cm.batlow, "vmin": along[0], "vmax": along[-1]}
     for _, mode in study.groupby("mode"):
         rate = mode["mode_growth_rate"].values
         frequency = mode["frequency"].values
-        points = ax.scatter(rate, frequency, c=along, s=mark(5), zorder=2, **colours)
+        points = ax.scatter(
+            rate,
+            frequency,
+            c=along,
+            s=mark(5),
+            zorder=2,
+            cmap=cm.batlow,
+            vmin=along[0],
+            vmax=along[-1],
+        )
 
     first = study.isel(value=0)
     rates = first["mode_growth_rate"].values
@@ -56,11 +60,13 @@ def _draw_panel(ax: Axes, study: xr.Dataset) -> Any:
     for part in named_modes(first["diameters"].values, heights, apart):
         side, ring = _side_of_name(study, part.modes, len(part.name))
         place = (ring, float(heights[part.modes].mean()))
-        look: dict[str, Any] = {"fontsize": large(7), "path_effects": drawing.halo()}
-        drawing.say(ax, part.name, place, (4 * side, 0), **look)
+        drawing.say(
+            ax, part.name, place, (4 * side, 0), fontsize=large(7), path_effects=drawing.halo()
+        )
     ax.axvline(0, color=BLACK, linewidth=wide(0.6))
     ax.margins(x=0.02)
-    ax.set(xlabel="Growth rate (1/s)", ylabel="Frequency in the slider's frame (Hz)")
+    ax.set_xlabel("Growth rate (1/s)")
+    ax.set_ylabel("Frequency in the slider's frame (Hz)")
     return points
 
 

@@ -1,7 +1,7 @@
 """Selection of what a figure shows from a study or a case. Nothing here draws."""
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 import xarray as xr
@@ -25,13 +25,16 @@ WITHOUT_CYCLE = (
 """Statuses of points that were computed, and have no stick-slip cycle."""
 
 
-class Part(NamedTuple):
-    """A part of a study, in a panel or a line of its own: what sets it apart, with the name of the
-    dimension and without, and its data."""
+Data = TypeVar("Data", xr.Dataset, xr.DataArray)
+
+
+class Part(NamedTuple, Generic[Data]):
+    """A part of a study or of a variable, in a panel or a line of its own: what sets it apart, with
+    the name of the dimension and without, and its data."""
 
     name: str
     value: str
-    data: xr.Dataset
+    data: Data
 
 
 # ---- Parts of a study
@@ -39,9 +42,9 @@ class Part(NamedTuple):
 
 def picked(study: xr.Dataset, values: Mapping[str, float | str]) -> xr.Dataset:
     """A grid study at values of some dimensions; dimensions of one value are dropped."""
-    for dim, value in values.items():
-        study = study.sel({dim: value}, method=None if isinstance(value, str) else "nearest")
-    return study.squeeze()
+    words = {dim: value for dim, value in values.items() if isinstance(value, str)}
+    numbers = {dim: value for dim, value in values.items() if dim not in words}
+    return study.sel(words).sel(numbers, method="nearest").squeeze()
 
 
 def normalizations(study: xr.Dataset) -> list[str]:
@@ -49,19 +52,23 @@ def normalizations(study: xr.Dataset) -> list[str]:
     if NORM in study.coords:
         return [str(name) for name in np.atleast_1d(study[NORM].values)]
     base = stated_in(study, "base")
-    return ["given" if base.get("disc") else base[NORM]]
+    if base.get("disc"):
+        return ["given"]
+    return [base[NORM]]
 
 
 def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
     """Values of a grid study for one normalization."""
-    return study.sel({NORM: normalization}) if NORM in study.dims else study
+    if NORM in study.dims:
+        return study.sel({NORM: normalization})
+    return study
 
 
 def parts_along(
-    study: xr.Dataset, by: str | None, words: Mapping[str, str] | None = None
-) -> list[Part]:
-    """The parts of a study along a dimension, in order: words as in `WORDS`, or by the number that
-    they begin with. The study itself without a dimension.
+    study: Data, by: str | None, words: Mapping[str, str] | None = None
+) -> list[Part[Data]]:
+    """The parts of a study, or of a variable, along a dimension, in order: words as in `WORDS`, or
+    by the number that they begin with. The whole without a dimension.
 
     words : other words for values along the dimension
     """
@@ -82,9 +89,13 @@ def parts_along(
     return parts
 
 
-def titles_of(parts: Sequence[Part]) -> list[str]:
-    """Titles of the panels of parts: the dimension is named in the first one only."""
-    return [part.value if i else part.name for i, part in enumerate(parts)]
+def titles_of(parts: Sequence[Part[Any]]) -> list[str]:
+    """Titles of the panels of parts: the dimension is named in the first one only. A single part
+    has none, since it stands in the figure's title."""
+    if len(parts) < 2:
+        return [""]
+    first, *others = parts
+    return [first.name, *(part.value for part in others)]
 
 
 def alike(data: xr.Dataset, part: xr.Dataset, by: str) -> xr.Dataset:
@@ -93,8 +104,8 @@ def alike(data: xr.Dataset, part: xr.Dataset, by: str) -> xr.Dataset:
     for dim in dict.fromkeys([by, NORM]):
         if dim not in data.dims:
             continue
-        value = part[dim].item() if dim in part.coords else normalizations(part)[0]
-        data = data.sel({dim: value})
+        known = part.coords.get(dim)
+        data = data.sel({dim: normalizations(part)[0] if known is None else known.item()})
     return data
 
 
@@ -149,7 +160,9 @@ def class_of_gap(status: str) -> str:
     and "no_value" for a point that was computed."""
     if status == "ok":
         return "no_value"
-    return status if status in (*WITHOUT_CYCLE, EXCLUDED) else "failed"
+    if status in (*WITHOUT_CYCLE, EXCLUDED):
+        return status
+    return "failed"
 
 
 def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
@@ -162,7 +175,7 @@ def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
         if word == EXCLUDED or not here.any():
             continue
         name = name_of(class_of_gap(word))
-        masks[name] = masks[name] | here if name in masks else here
+        masks[name] = here | masks.get(name, False)
     return masks
 
 
@@ -189,7 +202,9 @@ def spans(along: Array, mask: np.ndarray) -> list[tuple[float, float]]:
 
 def broken(x: Array, y: Array, jump: float, height: Array | None = None) -> list[Array]:
     """A line with gaps where its height, y unless given, changes by more than `jump`."""
-    heights = y if height is None else height
+    heights = y
+    if height is not None:
+        heights = height
     places = np.flatnonzero(np.abs(np.diff(heights)) > jump) + 1
     return [np.insert(values.astype(float), places, np.nan) for values in (x, y)]
 
@@ -201,4 +216,6 @@ def history(case: xr.DataTree, window: str = "history", until: float | None = No
     """Ranges in a window, up to a time in s; two bins define the bin width."""
     ranges = dataset.samples(case, window, envelope=True)
     shown = ranges.sel(time=slice(until))
-    return shown if shown.sizes["time"] > 1 else ranges
+    if shown.sizes["time"] < 2:
+        return ranges
+    return shown

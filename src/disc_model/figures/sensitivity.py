@@ -1,7 +1,7 @@
 """Probability of instability against each uncertain parameter."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -19,7 +19,7 @@ from disc_model.data.variables import (
     typeset,
 )
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, BLUE, GREY, PAGE, WIDTHS, mark, wide
+from disc_model.figures.drawing import BLACK, BLUE, GREY, WIDTHS, mark, wide
 from disc_model.figures.kinds.motions import Sensitivity
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.words import named_value
@@ -48,10 +48,10 @@ def draw(plot: Sensitivity, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     names = [names[i] for i in order]
 
     width = WIDTHS[plot.width or "page"]
-    columns = len(cells) if width == PAGE else 1
-    rows = len(cells) // columns
-    height = (1.2 + 0.2 * len(names)) * rows
-    figure, axes = drawing.panels(width, height, rows, columns, sharey=True, sharex=True)
+    height = 1.2 + 0.2 * len(names)
+    figure, axes = drawing.row_of_panels(
+        width, len(cells), height, height, sharey=True, sharex=True
+    )
     for ax, cell, thirds in zip(axes, cells, each[:, order], strict=True):
         _draw_rows(ax, thirds, float(cell.samples["probability_unstable"]))
         title = cell.name.replace("Preload ", "").replace("Speed ", "")
@@ -78,10 +78,20 @@ def _draw_rows(ax: Axes, thirds: Array, at_all: float) -> None:
     ):
         value, low, high = thirds[:, end].T
         bars = np.maximum([value - low, high - value], 0.0)  # rounding
-        look: dict[str, Any] = {"fmt": "o", "color": BLUE, "markerfacecolor": face}
-        size: dict[str, Any] = {"markersize": mark(4), "elinewidth": wide(0.8)}
-        ax.errorbar(value, rows + up, xerr=bars, label=label, **look, **size)
-    ax.set(xlabel="P(unstable)", xlim=(-0.03, 1.03), ylim=(-0.6, len(rows) - 0.4))
+        ax.errorbar(
+            value,
+            rows + up,
+            xerr=bars,
+            label=label,
+            fmt="o",
+            color=BLUE,
+            markerfacecolor=face,
+            markersize=mark(4),
+            elinewidth=wide(0.8),
+        )
+    ax.set_xlabel("P(unstable)")
+    ax.set_xlim((-0.03, 1.03))
+    ax.set_ylim((-0.6, len(rows) - 0.4))
 
 
 # ---- Selection

@@ -1,7 +1,7 @@
 """Modes of steady sliding along a parameter: frequencies and growth rates."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -54,15 +54,16 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
         _draw_lines(top, bottom, column)
     highest = plot.highest or tops[0].get_ylim()[1]
     across = measured(columns[0]["value"])
-    tops[0].set(ylabel="Frequency in the slider's frame (Hz)", ylim=(0, highest))
+    tops[0].set_ylabel("Frequency in the slider's frame (Hz)")
+    tops[0].set_ylim((0, highest))
     tops[0].set_xlim(across.values[0], across.values[-1])
-    bottoms[0].set(ylabel="Growth rate (1/s)")
+    bottoms[0].set_ylabel("Growth rate (1/s)")
     bottoms[0].set_ylim(min(low for low, _ in limits), 1.1 * greatest)
     for top, bottom, column in zip(tops, bottoms, columns, strict=True):
         bottom.set_xlabel(across.label)
         _name_frequencies(top, column, highest)
         _name_decays(bottom, column, greatest)
-    drawing.letters(axes, titles_of(parts) if count > 1 else [])
+    drawing.letters(axes, titles_of(parts))
     return figure
 
 
@@ -111,17 +112,23 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
     for line in lines:
         grows = np.nan_to_num(line.rate) > ROUNDING
         for ax, values in ((top, line.frequency), (bottom, line.rate)):
-            thin: dict[str, Any] = {"linewidth": wide(DECAYS), "markersize": mark(1.2)}
-            ax.plot(along, values, ".-", color=GREY, **thin)
-            thick: dict[str, Any] = {"linewidth": wide(GROWS), "markersize": mark(3)}
-            ax.plot(along, np.where(grows, values, np.nan), ".-", color=BLACK, **thick)
+            ax.plot(along, values, ".-", color=GREY, linewidth=wide(DECAYS), markersize=mark(1.2))
+            ax.plot(
+                along,
+                np.where(grows, values, np.nan),
+                ".-",
+                color=BLACK,
+                linewidth=wide(GROWS),
+                markersize=mark(3),
+            )
         for start, after in stretches(grows[:-1] & grows[1:]):
             shown = slice(start, after + 1)
             i = start + _place_of_name(line.rate[shown], [x.rate[shown] for x in lines], largest)
             offset = (3, 0) if i == along.size - 1 else (0, 3)
             place = (along[i], line.rate[i])
-            look: dict[str, Any] = {"fontsize": large(7), "path_effects": drawing.halo()}
-            drawing.say(bottom, line.name, place, offset, **look)
+            drawing.say(
+                bottom, line.name, place, offset, fontsize=large(7), path_effects=drawing.halo()
+            )
     bottom.axhline(0, color=BLACK, linewidth=wide(0.5))
 
 

@@ -11,7 +11,7 @@ from disc_model.data.variables import axis_of, flag_names
 from disc_model.figures import drawing
 from disc_model.figures.cells import edges_of, entries, paint
 from disc_model.figures.classes import LOOKS, STABLE, Look
-from disc_model.figures.drawing import PAGE, WIDTHS
+from disc_model.figures.drawing import WIDTHS
 from disc_model.figures.kinds.maps import SlidingOutcome
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import alike, common_points, parts_along, titles_of
@@ -44,10 +44,7 @@ def draw(plot: SlidingOutcome, study: xr.Dataset, overlays: Mapping[str, xr.Data
     classes."""
     parts = parts_along(study, plot.by, plot.names)
     width = WIDTHS[plot.width or "page"]
-    columns = len(parts) if width == PAGE else 1
-    rows = len(parts) // columns
-    height = 3.4 if width == PAGE else 1.2 + 2.4 * rows
-    figure, axes = drawing.panels(width, height, rows, columns, sharex=True, sharey=True)
+    figure, axes = drawing.row_of_panels(width, len(parts), 3.4, 3.0, sharex=True, sharey=True)
     each: list[Words] = []
     for ax, part in zip(axes, parts, strict=True):
         plane = part.data.transpose(plot.y, plot.x, ...)
@@ -58,10 +55,10 @@ def draw(plot: SlidingOutcome, study: xr.Dataset, overlays: Mapping[str, xr.Data
         words = agreement(rates, flag_names(plane["outcome"]))
         paint(ax, edges_of(plane["outcome"]), words, AGREEMENTS)
         each.append(words)
-        ax.set(xlabel=axis_of(plot.x)[0], ylabel=axis_of(plot.y)[0])
+        ax.set_xlabel(axis_of(plot.x)[0])
+        ax.set_ylabel(axis_of(plot.y)[0])
         ax.label_outer()
-    if len(parts) > 1:  # one alone stands in the figure's title
-        drawing.letters(axes, titles_of(parts))
+    drawing.letters(axes, titles_of(parts))
     looks = {word: _with_shares(word, look, each) for word, look in AGREEMENTS.items()}
     figure_legend(
         figure,
@@ -75,7 +72,9 @@ def draw(plot: SlidingOutcome, study: xr.Dataset, overlays: Mapping[str, xr.Data
 
 def _with_shares(word: str, look: Look, each: Sequence[Words]) -> Look:
     """The look of a class with its share of the cells of each panel."""
-    letters = [f"({letter}) " for letter in "abcd"] if len(each) > 1 else [""]
+    letters = [""]
+    if len(each) > 1:
+        letters = [f"({letter})\u00a0" for letter in "abcd"]
     shares = [
         f"{letter}{percent(float(np.mean(words == word)))}"
         for letter, words in zip(letters, each, strict=False)
@@ -84,8 +83,10 @@ def _with_shares(word: str, look: Look, each: Sequence[Words]) -> Look:
 
 
 def percent(share: float) -> str:
-    """A share in whole percent; one that rounds to nothing is not called nothing."""
-    return "< 1 %" if 0 < share < 0.005 else f"{100 * share:.0f} %"
+    """A share in whole percent, on one line; one that rounds to nothing is not called nothing."""
+    if 0 < share < 0.005:
+        return "<\u00a01\u00a0%"
+    return f"{100 * share:.0f}\u00a0%"
 
 
 def agreement(growth_rate: np.ndarray, outcome: np.ndarray) -> Words:

@@ -27,7 +27,8 @@ def draw(plot: Spectrogram, case: xr.DataTree) -> Figure:
     spectrum = spectrum_of(case, plot.window, plot.variable)
     mesh = draw_power(ax, case, spectrum, float(spectrum.power.max()), plot.highest)
     draw_scale(figure, mesh, ax)
-    ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
+    ax.set_xlabel("Time (s)")
+    ax.set_ylabel("Frequency (Hz)")
     label, *_ = drawing.sampled(plot.variable, dataset.group(case, plot.window))
     ax.set_title(quantity_of_label(label))
     return figure
@@ -65,7 +66,8 @@ def draw_power(
         rasterized=True,
     )
     ax.set_facecolor(cm.lipari(0.0))
-    ax.set(xlim=span_of(spectrum), ylim=(0, highest))
+    ax.set_xlim(span_of(spectrum))
+    ax.set_ylim((0, highest))
     drawing.mark_first_separation(ax, case, named=False, color="white", linewidth=wide(0.9))
     return mesh
 

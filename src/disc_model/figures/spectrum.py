@@ -23,6 +23,7 @@ WEAKEST = 0.01  # amplitude over that of the strongest line, of lines that have 
 ROOM_BEYOND = 1.15  # highest frequency shown over that of the highest such line
 HEADROOM = 6.0  # upper end of the axis over the greatest amplitude: room for its name
 MOST_NAMED = 5  # lines whose frequencies are written
+BESIDE = ((3, 2), (-3, 2))  # points, of the names beside their peaks
 ROUNDING = 1e-9  # relative, of half the rate of a window
 
 
@@ -102,7 +103,9 @@ def draw_spectrum(
     ax.semilogy(frequency, amplitude, color=colour, linewidth=wide(0.7))
     name, _, unit = label.rpartition(" (")
     ylabel = f"{name}, amplitude ({unit}" if name else f"{label}, amplitude"
-    ax.set(xlabel="Frequency (Hz)", ylabel=ylabel, xlim=(0, frequency[-1]))
+    ax.set_xlabel("Frequency (Hz)")
+    ax.set_ylabel(ylabel)
+    ax.set_xlim((0, frequency[-1]))
     greatest = amplitude.max()
     lowest = max(amplitude.min(), 10 ** (FLOOR / 20) * greatest)
     ax.set_ylim(lowest / 2, HEADROOM * greatest)
@@ -115,17 +118,10 @@ def name_lines(ax: Axes, peaks: Sequence[tuple[float, float]]) -> None:
     where one does not cover another."""
     page: Any = ax.get_figure(root=True)
     page.draw_without_rendering()  # sets the size of the axes
-    frame = ax.get_window_extent()
     taken: list[Any] = []
     for frequency, height in sorted(peaks, key=lambda peak: -peak[1]):
         if len(taken) == MOST_NAMED:
             return
-        for offset in ((3, 2), (-3, 2)):
-            text = f"{frequency:.1f} Hz"
-            name = drawing.say(ax, text, (frequency, height), offset, fontsize=large(7))
-            box = name.get_window_extent().padded(1)
-            inside = frame.x0 <= box.x0 and box.x1 <= frame.x1 and box.y1 <= frame.y1
-            if inside and not any(box.overlaps(other) for other in taken):
-                taken.append(box)
-                break
-            name.remove()
+        text = f"{frequency:.1f} Hz"
+        place = (frequency, height)
+        drawing.say_free(ax, text, place, BESIDE, taken, fontsize=large(7))

@@ -195,5 +195,7 @@ def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
     draw_shares(ax, shares, classes, places)
     if drawn.across == "energy":
         ax.set_xticks(places, [f"{energy:g}" for energy in across.values])
-    ax.set(xlabel=across.label, ylabel=label_of(shares)[0], xmargin=0.04)
+    ax.set_xlabel(across.label)
+    ax.set_ylabel(label_of(shares)[0])
+    ax.set_xmargin(0.04)
     return entries(classes)

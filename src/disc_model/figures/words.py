@@ -28,11 +28,12 @@ MODELS = {
     "bilateral": "bilateral contact",
     "bonded": "bilateral contact",  # its name in older files of results
 }
+AT_ZERO = {"contact_compliance": "rigid contact", "friction_offset": "friction in the middle plane"}
+"""What parameters mean that are zero: they name themselves."""
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
 """Units of the reader and the factors from SI to them, by parameter or sampled variable, while a
 figure is drawn."""
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
-LONGEST_LINE = 48  # characters of a label's line
 
 
 class Measured(NamedTuple):
@@ -54,9 +55,11 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
             return axis_of(name)
     # disturbances have one name in all figures
     words = words.replace("disturbances of ", "")
-    phrase = fill(words[0].upper() + words[1:], LONGEST_LINE)
+    phrase = words[0].upper() + words[1:]
     unit = unit_text(str(variable.attrs.get("units", "1")))
-    return (f"{phrase} ({unit})" if unit else phrase), 1.0
+    if unit:
+        phrase = f"{phrase} ({unit})"
+    return phrase, 1.0
 
 
 def unit_text(units: str) -> str:
@@ -64,14 +67,17 @@ def unit_text(units: str) -> str:
     if units in ("", "1"):
         return ""
     text = units.replace("s-1", "/s").replace(" /", "/")
-    return f"1{text}" if text.startswith("/") else text
+    if text.startswith("/"):
+        return f"1{text}"
+    return text
 
 
 def measured(variable: xr.DataArray) -> Measured:
     """The label of a variable, and its values in the label's unit."""
     label, factor = label_of(variable)
-    values = variable.values
-    return Measured(label, values if factor == 1.0 else values * factor)
+    if factor == 1.0:  # words stay, and whole numbers
+        return Measured(label, variable.values)
+    return Measured(label, variable.values * factor)
 
 
 def quantity_of_label(label: str) -> str:
@@ -98,24 +104,23 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
     value = data[by].item()
     if isinstance(value, str):
         return WORDS.get(value, value)
+    if by in AT_ZERO and not value:
+        return AT_ZERO[by]
     if by == "contact_compliance":
-        return f"{value * SHOWN[by].factor:.3g} µm/N" if value else "rigid contact"
+        return f"compliance {value * SHOWN[by].factor:.3g} µm/N"
     if by == "friction_offset":
-        height = f"{value * SHOWN[by].factor:g} mm above the middle plane"
-        return f"friction {height}" if value else "friction in the middle plane"
+        return f"friction {value * SHOWN[by].factor:g} mm above the middle plane"
     label, factor = label_of(data[by])
-    name, _, unit = label.rpartition(" (")
-    unit, factor = UNITS.get().get(by, (unit.rstrip(")"), factor))
-    return f"{value * factor:g} {unit}" if name else f"{value * factor:g}"
+    unit = label.rpartition(" (")[2].rstrip(")") if " (" in label else ""
+    unit, factor = UNITS.get().get(by, (unit, factor))
+    return f"{value * factor:g} {unit}".strip()
 
 
 def named_value(data: xr.DataArray | xr.Dataset, by: str) -> str:
     """The name of a dimension, and a value along it; a word stands for itself."""
     text = value_text(data, by)
     value = data[by].item()
-    if by == "contact_compliance" and value:
-        return f"compliance {text}"
-    if isinstance(value, str) or by in ("contact_compliance", "friction_offset"):
+    if isinstance(value, str) or by in AT_ZERO:
         return text
     return f"{quantity_of_label(label_of(data[by])[0])} = {text}"
 
@@ -124,9 +129,12 @@ def rank_of(value: Any) -> Any:
     """Place of a value in an order: words as in `WORDS`, or by the number that they begin with."""
     if not isinstance(value, str):
         return value
+    known = {word: place for place, word in enumerate(WORDS)}
     leading = re.match(r"\d+", value)
-    known = [*WORDS]
-    return (known.index(value) if value in known else 0, float(leading[0]) if leading else np.inf)
+    number = np.inf
+    if leading:
+        number = float(leading[0])
+    return known.get(value, 0), number
 
 
 # ---- Heads of figures

@@ -8,12 +8,12 @@ time in which a study is checked.
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import product
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
-from pydantic import AfterValidator, BeforeValidator, Field
+from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from disc_model.data.variables import SERIES, SHOWN
-from disc_model.errors import Fault, raise_faults, suggestion
+from disc_model.errors import Fault, raise_faults, require, suggestion
 from disc_model.figures.selection import NORM
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Window
@@ -63,12 +63,21 @@ class Kind(Strict):
     titled_by_legend: ClassVar[bool] = False
     """Whether the title is that of the first legend, which lies above the panels."""
 
+    widths: ClassVar[tuple[str, ...]] = ("column", "page")
+    """Widths in which it can be drawn."""
+
     kind: str
     title: str = ""
     caption: Annotated[str, BeforeValidator(_joined, json_schema_input_type=str | list[str])] = ""
     section: str = ""
     units: Annotated[dict[str, str], AfterValidator(_known_units)] = Field({})
     width: Literal["column", "page"] | None = None
+
+    @model_validator(mode="after")
+    def _wide_enough(self) -> Self:
+        fits = self.width is None or self.width in self.widths
+        require((fits, "width", self.width, f"must be {' or '.join(self.widths)}"))
+        return self
 
 
 # ---- Figures of grid studies

@@ -63,12 +63,12 @@ def _draw_growth(ax: Axes, plot: Composite, case: xr.DataTree, bilateral: xr.Dat
     bold: dict[str, Any] = {"ha": "right", "fontsize": large(7), "fontweight": "bold"}
     ax.text(right, 1.08 * top, "separation ignored", color="0.35", **bold)
     ax.text(right, -0.05 * top, "with separation", color="white", **bold)
-    ax.set(xlabel="Time (s)", ylabel="Displacement of the disc (mm)")
+    ax.set_xlabel("Time (s)")
+    ax.set_ylabel("Displacement of the disc (mm)")
     ax.set_ylim(-1.25 * top, 1.25 * top)
     lost = float(case["first_separation"])
     if lost <= ax.get_xlim()[1]:
-        dashes: dict[str, Any] = {"linewidth": wide(0.9), "linestyle": (0, (4, 2))}
-        ax.axvline(lost, ymax=0.88, color=SEPARATED, **dashes)
+        ax.axvline(lost, ymax=0.88, color=SEPARATED, linewidth=wide(0.9), linestyle=(0, (4, 2)))
         place = (lost, -1.2 * top)
         drawing.say(ax, "contact\nis lost", place, (-3, 1), fontsize=large(7), color=SEPARATED)
     drawing.show_thickness(ax, case, "y")
@@ -91,8 +91,10 @@ def _draw_force(ax: Axes, plot: Composite, case: xr.DataTree) -> None:
     touches = flag_names(part["phase"]) != "separation"
     time = 1e3 * (part["time"].values - start)
     ax.plot(time, part["P"].where(touches), color=BLACK, linewidth=wide(1.1))
-    ax.set(xlabel=f"Time after {start:g} s (ms)", ylabel="Contact force (N)")
-    ax.set(xlim=(0, 1e3 * STRETCH), ylim=(0, None))
+    ax.set_xlabel(f"Time after {start:g} s (ms)")
+    ax.set_ylabel("Contact force (N)")
+    ax.set_xlim((0, 1e3 * STRETCH))
+    ax.set_ylim(bottom=0)
     if ax.patches:
         legend_above(ax)
 
@@ -118,6 +120,7 @@ def _draw_model(ax: Axes) -> None:
     ax.text(-0.95, 1.07, "bounces", ha="right", va="center", color=DARK, fontsize=7)
     arrow(ax, (0.4, 0.8), (1.2, 0.8), style="<|-|>", colour=SLIDER)
     ax.text(0.8, 0.95, "sticks,\nslips", ha="center", color=DARK, fontsize=7)
-    ax.set(xlim=(-2.1, 2.7), ylim=(-0.95, 2.5))
+    ax.set_xlim((-2.1, 2.7))
+    ax.set_ylim((-0.95, 2.5))
     ax.set_box_aspect(1.05)
     ax.axis("off")

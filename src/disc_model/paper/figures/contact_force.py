@@ -28,7 +28,8 @@ def draw(plot: ContactForce, case: xr.DataTree) -> Figure:
     spans = separations(window)
     shade(close, spans)
     close.plot(window["time"], window["P"], color=drawing.FORCE)
-    close.set(xlabel=f"Time after {start:.5f} s (ms)", ylabel=axis_of("P")[0])
+    close.set_xlabel(f"Time after {start:.5f} s (ms)")
+    close.set_ylabel(axis_of("P")[0])
     if spans:
         legend_above(close)
     drawing.letters(axes)

@@ -54,12 +54,14 @@ def draw(plot: FourStretches, *cases: xr.DataTree) -> Figure:
     for name, text in zip(WINDOWS, "bcde", strict=True):
         start, stop = span_of(spectra[0, name])
         whole.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
-        place: dict[str, Any] = {
-            "ha": "left",
-            "va": "top",
-            "transform": whole.get_xaxis_transform(),
-        }
-        whole.text(start + 0.4, 0.97, f"({text})", **place)
+        whole.text(
+            start + 0.4,
+            0.97,
+            f"({text})",
+            ha="left",
+            va="top",
+            transform=whole.get_xaxis_transform(),
+        )
     drawing.show(whole, cases[0], history(cases[0], plot.history, plot.until), "w_point")
     drawing.headroom(whole, 0.15)
     drawing.show_thickness(whole, cases[0], "y")

@@ -98,6 +98,7 @@ class FourStretches(CasePlot):
     until : end of the part of the run that is shown
     """
 
+    widths = ("page",)
     further = ("ignored",)
     kind: Literal["paper.four_stretches"] = "paper.four_stretches"
     history: Ranges = "history"
@@ -158,6 +159,7 @@ def _contains(start: float, stop: float) -> Rule:
 class Schematic(CasePlot):
     """The model of a case, its radii to scale."""
 
+    widths = ("page",)
     kind: Literal["paper.schematic"] = "paper.schematic"
 
 

@@ -1,7 +1,5 @@
 """Separations of a light slider: displacements, and where contact is lost."""
 
-from typing import Any
-
 import xarray as xr
 from matplotlib.figure import Figure
 
@@ -36,12 +34,9 @@ def draw(plot: LightSlider, case: xr.DataTree) -> Figure:
     losses = part.sel(time=[first for first, _ in spans if first > 0], method="nearest")
     if losses["time"].size:
         height = (losses["w"] - rest) * 1e3
-        look: dict[str, Any] = {
-            "color": SEPARATED,
-            "markersize": mark(3.5),
-            "label": "contact lost",
-        }
-        ax.plot(losses["time"], height, "o", **look)
+        ax.plot(
+            losses["time"], height, "o", color=SEPARATED, markersize=mark(3.5), label="contact lost"
+        )
     drawing.show_thickness(ax, case, "y")
     ax.set_xlabel(f"Time after {start:.4f} s (ms)")
     legend_above(ax)

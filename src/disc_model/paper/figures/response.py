@@ -62,7 +62,8 @@ def _draw_spectra(
     for ax, case, spectrum, title in zip(axes, cases, spectra, titles, strict=True):
         mesh = draw_power(ax, case, spectrum, float(spectra[0].power.max()), HIGHEST)
         drawing.letter(ax, *title)
-        ax.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
+        ax.set_xlabel("Time (s)")
+        ax.set_ylabel("Frequency (Hz)")
         ax.label_outer()
     draw_scale(figure, mesh, list(axes))
 
@@ -99,4 +100,6 @@ def _draw_look(ax: Axes, case: xr.DataTree, name: str, start: float, variable: s
     label, factor, colour = drawing.sampled(variable, window)
     milliseconds = (part["time"].values - start) * 1e3
     ax.plot(milliseconds, part[variable].values * factor, color=colour, linewidth=wide(0.6))
-    ax.set(xlabel=f"Time after {start:g} s (ms)", ylabel=label, xlim=(0, LOOK * 1e3))
+    ax.set_xlabel(f"Time after {start:g} s (ms)")
+    ax.set_ylabel(label)
+    ax.set_xlim((0, LOOK * 1e3))

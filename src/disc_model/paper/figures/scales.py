@@ -82,7 +82,11 @@ def _draw_amplitudes(ax: Axes, p: Parameters) -> None:
     middle = float(np.sqrt(published * orthonormal))
     drawing.say(ax, f"× {published / orthonormal:.0f}", (1, middle), (5, 0))
     label = r"Amplitude under the slider $\Psi_l^2$ (1/kg)"
-    ax.set(yscale="log", xlabel="Nodal diameters l", ylabel=label, xticks=range(5), ylim=(0.7, 110))
+    ax.set_yscale("log")
+    ax.set_xlabel("Nodal diameters l")
+    ax.set_ylabel(label)
+    ax.set_xticks(range(5))
+    ax.set_ylim((0.7, 110))
     ax.margins(x=0.12)
     ax.legend(loc="upper right", bbox_to_anchor=(1.04, 0.88))
 
@@ -99,11 +103,18 @@ def _draw_regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset])
     for name, point in points.items():
         place = (float(point["Omega"]), float(point["N"]))
         both = bool(np.all(flag_names(point["outcome"]) == "separation"))
-        look: dict[str, Any] = {"color": BLACK, "markersize": mark(5), "clip_on": False}
-        ax.plot(*place, "o", markerfacecolor=SEPARATED if both else "white", **look)
+        ax.plot(
+            *place,
+            "o",
+            markerfacecolor=SEPARATED if both else "white",
+            color=BLACK,
+            markersize=mark(5),
+            clip_on=False,
+        )
         side = (5 if name in RIGHT_OF else -5, 0)
         drawing.say(ax, name, place, side, fontsize=large(7), path_effects=drawing.halo())
-    ax.set(xlabel=label_of(study["Omega"])[0], ylabel=label_of(study["N"])[0])
+    ax.set_xlabel(label_of(study["Omega"])[0])
+    ax.set_ylabel(label_of(study["N"])[0])
 
 
 def _draw_times(ax: Axes, points: Mapping[str, xr.Dataset], firsts: pd.DataFrame) -> None:
@@ -123,9 +134,19 @@ def _draw_times(ax: Axes, points: Mapping[str, xr.Dataset], firsts: pd.DataFrame
         ax.annotate("", (end, height), (was, height), arrowprops=arrow)
         for time, look in zip((was, now), LOOKS, strict=True):
             ax.plot([time], [height], markersize=mark(5), **look)
-        place: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "fontsize": large(7)}
-        drawing.say(ax, str(name), (0, height), (-3, 0), **place)
-    ax.set(xscale="log", xlabel="First separation (s)", xlim=(25, 1.6 * max(horizons.values())))
-    ax.set(yticks=[], ylim=(-0.6, len(times) - 0.4), ylabel=" ")
+        drawing.say(
+            ax,
+            str(name),
+            (0, height),
+            (-3, 0),
+            xycoords=("axes fraction", "data"),
+            fontsize=large(7),
+        )
+    ax.set_xscale("log")
+    ax.set_xlabel("First separation (s)")
+    ax.set_xlim((25, 1.6 * max(horizons.values())))
+    ax.set_yticks([])
+    ax.set_ylim((-0.6, len(times) - 0.4))
+    ax.set_ylabel(" ")
     lost = int(times["orthonormal"].isna().sum())
     ax.set_title(f"{lost} of {len(times)}: none by Eq. (17)", loc="right")

@@ -89,7 +89,8 @@ def _draw_side(ax: Axes) -> None:
     for angle in (0.0, drive):
         ax.plot([angle, angle], [-0.65, -0.1], color=SLIDER, lw=0.7)
     arrow(ax, (-2.45, -0.72), (-1.85, -0.72), r"$\theta$", (0.42, 0))
-    ax.set(xlim=(-2.6, 4.6), ylim=(-0.85, 2.45))
+    ax.set_xlim((-2.6, 4.6))
+    ax.set_ylim((-0.85, 2.45))
     ax.set_title("(a) from the side, along the circle of radius $r_0$", loc="left")
 
 
@@ -126,7 +127,8 @@ def _draw_above(ax: Axes, p: Parameters) -> None:
         write(ax, at(angle, 0.6 * radius, 0.1 * at(angle - np.pi / 2, 1)), text)
     radii = f"clamped at\n$a$ = {1e3 * p.a:g} mm,\nfree at\n$b$ = {1e3 * p.b:g} mm"
     ax.text(-1.72, 1.66, radii, fontsize=SMALL, va="top")
-    ax.set(xlim=(-1.75, 2.05), ylim=(-1.3, 1.7))
+    ax.set_xlim((-1.75, 2.05))
+    ax.set_ylim((-1.3, 1.7))
     ax.set_title(f"(b) from above, $r_0$ = {1e3 * p.r_0:g} mm", loc="left")
 
 
@@ -162,5 +164,6 @@ def _draw_forces(ax: Axes) -> None:
         color=DISC,
         fontsize=SMALL,
     )
-    ax.set(xlim=(-1.65, 1.65), ylim=(-0.95, 2.35))
+    ax.set_xlim((-1.65, 1.65))
+    ax.set_ylim((-0.95, 2.35))
     ax.set_title("(c) forces at the contact", loc="left")
