@@ -7,19 +7,18 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures import drawing
+from disc_model.figures.arrays import Array
 from disc_model.figures.cells import entries
 from disc_model.figures.classes import LOOKS
-from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, WIDTHS, large, mark, wide
+from disc_model.figures.drawing import BLACK, GREY, SEPARATED, large, mark, wide
 from disc_model.figures.kinds.motions import BasinShares
 from disc_model.figures.legends import figure_legend, legend_above
 from disc_model.figures.selection import failed
+from disc_model.figures.sizes import PAGE
 from disc_model.figures.words import measured
-
-Array = NDArray[np.float64]
 
 STACKED = (
     "quiet",
@@ -45,7 +44,7 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     study = study.transpose(plot.x, ...)
     across = measured(study[plot.x])
     energies = study["energy"].values
-    figure, axes = _panels(WIDTHS[plot.width or "page"], len(energies))
+    figure, axes = _panels(plot.inches, len(energies))
     *shares, attractors, kicks = axes
 
     classes = outcomes_in(study["basin_fraction"])

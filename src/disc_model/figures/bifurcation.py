@@ -7,16 +7,14 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from disc_model.data.variables import axis_of, flag_names, stated_in
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, BLUE, BROWN, GREY, PHASE_COLOURS, WIDTHS, mark, wide
+from disc_model.figures.arrays import Array, Words
+from disc_model.figures.drawing import BLACK, BLUE, BROWN, GREY, PHASE_COLOURS, mark, wide
 from disc_model.figures.kinds.motions import Bifurcation
 from disc_model.figures.legends import legend_above
 from disc_model.figures.selection import broken, failed
-
-Array = NDArray[np.float64]
 
 MARKS: dict[str, dict[str, Any]] = {
     "stick": {"marker": "x", "markersize": 2.0, "mew": 0.4},
@@ -53,7 +51,7 @@ def draw(plot: Bifurcation, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     heights = [2.4, 0.9]  # inch
     if "lyapunov" in overlays:
         heights.append(1.4)
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     rows = len(heights)
     figure, axes = drawing.panels(
         width, sum(heights) + 0.7, rows, sharex=True, height_ratios=heights
@@ -77,7 +75,7 @@ def draw(plot: Bifurcation, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     return figure
 
 
-def phases_of(study: xr.Dataset) -> NDArray[np.str_]:
+def phases_of(study: xr.Dataset) -> Words:
     """The phase of each sample, "none" where it was not reached, or the point failed."""
     phase = flag_names(study["phase"])
     return np.where(failed(study).values[:, None], "none", phase)

@@ -8,16 +8,13 @@ import numpy as np
 import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation
 
 from disc_model.analysis.spectra import Resonance
 from disc_model.data.variables import flag_names, typeset
 from disc_model.figures import drawing
+from disc_model.figures.arrays import Array, Indices, Mask
 from disc_model.figures.drawing import BLACK, BORDERS, border, large, mark
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 NEAR = 3.0  # Hz, from a resonance, within which a fold has its name
 BOUNDING = 0.5
@@ -82,7 +79,7 @@ def passes(curve: Curve, cells: xr.DataArray) -> Mask:
     return np.asarray(np.isfinite(curve.Omega) & around[i, j])
 
 
-def _nearest(values: Array, places: Array) -> NDArray[np.int64]:
+def _nearest(values: Array, places: Array) -> Indices:
     """Index of the value nearest each place; any for nan."""
     return np.abs(values - np.nan_to_num(places)[:, None]).argmin(axis=1)
 

@@ -13,8 +13,9 @@ from disc_model.figures import drawing
 from disc_model.figures.branches import STABLE, THIN, draw_branch
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.curve import scale_rates
-from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, mark, wide
+from disc_model.figures.drawing import BLACK, SEPARATED, mark, wide
 from disc_model.figures.runs import stated
+from disc_model.figures.sizes import COLUMN
 
 if TYPE_CHECKING:
     from disc_model.stability.continuation import Branch

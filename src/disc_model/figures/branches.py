@@ -9,17 +9,15 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.legend_handler import HandlerTuple
-from numpy.typing import NDArray
 
 from disc_model.data.variables import axis_of, flag_names, stated_in
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, WIDTHS, large, mark, wide
+from disc_model.figures.arrays import Array, Mask
+from disc_model.figures.drawing import BLACK, GREY, SEPARATED, large, mark, wide
 from disc_model.figures.kinds.motions import Branches
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import broken, stretches
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
+from disc_model.figures.sizes import PAGE
 
 LOWEST = 1e-3  # least range that is distinguished from rest, mm
 STABLE = 2.0  # width of lines of stable motions, points,
@@ -36,7 +34,7 @@ def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     study = study.squeeze([str(dim) for dim in study["status"].dims])  # keeps a single branch
     label, factor = axis_of(str(stated_in(study, "options")["parameter"]))
     along = study["sweep_value"].values * factor
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     figure, [ax] = drawing.panels(width, 3.6 if width == PAGE else 3.9)
     ax.set_yscale("log")
 

@@ -7,12 +7,12 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from disc_model.data.variables import axis_of, flag_names
+from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
+from disc_model.figures.arrays import Array, Mask
 from disc_model.figures.curve import LINEAR, scale_rates
-from disc_model.figures.drawing import BLACK, GREY, WIDTHS, large, mark, wide
+from disc_model.figures.drawing import BLACK, GREY, large, mark, wide
 from disc_model.figures.kinds.motions import Campbell
 from disc_model.figures.mode_names import named_modes
 from disc_model.figures.selection import (
@@ -24,9 +24,7 @@ from disc_model.figures.selection import (
     stretches,
     titles_of,
 )
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
+from disc_model.figures.words import SPEED
 
 MOST = 5  # number of peaks that are named at most
 NEAR = 0.01  # share of the speeds shown within which peaks are one, and crossings belong to a peak
@@ -49,7 +47,7 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
         chosen = plot.normalization or normalizations(study)[0]
         study = study.sel({NORM: chosen})
     parts = parts_along(study, plot.by, plot.names)
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     figure, axes = drawing.panels(
         width, 5.4, 2, len(parts), height_ratios=[3, 2], sharex=True, sharey="row"
     )
@@ -85,7 +83,7 @@ def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
         for start, end in spans(speeds, ~np.isfinite(rate)):  # without a cycle
             ax.axvspan(start, end, color=GREY, alpha=0.25, linewidth=0)
     top.set_xlim(speeds[0], speeds[-1])
-    bottom.set_xlabel(axis_of("Omega")[0])
+    bottom.set_xlabel(SPEED)
 
 
 def _draw_modes(ax: Axes, study: xr.Dataset) -> None:

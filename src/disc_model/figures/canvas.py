@@ -135,25 +135,34 @@ def _given(ax: Any, count: int) -> list[Axes]:
 
 
 def _finish(page: Page, wishes: Wishes) -> None:
-    """Write the legend, and the labels and title that a reader asks for."""
-    labels = wishes.labels or {}
-    for ax in page.axes:
-        if ax.get_xlabel():
-            ax.set_xlabel(labels.get("x", ax.get_xlabel()))
-        if ax.get_ylabel():
-            ax.set_ylabel(labels.get("y", ax.get_ylabel()))
-    for handle in page.handles:
-        known = str(handle.get_label())
-        handle.set_label(labels.get(known, known))
-    if wishes.title is None and page.note:
-        page.ax.set_title(page.note, loc="left")
-    elif wishes.title is not None and not page.own:
+    """Write the title, labels and legend that a reader asks for."""
+    if wishes.title is None:
+        if page.note:
+            page.ax.set_title(page.note, loc="left")
+    elif not page.own:
         page.ax.set_title(wishes.title)
-    if not page.handles or wishes.legend is False:
-        return
-    options = dict(wishes.legend) if isinstance(wishes.legend, Mapping) else {}
-    if options:
-        page.ax.legend(handles=list(page.handles), **options)
+    _relabel(page, wishes.labels or {})
+    if page.handles and wishes.legend is not False:
+        _write_legend(page, wishes.legend)
+
+
+def _relabel(page: Page, labels: Mapping[str, str]) -> None:
+    """Give axes and entries of the legend other words."""
+    for ax in page.axes:
+        if ax.get_xlabel() and "x" in labels:
+            ax.set_xlabel(labels["x"])
+        if ax.get_ylabel() and "y" in labels:
+            ax.set_ylabel(labels["y"])
+    for handle in page.handles:
+        usual = str(handle.get_label())
+        handle.set_label(labels.get(usual, usual))
+
+
+def _write_legend(page: Page, legend: bool | Mapping[str, Any]) -> None:
+    """Write the legend: in the place that the reader's options give, below a new figure, or inside
+    a reader's axes or below them."""
+    if isinstance(legend, Mapping):
+        page.ax.legend(handles=list(page.handles), **legend)
     elif page.own:
         figure_legend(page.figure, page.handles)
     elif page.beside == "below":

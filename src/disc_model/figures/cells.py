@@ -10,18 +10,15 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
-from numpy.typing import NDArray
 
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.figures import selection
+from disc_model.figures.arrays import Array, Mask, Words
 from disc_model.figures.classes import LOOKS, UNRESOLVED, WEIGHTS, Look, looks_of
 from disc_model.figures.drawing import DECADES, GREY, wide
 from disc_model.figures.words import measured
 
-Array = NDArray[np.float64]
-Words = NDArray[np.str_]
-Mask = NDArray[np.bool_]
-Colours = NDArray[np.float64]  # red, green, blue and opacity along the last dimension
+Colours = Array  # red, green, blue and opacity along the last dimension
 
 DECADES_FROM = 15
 """Ratio of the largest to the least positive value from which a scale may be logarithmic."""

@@ -9,8 +9,9 @@ from matplotlib.axes import Axes
 from disc_model.data.variables import axis_of
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.curve import scale_rates
-from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, mark, wide
+from disc_model.figures.drawing import BLACK, SEPARATED, mark, wide
 from disc_model.figures.runs import stated
+from disc_model.figures.sizes import COLUMN
 
 if TYPE_CHECKING:
     from disc_model.stability.curves import Critical

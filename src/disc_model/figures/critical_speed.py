@@ -10,19 +10,18 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from disc_model.data.variables import axis_of, flag_names, stated_in
+from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures import drawing
+from disc_model.figures.arrays import Array, Mask
 from disc_model.figures.borders import curves_of, draw_curves, parts_of, passes
 from disc_model.figures.cells import edges_of, entries, paint
 from disc_model.figures.classes import LOOKS
-from disc_model.figures.drawing import BLACK, BLUE, ORANGE, PAPER, SEPARATED, WIDTHS, mark, wide
+from disc_model.figures.drawing import BLACK, BLUE, ORANGE, PAPER, SEPARATED, mark, wide
 from disc_model.figures.kinds.maps import CriticalSpeed
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import failed, stretches
-
-Array = NDArray[np.float64]
+from disc_model.figures.words import LOAD, SPEED
 
 ONSET = SEPARATED  # colour of speeds at which separation begins,
 END = BLUE  # and at which it ends
@@ -41,8 +40,8 @@ def draw(plot: CriticalSpeed, study: xr.Dataset, overlays: Mapping[str, xr.Datas
     loads = study["N"].values
 
     # panels
-    usual, count = ("column", 1) if sweep is None else ("page", 2)
-    width = WIDTHS[plot.width or usual]
+    count = 1 if sweep is None else 2
+    width = plot.inches_of(count)
     figure, axes = drawing.row_of_panels(width, count, 3.8, 3.8, sharex=True, sharey=True)
     speeds = study["scan_Omega"].values
     if cycle is not None:
@@ -70,9 +69,9 @@ def draw(plot: CriticalSpeed, study: xr.Dataset, overlays: Mapping[str, xr.Datas
 
     drawing.letters(axes, titles, pad=12)
     for ax in axes:
-        ax.set_xlabel(axis_of("Omega")[0])
+        ax.set_xlabel(SPEED)
         handles += ax.get_legend_handles_labels()[0]
-        ax.set_ylabel(axis_of("N")[0])
+        ax.set_ylabel(LOAD)
         ax.label_outer()
     figure_legend(figure, handles, loc="outside lower center", columns=3, columnspacing=1.0)
     return figure
@@ -169,7 +168,7 @@ def branches(speeds: Sequence[Array], ends: Sequence[Iterable[float]]) -> list[L
     return links
 
 
-def _nearest(current: Array, ahead: Array) -> NDArray[np.bool_]:
+def _nearest(current: Array, ahead: Array) -> Mask:
     """Pairs of speeds that are nearest to each other; as they are rounded, two may be as near."""
     apart = np.abs(current[:, None] - ahead[None, :])
     from_ahead = np.isclose(apart, apart.min(0), rtol=1e-9)

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from disc_model.data.variables import stated_in
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, WIDTHS, large, mark, wide
+from disc_model.figures.drawing import BLACK, GREY, large, mark, wide
 from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.legends import figure_legend
@@ -44,8 +44,7 @@ APART = 0.05  # least distance of the ends of lines that are named there, as a s
 def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw a line, or one for each value of a second dimension, in one panel or several."""
     panels = panels_of(plot, picked(study, plot.at))
-    usual = "page" if len(panels) > 1 else "column"
-    width = WIDTHS[plot.width or usual]
+    width = plot.inches_of(len(panels))
     figure, axes = drawing.row_of_panels(width, len(panels), 2.9, 2.2, sharey=True)
     marks: dict[str, str] = {}
     for ax, part in zip(axes, panels, strict=True):

@@ -18,11 +18,10 @@ from disc_model.data.dataset import Missing
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.errors import require
 from disc_model.figures import drawing
+from disc_model.figures.arrays import Array, Words
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED, SLIDER, styled, wide
 from disc_model.parameters import Parameters
 from disc_model.units import is_number
-
-Array = NDArray[np.float64]
 
 RADII = 25  # points across the disc at which it is drawn
 ANGLES = 181  # points around it
@@ -45,7 +44,7 @@ class Motion(NamedTuple):
     amplitudes: NDArray[np.complex128]
     slider: Array
     u: Array
-    phase: NDArray[np.str_]
+    phase: Words
 
     @classmethod
     def of(cls, p: Parameters, states: Sequence[Any]) -> Self:

@@ -25,16 +25,13 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
 from disc_model.data.variables import SHOWN, axis_of, typeset
+from disc_model.figures.sizes import PAGE
 from disc_model.figures.words import UNITS, measured
 
 # the reports of fontTools on fonts would fill the logs of figures
 logging.getLogger("fontTools").setLevel(logging.WARNING)
 
 STYLE = Path(__file__).with_name("drawing.mplstyle")
-INCH = 25.4  # mm
-COLUMN = 84 / INCH  # width of one column, inch
-PAGE = 174 / INCH  # width of both columns, inch
-WIDTHS = {"column": COLUMN, "page": PAGE}
 
 # ---- Colours, of Okabe and Ito: one per quantity in the whole set
 

@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from disc_model.errors import Fault, ParameterError
 from disc_model.figures import drawing
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, BLUE, COLUMN, SEPARATED, large, mark, wide
+from disc_model.figures.drawing import BLACK, BLUE, SEPARATED, large, mark, wide
+from disc_model.figures.sizes import COLUMN
 from disc_model.figures.words import head_text
 
 if TYPE_CHECKING:

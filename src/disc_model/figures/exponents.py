@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 
 from disc_model.display import counted
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLUE, COLUMN, GREY, mark, wide
+from disc_model.figures.drawing import BLUE, GREY, mark, wide
+from disc_model.figures.sizes import COLUMN
 
 if TYPE_CHECKING:
     from disc_model.stability.lyapunov import Lyapunov

@@ -10,15 +10,13 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import AsinhNorm
 from matplotlib.figure import FigureBase
-from numpy.typing import NDArray
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.cells import Mask, Words, edges_of, entries, lay_over, paint, unresolved
+from disc_model.figures.arrays import Array, Mask, Words
+from disc_model.figures.cells import edges_of, entries, lay_over, paint, unresolved
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED
 from disc_model.figures.selection import class_of_gap, statuses_like
 from disc_model.figures.words import label_of
-
-Array = NDArray[np.float64]
 
 GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates are larger
 LINEAR_SHARE = 1 / 30  # of the greatest rate, up to which the scale is nearly linear

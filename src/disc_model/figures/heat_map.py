@@ -25,7 +25,6 @@ from disc_model.figures.cells import (
     scale_of,
 )
 from disc_model.figures.classes import LOOKS, UNRESOLVED
-from disc_model.figures.drawing import COLUMN, WIDTHS
 from disc_model.figures.growth import growth_panels, is_growth
 from disc_model.figures.kinds.general import General, HeatMap
 from disc_model.figures.legends import figure_legend
@@ -39,6 +38,7 @@ from disc_model.figures.selection import (
     statuses_like,
     titles_of,
 )
+from disc_model.figures.sizes import COLUMN
 from disc_model.figures.words import label_of, measured
 
 FEW = 12  # counts below which each has a colour of its own
@@ -48,8 +48,11 @@ IN_A_ROW = 4  # panels on a page
 def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw a panel for each value of a third dimension, on one scale of colours."""
     parts = parts_of(plot, study)
-    width = WIDTHS[plot.width or ("page" if len(parts) > 1 else "column")]
-    columns = 1 if width == COLUMN else math.ceil(len(parts) / (1 + (len(parts) > IN_A_ROW)))
+    width = plot.inches_of(len(parts))
+    columns = 1
+    if width != COLUMN:
+        lines = math.ceil(len(parts) / IN_A_ROW)
+        columns = math.ceil(len(parts) / lines)
     rows = math.ceil(len(parts) / columns)
     figure, axes = drawing.panels(width, 2.9 * rows, rows, columns, sharex=True, sharey=True)
     for ax in axes[len(parts) :]:

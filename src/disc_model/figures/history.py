@@ -17,11 +17,12 @@ from disc_model.data.variables import PHASES
 from disc_model.errors import require
 from disc_model.figures import drawing
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import COLUMN, GREY, PAGE, PHASE_COLOURS, WIDTHS
+from disc_model.figures.drawing import GREY, PHASE_COLOURS
 from disc_model.figures.kinds.cases import History
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.phases import spans_in
 from disc_model.figures.runs import stated, window_of
+from disc_model.figures.sizes import COLUMN, PAGE
 
 MOST_SHADED = 60
 """Largest number of stretches of one phase that are shaded; more would be as dense as a fill."""
@@ -35,7 +36,7 @@ SHADES: dict[str, dict[str, Any]] = {
 def draw(plot: History, case: xr.DataTree) -> Figure:
     """Draw variables of a case in a window, one above the other."""
     rows = len(plot.variables)
-    width = WIDTHS[plot.width or "column"]
+    width = plot.inches
     figure, axes = drawing.panels(width, 0.8 + 1.3 * rows, rows, sharex=True)
     end = math.inf if plot.until is None else plot.until
     shown = dataset.group(case, plot.window).sel(time=slice(None, end))

@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, BLUE, GREEN, GREY, PURPLE, WIDTHS, large, mark, wide
+from disc_model.figures.drawing import BLACK, BLUE, GREEN, GREY, PURPLE, large, mark, wide
 from disc_model.figures.kinds.motions import LateRange
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.words import label_of
+from disc_model.figures.words import SPEED
 
 LOAD_COLOURS = (BLACK, BLUE, GREEN, PURPLE)
 SMALLEST = 1e-6
@@ -30,7 +30,7 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     ranges = ranges.where(_valid(plot, ranges))
     outcomes = study["outcome"].copy(data=flag_names(study["outcome"]))
     names = study[plot.by].values
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     figure, axes = drawing.row_of_panels(width, len(names), 3.0, 2.4, sharex=True, sharey=True)
     for ax, name in zip(axes, names, strict=True):
         chosen = {plot.by: name}
@@ -38,7 +38,7 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
         ax.margins(x=0.05)
         ax.set_yscale("log")
         ax.set_ylim((SMALLEST, LARGEST))
-        ax.set_xlabel(label_of(study["Omega"])[0])
+        ax.set_xlabel(SPEED)
         ax.set_ylabel("Slider, peak to peak (thicknesses)")
         ax.label_outer()
     axes[0].text(

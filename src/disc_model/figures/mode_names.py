@@ -4,15 +4,14 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from disc_model.figures.arrays import Array, Indices
 
 
 class Named(NamedTuple):
     """Modes that share a name, since they are too near each other: their indices, and the name."""
 
-    modes: NDArray[np.int64]
+    modes: Indices
     name: str
 
 

@@ -12,7 +12,8 @@ from disc_model.errors import raise_faults, require, violations
 from disc_model.figures import drawing
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.disc import draw_plane, plane_of
-from disc_model.figures.drawing import BLACK, COLUMN, PAGE, wide
+from disc_model.figures.drawing import BLACK, wide
+from disc_model.figures.sizes import COLUMN, PAGE
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import is_whole
 

@@ -8,8 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLUE, COLUMN, GREY, SEPARATED, large, mark, wide
+from disc_model.figures.drawing import BLUE, GREY, SEPARATED, large, mark, wide
 from disc_model.figures.runs import stated
+from disc_model.figures.sizes import COLUMN
 
 if TYPE_CHECKING:
     from disc_model.stability.cycle import FloquetResult

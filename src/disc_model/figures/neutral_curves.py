@@ -11,8 +11,9 @@ from disc_model.data.variables import axis_of, typeset
 from disc_model.figures import drawing
 from disc_model.figures.branches import STABLE, draw_branch
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, large, wide
+from disc_model.figures.drawing import BLACK, SEPARATED, large, wide
 from disc_model.figures.runs import stated
+from disc_model.figures.sizes import COLUMN
 
 if TYPE_CHECKING:
     from disc_model.stability.curves import NeutralCurves

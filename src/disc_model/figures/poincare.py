@@ -17,15 +17,14 @@ from disc_model.analysis.classify import first_settled, settling, stages
 from disc_model.data import dataset
 from disc_model.data.variables import values_text
 from disc_model.figures import drawing
+from disc_model.figures.arrays import Array, Mask
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, SKY, WIDTHS, large, wide
+from disc_model.figures.drawing import BLACK, GREY, SEPARATED, SKY, large, wide
 from disc_model.figures.kinds.cases import PoincareSections
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.runs import stated
+from disc_model.figures.sizes import PAGE
 from disc_model.parameters import Parameters
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 STAGES: dict[str, dict[str, Any]] = {
     "early": {"marker": "x", "color": SKY, "s": 9, "linewidths": 0.5},
@@ -45,7 +44,7 @@ MANY = 2000  # points from which marks are drawn as pixels
 
 def draw(plot: PoincareSections, *cases: xr.DataTree) -> Figure:
     """Draw the sections of cases, a row each, on common axes."""
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     rows_of_case, height = (1, 2.75) if width == PAGE else (2, 4.6)
     figure = drawing.new_figure(width, height * len(cases))
     rows = np.atleast_1d(np.asarray(figure.subfigures(len(cases), 1)))

@@ -12,10 +12,11 @@ from disc_model.data import dataset
 from disc_model.data.variables import PHASES, flag_names
 from disc_model.figures import drawing
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import COLUMN, PHASE_COLOURS, WIDTHS, wide
+from disc_model.figures.drawing import PHASE_COLOURS, wide
 from disc_model.figures.kinds.cases import Portrait
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.runs import stated, window_of
+from disc_model.figures.sizes import COLUMN
 
 LINES = {"stick": 0.5, "slip": 0.5, "separation": 1.2}
 """Widths of the lines of phases, distinct in grey print, points."""
@@ -23,7 +24,7 @@ LINES = {"stick": 0.5, "slip": 0.5, "separation": 1.2}
 
 def draw(plot: Portrait, case: xr.DataTree) -> Figure:
     """Draw a portrait of the samples in a window."""
-    figure, [ax] = drawing.panels(WIDTHS[plot.width or "column"], 2.7)
+    figure, [ax] = drawing.panels(plot.inches, 2.7)
     samples = dataset.samples(case, plot.window)
     figure_legend(figure, draw_portrait(ax, samples, plot.x, plot.y))
     return figure

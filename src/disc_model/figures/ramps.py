@@ -7,13 +7,14 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from disc_model.data.variables import axis_of, stated_in
+from disc_model.data.variables import stated_in
 from disc_model.figures import drawing
 from disc_model.figures.borders import crossings, curves_of
 from disc_model.figures.critical_speed import END, ONSET
-from disc_model.figures.drawing import GREY, WIDTHS, border, large, mark, wide
+from disc_model.figures.drawing import GREY, border, large, mark, wide
 from disc_model.figures.kinds.maps import RampedSpeeds
 from disc_model.figures.legends import figure_legend
+from disc_model.figures.words import SPEED
 
 
 def draw(plot: RampedSpeeds, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -23,7 +24,7 @@ def draw(plot: RampedSpeeds, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     options = stated_in(study, "options")
     rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))
     gone = study["rate_status"].values != 0
-    figure, [ax] = drawing.panels(WIDTHS[plot.width or "column"], 3.4)
+    figure, [ax] = drawing.panels(plot.inches, 3.4)
     for speeds, shape, colour, label in (
         (onset, "^-", ONSET, "onset, rising ramp"),
         (end, "v-", END, "end, falling ramp"),
@@ -55,7 +56,7 @@ def draw(plot: RampedSpeeds, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     ax.set_xscale("log")
     ax.margins(x=0.04)
     ax.set_xlabel("Ramp rate (rad/s²)")
-    ax.set_ylabel(axis_of("Omega")[0])
+    ax.set_ylabel(SPEED)
     ax.set_ylim(options["low"], options["high"])
     handles = ax.get_legend_handles_labels()[0]
     figure_legend(figure, handles, loc="outside lower center", columns=1)

@@ -11,10 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullFormatter, NullLocator
-from numpy.typing import NDArray
 
 from disc_model.data.variables import axis_of, flag_names, stated_in
 from disc_model.figures import drawing
+from disc_model.figures.arrays import Array, Mask
 from disc_model.figures.borders import Curve, curves_of, draw_curves, parts_of
 from disc_model.figures.cells import (
     MARKED,
@@ -27,13 +27,13 @@ from disc_model.figures.cells import (
     unresolved,
 )
 from disc_model.figures.classes import LOOKS, UNRESOLVED
-from disc_model.figures.drawing import BLACK, BORDERS, COLUMN, PAPER, WIDTHS, border, large
+from disc_model.figures.drawing import BLACK, BORDERS, PAPER, border, large
 from disc_model.figures.growth import growth_panels, stability_of
 from disc_model.figures.kinds.maps import Mark, RegionMap
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import NORM, Part, alike, normalizations, parts_along, titles_of
+from disc_model.figures.sizes import COLUMN
 
-Array = NDArray[np.float64]
 Segment = list[tuple[float, float]]
 
 PAPER_MARKERS = {"quiet": "o", "growing": "^", "separation": "s"}
@@ -85,7 +85,7 @@ def draw(plot: RegionMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
 def _panels(plot: RegionMap, count: int) -> tuple[Figure, list[Axes], list[Axes]]:
     """A figure with panels of outcomes, and of growth rates below them; in one column, each of
     these below its own panel of outcomes."""
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     shared: dict[str, Any] = {"sharex": True, "sharey": True}
     if width == COLUMN:
         figure, axes = drawing.panels(width, 1.2 + 4.2 * count, 2 * count, 1, **shared)
@@ -133,7 +133,7 @@ def _curves(ax: Axes, plane: xr.Dataset, curves: xr.Dataset) -> list[Artist]:
     return draw_curves(ax, paths)
 
 
-def _between(values: Array, points: Array) -> NDArray[np.bool_]:
+def _between(values: Array, points: Array) -> Mask:
     return (values >= points.min()) & (values <= points.max())
 
 

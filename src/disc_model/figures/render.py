@@ -37,6 +37,7 @@ from disc_model.figures.kinds.base import CasePlot, Compared, Kind, Plot, si_uni
 from disc_model.figures.kinds.general import General
 from disc_model.figures.labels import break_labels
 from disc_model.figures.selection import NORM, normalizations, of, picked
+from disc_model.figures.sizes import COLUMN
 from disc_model.figures.words import MODES, UNITS, head_text, named_value, what_case
 from disc_model.units import in_si
 
@@ -129,7 +130,7 @@ def _of_cases(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Drawn:
     try:
         figure = drawing_of(plot.kind)(plot, *cases)
     except Missing as reason:
-        figure, [ax] = drawing.panels(drawing.COLUMN, 2)
+        figure, [ax] = drawing.panels(COLUMN, 2)
         ax.set_axis_off()
         text = fill(f"not shown: the case {reason}", 24)
         ax.text(0.5, 0.5, text, ha="center", va="center", in_layout=False)

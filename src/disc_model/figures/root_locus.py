@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, WIDTHS, large, mark, wide
+from disc_model.figures.drawing import BLACK, large, mark, wide
 from disc_model.figures.kinds.motions import RootLocus
 from disc_model.figures.mode_names import named_modes
 from disc_model.figures.selection import parts_along, titles_of
@@ -23,7 +23,7 @@ CHARACTER = 0.0136  # of the extent of growth rates, width of a character of a n
 def draw(plot: RootLocus, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw the plane of growth rate and frequency, for each value of the compared dimension."""
     parts = parts_along(study, plot.by, plot.names)
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     figure, axes = drawing.row_of_panels(width, len(parts), 4.8, 3.4, sharex=True, sharey=True)
     for ax, part in zip(axes, parts, strict=True):
         points = _draw_panel(ax, part.data.squeeze())

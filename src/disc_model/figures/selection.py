@@ -5,14 +5,13 @@ from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from disc_model.data import dataset
 from disc_model.data.variables import EXCLUDED, flag_names, stated_in
+from disc_model.figures.arrays import Array, Words
 from disc_model.figures.classes import name_of
 from disc_model.figures.words import named_value, rank_of, value_text
 
-Array = NDArray[np.float64]
 NORM = "normalization"  # the dimension that a study may have beside those that a figure requires
 WITHOUT_CYCLE = (
     "no_cycle",
@@ -144,7 +143,7 @@ def statuses(study: xr.Dataset) -> xr.DataArray:
     return words.astype(str)
 
 
-def statuses_like(study: xr.Dataset, array: xr.DataArray) -> NDArray[np.str_]:
+def statuses_like(study: xr.Dataset, array: xr.DataArray) -> Words:
     """The status of each point, in the shape of a variable of the study."""
     words = statuses(study).broadcast_like(array).transpose(*array.dims)
     return np.asarray(words.values, dtype=str)

@@ -7,7 +7,6 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from disc_model.analysis.classify import share
 from disc_model.data.variables import (
@@ -19,12 +18,11 @@ from disc_model.data.variables import (
     typeset,
 )
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, BLUE, GREY, WIDTHS, mark, wide
+from disc_model.figures.arrays import Array
+from disc_model.figures.drawing import BLACK, BLUE, GREY, mark, wide
 from disc_model.figures.kinds.motions import Sensitivity
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.words import named_value
-
-Array = NDArray[np.float64]
 
 BINS = 3  # number of parts, with equal numbers of draws, of a parameter's distribution
 ASIDE = 0.12  # of a row, by which both ends of a parameter lie above and below it
@@ -47,7 +45,7 @@ def draw(plot: Sensitivity, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     order = change.argsort(kind="stable")
     names = [names[i] for i in order]
 
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     height = 1.2 + 0.2 * len(names)
     figure, axes = drawing.row_of_panels(
         width, len(cells), height, height, sharey=True, sharex=True

@@ -7,17 +7,15 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, WIDTHS, large, mark, wide
+from disc_model.figures.arrays import Array
+from disc_model.figures.drawing import BLACK, GREY, large, mark, wide
 from disc_model.figures.kinds.motions import SlidingModes
 from disc_model.figures.mode_names import name_of, named_modes
 from disc_model.figures.selection import parts_along, stretches, titles_of
 from disc_model.figures.sliding_outcome import ROUNDING
 from disc_model.figures.words import measured
-
-Array = NDArray[np.float64]
 
 DECAYS = 0.8  # width of the line of a mode that decays, points,
 GROWS = 2.4  # and of one that grows
@@ -41,7 +39,7 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     are thick where a mode grows."""
     parts = parts_along(study, plot.by, plot.names)
     count = len(parts)
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     figure, axes = drawing.panels(
         width, 5.6, 2, count, height_ratios=[5, 4], sharex=True, sharey="row"
     )

@@ -5,18 +5,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from disc_model.data.variables import axis_of, flag_names
 from disc_model.figures import drawing
+from disc_model.figures.arrays import Words
 from disc_model.figures.cells import edges_of, entries, paint
 from disc_model.figures.classes import LOOKS, STABLE, Look
-from disc_model.figures.drawing import WIDTHS
 from disc_model.figures.kinds.maps import SlidingOutcome
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import alike, common_points, parts_along, titles_of
-
-Words = NDArray[np.str_]
 
 ROUNDING = 1e-9
 """1/s, growth rates of undamped modes by rounding."""
@@ -43,7 +40,7 @@ def draw(plot: SlidingOutcome, study: xr.Dataset, overlays: Mapping[str, xr.Data
     """Draw a panel for each value of the compared dimension; the legend has the shares of all
     classes."""
     parts = parts_along(study, plot.by, plot.names)
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     figure, axes = drawing.row_of_panels(width, len(parts), 3.4, 3.0, sharex=True, sharey=True)
     each: list[Words] = []
     for ax, part in zip(axes, parts, strict=True):

@@ -13,7 +13,7 @@ from disc_model.analysis.spectra import TimeFrequency, time_frequency
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.figures import drawing
-from disc_model.figures.drawing import PAGE, WIDTHS, wide
+from disc_model.figures.drawing import wide
 from disc_model.figures.kinds.cases import Spectrogram
 from disc_model.figures.words import quantity_of_label
 
@@ -22,8 +22,7 @@ FLOOR = -100.0  # least power shown, dB below the reference
 
 def draw(plot: Spectrogram, case: xr.DataTree) -> Figure:
     """Draw the spectrogram of a variable in a window."""
-    width = PAGE / 2 if plot.width is None else WIDTHS[plot.width]
-    figure, [ax] = drawing.panels(width, 2.7)
+    figure, [ax] = drawing.panels(plot.inches, 2.7)
     spectrum = spectrum_of(case, plot.window, plot.variable)
     mesh = draw_power(ax, case, spectrum, float(spectrum.power.max()), plot.highest)
     draw_scale(figure, mesh, ax)

@@ -13,9 +13,10 @@ from disc_model.data.dataset import Missing
 from disc_model.errors import Fault, ParameterError, require
 from disc_model.figures import drawing
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import COLUMN, WIDTHS, large, wide
+from disc_model.figures.drawing import large, wide
 from disc_model.figures.kinds.cases import Spectrum
 from disc_model.figures.runs import span_of, stated, window_of
+from disc_model.figures.sizes import COLUMN
 from disc_model.units import is_number
 
 FLOOR = -100.0  # least amplitude shown, dB below the greatest
@@ -29,7 +30,7 @@ ROUNDING = 1e-9  # relative, of half the rate of a window
 
 def draw(plot: Spectrum, case: xr.DataTree) -> Figure:
     """Draw the spectrum of a variable in the whole of a window."""
-    figure, [ax] = drawing.panels(WIDTHS[plot.width or "column"], 2.4)
+    figure, [ax] = drawing.panels(plot.inches, 2.4)
     draw_spectrum(ax, dataset.samples(case, plot.window), plot.variable, plot.highest)
     return figure
 

@@ -14,8 +14,8 @@ from disc_model.figures.basins import draw_shares, outcomes_in
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.cells import entries
 from disc_model.figures.curve import draw_lines
-from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
+from disc_model.figures.sizes import COLUMN
 from disc_model.figures.words import label_of, measured, what_case
 
 SHARES = ("basin_fraction_by_energy", "basin_fraction")

@@ -45,6 +45,9 @@ class Measured(NamedTuple):
 
 # ---- Labels of variables
 
+SPEED, _ = axis_of("Omega")
+LOAD, _ = axis_of("N")
+
 
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
     """Axis label of any variable or coordinate, and the factor from SI to its unit."""

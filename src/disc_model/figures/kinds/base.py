@@ -15,10 +15,12 @@ from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 from disc_model.data.variables import SERIES, SHOWN
 from disc_model.errors import Fault, raise_faults, require, suggestion
 from disc_model.figures.selection import NORM
+from disc_model.figures.sizes import WIDTHS
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Window
 from disc_model.units import Strict, in_si
 
+Width = Literal["column", "page"]
 Values = Mapping[str, Sequence[Any]]
 """Values along each dimension of a grid; tuples where it varies several parameters."""
 
@@ -63,7 +65,9 @@ class Kind(Strict):
     titled_by_legend: ClassVar[bool] = False
     """Whether the title is that of the first legend, which lies above the panels."""
 
-    widths: ClassVar[tuple[str, ...]] = ("column", "page")
+    usual: ClassVar[Width] = "page"
+    """Its width, unless the file gives one."""
+    widths: ClassVar[tuple[Width, ...]] = ("column", "page")
     """Widths in which it can be drawn."""
 
     kind: str
@@ -71,7 +75,17 @@ class Kind(Strict):
     caption: Annotated[str, BeforeValidator(_joined, json_schema_input_type=str | list[str])] = ""
     section: str = ""
     units: Annotated[dict[str, str], AfterValidator(_known_units)] = Field({})
-    width: Literal["column", "page"] | None = None
+    width: Width | None = None
+
+    @property
+    def inches(self) -> float:
+        """Width of the figure, inch."""
+        return WIDTHS[self.width or self.usual]
+
+    def inches_of(self, panels: int) -> float:
+        """Width of a figure that has a number of panels, inch: a column for one."""
+        usual = "page" if panels > 1 else "column"
+        return WIDTHS[self.width or usual]
 
     @model_validator(mode="after")
     def _wide_enough(self) -> Self:

@@ -30,6 +30,7 @@ class History(CasePlot):
     until : end of the part of the window that is shown
     """
 
+    usual = "column"
     kind: Literal["history"] = "history"
     window: Annotated[str, as_either]
     variables: Annotated[tuple[Sampled, ...], Field(min_length=1)] = ("P", "w")
@@ -49,6 +50,7 @@ class History(CasePlot):
 class Portrait(CasePlot):
     """One variable over another, coloured by phase."""
 
+    usual = "column"
     kind: Literal["portrait"] = "portrait"
     window: Samples
     x: Sampled = "psi"
@@ -77,6 +79,7 @@ class Spectrum(CasePlot):
     highest : highest frequency shown, Hz; without it up to where the lines end
     """
 
+    usual = "column"
     kind: Literal["spectrum"] = "spectrum"
     window: Samples
     variable: Sampled = "w_point"
@@ -86,6 +89,7 @@ class Spectrum(CasePlot):
 class Spectrogram(CasePlot):
     """Power of a variable over time and frequency, in dB below its strongest line."""
 
+    usual = "column"
     kind: Literal["spectrogram"] = "spectrogram"
     window: str
     variable: Sampled = "w_point"

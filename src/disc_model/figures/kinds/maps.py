@@ -93,4 +93,5 @@ class RampedSpeeds(Plot):
     speed's ramps."""
 
     roles: ClassVar[Roles] = {"curves": CURVES}
+    usual = "column"
     kind: Literal["ramps"] = "ramps"

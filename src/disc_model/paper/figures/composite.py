@@ -15,17 +15,16 @@ from disc_model.figures.drawing import (
     BLACK,
     DISC,
     FORCE,
-    PAGE,
     PHASE_COLOURS,
     SEPARATED,
     SLIDER,
-    WIDTHS,
     large,
     wide,
 )
 from disc_model.figures.legends import legend_above
 from disc_model.figures.phases import spans_between
 from disc_model.figures.selection import history
+from disc_model.figures.sizes import PAGE
 from disc_model.paper.figures.kinds import STRETCH, Composite
 from disc_model.paper.figures.strokes import DARK, SPRING, arrow, join, slider, wall
 
@@ -39,7 +38,7 @@ PHASES: dict[str, dict[str, Any]] = {
 
 def draw(plot: Composite, case: xr.DataTree, bilateral: xr.DataTree) -> Figure:
     """Draw the three panels."""
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     if width == PAGE:
         figure, axes = drawing.panels(width, 2.35, 1, 3, width_ratios=(1, 1.15, 1.3))
     else:

@@ -7,16 +7,16 @@ from matplotlib.figure import Figure
 from disc_model.data import dataset
 from disc_model.data.variables import axis_of
 from disc_model.figures import drawing
-from disc_model.figures.drawing import PAGE, WIDTHS
 from disc_model.figures.legends import legend_above
 from disc_model.figures.selection import history
+from disc_model.figures.sizes import PAGE
 from disc_model.paper.figures.kinds import ContactForce
 from disc_model.paper.figures.separations import after, separations, shade
 
 
 def draw(plot: ContactForce, case: xr.DataTree) -> Figure:
     """Draw both panels."""
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     columns = 2 if width == PAGE else 1
     rows = 2 // columns
     figure, axes = drawing.panels(width, 2.3 * rows, rows, columns)

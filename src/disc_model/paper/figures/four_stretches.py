@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 
 from disc_model.analysis.spectra import TimeFrequency
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, SKY, WIDTHS, large
+from disc_model.figures.drawing import BLACK, SKY, large
 from disc_model.figures.kinds.base import HIGHEST
 from disc_model.figures.selection import history
 from disc_model.figures.spectrogram import draw_power, draw_scale, span_of, spectrum_of
@@ -33,7 +33,7 @@ Grid = Any  # of axes, three rows and a column for each window
 
 def draw(plot: FourStretches, *cases: xr.DataTree) -> Figure:
     """Draw the whole run above its stretches."""
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     figure = drawing.new_figure(width, 6.2)
     top, below = np.asarray(figure.subfigures(2, 1, height_ratios=(1.1, 3)))
     whole = top.subplots()

@@ -8,8 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from disc_model.figures import drawing
-from disc_model.figures.drawing import PAGE, WIDTHS, large
+from disc_model.figures.drawing import large
 from disc_model.figures.selection import history
+from disc_model.figures.sizes import PAGE
 from disc_model.paper.figures.kinds import Histories
 
 SMALL = 0.05  # share of the axis below which a range of the force is drawn once more
@@ -19,7 +20,7 @@ INSET = (0.3, 0.74, 0.66, 0.26)
 
 def draw(plot: Histories, *cases: xr.DataTree) -> Figure:
     """Draw forces above displacements, on common axes."""
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     count = len(cases)
     if width == PAGE:
         figure, axes = drawing.panels(width, 3.2, 2, count, sharex=True, sharey="row")

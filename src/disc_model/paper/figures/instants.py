@@ -13,10 +13,12 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
 from disc_model.disc.plate import mode_arrays
 from disc_model.figures import drawing
+from disc_model.figures.arrays import Array, Indices
 from disc_model.figures.disc import Motion, draw_circle, draw_disc, scale_of
-from disc_model.figures.drawing import BLACK, PAGE, SEPARATED, SLIDER, WIDTHS
+from disc_model.figures.drawing import BLACK, SEPARATED, SLIDER
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import stretches
+from disc_model.figures.sizes import PAGE
 from disc_model.paper.figures.kinds import Instants
 from disc_model.parameters import Parameters
 
@@ -28,7 +30,7 @@ STYLES = ("-", "--", "-.", ":")
 def draw(plot: Instants, case: xr.DataTree) -> Figure:
     """Draw the disc from above, and along the slider's circle."""
     motion = motion_of(case)
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     figure = drawing.new_figure(width, 4.2 if width == PAGE else 6.4)
     above, around = np.asarray(figure.subfigures(2, 1, height_ratios=(1.15, 1)))
     discs = list(np.ravel(above.subplots(1, 4) if width == PAGE else above.subplots(2, 2)))
@@ -90,9 +92,7 @@ def motion_of(case: xr.DataTree) -> Motion:
     return Motion(p, time, amplitudes, slider, u, flag_names(windows[0]["phase"]))
 
 
-def _harmonics(
-    angles: NDArray[np.float64], orders: NDArray[np.int64], values: NDArray[np.float64]
-) -> NDArray[np.complex128]:
+def _harmonics(angles: Array, orders: Indices, values: Array) -> NDArray[np.complex128]:
     """Cosine + i sine of the harmonics of some orders in values at angles, shape (angles, n):
     (orders, n)."""
     turns = orders * angles[:, None]

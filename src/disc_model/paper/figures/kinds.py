@@ -41,6 +41,7 @@ class OneSeparation(CasePlot):
     """(a) Displacements from static equilibrium around the first complete separation of a window,
     (b) the gap."""
 
+    usual = "column"
     kind: Literal["paper.one_separation"] = "paper.one_separation"
     zoom: Samples = "zoom"
 
@@ -48,6 +49,7 @@ class OneSeparation(CasePlot):
 class LightSlider(CasePlot):
     """Displacements from static equilibrium in a part of a window, with the losses of contact."""
 
+    usual = "column"
     kind: Literal["paper.light_slider"] = "paper.light_slider"
     zoom: Samples = "zoom"
 
@@ -57,6 +59,7 @@ class WithAndWithout(CasePlot):
     `ignored`, without."""
 
     further = ("ignored",)
+    usual = "column"
     kind: Literal["paper.with_and_without"] = "paper.with_and_without"
     ignored: str
     history: Ranges = "history"

@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 
 from disc_model.data import dataset
 from disc_model.figures import drawing
-from disc_model.figures.drawing import SEPARATED, WIDTHS, mark
+from disc_model.figures.drawing import SEPARATED, mark
 from disc_model.figures.legends import legend_above
 from disc_model.paper.figures.kinds import LightSlider
 from disc_model.paper.figures.separations import (
@@ -22,7 +22,7 @@ BEFORE = 0.1  # part of it before the first separation
 
 def draw(plot: LightSlider, case: xr.DataTree) -> Figure:
     """Draw a stretch of the window."""
-    figure, [ax] = drawing.panels(WIDTHS[plot.width or "column"], 2.5)
+    figure, [ax] = drawing.panels(plot.inches, 2.5)
     window = dataset.samples(case, plot.zoom)
     rest = float(case["u_0"])
     complete = first_complete(window)

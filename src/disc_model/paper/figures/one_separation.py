@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, WIDTHS
+from disc_model.figures.drawing import BLACK
 from disc_model.figures.legends import legend_above
 from disc_model.paper.figures.kinds import OneSeparation
 from disc_model.paper.figures.separations import after, displacements, first_complete, shade
@@ -14,7 +14,7 @@ from disc_model.paper.figures.separations import after, displacements, first_com
 
 def draw(plot: OneSeparation, case: xr.DataTree) -> Figure:
     """Draw both panels, with half the separation's length before and after it."""
-    width = WIDTHS[plot.width or "column"]
+    width = plot.inches
     figure, axes = drawing.panels(width, 3.2, 2, sharex=True, height_ratios=(2, 1))
     both, gap = axes
     window = dataset.samples(case, plot.zoom)

@@ -13,9 +13,10 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import plate_modes
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, PAGE, SKY, WIDTHS, wide
+from disc_model.figures.drawing import BLACK, SKY, wide
 from disc_model.figures.kinds.base import HIGHEST
 from disc_model.figures.selection import history
+from disc_model.figures.sizes import PAGE
 from disc_model.figures.spectrogram import draw_power, draw_scale, span_of, spectrum_of
 from disc_model.paper.figures.kinds import LOOK, Response
 from disc_model.parameters import Parameters
@@ -26,7 +27,7 @@ TITLES = (("b", "with separation"), ("e", "separation ignored"))
 
 def draw(plot: Response, *cases: xr.DataTree) -> Figure:
     """Draw the run and closer looks beside spectra, or above them in one column."""
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     extra = 1.3 * (len(cases) - 1)
     if width == PAGE:
         figure = drawing.new_figure(width, 2.7 + extra)

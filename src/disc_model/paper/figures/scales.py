@@ -15,9 +15,10 @@ from disc_model.disc.plate import plate_modes
 from disc_model.figures import drawing
 from disc_model.figures.cells import edges_of, paint, patches
 from disc_model.figures.classes import Look
-from disc_model.figures.drawing import BLACK, BLUE, GREY, PAGE, SEPARATED, WIDTHS, large, mark
+from disc_model.figures.drawing import BLACK, BLUE, GREY, SEPARATED, large, mark
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.words import label_of
+from disc_model.figures.sizes import PAGE
+from disc_model.figures.words import LOAD, SPEED
 from disc_model.paper import section2
 from disc_model.paper.figures.kinds import Scales
 from disc_model.parameters import Parameters
@@ -46,7 +47,7 @@ RIGHT_OF = ("Fig. 2", "Fig. 7")
 
 def draw(plot: Scales, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw amplitudes, regions and times."""
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     if width == PAGE:
         figure, axes = drawing.panels(width, 2.9, 1, 3, width_ratios=(0.8, 1.25, 1.2))
     else:
@@ -113,8 +114,8 @@ def _draw_regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset])
         )
         side = (5 if name in RIGHT_OF else -5, 0)
         drawing.say(ax, name, place, side, fontsize=large(7), path_effects=drawing.halo())
-    ax.set_xlabel(label_of(study["Omega"])[0])
-    ax.set_ylabel(label_of(study["N"])[0])
+    ax.set_xlabel(SPEED)
+    ax.set_ylabel(LOAD)
 
 
 def _draw_times(ax: Axes, points: Mapping[str, xr.Dataset], firsts: pd.DataFrame) -> None:

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Arc, Circle
 
-from disc_model.figures.drawing import BLACK, DISC, FORCE, SLIDER, WIDTHS
+from disc_model.figures.drawing import BLACK, DISC, FORCE, SLIDER
 from disc_model.paper.figures.kinds import Schematic
 from disc_model.paper.figures.strokes import (
     BODY,
@@ -32,7 +32,7 @@ OUTER = 1.2  # radius of the disc as drawn
 
 def draw(plot: Schematic, case: xr.DataTree) -> Figure:
     """Draw the three views."""
-    width = WIDTHS[plot.width or "page"]
+    width = plot.inches
     figure = Figure(figsize=(width, 0.97 * width))
     boxes = ((0.0, 0.5, 1, 0.45), (0.0, 0.0, 0.57, 0.45), (0.57, 0.0, 0.43, 0.45))
     side, above, forces = (figure.add_axes(box) for box in boxes)

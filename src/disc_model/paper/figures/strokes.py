@@ -5,11 +5,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from disc_model.figures.arrays import Array
 from disc_model.figures.drawing import BLACK, SLIDER
 
-Point = tuple[float, float] | NDArray[np.float64]
+Point = tuple[float, float] | Array
 
 BODY = "0.88"  # of the slider
 DARK = "#8a5a00"  # of words on the slider, legible in grey print
@@ -31,7 +32,7 @@ SPRING = (ZIGZAG,)
 DAMPER = (*CUP, *PISTON)
 
 
-def at(angle: float, radius: float, aside: Point = (0.0, 0.0)) -> NDArray[np.float64]:
+def at(angle: float, radius: float, aside: Point = (0.0, 0.0)) -> Array:
     """The point at an angle, rad, and a radius, moved aside."""
     return radius * np.array([np.cos(angle), np.sin(angle)]) + aside
 

@@ -4,14 +4,14 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model.figures import drawing
-from disc_model.figures.drawing import GREY, WIDTHS
+from disc_model.figures.drawing import GREY
 from disc_model.figures.selection import history
 from disc_model.paper.figures.kinds import WithAndWithout
 
 
 def draw(plot: WithAndWithout, *cases: xr.DataTree) -> Figure:
     """Draw the range with separation over that without."""
-    figure, [ax] = drawing.panels(WIDTHS[plot.width or "column"], 2.4)
+    figure, [ax] = drawing.panels(plot.inches, 2.4)
     followed, ignored = (history(case, plot.history) for case in cases)
     drawing.envelope(ax, ignored, "w_point", color=GREY, label="separation ignored")
     drawing.envelope(ax, followed, "w_point", label="with separation")
