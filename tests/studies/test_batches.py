@@ -11,6 +11,7 @@ import xarray as xr
 from disc_model import floquet
 from disc_model.data.variables import flag_names
 from disc_model.figures import selection
+from disc_model.figures.render import render
 from disc_model.mode_choice import choose_modes
 from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import failures, merge_batches
@@ -130,4 +131,4 @@ def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: P
     assert not list(failures(study))
     assert list(selection.gaps(study, study["period"])) == []
     for name, plot in grid.plots.items():
-        plot.draw(study, {}).savefig(tmp_path / f"{name}.png")
+        render(plot, {"study": xr.DataTree(study)}).savefig(tmp_path / f"{name}.png")

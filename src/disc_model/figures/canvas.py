@@ -4,20 +4,24 @@ what the reader asks of its legend, labels and title."""
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from inspect import signature
 from typing import Any, Literal
 
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.legend import Legend
 
-from disc_model.errors import require
+from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.drawing import large, readers_style
 from disc_model.figures.labels import break_labels
 from disc_model.figures.legends import figure_legend, legend_below, legend_inside
 from disc_model.figures.words import head_text
 
 Place = Literal["inside", "below"]
+LEGEND_OPTIONS = [*signature(Legend).parameters][3:]  # after its axes, handles and labels
+LEGEND_RULE = "must be True, False, or options of a legend of matplotlib"
 
 
 @dataclass(frozen=True)
@@ -38,23 +42,24 @@ class Wishes:
 
     def check(self) -> None:
         """Raise `ParameterError` if a wish cannot be understood."""
-        labels = self.labels or {}
+        options = self.legend if isinstance(self.legend, Mapping) else {}
+        unknown = [name for name in options if name not in LEGEND_OPTIONS]
+        wrong = next(iter(unknown), None)
+        like = suggestion(wrong, LEGEND_OPTIONS, all_of_them=False)
+        labels = {} if self.labels is None else self.labels
         require(
-            (
-                isinstance(self.legend, bool | Mapping),
-                "legend",
-                self.legend,
-                "must be True, False, or options of a legend of matplotlib",
-            ),
-            (
-                isinstance(labels, Mapping)
-                and all(isinstance(text, str) for text in (*labels, *labels.values())),
-                "labels",
-                self.labels,
-                "must be texts by the texts they replace, or by x and y",
-            ),
+            (isinstance(self.legend, bool | Mapping), "legend", self.legend, LEGEND_RULE),
+            (not unknown, "legend", wrong, f"{LEGEND_RULE}{like}"),
+            (_are_texts(labels), "labels", labels, "must be texts by x, y, or what they replace"),
             (isinstance(self.title, str | None), "title", self.title, "must be a text"),
         )
+
+
+def _are_texts(labels: object) -> bool:
+    """Whether these are texts by texts."""
+    if not isinstance(labels, Mapping):
+        return False
+    return all(isinstance(text, str) for text in (*labels, *labels.values()))
 
 
 @dataclass
@@ -118,7 +123,11 @@ def page_for(
     with readers_style():
         figure = pyplot.figure(figsize=(width, height), layout="constrained")
         page = Page(list(figure.subplots(rows, columns, squeeze=False, **shared).flat), own=True)
-        yield page
+        try:
+            yield page
+        except BaseException:
+            pyplot.close(figure)  # a notebook would show it, half drawn
+            raise
         usual = head_text(width, "", title) if wishes.title is None else wishes.title
         if usual:
             figure.suptitle(usual, fontsize=large(8))
@@ -162,7 +171,10 @@ def _write_legend(page: Page, legend: bool | Mapping[str, Any]) -> None:
     """Write the legend: in the place that the reader's options give, below a new figure, or inside
     a reader's axes or below them."""
     if isinstance(legend, Mapping):
-        page.ax.legend(handles=list(page.handles), **legend)
+        try:
+            page.ax.legend(handles=list(page.handles), **legend)
+        except (TypeError, ValueError) as error:
+            raise ParameterError(Fault.of(("legend",), legend, str(error))) from None
     elif page.own:
         figure_legend(page.figure, page.handles)
     elif page.beside == "below":

@@ -25,30 +25,7 @@ EDGE = 0.02  # share of the ring's width beside a clamped edge, which is no noda
 def plot_modes(
     p: Parameters, most: int = 15, *, ax: Any = None, labels: Any = None, title: str | None = None
 ) -> np.ndarray:
-    """Draw the shapes of the modes of a case from above, with their nodal lines and frequencies.
-
-    Parameters
-    ----------
-    p : the case; a disc that is given by its modes needs shapes at two radii or more
-    most : number of modes that are drawn, by ascending frequency
-    ax : axes to draw on, one for each mode
-    labels, title : as in `Result.plot`
-
-    Returns
-    -------
-    array of Axes
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule, or the disc has no shapes.
-
-    Examples
-    --------
-    >>> import disc_model as dm
-    >>> dm.plot_modes(dm.Parameters(N=385, Omega=15.1)).size
-    5
-    """
+    """Draw the modes of a case, as `disc_model.plot_modes` describes."""
     counts = (is_whole(most) and most >= 1, "most", most, "must be a whole number >= 1")
     raise_faults(foreign_case(p) + violations(counts))
     drawable = p.n_diameters >= 0 or p.disc is not None
@@ -60,7 +37,8 @@ def plot_modes(
     rows = -(-count // columns)
     width = COLUMN if columns < 3 else PAGE
     usual = "Modes (nodal diameters, nodal circles), slider and nodal lines"
-    wishes = Wishes(ax, labels=labels, title=usual if title is None and ax is None else title)
+    named = usual if title is None else title
+    wishes = Wishes(ax, labels=labels, title=named if ax is None else None)
     with page_for(wishes, width, 0.24 * PAGE * rows + 0.3, rows, columns) as page:
         for spare in page.axes[count:]:
             spare.set_axis_off()

@@ -41,7 +41,7 @@ def window_of(
     window = dataset.group(case, name)
     held = [str(x).removesuffix("_min").removesuffix("_max") for x in window if x != "phase"]
     for argument, variable in variables:
-        if variable not in held:
+        if not (isinstance(variable, str) and variable in held):
             rule = f"is not in the window {name}{suggestion(variable, dict.fromkeys(held))}"
             raise ParameterError(Fault.of((argument,), variable, rule))
     require(("phase" in window or not samples, which, name, "must hold samples, not their ranges"))

@@ -44,39 +44,7 @@ def plot_sweep(
     labels: Any = None,
     title: str | None = None,
 ) -> Axes:
-    """Draw a variable of a sweep or of a grid study: a line along one dimension, or colours over
-    two.
-
-    A second dimension of words, such as the direction of a sweep, gives a line for each. What
-    starts come to is drawn as bars of their shares, at each energy or along a parameter. A hatched
-    cell is "unresolved": its value is right, but all neighbours differ from it by a tenth of the
-    scale or more, so that the grid misses what lies between.
-
-    Parameters
-    ----------
-    study : such as `disc_model.sweep`, `run_study`, `hysteresis` and `basins` return; of one or two dimensions of
-        several values
-    variable : the shares of starts, the growth rate, the outcome or the first number there is if not given
-    x : the dimension along the horizontal axis; the first of numbers if not given
-    log : whether the scale of the variable is logarithmic
-    ax, legend, labels, title : as in `Result.plot`
-
-    Returns
-    -------
-    Axes
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule, or more than two dimensions vary.
-
-    Examples
-    --------
-    >>> import disc_model as dm
-    >>> growth = dm.sweep(dm.floquet, dm.Parameters(N=300, Omega=15), Omega=[10, 12, 14])
-    >>> dm.plot_sweep(growth).get_xlabel()
-    'Speed Ω (rad/s)'
-    """
+    """Draw a sweep or a grid study, as `disc_model.plot_sweep` describes."""
     require(
         (isinstance(study, xr.Dataset), "study", study, "must be an xarray.Dataset"),
         (isinstance(variable, str | None), "variable", variable, "must be a name"),
