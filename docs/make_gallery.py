@@ -1,7 +1,10 @@
 """Make the gallery of docs/ from finished figures: small pictures and the page that shows them."""
 
 import re
+from contextlib import chdir
+from doctest import DocTestParser
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import xarray as xr
@@ -90,6 +93,17 @@ def write_film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
         animation.save(path, writer=PillowWriter(fps=12), dpi=100)
 
 
+def figure_of_page(page: Path) -> Figure:
+    """The figure that the examples of a page draw, without the files that they write."""
+    examples = DocTestParser().get_examples(page.read_text(encoding="utf-8"))
+    source = "".join(example.source for example in examples)
+    names: dict[str, Any] = {}
+    with TemporaryDirectory() as folder, chdir(folder):
+        exec(compile(source, page.name, "exec"), names)
+    figure: Figure = names["figure"]
+    return figure
+
+
 def page_of(shown: list[tuple[str, str]]) -> str:
     """The page: small pictures with their titles, each a link to the picture itself."""
     lines = ["# Gallery", "", "From `make reproduce`, `make bench` and `make survival`.", ""]
@@ -114,6 +128,8 @@ def main() -> None:
     )
     axes = dm.plot_sweep(dm.run_study(yaml.safe_load(first_study)))
     axes.figure.savefig(docs / "gallery" / "my_growth.png", dpi=120)
+    figure = figure_of_page(docs / "howto" / "figures.md")
+    figure.savefig(docs / "gallery" / "own_figure.png", dpi=120)
     studies = [load_study(path) for path in ("config/paper.yaml", "config/survival.yaml")]
     entries = {
         name: (study, entry)

@@ -78,11 +78,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {"source": "text dict", "workers": "huge", "processes": "True"},
     ),
     (dm.plot_modes, {"p": P}, PICTURE | {"most": "huge"}),
-    (
-        dm.plot_sweep,
-        {"study": GRID},
-        PICTURE | {"log": "True", "variable": "None", "x": "None"},
-    ),
+    (dm.plot_sweep, {"study": GRID}, PICTURE | {"log": "True", "variable": "None", "x": "None"}),
     (RUN.plot, {"windows": "all"}, PICTURE | {"windows": "None"}),
     (RUN.plot_phase_portrait, {"window": "all"}, PICTURE | {"window": "None"}),
     (

@@ -47,7 +47,8 @@ def asked(kind: str, case: xr.DataTree | None = None, **phrase: Any) -> Figure:
 
 
 def said_in(figure: Figure) -> list[str]:
-    return [text.get_text().replace("\n", " ") for text in figure.findobj(mpl.text.Text)]
+    texts = [text for text in figure.findobj(mpl.text.Text) if text.get_visible()]
+    return [text.get_text().replace("\n", " ") for text in texts]
 
 
 @pytest.mark.parametrize("suffix", ["pdf", "png"])

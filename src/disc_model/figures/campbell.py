@@ -15,6 +15,7 @@ from disc_model.figures.curve import LINEAR, scale_rates
 from disc_model.figures.drawing import BLACK, GREY, large, mark, wide
 from disc_model.figures.kinds.motions import Campbell
 from disc_model.figures.mode_names import named_modes
+from disc_model.figures.names import Names
 from disc_model.figures.selection import (
     NORM,
     broken,
@@ -64,7 +65,6 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     above[0].set_ylabel("Frequency in the slider's frame (Hz)")
     below[0].set_ylabel("Largest growth rate\nof the cycle (1/s)")
     drawing.letters(axes, titles_of(parts))
-    figure.draw_without_rendering()  # sets the size of the panels
     for top, bottom, part in zip(above, below, parts, strict=True):
         _name_peaks(top, bottom, part.data.transpose("Omega", ...))
     return figure
@@ -149,21 +149,17 @@ def _meeting(crossing: xr.Dataset) -> tuple[float, float]:
 
 def _name_peaks(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
     """Write the multiples at peaks and at crossings, where there is room."""
+    above = Names(top)
+    below = Names(bottom)
     halo = drawing.halo()
-    above: list[Any] = []
-    below: list[Any] = []
     for peak in peaks(study):
         if peak.crossing is None:
             continue
         name = _multiple(peak.crossing)
         meeting = _meeting(peak.crossing)
-        drawing.say_free(
-            top, name, meeting, BESIDE_MEETING, above, fontsize=large(6), path_effects=halo
-        )
+        above.add(name, meeting, BESIDE_MEETING, fontsize=large(6), path_effects=halo)
         place = (study["Omega"].values[peak.place], study["growth_rate"].values[peak.place])
-        drawing.say_free(
-            bottom, name, place, BESIDE_PEAK, below, fontsize=large(7), path_effects=halo
-        )
+        below.add(name, place, BESIDE_PEAK, fontsize=large(7), path_effects=halo)
 
 
 def _multiple(crossing: xr.Dataset) -> str:

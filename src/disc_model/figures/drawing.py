@@ -197,6 +197,8 @@ def border(kind: str) -> dict[str, Any]:
 
 # ---- Sampled variables of a case
 
+NO_BREAK = "\N{NO-BREAK SPACE}"
+
 
 def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
     """Axis label of a sampled variable, with the angle of the disc's fixed point, factor to its
@@ -204,7 +206,9 @@ def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
     where = ""
     if name.startswith("w_point"):
         angles = {float(window.attrs["theta"]) for window in windows if "theta" in window.attrs}
-        where = rf", $\theta$ = {' and '.join(f'{angle:g}' for angle in sorted(angles))} rad"
+        shown = " and ".join(f"{angle:g}" for angle in sorted(angles))
+        angle_text = rf"$\theta$ = {shown} rad".replace(" ", NO_BREAK)
+        where = f", {angle_text}"
     label, factor = axis_of(name, where)
     colour = SLIDER
     if name == "P":
@@ -379,29 +383,6 @@ def say(
     ha = {-1: "right", 0: "center", 1: "left"}[across]
     va = {-1: "top", 0: "center", 1: "bottom"}[up]
     return ax.annotate(text, point, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
-
-
-def say_free(
-    ax: Axes,
-    text: str,
-    point: tuple[float, float],
-    offsets: Iterable[tuple[float, float]],
-    taken: list[Any],
-    **look: Any,
-) -> bool:
-    """Write a few words beside a point, by the first of some offsets at which they lie in the panel
-    and cover nothing that is taken; returns whether there is one. Boxes of words are added to those
-    taken. The figure has its final size."""
-    frame = ax.get_window_extent()
-    for offset in offsets:
-        name = say(ax, text, point, offset, **look)
-        box = name.get_window_extent().padded(1)
-        inside = frame.x0 <= box.x0 and box.x1 <= frame.x1 and box.y1 <= frame.y1
-        if inside and not any(box.overlaps(other) for other in taken):
-            taken.append(box)
-            return True
-        name.remove()
-    return False
 
 
 def say_beside(ax: Axes, height: float, text: str, gap: float = 2, **look: Any) -> None:

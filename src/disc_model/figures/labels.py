@@ -41,7 +41,7 @@ def _break(label: Any, direction: str, room: float) -> None:
     length = getattr(label.get_window_extent(), direction)
     if not text.strip() or length <= room or "\n" in text:
         return
-    for count in range(math.ceil(length / room), len(text.split()) + 1):
+    for count in range(math.ceil(length / room), len(text.split(" ")) + 1):
         label.set_text(in_lines(text, count))
         if getattr(label.get_window_extent(), direction) <= room:
             return

@@ -43,7 +43,7 @@ def plot_multipliers(
                 axes.plot(
                     shown.real, shown.imag, shape, color=colour, markersize=mark(4), label=name
                 )
-        words = f"largest |κ| = {abs(values[0]):.5g}"
+        words = f"largest |κ|\n= {abs(values[0]):.5g}"
         axes.text(0, 0.08, words, ha="center", fontsize=large(7))
         axes.set_xlabel("Re κ")
         axes.set_ylabel("Im κ")

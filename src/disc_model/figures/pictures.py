@@ -61,15 +61,7 @@ def plot_sweep(
     'Speed Ω (rad/s)'
     """
     return draw(
-        "plot_sweep",
-        study,
-        variable,
-        x,
-        log=log,
-        ax=ax,
-        legend=legend,
-        labels=labels,
-        title=title,
+        "plot_sweep", study, variable, x, log=log, ax=ax, legend=legend, labels=labels, title=title
     )
 
 

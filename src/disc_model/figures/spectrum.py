@@ -15,6 +15,7 @@ from disc_model.figures import drawing
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import large, wide
 from disc_model.figures.kinds.cases import Spectrum
+from disc_model.figures.names import Names
 from disc_model.figures.runs import span_of, stated, window_of
 from disc_model.figures.sizes import COLUMN
 from disc_model.units import is_number
@@ -115,14 +116,7 @@ def draw_spectrum(
 
 
 def name_lines(ax: Axes, peaks: Sequence[tuple[float, float]]) -> None:
-    """Write the frequencies, Hz, of the strongest lines beside their peaks: inside the axes, and
-    where one does not cover another."""
-    page: Any = ax.get_figure(root=True)
-    page.draw_without_rendering()  # sets the size of the axes
-    taken: list[Any] = []
+    """Write the frequencies, Hz, of the strongest lines beside their peaks."""
+    names = Names(ax, MOST_NAMED)
     for frequency, height in sorted(peaks, key=lambda peak: -peak[1]):
-        if len(taken) == MOST_NAMED:
-            return
-        text = f"{frequency:.1f} Hz"
-        place = (frequency, height)
-        drawing.say_free(ax, text, place, BESIDE, taken, fontsize=large(7))
+        names.add(f"{frequency:.1f} Hz", (frequency, height), BESIDE, fontsize=large(7))
