@@ -81,7 +81,7 @@ def test_scales_of_colours_fit_what_is_shown(study: xr.Dataset) -> None:
     one = mesh(mapped(study, "period")).norm
     assert (one.vmin, one.vmax) == pytest.approx((1.0, 1.11))
     assert isinstance(mesh(mapped(study, "period", log=True)).norm, LogNorm)
-    assert labels(mapped(study, "status")) == ["ok", "no cycle found"]
+    assert labels(mapped(study, "status")) == ["ok", "no cycle found", "Status"]
     study["releases"] = study["status"] + np.int64(1)
     study["releases"].attrs = {"long_name": "number of releases", "units": "1"}
     counts = mapped(study, "releases")

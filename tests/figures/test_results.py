@@ -160,7 +160,7 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
         outcome=(("Omega", "N"), [["quiet", "quiet"], ["separation", "quiet"], ["quiet", "quiet"]])
     )
     named = labels(dm.plot_sweep(outcomes, "outcome").figure)
-    assert named == ["quiet", "separation", "unresolved"]
+    assert named == ["quiet", "separation", "unresolved", "Outcome"]
     with pytest.raises(
         dm.ParameterError, match="variable='perod': must be one over the grid, did you mean period"
     ):

@@ -70,6 +70,7 @@ class Page:
     own : whether the figure is a new one
     handles : entries of the legend; none if there is none
     beside : where the legend stands on a reader's axes
+    heading : title of the legend
     note : what stands above the first panel, unless the reader asks for another title
     """
 
@@ -77,6 +78,7 @@ class Page:
     own: bool
     handles: Sequence[Artist] = field(default_factory=list)
     beside: Place = "inside"
+    heading: str = ""
     note: str = ""
 
     @property
@@ -88,10 +90,13 @@ class Page:
     def figure(self) -> Any:
         return self.ax.get_figure()
 
-    def explain(self, handles: Sequence[Artist], beside: Place = "inside") -> None:
-        """Set the entries of the legend, and where it stands on a reader's axes."""
+    def explain(
+        self, handles: Sequence[Artist], beside: Place = "inside", title: str = ""
+    ) -> None:
+        """Set the entries of the legend, its title, and where it stands on a reader's axes."""
         self.handles = handles
         self.beside = beside
+        self.heading = title
 
 
 @contextmanager
@@ -125,14 +130,14 @@ def page_for(
         page = Page(list(figure.subplots(rows, columns, squeeze=False, **shared).flat), own=True)
         try:
             yield page
+            usual = head_text(width, "", title) if wishes.title is None else wishes.title
+            if usual:
+                figure.suptitle(usual, fontsize=large(8))
+            _finish(page, wishes)
+            break_labels(figure)
         except BaseException:
             pyplot.close(figure)  # a notebook would show it, half drawn
             raise
-        usual = head_text(width, "", title) if wishes.title is None else wishes.title
-        if usual:
-            figure.suptitle(usual, fontsize=large(8))
-        _finish(page, wishes)
-        break_labels(figure)
 
 
 def _given(ax: Any, count: int) -> list[Axes]:
@@ -172,12 +177,12 @@ def _write_legend(page: Page, legend: bool | Mapping[str, Any]) -> None:
     a reader's axes or below them."""
     if isinstance(legend, Mapping):
         try:
-            page.ax.legend(handles=list(page.handles), **legend)
+            page.ax.legend(**{"handles": list(page.handles), "title": page.heading, **legend})
         except (TypeError, ValueError) as error:
             raise ParameterError(Fault.of(("legend",), legend, str(error))) from None
     elif page.own:
-        figure_legend(page.figure, page.handles)
+        figure_legend(page.figure, page.handles, title=page.heading)
     elif page.beside == "below":
-        legend_below(page.ax, page.handles)
+        legend_below(page.ax, page.handles, title=page.heading)
     else:
-        legend_inside(page.ax, page.handles)
+        legend_inside(page.ax, page.handles, title=page.heading)

@@ -44,7 +44,7 @@ def plot_exponents(
                 color=BLUE,
                 markersize=mark(4),
                 markerfacecolor=face,
-                capsize=3,
+                capsize=mark(3),
                 linewidth=wide(0.8),
                 label=name,
             )

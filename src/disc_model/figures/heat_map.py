@@ -27,7 +27,7 @@ from disc_model.figures.cells import (
 from disc_model.figures.classes import LOOKS, UNRESOLVED
 from disc_model.figures.growth import growth_panels, is_growth
 from disc_model.figures.kinds.general import General, HeatMap
-from disc_model.figures.legends import figure_legend
+from disc_model.figures.legends import Key, figure_legend
 from disc_model.figures.selection import (
     Part,
     class_of_gap,
@@ -59,7 +59,7 @@ def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -
         ax.remove()
     axes = axes[: len(parts)]
     planes = [part.data.transpose(plot.y, plot.x, ...) for part in parts]
-    handles = draw_maps(figure, axes, planes, plot.variable, plot.log)
+    key = draw_maps(figure, axes, planes, plot.variable, plot.log)
 
     titles = titles_of(parts)
     if len(axes) > 1:
@@ -71,7 +71,7 @@ def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -
     for ax in axes[-columns:]:  # below some of them there is none
         ax.set_xlabel(axes[-1].get_xlabel())
         ax.tick_params(labelbottom=True)
-    figure_legend(figure, handles)
+    figure_legend(figure, key.handles, title=key.title)
     return figure
 
 
@@ -91,24 +91,25 @@ def draw_maps(
     planes: Sequence[xr.Dataset],
     variable: str,
     log: bool = False,
-) -> list[Artist]:
-    """Draw a variable of each plane, of dimensions (up, across), in colour on a panel; returns
-    entries of a legend."""
+) -> Key:
+    """Draw a variable of each plane, of dimensions (up, across), in colour on a panel; returns what
+    a legend says, which names the variable if no bar does."""
     arrays = [as_classes(plane[variable]) for plane in planes]
     first = arrays[0]
     if is_growth(variable) and not log:
-        handles = growth_panels(figure, axes, planes, variable)
+        key = Key(growth_panels(figure, axes, planes, variable))
     elif first.dtype.kind in "UO" or "flag_meanings" in first.attrs:
-        handles = class_panels(axes, arrays, [statuses(plane) for plane in planes])
+        entries_of_classes = class_panels(axes, arrays, [statuses(plane) for plane in planes])
+        key = Key(entries_of_classes, label_of(planes[0][variable])[0])
     else:
-        handles = number_panels(figure, axes, planes, variable, log)
+        key = Key(number_panels(figure, axes, planes, variable, log))
     up, across = (first[str(name)] for name in first.dims)
     axes[0].set_xscale(scale(across))
     axes[0].set_yscale(scale(up))
     for ax in axes:
         drawing.set_label(ax, "x", across)
         drawing.set_label(ax, "y", up)
-    return handles
+    return key
 
 
 def as_classes(array: xr.DataArray) -> xr.DataArray:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from functools import partial
 from textwrap import fill
-from typing import Any
+from typing import Any, NamedTuple
 
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
@@ -17,6 +17,13 @@ EDGE = 0.04  # inch, kept free beside a legend above a panel
 LETTER = 0.3  # inch, kept free for the letter of one of several panels
 
 Legend = Any
+
+
+class Key(NamedTuple):
+    """What a legend says: its entries, and a title for what they are, "" for none."""
+
+    handles: Sequence[Artist]
+    title: str = ""
 
 
 def figure_legend(

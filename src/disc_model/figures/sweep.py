@@ -145,8 +145,8 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, log: bool) -> None:
         page.explain(page.ax.get_legend_handles_labels()[0])
     else:
         plane = study.transpose(drawn.second, drawn.across, ...)
-        handles = draw_maps(page.figure, [page.ax], [plane], drawn.variable, log)
-        page.explain(handles, beside="below")
+        key = draw_maps(page.figure, [page.ax], [plane], drawn.variable, log)
+        page.explain(key.handles, beside="below", title=key.title)
         whole = study[drawn.second].dtype.kind == "i"
         if whole and page.ax.get_yscale() == "linear":
             page.ax.locator_params(axis="y", integer=True)

@@ -33,6 +33,9 @@ AT_ZERO = {"contact_compliance": "rigid contact", "friction_offset": "friction i
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
 """Units of the reader and the factors from SI to them, by parameter or sampled variable, while a
 figure is drawn."""
+UNIT_POWER = re.compile(r"([^\W\d]+|1|%)(-?)(\d*)")
+"""A part of a unit in datasets: its name, the sign and the size of its power."""
+POWERS = {"": "", "1": "", "2": "²", "3": "³"}
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
 
 
@@ -66,13 +69,19 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
 
 
 def unit_text(units: str) -> str:
-    """A unit of a dataset, such as ``m s-1``, as labels have it; "" for none."""
-    if units in ("", "1"):
+    """A unit of a dataset, such as ``kg m s-2``, as labels have it: ``kg m/s²``; "" for none."""
+    above: list[str] = []
+    below: list[str] = []
+    for part in units.split():
+        found = UNIT_POWER.fullmatch(part)
+        if found is None:  # not in the notation of datasets
+            return units
+        name, sign, power = found.groups()
+        raised = name + POWERS.get(power, f"^{power}")
+        (below if sign else above).append(raised)
+    if above in ([], ["1"]) and not below:
         return ""
-    text = units.replace("s-1", "/s").replace(" /", "/")
-    if text.startswith("/"):
-        return f"1{text}"
-    return text
+    return "/".join([" ".join(above) or "1", *below])
 
 
 def measured(variable: xr.DataArray) -> Measured:

@@ -455,6 +455,7 @@ def _of_class(name: str) -> dict[str, dict[str, Any]]:
     """Units and names of the variables of a result of a class, which has names of its own: a cycle
     and steady sliding both have a growth rate."""
     of_cycle = quantity_of("floquet").COLUMNS
+    columns: Mapping[str, Variable] = {}
     if name == "FloquetResult":
         counted = {
             "releases": Variable("1", "number of stick releases in its period"),
@@ -466,13 +467,31 @@ def _of_class(name: str) -> dict[str, dict[str, Any]]:
             "growth_rate": of_cycle["sliding_growth_rate"],
             "psi": Variable("rad", "angle of the drive point ahead of the slider"),
         }
-    else:
-        columns = {}
+    elif name == "Lyapunov":
+        columns = {
+            "exponents": Variable("s-1", "Lyapunov exponent"),
+            "errors": Variable("s-1", "uncertainty of the Lyapunov exponent"),
+            "duration": Variable("s", "time over which exponents are taken"),
+            "separations": Variable("1", "number of separations in that time"),
+        }
     return {
         name: column.attributes
         for name, column in columns.items()
         if column.units and not column.flags
     }
+
+
+def _attributes_of(result: Any, name: str) -> dict[str, Any]:
+    """Unit and name of a variable of a result; empty if they are not known."""
+    kind = type(result).__name__
+    if (
+        kind == "Critical"
+        and name == "value"
+        and result.name in (*Parameters.model_fields, *RATIOS)
+    ):
+        parameter = describe(result.name)
+        return {**parameter, "long_name": f"critical value of {parameter['long_name']}"}
+    return _of_class(kind).get(name) or _common().get(name, {})
 
 
 def _variables(result: Any) -> dict[str, xr.Variable]:
@@ -498,8 +517,9 @@ def _variables(result: Any) -> dict[str, xr.Variable]:
     for name, value in values.items():
         array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
         if array.ndim <= 1 and array.dtype.kind in "biufcU":
-            attrs = _of_class(type(result).__name__).get(name) or _common().get(name, {})
-            variables[name] = xr.Variable((f"{name}_index",)[: array.ndim], array, attrs)
+            variables[name] = xr.Variable(
+                (f"{name}_index",)[: array.ndim], array, _attributes_of(result, name)
+            )
     return variables
 
 
