@@ -397,7 +397,7 @@ def sensitivity() -> Example:
     study["cycle"] = study["cycle"].copy(
         data=np.full(study["cycle"].shape, words.index("unstable"))
     )
-    return Example({}, {"study": study}, (Shown(0, "x", "P(unstable)", [1.0], "", "linear"),))
+    return Example({}, {"study": study}, (Shown(-1, "x", "P(unstable)", [1.0], "", "linear"),))
 
 
 def campbell() -> Example:

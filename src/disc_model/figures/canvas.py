@@ -90,9 +90,7 @@ class Page:
     def figure(self) -> Any:
         return self.ax.get_figure()
 
-    def explain(
-        self, handles: Sequence[Artist], beside: Place = "inside", title: str = ""
-    ) -> None:
+    def explain(self, handles: Sequence[Artist], beside: Place = "inside", title: str = "") -> None:
         """Set the entries of the legend, its title, and where it stands on a reader's axes."""
         self.handles = handles
         self.beside = beside

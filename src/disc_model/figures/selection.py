@@ -73,19 +73,28 @@ def parts_along(
     """
     if by is None or by not in study.dims:
         return [Part("", "", study)]
-    if words:
-        known = [words.get(str(value), value) for value in study[by].values]
-        study = study.assign_coords({by: known})
     # a zip has several coordinates
     names = [str(name) for name, values in study.coords.items() if values.dims == (by,)]
     slices = [study.isel({by: i}) for i in range(study.sizes[by])]
-    slices.sort(key=lambda data: [rank_of(data[name].item()) for name in names])
-    parts = []
-    for data in slices:
-        name = ", ".join(named_value(data, name) for name in names)
-        value = ", ".join(value_text(data, name) for name in names)
-        parts.append(Part(name, value, data))
-    return parts
+    parts = [_part(data, by, names, words or {}) for data in slices]
+    return sorted(parts, key=lambda part: _rank(part.data, by, names, words or {}))
+
+
+def _part(data: Data, by: str, names: Sequence[str], words: Mapping[str, str]) -> Part[Data]:
+    """A part with its names, by its values along some coordinates; words stand for themselves."""
+    name = ", ".join(_word(data, one, by, words) or named_value(data, one) for one in names)
+    value = ", ".join(_word(data, one, by, words) or value_text(data, one) for one in names)
+    return Part(name, value, data)
+
+
+def _rank(data: Data, by: str, names: Sequence[str], words: Mapping[str, str]) -> list[Any]:
+    """The place of a part among others."""
+    return [rank_of(_word(data, one, by, words) or data[one].item()) for one in names]
+
+
+def _word(data: Data, name: str, by: str, words: Mapping[str, str]) -> str:
+    """The word that a file gives for the value along a dimension, "" without one."""
+    return words.get(str(data[by].item()), "") if name == by else ""
 
 
 def titles_of(parts: Sequence[Part[Any]]) -> list[str]:
