@@ -15,7 +15,6 @@ from tests.figures.every_kind import EXAMPLES
 from tests.figures.measured import assert_shows
 from tests.figures.reading import assert_fit_for_print
 
-
 IN_WIDTHS = [(kind, width) for kind, form in KINDS.items() for width in form.widths]
 
 

@@ -13,7 +13,7 @@ from matplotlib import pyplot
 import disc_model as dm
 from disc_model.figures.classes import name_of
 from disc_model.figures.words import unit_text
-from tests.figures.measured import Shown, assert_shows, parts_of
+from tests.figures.measured import Shown, assert_shows
 
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
 SPEEDS = [10.0, 12.0, 14.0]  # rad/s

@@ -157,7 +157,7 @@ def test_a_wish_that_cannot_be_understood_is_named(wish: str) -> None:
 
 
 def test_a_place_that_matplotlib_does_not_know_is_named_and_leaves_no_figure() -> None:
-    with pytest.raises(dm.ParameterError, match="legend=.*nowhere"):
+    with pytest.raises(dm.ParameterError, match=r"legend=.*nowhere"):
         DRAWN["portrait"](legend={"loc": "nowhere"})
     assert pyplot.get_fignums() == []
 
@@ -167,7 +167,7 @@ def test_pictures_of_several_panels_take_as_many_axes() -> None:
     drawn = dm.simulate(SEPARATING, 3).plot_poincare(ax=axes, title="first", legend=False)
     assert list(drawn) == list(axes)
     modes = len(dm.plate_modes(CASE))
-    figure, axes = pyplot.subplots(2, -(-modes // 2))
+    _, axes = pyplot.subplots(2, -(-modes // 2))
     dm.plot_modes(CASE, ax=axes.flat[:modes], title="not over a mode's own name")
     assert "Hz" in axes.flat[0].get_title()
     assert one(dm.plot_modes(CASE, title="Shapes")).figure.get_suptitle() == "Shapes"

@@ -100,8 +100,11 @@ def traces(values: NDArray[np.floating[Any]]) -> dict[str, Any]:
     """Packed histories, shape (points, samples); ``least + step * n`` errs by half a step, 8e-6 of
     each range."""
     least = values.min(axis=1, keepdims=True, initial=np.inf).astype(float)
-    step = (values.max(axis=1, keepdims=True, initial=-np.inf).astype(float) - least) / LEVELS
-    numbers = np.rint(np.divide(values - least, step, out=np.zeros(values.shape), where=step > 0))
+    greatest = values.max(axis=1, keepdims=True, initial=-np.inf).astype(float)
+    step = (greatest - least) / LEVELS
+    steps = np.zeros(values.shape)
+    np.divide(values - least, step, out=steps, where=step > 0)
+    numbers = np.rint(steps)
     return {
         "least": least.ravel().tolist(),
         "step": step.ravel().tolist(),

@@ -65,7 +65,8 @@ def plot_run(
     named = [("variables", variable) for variable in variables]
     shown = [window_of(case, name, *named, which="windows") for name in windows]
 
-    rows, columns = len(variables), len(windows)
+    rows = len(variables)
+    columns = len(windows)
     width = PAGE if columns > 1 else COLUMN
     wishes = Wishes(ax, legend, labels, title)
     height = 0.7 + 1.25 * rows

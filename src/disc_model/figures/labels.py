@@ -51,7 +51,8 @@ def in_lines(text: str, count: int) -> str:
     """The text in at most so many lines of about equal length, as it is seen."""
     words = text.split(" ")
     share = sum(map(seen, words)) / count
-    lines, length = [""], 0.0
+    lines = [""]
+    length = 0.0
     for word in words:
         # a word goes to the line in which its middle lies
         if lines[-1] and length + seen(word) / 2 > share * len(lines) and len(lines) < count:

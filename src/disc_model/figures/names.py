@@ -1,6 +1,6 @@
 """Names of points in a panel: written where there is room, whatever size the figure gets."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from matplotlib.artist import Artist
@@ -43,25 +43,23 @@ class Names(Artist):
 
     def draw(self, renderer: Any) -> None:
         """Choose the places of all names, which are drawn after it."""
-        panel: Any = self.axes
-        frame = panel.get_window_extent(renderer)
         taken: list[Any] = []
         for names in self._candidates:
             for name in names:
                 name.set_visible(False)
-            if self._most is not None and len(taken) == self._most:
-                continue
-            for name in names:
-                name.set_visible(True)
-                box = name.get_window_extent(renderer).padded(GAP)
-                inside = (
-                    frame.x0 <= box.x0
-                    and box.x1 <= frame.x1
-                    and frame.y0 <= box.y0
-                    and box.y1 <= frame.y1
-                )
-                if inside and not any(box.overlaps(other) for other in taken):
-                    taken.append(box)
-                    break
-                name.set_visible(False)
+            if self._most is None or len(taken) < self._most:
+                self._place(names, taken, renderer)
         self.stale = False
+
+    def _place(self, names: Sequence[Annotation], taken: list[Any], renderer: Any) -> None:
+        """Show the first of a point's names that finds room; its box is added to those taken."""
+        panel: Any = self.axes
+        frame = panel.get_window_extent(renderer)
+        for name in names:
+            name.set_visible(True)  # an invisible one has no extent
+            box = name.get_window_extent(renderer).padded(GAP)
+            inside = frame.count_contains(box.corners()) == len(box.corners())
+            if inside and not box.count_overlaps(taken):
+                taken.append(box)
+                return
+            name.set_visible(False)

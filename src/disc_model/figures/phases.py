@@ -22,7 +22,8 @@ def spans_between(case: xr.DataTree, start: float, stop: float) -> Spans:
     A study's case keeps those of a span. A run that is drawn at once has all of them.
     """
     events = dataset.group(case, "events")
-    times, phases = events["time"].values, flag_names(events["phase"])
+    times = events["time"].values
+    phases = flag_names(events["phase"])
     kept_from = events.attrs.get("kept_from", -np.inf)
     kept_until = events.attrs.get("kept_until", np.inf)
     inside = (times > start) & (times < stop)
@@ -46,7 +47,8 @@ def spans_in(case: xr.DataTree, window: xr.Dataset) -> Spans:
     keeps no events. Nothing for a window that holds ranges."""
     if "phase" not in window or window.sizes["time"] < 2:
         return {phase: [] for phase in PHASES}
-    time, words = window["time"].values, flag_names(window["phase"])
+    time = window["time"].values
+    words = flag_names(window["phase"])
     try:
         return spans_between(case, float(time[0]), float(time[-1]))
     except Missing:

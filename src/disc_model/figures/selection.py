@@ -176,7 +176,8 @@ def class_of_gap(status: str) -> str:
 def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
     """Points where a variable has no value, by the name of their class; without those that a rule
     excludes."""
-    words, gone = statuses(study), variable.isnull()
+    words = statuses(study)
+    gone = variable.isnull()
     masks: dict[str, xr.DataArray] = {}
     for word in map(str, np.unique(words)):
         here = gone & (words == word)
@@ -193,7 +194,8 @@ def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
 def edges(values: Array) -> Array:
     """Edges of cells around ascending values: halfway between neighbours, and the first and last
     value."""
-    return np.concatenate([values[:1], 0.5 * (values[1:] + values[:-1]), values[-1:]])
+    between = 0.5 * (values[1:] + values[:-1])
+    return np.concatenate([values[:1], between, values[-1:]])
 
 
 def stretches(mask: np.ndarray) -> list[tuple[int, int]]:

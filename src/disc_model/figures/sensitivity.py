@@ -41,7 +41,9 @@ def draw(plot: Sensitivity, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     cells = list(cells_of(study))
     names = [str(name) for name in study["parameter"].values]
     each = np.array([[probabilities(cell.samples, name) for name in names] for cell in cells])
-    change = np.abs(each[:, :, -1, 0] - each[:, :, 0, 0]).max(axis=0)
+    lowest = each[:, :, 0, 0]
+    highest = each[:, :, -1, 0]
+    change = np.abs(highest - lowest).max(axis=0)
     order = change.argsort(kind="stable")
     names = [names[i] for i in order]
 

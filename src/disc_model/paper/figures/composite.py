@@ -83,7 +83,8 @@ def _draw_force(ax: Axes, plot: Composite, case: xr.DataTree) -> None:
     for phase, look in PHASES.items():
         label = phase
         for begin, end in spans[phase]:
-            left, right = 1e3 * (begin - start), 1e3 * (end - start)
+            left = 1e3 * (begin - start)
+            right = 1e3 * (end - start)
             ax.axvspan(left, right, label=label, linewidth=0, **look)
             label = "_nolegend_"
     # zero, and not drawn, in separation, since no line leads to the force after an impact
@@ -101,7 +102,8 @@ def _draw_force(ax: Axes, plot: Composite, case: xr.DataTree) -> None:
 def _draw_model(ax: Axes) -> None:
     """Draw the model from the side with the fewest words."""
     x = np.linspace(-2.0, 2.6, 200)
-    ax.plot(x, 0.2 * np.sin(1.6 * x + 0.5) - 0.1, color=DISC, lw=3)
+    wave = 0.2 * np.sin(1.6 * x + 0.5) - 0.1
+    ax.plot(x, wave, color=DISC, lw=3)
     ax.text(-2.0, -0.75, "elastic disc", color=DISC, fontsize=7)
     slider(ax, (-0.55, 0.15), 1.1, 0.45, lw=1.2)
     ax.text(0, 0.375, "slider", ha="center", va="center", fontsize=7)

@@ -128,9 +128,11 @@ def _draw_times(ax: Axes, points: Mapping[str, xr.Dataset], firsts: pd.DataFrame
     line = {"color": GREY, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
     for height, (name, row) in enumerate(times.iterrows()):
         was, now = (float(row[scale]) for scale in SCALES)
-        style, end = "-", now
+        style = "-"
+        end = now
         if np.isnan(now):
-            style, end = "-|>", max(horizons[str(name)], 1.3 * was)
+            style = "-|>"
+            end = max(horizons[str(name)], 1.3 * was)
         arrow = {"arrowstyle": style, **line}
         ax.annotate("", (end, height), (was, height), arrowprops=arrow)
         for time, look in zip((was, now), LOOKS, strict=True):

@@ -25,7 +25,8 @@ class Stroke(NamedTuple):
     side: ArrayLike
 
 
-ZIGZAG = Stroke([0, *np.linspace(0.2, 0.8, 11), 1], [0, 0, 1, -1, 1, -1, 1, -1, 1, -1, 1, 0, 0])
+TEETH = [1, -1] * 4 + [1]
+ZIGZAG = Stroke([0, *np.linspace(0.2, 0.8, 11), 1], [0, 0, *TEETH, 0, 0])
 CUP = (Stroke([0, 0.35], [0, 0]), Stroke([0.7, 0.35, 0.35, 0.7], [1, 1, -1, -1]))
 PISTON = (Stroke([0.55, 0.55], [-0.7, 0.7]), Stroke([0.55, 1], [0, 0]))
 SPRING = (ZIGZAG,)
@@ -73,7 +74,9 @@ def join(
     way = np.array(end, float)[:, None] - first
     normal = np.array([-way[1], way[0]]) / np.hypot(*way)
     for stroke in strokes:
-        x, y = first + way * np.array(stroke.along) + normal * (width * np.array(stroke.side))
+        along = way * np.array(stroke.along)
+        aside = normal * (width * np.array(stroke.side))
+        x, y = first + along + aside
         ax.plot(x, y, color=BLACK, lw=1.2)
 
 
