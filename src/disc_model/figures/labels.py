@@ -2,8 +2,8 @@
 
 import math
 import re
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -13,16 +13,37 @@ BEYOND = 1.15  # length of a label over that of its axis, at most
 MARKUP = re.compile(r"\\\w+|[${}_^]")  # of mathematical text; a symbol for a command
 
 
+class Breakable(NamedTuple):
+    """A text that may be broken, and along which side of its axes it stands."""
+
+    text: Text
+    ax: Axes
+    direction: str
+    beyond: float
+
+
 def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
     """Break labels and titles of axes, all those of a figure unless some are given, into lines where
     they are longer than the axes."""
+    found = [each for ax in (figure.axes if axes is None else axes) for each in _texts_of(ax)]
+    words = [each.text.get_text() for each in found]
+    # the layout makes axes narrow under a long title, so that it is set with short ones
+    for each in found:
+        each.text.set_text("x")
     figure.draw_without_rendering()  # sets the sizes
-    for ax in figure.axes if axes is None else axes:
-        box = ax.get_window_extent()
-        _break(ax.xaxis.label, "width", BEYOND * box.width)
-        _break(ax.yaxis.label, "height", BEYOND * box.height)
-        for title in titles_of(ax):
-            _break(title, "width", box.width)
+    for each, said in zip(found, words, strict=True):
+        each.text.set_text(said)
+        room = each.beyond * getattr(each.ax.get_window_extent(), each.direction)
+        _break(each.text, each.direction, room)
+
+
+def _texts_of(ax: Axes) -> Iterator[Breakable]:
+    """Labels and titles of axes that say something."""
+    for label, direction in ((ax.xaxis.label, "width"), (ax.yaxis.label, "height")):
+        if label.get_text().strip():
+            yield Breakable(label, ax, direction, BEYOND)
+    for title in titles_of(ax):
+        yield Breakable(title, ax, "width", 1.0)
 
 
 def titles_of(ax: Axes) -> list[Text]:
@@ -36,31 +57,45 @@ def titles_of(ax: Axes) -> list[Text]:
 
 
 def _break(label: Any, direction: str, room: float) -> None:
-    """Break a label into as few lines as fit a room in pixels."""
+    """Break a label into as few lines as fit a room in pixels, or as its longest word leaves."""
     text = label.get_text()
     length = getattr(label.get_window_extent(), direction)
-    if not text.strip() or length <= room or "\n" in text:
+    if length <= room or "\n" in text:
         return
-    for count in range(math.ceil(length / room), len(text.split(" ")) + 1):
-        label.set_text(in_lines(text, count))
-        if getattr(label.get_window_extent(), direction) <= room:
+    words = text.split(" ")
+    longest_word = max(map(seen, words))
+    for count in range(math.ceil(length / room), len(words) + 1):
+        lines = in_lines(text, count)
+        label.set_text(lines)
+        no_shorter = max(map(seen, lines.split("\n"))) <= longest_word
+        if no_shorter or getattr(label.get_window_extent(), direction) <= room:
             return
 
 
 def in_lines(text: str, count: int) -> str:
-    """The text in at most so many lines of about equal length, as it is seen."""
+    """The text in at most so many lines, the longest of which is as short as it can be."""
     words = text.split(" ")
-    share = sum(map(seen, words)) / count
-    lines = [""]
-    length = 0.0
-    for word in words:
-        # a word goes to the line in which its middle lies
-        if lines[-1] and length + seen(word) / 2 > share * len(lines) and len(lines) < count:
-            lines.append(word)
-        else:
-            lines[-1] = f"{lines[-1]} {word}".strip()
-        length += seen(word)
+    longest = max(map(seen, words))
+    lines = [text]
+    for length in range(longest, sum(map(seen, words)) + 1):
+        lines = _filled(words, length)
+        if len(lines) <= count:
+            break
     return "\n".join(lines)
+
+
+def _filled(words: Sequence[str], length: int) -> list[str]:
+    """Words in lines of at most a length, as it is seen."""
+    lines = [words[0]]
+    taken = seen(words[0])
+    for word in words[1:]:
+        taken += seen(word)
+        if taken <= length:
+            lines[-1] = f"{lines[-1]} {word}"
+        else:
+            lines.append(word)
+            taken = seen(word)
+    return lines
 
 
 def seen(word: str) -> int:
