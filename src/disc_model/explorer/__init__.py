@@ -23,6 +23,7 @@ from PIL import Image, ImageOps
 from disc_model.data.variables import attributes
 from disc_model.figures.classes import Look, looks_of
 from disc_model.figures.drawing import PHASE_COLOURS
+from disc_model.figures.words import plain_name
 from disc_model.parameters import RATIOS, Parameters
 
 # ---- Contents of studies: numbers packed, words as they are
@@ -138,9 +139,10 @@ def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
 
 
 def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:
-    """Name, label and unit of a parameter or variable."""
+    """Names of a parameter or variable, that of the axes of figures among them, and its unit."""
     return {
         "name": name,
+        "label": plain_name(xr.DataArray(0.0, name=name, attrs=attrs)),
         "title": str(attrs.get("long_name", name)),
         "unit": str(attrs.get("units", "")),
     }
@@ -162,7 +164,14 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
     rows = zip(*columns.values(), strict=True)
     words = [_place(columns, row) for row in rows]
     title = ", ".join(columns)
-    return {"name": dim, "title": title, "unit": "", "values": words, "parts": columns}
+    return {
+        "name": dim,
+        "label": title,
+        "title": title,
+        "unit": "",
+        "values": words,
+        "parts": columns,
+    }
 
 
 def _place(names: Iterable[str], values: Sequence[Any]) -> str:

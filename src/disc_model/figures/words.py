@@ -92,6 +92,14 @@ def measured(variable: xr.DataArray) -> Measured:
     return Measured(label, variable.values * factor)
 
 
+def plain_name(variable: xr.DataArray) -> str:
+    """What figures call a variable, without a unit and in plain text."""
+    shown = SHOWN.get(str(variable.name))
+    if shown is not None:
+        return f"{shown.name} {shown.symbol}".strip()
+    return quantity_of_label(label_of(variable)[0])
+
+
 def quantity_of_label(label: str) -> str:
     """What a label says before its unit."""
     return label.rpartition(" (")[0] or label

@@ -22,6 +22,7 @@ function number(value, digits = 5) {
 }
 
 const withUnit = (text, unit) => (unitOf(unit) ? `${text} ${unitOf(unit)}` : text);
+const axisLabel = (thing) => (unitOf(thing.unit) ? `${thing.label} (${unitOf(thing.unit)})` : thing.label);
 const heading = (thing) => (unitOf(thing.unit) ? `${thing.name} (${unitOf(thing.unit)})` : thing.name);
 
 // Stored numbers

@@ -54,8 +54,8 @@ function drawMap() {
     }
   });
   ink.fillStyle = style("--text");
-  xAxis(ink, box, xs.ticks(), horizontal, heading(study.dim[x]));
-  yAxis(ink, box, ys.ticks(), vertical, heading(curve ? variable : study.dim[y]));
+  xAxis(ink, box, xs.ticks(), horizontal, axisLabel(study.dim[x]));
+  yAxis(ink, box, ys.ticks(), vertical, axisLabel(curve ? variable : study.dim[y]));
   if (colours) colourBar(ink, { left: box.left, right: box.right, top: height - 44, bottom: height - 32 }, colours);
   drawn = { box, horizontal, vertical, xs, ys };
   if (curve) drawCurve(ink, cells.map(({ i }, n) => [horizontal(xs.at[i]), vertical(numbers[n])]));
