@@ -41,7 +41,8 @@ def test_cells_are_dotted_where_disturbances_decay() -> None:
     columns = (edges.across[1:] + edges.across[:-1]) / 2
     rows = (edges.up[1:] + edges.up[:-1]) / 2
     expected = {
-        (round(columns[j], 6), round(rows[i], 6)) for i, j in zip(*np.nonzero(RATES < 0), strict=True)
+        (round(columns[j], 6), round(rows[i], 6))
+        for i, j in zip(*np.nonzero(RATES < 0), strict=True)
     }
     assert dotted == expected
     pyplot.close(figure)

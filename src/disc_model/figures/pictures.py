@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def plot_sweep(
-    study: xr.Dataset,
+    study: xr.Dataset | xr.DataTree,
     variable: str = "",
     x: str = "",
     *,
