@@ -16,9 +16,9 @@ TESTED_validation := tests/validation tests/simulation
 TESTED_stability := tests/stability
 TESTED_engine := tests/engine tests/benchmarks tests/analysis
 TESTED_studies := tests/studies
-TESTED_others := tests/paper tests/data tests/disc tests/docs tests/explorer tests/figures tests/packaging $(wildcard tests/test_*.py)
+TESTED_others := tests/paper tests/data tests/disc tests/docs tests/explorer tests/figures tests/fitting tests/packaging $(wildcard tests/test_*.py)
 
-.PHONY: compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce gc test test-parts $(PARTS) test-portable test-long coverage test-study lint format numbers bench bench-pages lock clean
+.PHONY: measurements compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce gc test test-parts $(PARTS) test-portable test-long coverage test-study lint format numbers bench bench-pages lock clean
 
 env: $(STAMP)
 
@@ -57,6 +57,10 @@ survival: env
 	$(BIN)/snakemake -j$(CORES) --configfile config/survival.yaml
 	$(BIN)/snakemake -j$(CORES) results/paper/survival.html
 	cp results/paper/survival.md docs/model_sensitivity.md
+
+# Comparisons with measurements: tables and pictures of docs/measurements.md.
+measurements: env
+	$(BIN)/python -m docs.measurements.report
 
 # The small pictures of docs/ and of the README, from finished figures.
 gallery: env

@@ -20,16 +20,15 @@ copyright = author
 release = disc_model.__version__
 
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "numpydoc"]
-exclude_patterns = ["_build", "drawings/*.py"]
+exclude_patterns = ["_build", "drawings/*.py", "measurements/*"]
 root_doc = "index"
 
 # ---- pages
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 3
 nb_execution_mode = "force"  # a change of the package changes what cells print
-nb_execution_timeout = (
-    600  # kernels may have to be compiled first, on a machine that does other things too
-)
+# kernels may have to be compiled first, on a machine that does other things too
+nb_execution_timeout = 600
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True
 
@@ -47,16 +46,16 @@ html_title = f"disc_model {release}"
 html_show_sphinx = False
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
-_PROJECT = tomllib.loads(
-    Path(__file__).parents[1].joinpath("pyproject.toml").read_text(encoding="utf-8")
-)["project"]
-html_baseurl = _PROJECT["urls"]["Documentation"]
-html_theme_options = {
-    "navigation_with_keys": True,
-    "source_repository": _PROJECT["urls"]["Repository"],
-    "source_branch": "main",
-    "source_directory": "docs/",
-}
+html_theme_options = {"navigation_with_keys": True}
+
+# ---- addresses, of what is published
+_PYPROJECT = Path(__file__).parents[1] / "pyproject.toml"
+_ADDRESSES = tomllib.loads(_PYPROJECT.read_text(encoding="utf-8"))["project"].get("urls", {})
+html_baseurl = _ADDRESSES.get("Documentation", "")
+if "Repository" in _ADDRESSES:
+    html_theme_options["source_repository"] = _ADDRESSES["Repository"]
+    html_theme_options["source_branch"] = "main"
+    html_theme_options["source_directory"] = "docs/"
 # formulas are set by a MathJax of the site's own: it works without a network
 mathjax_path = "mathjax/tex-chtml.js"
 
@@ -65,58 +64,67 @@ linkcheck_timeout = 20
 linkcheck_ignore = [r"https?://(dx\.)?doi\.org/"]  # publishers turn away what is no browser
 
 
+# ---- extensions of Sphinx of our own
+
+WIDE = 600
+"""Pixels from which on a picture is wide; one column of a figure has 438."""
+
+
 def short_signature(app, what, name, thing, options, signature, returns):
-    """Of a pydantic model: names and defaults; its rules stand in the list of parameters."""
-    if what == "class" and issubclass(thing, BaseModel):
-        fields = thing.model_fields.items()
-        return (
-            f"({', '.join(n if f.is_required() else f'{n}={f.default!r}' for n, f in fields)})",
-            returns,
-        )
-    return None
+    """Return the signature of a pydantic model with names and defaults only.
+
+    Its rules stand in the list of parameters. The arguments are those of Sphinx's event
+    ``autodoc-process-signature``.
+    """
+    if what != "class" or not issubclass(thing, BaseModel):
+        return None
+    arguments = []
+    for field_name, field in thing.model_fields.items():
+        if field.is_required():
+            arguments.append(field_name)
+        else:
+            arguments.append(f"{field_name}={field.default!r}")
+    return f"({', '.join(arguments)})", returns
 
 
 def words_below_names(app, what, name, thing, options, lines):
-    """Docstrings say "name : what it is", where numpydoc expects a type: put the words below the
-    name."""
-    lines[:] = "\n".join(
-        re.sub(r"^(\w[\w, ]*) : (.*)$", r"\1\n    \2", line) for line in lines
-    ).split("\n")
+    """Put what a docstring says of a parameter below its name.
+
+    Docstrings say "name : what it is", where numpydoc expects a type. The arguments are those of
+    Sphinx's event ``autodoc-process-docstring``.
+    """
+    changed = []
+    for line in lines:
+        changed += re.sub(r"^(\w[\w, ]*) : (.*)$", r"\1\n    \2", line).split("\n")
+    lines[:] = changed
 
 
 def mark_wide(app, doctree):
-    """Pictures as wide as a page keep a size on a phone at which they can be read, as drawings
-    do."""
+    """Mark pictures as wide as a page, which keep a size on a phone at which they can be read."""
     for image in doctree.findall(nodes.image):
         file = Path(app.srcdir, image["uri"])
-        if file.suffix == ".png" and file.is_file():
-            with Image.open(file) as picture:
-                image["classes"] += ["wide"] if picture.width > WIDE else []
-
-
-WIDE = 600
-"""Pixels; one column of a figure has 438."""
+        if file.suffix != ".png" or not file.is_file():
+            continue
+        with Image.open(file) as picture:
+            if picture.width > WIDE:
+                image["classes"].append("wide")
 
 
 def copy_mathjax(app, error):
     """Put what pages load of MathJax into the finished site."""
-    if error is None and app.builder.format == "html":
-        source = (
-            Path(importlib.util.find_spec("sphinx-mathjax-offline").origin).parent
-            / "static"
-            / "mathjax"
-        )
-        target = Path(app.outdir) / "_static" / "mathjax"
-        target.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(source / "tex-chtml.js", target)
-        shutil.copytree(
-            source / "output" / "chtml" / "fonts",
-            target / "output" / "chtml" / "fonts",
-            dirs_exist_ok=True,
-        )
+    if error is not None or app.builder.format != "html":
+        return
+    package = Path(importlib.util.find_spec("sphinx-mathjax-offline").origin).parent
+    source = package / "static" / "mathjax"
+    target = Path(app.outdir) / "_static" / "mathjax"
+    fonts = Path("output", "chtml", "fonts")
+    target.mkdir(parents=True, exist_ok=True)
+    shutil.copy2(source / "tex-chtml.js", target)
+    shutil.copytree(source / fonts, target / fonts, dirs_exist_ok=True)
 
 
 def setup(app):
+    """Connect these functions with Sphinx."""
     app.connect("autodoc-process-signature", short_signature)
     app.connect("autodoc-process-docstring", words_below_names, priority=400)  # before numpydoc
     app.connect("doctree-read", mark_wide)

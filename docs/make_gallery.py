@@ -5,7 +5,7 @@ from contextlib import chdir
 from doctest import DocTestParser
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, NamedTuple
 
 import xarray as xr
 import yaml
@@ -21,13 +21,27 @@ from disc_model.figures.drawing import styled
 from disc_model.paper.figures.instants import motion_of
 from disc_model.studies.study import load_study
 
+RESULTS = Path("results")
+DOCS = Path("docs")
+GALLERY = DOCS / "gallery"
+
 SHOWN = (
     "composite",
-    *(
-        f"fig{n}"
-        for n in ("13", "02", "03", "05", "09", "10", "14", "25", "27", "28", "A1", "A2", "B1")
-    ),
+    "fig13",
+    "fig02",
+    "fig03",
+    "fig05",
+    "fig09",
+    "fig10",
+    "fig14",
+    "fig25",
+    "fig27",
+    "fig28",
+    "figA1",
+    "figA2",
+    "figB1",
 )
+"""Figures of the paper's study."""
 OF_GRIDS = (
     "branches",
     "figB2",
@@ -54,6 +68,8 @@ OF_BENCHMARK = {
 }
 """Figures of the benchmark, and their captions."""
 FILM = "Disc and slider in the 35 ms of Fig. 2b, slowed down about 170 times"
+FRAMES = 70
+"""Greatest number of frames of the film."""
 COLUMNS = 3
 """Pictures in a row of the page."""
 WIDTH = 900
@@ -62,39 +78,74 @@ PAGE = 2055
 """Pixels of such a figure as it was drawn."""
 
 
+class Shown(NamedTuple):
+    """A picture of the page."""
+
+    name: str
+    title: str
+
+
+# ---- Pictures
+
+
 def shrink(source: Path, target: Path) -> Path:
     """Write a small copy of a picture, in true colour; equal ones give equal bytes."""
     target.parent.mkdir(parents=True, exist_ok=True)
+    scale = WIDTH / PAGE
     with Image.open(source) as picture:
-        scale = WIDTH / PAGE
         size = (round(picture.width * scale), round(picture.height * scale))
         small = picture.convert("RGB").resize(size, Image.Resampling.LANCZOS)
     small.save(target, optimize=True)
     return target
 
 
-def write_film(case: xr.DataTree, path: Path, frames: int = 70) -> None:
-    """Write the motion of disc and slider as an animated picture, with at most `frames` frames.
+def write_film(case: xr.DataTree, path: Path, frames: int = FRAMES) -> None:
+    """Write the motion of disc and slider as an animated picture.
 
-    Raises `Missing` if the case does not hold the windows `around0`, ...
+    Parameters
+    ----------
+    case : with the windows ``around0``, ...
+    path : of the picture
+    frames : greatest number of frames
+
+    Raises
+    ------
+    disc_model.data.dataset.Missing
+        If the case does not hold these windows.
     """
-    whole, window = motion_of(case), samples(case, "around0")
-    part = slice(None, None, max(1, whole.time.size // frames))
-    arrays = {
-        name: getattr(whole, name)[..., part]
-        for name in ("time", "amplitudes", "slider", "u", "phase")
-    }
+    whole = motion_of(case)
+    window = samples(case, "around0")
+    every = slice(None, None, max(1, whole.time.size // frames))
+    shown = whole._replace(
+        time=whole.time[..., every],
+        amplitudes=whole.amplitudes[..., every],
+        slider=whole.slider[..., every],
+        u=whole.u[..., every],
+        phase=whole.phase[..., every],
+    )
     with styled():
         figure = Figure(figsize=(6.4, 2.7))
-        animation = film(
-            figure, whole._replace(**arrays), window["time"].values, window["P"].values
-        )
+        animation = film(figure, shown, window["time"].values, window["P"].values)
         path.parent.mkdir(parents=True, exist_ok=True)
         animation.save(path, writer=PillowWriter(fps=12), dpi=100)
 
 
+def draw_first_run() -> None:
+    """Draw the first picture of README."""
+    axes: Any = dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot()
+    axes.flat[0].figure.savefig(GALLERY / "first_run.png", dpi=120)
+
+
+def draw_first_study() -> None:
+    """Draw the picture of the first study of docs/studies.md."""
+    page = (DOCS / "studies.md").read_text(encoding="utf-8")
+    study = page.split("```yaml\n")[1].split("```")[0]
+    axes: Any = dm.plot_sweep(dm.run_study(yaml.safe_load(study)))
+    axes.figure.savefig(GALLERY / "my_growth.png", dpi=120)
+
+
 def figure_of_page(page: Path) -> Figure:
-    """The figure that the examples of a page draw, without the files that they write."""
+    """Return the figure that the examples of a page draw, without the files that they write."""
     examples = DocTestParser().get_examples(page.read_text(encoding="utf-8"))
     source = "".join(example.source for example in examples)
     names: dict[str, Any] = {}
@@ -104,57 +155,81 @@ def figure_of_page(page: Path) -> Figure:
     return figure
 
 
-def page_of(shown: list[tuple[str, str]]) -> str:
-    """The page: small pictures with their titles, each a link to the picture itself."""
-    lines = ["# Gallery", "", "From `make reproduce`, `make bench` and `make survival`.", ""]
-    cells = [
-        f"[![{Path(name).stem}](gallery/{name})](gallery/{name})<br>{title}"
-        for name, title in shown
-    ]
+def draw_own_figure() -> None:
+    """Draw the picture of the page on figures for a paper."""
+    figure = figure_of_page(DOCS / "howto" / "figures.md")
+    figure.savefig(GALLERY / "own_figure.png", dpi=120)
+
+
+# ---- The page
+
+
+def page_of(shown: list[Shown]) -> str:
+    """Return the page: small pictures with their titles, each a link to the picture itself."""
+    cells = []
+    for name, title in shown:
+        picture = f"![{Path(name).stem}](gallery/{name})"
+        cells.append(f"[{picture}](gallery/{name})<br>{title}")
     cells += [""] * (-len(shown) % COLUMNS)
-    rows = ["| " + " | ".join(cells[i : i + COLUMNS]) + " |" for i in range(0, len(cells), COLUMNS)]
-    return "\n".join([*lines, "| " * COLUMNS + "|", "| --- " * COLUMNS + "|", *rows, ""])
+    lines = [
+        "# Gallery",
+        "",
+        "From `make reproduce`, `make bench` and `make survival`.",
+        "",
+        "| " * COLUMNS + "|",
+        "| --- " * COLUMNS + "|",
+    ]
+    for start in range(0, len(cells), COLUMNS):
+        lines.append("| " + " | ".join(cells[start : start + COLUMNS]) + " |")
+    lines.append("")
+    return "\n".join(lines)
+
+
+def first_sentence(caption: str) -> str:
+    """Return the beginning of a caption as a title."""
+    return re.split(r"(?<!Eq)[.:] ", caption)[0].rstrip(".")
+
+
+def entries() -> dict[str, tuple[str, Any]]:
+    """Return the figures of the paper's study and of its variants, each with its study."""
+    found = {}
+    for path in ("config/paper.yaml", "config/survival.yaml"):
+        study = load_study(path)
+        grids, *_ = study.grids()
+        for (owner, name), entry in study.entries(grids).items():
+            found[name] = (owner, entry)
+    return found
 
 
 @script
 def main() -> None:
-    results, docs = Path("results"), Path("docs")
-    axes: Any = dm.simulate(
-        dm.Parameters(N=385, Omega=15.1), 60
-    ).plot()  # the first picture of README
-    axes.flat[0].figure.savefig(docs / "gallery" / "first_run.png", dpi=120)
-    first_study = (
-        (docs / "studies.md").read_text(encoding="utf-8").split("```yaml\n")[1].split("```")[0]
-    )
-    axes = dm.plot_sweep(dm.run_study(yaml.safe_load(first_study)))
-    axes.figure.savefig(docs / "gallery" / "my_growth.png", dpi=120)
-    figure = figure_of_page(docs / "howto" / "figures.md")
-    figure.savefig(docs / "gallery" / "own_figure.png", dpi=120)
-    studies = [load_study(path) for path in ("config/paper.yaml", "config/survival.yaml")]
-    entries = {
-        name: (study, entry)
-        for one in studies
-        for (study, name), entry in one.entries(one.grids()[0]).items()
-    }
-    shown: list[tuple[str, str]] = []  # picture and title
+    """Draw, shrink and list all pictures."""
+    draw_first_run()
+    draw_first_study()
+    draw_own_figure()
+
+    known = entries()
+    shown = []
     for name in SHOWN:
-        _, entry = entries[name]
-        small = shrink(
-            results / "paper" / "figures" / f"{name}.png", docs / "gallery" / f"{name}.png"
-        )
-        shown.append((small.name, " ".join(entry.title.split())))
-    (case,) = load_cases([results / "paper" / "cases" / "F02.nc"]).values()
-    write_film(case, docs / "gallery" / "film.webp")
-    shown.append(("film.webp", FILM))
-    texts = {name: (entries[name][0], entries[name][1].plot.caption) for name in OF_GRIDS}
-    texts |= {name: ("bench", text) for name, text in OF_BENCHMARK.items()}
-    for name, (study, text) in texts.items():
-        source, small = (
-            results / study / "figures" / f"{name}.png",
-            docs / "gallery" / f"{name}.png",
-        )
+        _, entry = known[name]
+        small = shrink(RESULTS / "paper" / "figures" / f"{name}.png", GALLERY / f"{name}.png")
+        shown.append(Shown(small.name, " ".join(entry.title.split())))
+
+    (case,) = load_cases([RESULTS / "paper" / "cases" / "F02.nc"]).values()
+    write_film(case, GALLERY / "film.webp")
+    shown.append(Shown("film.webp", FILM))
+
+    captions = {}
+    for name in OF_GRIDS:
+        study, entry = known[name]
+        captions[name] = (study, entry.plot.caption)
+    for name, caption in OF_BENCHMARK.items():
+        captions[name] = ("bench", caption)
+    for name, (study, caption) in captions.items():
+        source = RESULTS / study / "figures" / f"{name}.png"
+        small = GALLERY / f"{name}.png"
         if source.is_file():
             shrink(source, small)
         if small.is_file():
-            shown.append((small.name, re.split(r"(?<!Eq)[.:] ", text)[0].rstrip(".")))
-    (docs / "gallery.md").write_text(page_of(shown), encoding="utf-8")
+            shown.append(Shown(small.name, first_sentence(caption)))
+    (DOCS / "gallery.md").write_text(page_of(shown), encoding="utf-8")

@@ -102,6 +102,19 @@ def test_module_runs_as_a_program() -> None:
     )
 
 
+def test_the_heads_of_modes_are_whole_in_80_columns(
+    command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    table = disc_model.Disc(
+        diameters=[0, 12], omega=[9_876.543, 98_765.432], amplitude=[1.23456, 12.3456]
+    )
+    table.to_csv(tmp_path / "disc.csv")
+    out = command.out("modes", "--disc", str(tmp_path / "disc.csv"), "--r-0", "0.11")
+    assert "…" not in out
+    assert all(word in out for word in ("amplitude", "98765.432", "12.346", "damping"))
+
+
 @pytest.mark.compiled
 def test_floquet_says_whether_the_quiet_motion_lasts(command: Command) -> None:
     assert re.fullmatch(r"kernels compiled and cached: \d+\.\d s\n", command.out("compile"))
@@ -136,6 +149,48 @@ def test_a_run_is_drawn_and_saved_and_one_that_does_not_end_is_told(
     steep = ("--N", "1e3", "--Omega", "100", "--mu-s", "20", "--mu-k", "20", "--k-p", "1e6")
     code, out, _ = command.run("run", *steep, "--t-end", "1")
     assert (code, "status              paradox" in out) == (1, True)
+
+
+@pytest.mark.parametrize(
+    ("option", "name", "rule"),
+    [
+        ("--save", "x.txt", "must end in .nc or .mat"),
+        ("--save", "/dev/null", "must be the name of a file"),
+        ("--save", "no/x.nc", "must be the name of a file in a folder that exists"),
+        ("--save", f"{'x' * 300}.nc", "must be the name of a file: File name too long"),
+        ("--plot", "x.txt", "must end in one of "),
+        ("--plot", "no/x.png", "must be the name of a file in a folder that exists"),
+    ],
+)
+def test_a_file_that_cannot_be_written_is_refused_before_the_simulation(
+    command: Command,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    option: str,
+    name: str,
+    rule: str,
+) -> None:
+    """The suffix was looked at after it."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(
+        "disc_model.simulation.api.simulate", lambda *_, **__: pytest.fail("it runs")
+    )
+    err = command.error(*SHORT, option, name)
+    assert re.search(rf"{option.strip('-')}='.*: {re.escape(rule)}", err)
+
+
+@pytest.mark.parametrize("backend", ["module://matplotlib_inline.backend_inline", "unknown"])
+def test_a_backend_of_a_notebook_does_not_matter(tmp_path: Path, backend: str) -> None:
+    """Matplotlib refused it, and the name of the picture was blamed."""
+    picture = tmp_path / "run.png"
+    options = [sys.executable, "-m", "disc_model", *SHORT, "--plot", picture]
+    run(*options, MPLBACKEND=backend)
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("words", [("study",), ("list", "cases")])
+def test_a_missing_study_is_told_in_one_line(command: Command, words: tuple[str, ...]) -> None:
+    assert command.error(*words, "none.yaml") == "error: none.yaml: there is no such file\n"
 
 
 STUDY = (Path(__file__).parent / "workflow" / "studies" / "braces.yaml").read_text()

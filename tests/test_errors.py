@@ -2,10 +2,11 @@
 
 import pickle
 
+import numpy as np
 import pytest
 
 from disc_model import ParameterError
-from disc_model.errors import DiscModelError, Fault, script
+from disc_model.errors import LONGEST_VALUE, DiscModelError, Fault, as_text, script
 from disc_model.studies.study import StudyError
 
 
@@ -34,3 +35,21 @@ def test_a_script_ends_without_a_traceback(
     with pytest.raises(SystemExit) as ended:
         script(main)
     assert ended.value.code == (str(error) or "interrupted")
+
+
+def test_a_value_in_a_message_is_short_and_stands_in_one_line() -> None:
+    """The text of lists that hold a list ten times took minutes and gigabytes."""
+    deep: list = [1]
+    for _ in range(50):
+        deep = [deep] * 10
+    endless: list = []
+    endless.append(endless)
+    for value in (deep, endless, {"a": deep}, "x" * 1000, np.eye(40)):
+        text = as_text(value)
+        assert len(text) == LONGEST_VALUE
+        assert text.endswith("...")
+        assert "\n" not in text
+    for value in ([], (), (1,), [1, "a", None], {"a": (1, 2), "b": {}}, "x  y", 1 + 2j):
+        assert as_text(value) == repr(value)
+    assert as_text(0.1 + 0.2) == "0.3"
+    assert as_text(2.0) == "2"

@@ -2,6 +2,7 @@
 
 import inspect
 import math
+import pydoc
 import re
 from typing import Any
 
@@ -49,6 +50,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         for function in (dm.plate_modes, dm.coupled_natural_frequencies, dm.residual_flexibility)
     ),
     (dm.steady_sliding, {}, {}),
+    (dm.split_growth, {"p": P, "split": 0.0}, {}),
     (dm.choose_modes, {"case": P}, {"case": "dict", "tolerance": "None"}),
     (
         dm.simulate,
@@ -78,6 +80,16 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {"source": "text dict", "workers": "huge", "processes": "True"},
     ),
     (dm.plot_modes, {"p": P}, PICTURE | {"most": "huge"}),
+    (
+        dm.fit,
+        {"p": P, "vary": ["E"], "measured": {"frequency_0_0": (239.0, 1.0)}},
+        {"bounds": "None"},
+    ),
+    (
+        dm.Measurement,
+        {"quantity": "period", "value": 1.0, "uncertainty": 1.0},
+        {"value": "negative"},
+    ),
     (dm.plot_sweep, {"study": GRID}, PICTURE | {"log": "True", "variable": "None", "x": "None"}),
     (RUN.plot, {"windows": "all"}, PICTURE | {"windows": "None"}),
     (RUN.plot_phase_portrait, {"window": "all"}, PICTURE | {"window": "None"}),
@@ -91,7 +103,13 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot, {}, {"ax": "None"}),
     (RUN.__getitem__, {}, {}),
     (DISC.to_csv, {}, {"path": "text"}),
-    (dm.Disc.from_csv, {}, {"path": "text"}),
+    (dm.Disc.from_csv, {"path": "none.csv"}, {"path": "text"}),
+    (
+        dm.Disc.from_uff,
+        {"path": "none.uff", "r_0": 0.1},
+        {"path": "text", "axis": "text None"}
+        | dict.fromkeys(("centre", "units", "modal_mass"), "None"),
+    ),
     (
         RUN.animate,
         {"window": "all", "frames": 2},
@@ -102,8 +120,9 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         start,
         {},
         dict.fromkeys(("time", "psi", "u_velocity"), "negative")
-        | {"mode_amplitudes": "None", "case_key": [*WRONG]},
+        | {"mode_amplitudes": "None", "case_key": [*WRONG], "drive_angle": "None negative"},
     ),
+    (RUN.final_state.slider_angle, {}, {}),
     (dm.snapshots, {"p": P, "times": 1e-4}, {"initial_state": "None", "times": "nothing"}),
     (dm.deflection, SHAPES, {"theta": "negative nothing", "states": "nothing"}),
     (dm.floquet, {"p": P}, {"guess": "None"}),
@@ -158,3 +177,33 @@ def test_a_wrong_argument_is_named(function, others, name, right, tmp_path, monk
             with pytest.raises(dm.ParameterError) as error:
                 function(**others | {name: value})
             assert any(name in re.findall(r"\w+", fault) for fault in error.value.faults), label
+
+
+MODELS = (dm.Parameters, dm.Disc, dm.Window, dm.Poincare, dm.Ramp, dm.Execution, StepControl)
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
+def test_help_shows_what_a_reader_knows(model: type) -> None:
+    """It had 500 lines of pydantic, and a function's address in the type of a number."""
+    signature = str(inspect.signature(model))
+    for inside in ("Annotated", "Validator", "pydantic", "0x", "ForwardRef"):
+        assert inside not in signature
+    text = pydoc.render_doc(model, renderer=pydoc.plaintext)
+    assert text.count("pydantic") == 1, "in the order of classes"
+    assert "model_post_init" not in text
+    assert len(text.splitlines()) < 200
+    assert {"replace", "model_validate_json"} <= {*dir(model)}
+    assert not [name for name in dir(model) if name.startswith("_")]
+
+
+def test_signatures_have_plain_types_and_defaults() -> None:
+    assert str(inspect.signature(dm.Window)) == (
+        "(*, start: float = 0.0, stop: float = inf, last: float | None = None, rate: float,"
+        " theta: float = 1.0, envelope: int | None = None)"
+    )
+    assert str(inspect.signature(dm.Parameters)).startswith(
+        "(*, N: float, Omega: float, D_star: float = 1e-05, c: float = 0.0, "
+    )
+    arguments = inspect.signature(dm.Disc).parameters
+    assert arguments["shapes"].annotation == tuple[tuple[float, ...], ...]
+    assert arguments["static_compliance"].default is None

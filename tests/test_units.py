@@ -4,9 +4,22 @@ import json
 import math
 from typing import Any
 
+import numpy as np
+import pint
 import pytest
+import xarray as xr
 
-from disc_model import ParameterError, Parameters, Ramp, Window, simulate
+from disc_model import (
+    ParameterError,
+    Parameters,
+    Ramp,
+    Window,
+    deflection,
+    floquet,
+    simulate,
+    snapshots,
+)
+from disc_model.errors import Fault
 from disc_model.units import in_si
 from tests.studies.refused import parse_grid
 
@@ -20,14 +33,120 @@ from tests.studies.refused import parse_grid
         ("-30 deg", "rad", -math.pi / 6),
         ("0.3 N*s/mm", "N s/m", 300.0),
         ("40 %", "1", 0.4),
+        ("2 \u00b5m", "m", 2e-6),  # the sign micro
+        ("2 \u03bcm", "m", 2e-6),  # the Greek letter, by which Unicode's normal form replaces it
+        ("150 kN/mm²", "Pa", 1.5e11),
+        ("150 kN/mm2", "Pa", 1.5e11),
+        ("7.2 g/cm³", "kg/m^3", 7200.0),
+        ("7200 kg m-3", "kg/m^3", 7200.0),
+        ("7200 kg·m⁻³", "kg/m^3", 7200.0),
+        ("0.3 N·s/mm", "N s/m", 300.0),
+        ("3 rev/s", "rad/s", 6 * math.pi),
+        ("190 rev/min", "rad/s", 190 * math.pi / 30),
+        ("190 RPM", "rad/s", 190 * math.pi / 30),
+        ("190 1/min", "rad/s", 190 * math.pi / 30),
+        ("190 min⁻¹", "rad/s", 190 * math.pi / 30),
+        ("90 1/min", "Hz", 1.5),
+        ("0.30000000000000004 N", "N", 0.30000000000000004),
     ],
 )
 def test_a_number_with_a_unit_is_that_in_si(text: str, unit: str, value: float) -> None:
-    # decimals are exact; pi is rounded to 15 digits
     converted = in_si(text, unit, [], ())
-    assert converted == (
-        pytest.approx(value, rel=1e-14) if "rpm" in text or "deg" in text else value
-    )
+    if unit.startswith("rad"):  # pi is rounded to 15 digits
+        assert converted == pytest.approx(value, rel=1e-14)
+    else:  # decimals are exact
+        assert converted == value
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "meant"),
+    [
+        ("100 gr", "kg", "g"),
+        ("1 ton", "kg", "t"),
+        ("30 grad", "rad", "deg"),
+        ("1 Nm", "N m", "N m"),
+    ],
+)
+def test_a_unit_that_is_another_than_it_seems_is_refused_with_what_is_meant(
+    text: str, unit: str, meant: str
+) -> None:
+    """100 gr were 6.5 g: the grain."""
+    faults: list[Fault] = []
+    in_si(text, unit, faults, ("x",))
+    assert [str(fault) for fault in faults] == [
+        f"x='{text}': must be a number in {unit}, or with a unit of its kind, did you mean {meant}?"
+    ]
+
+
+@pytest.mark.parametrize("text", ["2 Hz", "2 1/s", "2 s-1", "2 kHz", "2 min"])
+def test_a_speed_of_rotation_says_whether_it_counts_turns_or_radians(text: str) -> None:
+    with pytest.raises(ParameterError, match=r"Omega=.* such as rpm; Hz may mean turns or radians"):
+        Parameters(N=1, Omega=text)
+
+
+UNITS = pint.UnitRegistry()
+SINGLE = {
+    "float32": (np.float32(385), 385.0),
+    "array": (np.array(385.0), 385.0),
+    "whole array": (np.array(385), 385.0),
+    "DataArray": (xr.DataArray(385.0), 385.0),
+    "DataArray with a unit": (xr.DataArray(0.385, attrs={"units": "kN"}), 385.0),
+    "quantity": (UNITS.Quantity(0.385, "kN"), 385.0),
+    "quantity in SI": (UNITS.Quantity(0.1 + 0.2, "N"), 0.1 + 0.2),
+}
+
+
+@pytest.mark.parametrize("kind", SINGLE)
+def test_a_single_number_of_another_library_is_a_number(kind: str) -> None:
+    value, expected = SINGLE[kind]
+    found = Parameters(N=value, Omega=15).N
+    assert type(found) is float
+    assert found == expected
+    assert Ramp(parameter="N", to=value, start=0, end=1).to == expected
+
+
+def test_units_of_other_libraries_count() -> None:
+    p = Parameters(N=1, Omega=UNITS.Quantity(145, "rpm"), rho=UNITS.Quantity(7.2, "g/cm**3"))
+    assert (p.Omega, p.rho) == (pytest.approx(145 * math.pi / 30, rel=1e-14), 7200.0)
+    assert Parameters(N=1, Omega=xr.DataArray(9.0, attrs={"units": "rad s-1"})).Omega == 9.0
+    assert Parameters(N=1, Omega=1, n_diameters=np.array(3)).n_diameters == 3
+    assert Parameters(N=1, Omega=1, mu_k_over_mu_s=UNITS.Quantity(60, "percent")).mu_k == 0.24
+    # a quantity, unlike a text, is in the unit that was meant: here grains
+    assert Parameters(N=1, Omega=1, m=UNITS.Quantity(1e3, "gr")).m == pytest.approx(0.06479891)
+    for name, wrong in (
+        ("N", UNITS.Quantity(1, "m")),
+        ("N", xr.DataArray(1.0, attrs={"units": "s"})),
+        ("Omega", UNITS.Quantity(2, "Hz")),
+    ):
+        with pytest.raises(ParameterError, match=rf"^{name}=.* or with a unit of its kind"):
+            Parameters(**{"N": 1, "Omega": 1, name: wrong})
+    for wrong in (np.array([1.0]), np.array(True), np.array("x"), UNITS.Quantity([1.0, 2.0], "N")):
+        with pytest.raises(ParameterError, match=r"^N=.*: must be a number"):
+            Parameters(N=wrong, Omega=1)
+
+
+def test_arguments_of_functions_are_such_numbers_too() -> None:
+    """With float32 the check of a number ended in an OverflowError, and numpy dropped units."""
+    p, ms = Parameters(N=200, Omega=20), UNITS.Quantity([1.0, 2.0], "ms")
+    for time in (np.float32(0.25), np.array(0.25), UNITS.Quantity(250, "ms"), "250 ms"):
+        assert simulate(p, time, tol=np.float16(1e-6)).t_end == 0.25
+    states = snapshots(p, ms)
+    assert [state.time for state in states] == [1e-3, 2e-3]
+    assert [state.time for state in snapshots(p, xr.DataArray([1.0, 2.0], attrs=MS))] == [
+        1e-3,
+        2e-3,
+    ]
+    assert type(states[0].replace(psi=np.float32(0.5)).psi) is float
+    at = deflection(p, states, UNITS.Quantity(10, "cm"), UNITS.Quantity(90, "deg"))
+    assert at.equals(deflection(p, states, 0.1, 1.5707963267949))
+    run = simulate(p, 0.01, ramps=Ramp(parameter="N", to=100, start=0, end=0.01))
+    assert run.value_at("N", UNITS.Quantity(5, "ms")) == pytest.approx(150)
+    with pytest.raises(ParameterError, match=r"^times=.*: must be finite"):
+        snapshots(p, UNITS.Quantity([1.0], "kg"))
+    assert repr(floquet(p, tol=np.float32(1e-10))) == repr(floquet(p, tol=float(np.float32(1e-10))))
+
+
+MS = {"units": "ms"}
 
 
 def test_python_takes_units_everywhere() -> None:

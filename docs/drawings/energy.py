@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from disc_model import Parameters
-from disc_model.paper.section41 import course, in_the_end
+from disc_model.paper.energy import in_the_end, power_history
 
 FONT = {
     "font.size": 9,
@@ -32,13 +32,13 @@ def draw(ax: plt.Axes, p: Parameters, free: float, bonded: float) -> None:
     found = np.array(
         [
             (each.width, each.supplied, each.damped)
-            for each in course(p.replace(contact="bonded"), bonded)
+            for each in power_history(p.replace(contact="bilateral"), bonded)
         ]
     )
     width, supplied, damped = found[np.argmax(found[:, 0] > 3e-3) :].T * [[1e3], [CYCLE], [CYCLE]]
     ax.plot(width, supplied, color=BLUE, label="supplied by the contact force, bilateral contact")
     ax.plot(width, damped, color=GREY, linestyle="--", label="taken by damping, bilateral contact")
-    end = in_the_end(course(p, free))
+    end = in_the_end(power_history(p, free))
     at = 1e3 * end.width
     ax.plot(at, CYCLE * end.supplied, "o", color=ORANGE, label="supplied, with separation")
     ax.plot(

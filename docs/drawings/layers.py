@@ -18,6 +18,7 @@ WHAT = {
     "paper": "what the paper says, checked against datasets",
     "explorer": "one page to look at datasets, motions, figures",
     "studies": "YAML to jobs, jobs to results, results to one dataset",
+    "fitting": "parameters of a case from measurements",
     "mode_choice": "number of modes for a quantity of the motion",
     "figures": "datasets to pictures; never simulates",
     "stability": "cycles, their growth rates, curves, exponents",

@@ -25,6 +25,7 @@ _NAMES = {
     "errors": (
         "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite"
     ),
+    "fitting.fit": "fit Fit Measurement",
     "mode_choice": "choose_modes",
     "parameters": "Parameters Disc",
     "simulation.api": "simulate snapshots Execution",
@@ -37,6 +38,7 @@ _NAMES = {
     "stability.cycle": "floquet",
     "stability.lyapunov": "lyapunov_exponents",
     "stability.sliding": "steady_sliding",
+    "stability.splitting": "split_growth",
 }
 _HOMES = {name: module for module, names in _NAMES.items() for name in names.split()}
 
@@ -59,6 +61,7 @@ if TYPE_CHECKING:
         StepLimit,
     )
     from disc_model.figures.pictures import plot_modes, plot_sweep
+    from disc_model.fitting.fit import Fit, Measurement, fit
     from disc_model.mode_choice import choose_modes
     from disc_model.parameters import Disc, Parameters
     from disc_model.simulation.api import Execution, simulate, snapshots
@@ -70,6 +73,7 @@ if TYPE_CHECKING:
     from disc_model.stability.cycle import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
+    from disc_model.stability.splitting import split_growth
     from disc_model.studies.functions import (
         basins,
         critical_speed,

@@ -12,6 +12,7 @@ import os
 import shlex
 import sys
 import time
+import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
@@ -23,11 +24,14 @@ from rich.console import Console
 from rich.table import Column, Table
 
 from disc_model import __version__
-from disc_model.disc.given import damping_ratios, read_disc
-from disc_model.disc.plate import coupled_natural_frequencies, mode_arrays
-from disc_model.disc.plausibility import warn_of_doubts
+from disc_model.data.files import SUFFIXES, regular_file
+from disc_model.disc.files.table import read_disc
+from disc_model.disc.files.universal_sets import is_universal_file
+from disc_model.disc.given import DiscReport
+from disc_model.disc.plate import coupled_natural_frequencies, damping_ratios, mode_arrays
+from disc_model.disc.plausibility import ImplausibleValue, warn_of_doubts
 from disc_model.errors import DiscModelError, Fault, ParameterError
-from disc_model.parameters import Parameters
+from disc_model.parameters import Disc, Parameters
 from disc_model.sources import PACKAGE
 from disc_model.units import TOLERANCES, Seconds, Strict, Tolerance
 
@@ -39,8 +43,8 @@ if TYPE_CHECKING:
 
 
 def option_name(field: str) -> str:
-    """Command-line option of a field: D_star -> --D-star."""
-    return "--" + field.replace("_", "-")
+    """Command-line option of a field: D_star -> --D-star, from_ -> --from."""
+    return "--" + field.rstrip("_").replace("_", "-")
 
 
 def _option(name: str, field: Any, panel: str, placeholder: str | None = None) -> inspect.Parameter:
@@ -89,6 +93,8 @@ def command(
             )
             if "disc" in texts:
                 texts["disc"] = read_disc(texts["disc"])
+            if isinstance(model, ModesOptions) and model.from_ is not None:
+                texts["disc"] = model.read(texts)
             p = Parameters.model_validate(texts)
             warn_of_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
             function(p, model)
@@ -122,27 +128,119 @@ def model_line(p: Parameters) -> tuple[str, str]:
 # ---- Modes and cycles
 
 
-@command(Strict, N="0", Omega="0")
-def modes(p: Parameters, _: Strict) -> None:
-    """Print the modes of the disc, and its frequencies with the slider at rest."""
+def _writable(path: Path) -> Path:
+    """Refuse a file that cannot be written, before the work instead of after it."""
+    try:
+        regular_file(path)
+    except ParameterError as error:
+        raise ValueError(error.faults[0].rule) from None
+    if not path.parent.is_dir():
+        raise ValueError("must be the name of a file in a folder that exists")
+    if not os.access(path.parent, os.W_OK):
+        raise ValueError("must be in a folder in which files can be written")
+    return path
+
+
+class ModesOptions(Strict):
+    """Options of the command `modes` by which it reads a disc from a file."""
+
+    from_: str | None = Field(
+        None, description="universal file or table of a modal test or of finite elements"
+    )
+    axis: str | None = Field(
+        None,
+        description="direction from the disc to the slider in a universal file, such as -z; found if left out",
+    )
+    centre: str | None = Field(
+        None, description="point on the axis, such as 0,0,0 (m); found if left out"
+    )
+    units: str | None = Field(
+        None, description="of length and force in a universal file that states none, such as mm,N"
+    )
+    modal_mass: str | None = Field(
+        None, description="of shapes whose modal mass is 0 in the file: 1 if they are normalised"
+    )
+    pairs: Literal["given", "mean"] = Field(
+        "given", description="mean: a table may have both halves of each pair"
+    )
+    save: Annotated[Path, AfterValidator(_writable)] | None = Field(
+        None, description="write the modes as a table, for --disc and for studies"
+    )
+
+    def read(self, case: Mapping[str, Any]) -> Disc:
+        """The disc of the file; warnings become lines of their own."""
+        if "disc" in case:
+            raise ParameterError(Fault(("disc",), "", "must be left out: --from gives the disc"))
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", ImplausibleValue)
+            disc = self._disc(case)
+        for warning in caught:
+            typer.echo(f"warning: {warning.message}", err=True)
+        return disc
+
+    def _disc(self, case: Mapping[str, Any]) -> Disc:
+        """The disc of a universal file or of a table."""
+        file = self.from_ or ""
+        if not is_universal_file(file):
+            return Disc.from_csv(file, pairs=self.pairs)
+        if "r_0" not in case:
+            rule = "is required: the radius of the circle of nodes under the slider"
+            raise ParameterError(Fault(("r_0",), "", rule))
+        return Disc.from_uff(
+            file,
+            case["r_0"],
+            axis=self.axis,
+            centre=self.centre,
+            units=self.units,
+            modal_mass=self.modal_mass,
+        )
+
+
+@command(ModesOptions, N="0", Omega="0")
+def modes(p: Parameters, options: ModesOptions) -> None:
+    """Print the modes of the disc, and its frequencies with the slider at rest; with --from, what
+    was used of a file and what was left out."""
     print_rows([model_line(p)])
     arrays = mode_arrays(p)
     columns: dict[str, Iterable[str]] = {
         "circles": map(str, arrays.circles),
         "diameters": map(str, arrays.diameters),
-        "omega (rad/s)": map("{:.3f}".format, arrays.omega),
-        "f (Hz)": map("{:.3f}".format, arrays.omega / math.tau),
-        "amplitude (kg^-1/2)": map("{:.6g}".format, arrays.psi),
-        "squared (1/kg)": map("{:.6f}".format, arrays.psi**2),
-        "damping ratio": map("{:.3g}".format, damping_ratios(p)),
+        "omega\n(rad/s)": map("{:.3f}".format, arrays.omega),
+        "f\n(Hz)": map("{:.3f}".format, arrays.omega / math.tau),
+        "amplitude\n(kg^-1/2)": map("{:.5g}".format, arrays.psi),
+        "damping\nratio": map("{:.3g}".format, damping_ratios(p)),
     }
-    table("Modes of the disc", columns, justify="right")
+    if p.disc is None or not p.disc.tangential:
+        columns["squared\n(1/kg)"] = map("{:.5g}".format, arrays.psi**2)
+    else:
+        columns["tangent.\n(kg^-1/2)"] = map("{:.5g}".format, p.disc.tangential)
+    table("Modes of the disc", columns, justify="right", overflow="fold")
+    if p.disc is not None and p.disc.report is not None:
+        print_report(p.disc.report)
+    if options.save is not None:
+        save_table(p, options.save)
     at_rest = coupled_natural_frequencies(p)
     columns = {
         "lambda (rad/s)": map("{:.3f}".format, at_rest),
         "f (Hz)": map("{:.3f}".format, at_rest / math.tau),
     }
     table("Disc and slider at rest", columns, justify="right")
+
+
+def print_report(report: DiscReport) -> None:
+    """Print what was used of a file and what was left out."""
+    rows = report.table
+    columns = {str(head): map("{:.5g}".format, rows[head]) for head in rows}
+    table("Shapes of the file", columns, justify="right", overflow="fold")
+    print_rows(report.summary())
+
+
+def save_table(p: Parameters, path: Path) -> None:
+    """Write the modes of a case as a table."""
+    if p.disc is None:
+        raise ParameterError(Fault(("save",), "", "needs the disc of a file: --from or --disc"))
+    p.disc.to_csv(path)
+    print_rows([("saved", str(path))])
 
 
 @command(Strict)
@@ -195,10 +293,9 @@ def compile_() -> None:
 # ---- A simulation
 
 
-def _writable(path: Path) -> Path:
-    """Refuse a file that cannot be written, before the simulation instead of after it."""
-    if path.is_dir() or not path.parent.is_dir():
-        raise ValueError("must be the name of a file in a folder that exists")
+def _savable(path: Path) -> Path:
+    if _writable(path).suffix not in SUFFIXES:
+        raise ValueError(f"must end in {' or '.join(SUFFIXES)}")
     return path
 
 
@@ -221,8 +318,8 @@ class RunOptions(Strict):
     plot: Annotated[Path, AfterValidator(_drawable)] | None = Field(
         None, description="draw contact force and disc displacement"
     )
-    save: Annotated[Path, AfterValidator(_writable)] | None = Field(
-        None, description="write the result as netCDF, for disc_model.load"
+    save: Annotated[Path, AfterValidator(_savable)] | None = Field(
+        None, description="write the result as netCDF (.nc) or for MATLAB (.mat)"
     )
 
 
@@ -241,7 +338,7 @@ def run(p: Parameters, options: RunOptions) -> None:
     if options.plot is not None:
         from matplotlib import pyplot
 
-        pyplot.switch_backend("agg")
+        pyplot.switch_backend("agg")  # a program that calls `main` may have chosen another
         result.plot()
         pyplot.savefig(options.plot, dpi=150)
         print_rows([("figure", str(options.plot))])
@@ -408,6 +505,9 @@ def _all(
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; never shows a traceback for bad input."""
     arguments = (sys.argv[1:] if arguments is None else arguments) or ["--help"]
+    # figures are only saved, and the backend of a notebook may not be installed here; Snakemake's
+    # jobs inherit this
+    os.environ["MPLBACKEND"] = "agg"
     try:
         code = app(args=arguments, standalone_mode=False, prog_name="disc-model")
         message = "interrupted" if code == INTERRUPTED else ""

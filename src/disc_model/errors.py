@@ -162,13 +162,39 @@ _RULES = {  # by pydantic's kind of fault, whose context fills the braces; other
 }
 
 
+LONGEST_VALUE = 60  # characters of a value in a message
+
+
 def as_text(value: Any) -> str:
-    """The text of a value in messages: shortened; a float without a final ".0" and without noise of
-    rounding."""
+    """The text of a value in messages: shortened, in one line; a float without a final ".0" and
+    without noise of rounding."""
     if isinstance(value, float):
         return repr(float(f"{value:.15g}")).removesuffix(".0")
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."
+    text = ""
+    for piece in _pieces(value):
+        text += piece
+        if len(text) > LONGEST_VALUE:
+            return text[: LONGEST_VALUE - 3] + "..."
+    return text
+
+
+def _pieces(value: Any) -> Iterator[str]:
+    """The text of a value, piece by piece: that of lists within lists may not end."""
+    if type(value) is dict:
+        yield "{"
+        for i, (name, part) in enumerate(value.items()):
+            yield f"{', ' * (i > 0)}{name!r}: "
+            yield from _pieces(part)
+        yield "}"
+    elif type(value) in (list, tuple):
+        begin, end = "[]" if type(value) is list else "()"
+        yield begin
+        for i, part in enumerate(value):
+            yield ", " * (i > 0)
+            yield from _pieces(part)
+        yield "," * (end == ")" and len(value) == 1) + end
+    else:
+        yield " ".join(repr(value).split("\n"))
 
 
 def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -> str:

@@ -17,6 +17,7 @@ from pydantic import Field, model_validator
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
+from disc_model.display import Summarised, counted
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, require
 from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters
 from disc_model.units import Finite, Strict
@@ -39,7 +40,7 @@ BAND = 2.0  # upper end of the band of compared frequencies, relative to the low
 
 
 @dataclass(frozen=True)
-class ModeChoice:
+class ModeChoice(Summarised):
     """The smallest model that meets a tolerance, and the basis of the choice.
 
     Attributes
@@ -59,6 +60,25 @@ class ModeChoice:
     rich: tuple[int, ...]
     quantity: str = FREQUENCIES
     values: Mapping[tuple[int, ...], float] = field(default_factory=dict)
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        p = self.parameters
+        if p.disc is None:
+            yield "n_diameters", p.n_diameters
+            yield "n_circles", p.n_circles
+        yield "modes", f"{self.modes}, a pair counts as two"
+        yield "chosen by", self.quantity
+        yield "error", f"{self.error:.2g}, relative; {self.tolerance:g} was asked for"
+        yield "largest model compared", self._size_text(self.rich)
+        for size, value in self.values.items():
+            yield f"{self.quantity} with {self._size_text(size)}", f"{value:.6g}"
+
+    @staticmethod
+    def _size_text(size: tuple[int, ...]) -> str:
+        """The size of a model in words."""
+        if len(size) == 1:
+            return counted(size[0], "mode")
+        return f"{counted(size[0], 'diameter')}, {counted(size[1], 'circle')}"
 
     def to_json(self) -> str:
         """The choice as JSON text, for an attribute of a dataset."""

@@ -37,6 +37,8 @@ from disc_model.units import (
 if TYPE_CHECKING:
     import os
 
+    from disc_model.disc.given import DiscReport
+
 AUTO = "auto"  # value of ``n_diameters`` in a file for which `disc_model.mode_choice` chooses the modes
 CHOOSING = ("truncation_quantity", "truncation_tolerance")  # keys of files that control this choice
 RESIDUAL = "residual"  # value of ``contact_compliance`` that stands for the static flexibility of the modes left out
@@ -168,6 +170,7 @@ class Disc(Strict):
     radii: tuple[Positive, ...] = ()
     shapes: tuple[tuple[Finite, ...], ...] = ()
 
+    _report: DiscReport | None = pydantic.PrivateAttr(None)
     _columns: ClassVar = (
         "diameters",
         "omega",
@@ -220,6 +223,7 @@ class Disc(Strict):
             if same[i] == same[j] and (apart < 0.05 or not counted):
                 rule = f"modes {i + 1} and {j + 1} have as many diameters and are {100 * apart:.2g} % apart: "
                 rule += "the disc must be axisymmetric, with each pair of modes given once, by its mean frequency"
+                rule += " (Disc.from_csv averages halves with pairs='mean')"
                 raise_faults([Fault.of(("omega", str(j)), self.omega[j], rule)])
         return self
 
@@ -243,28 +247,56 @@ class Disc(Strict):
             for i in range(len(omega))
         )
 
+    def __eq__(self, other: object) -> bool:
+        """Whether all numbers are equal; reports do not count."""
+        return isinstance(other, Disc) and dict(self) == dict(other)
+
+    @property
+    def report(self) -> DiscReport | None:
+        """What was used of the file from which the disc was read, and what was left out: a
+        `disc_model.disc.given.DiscReport`; None of a disc that was made of numbers."""
+        return self._report
+
+    def with_report(self, report: DiscReport) -> Disc:
+        """The same disc with a report on its file."""
+        disc = self.model_copy()
+        disc._report = report
+        return disc
+
     @classmethod
-    def from_csv(cls, path: str | os.PathLike[str]) -> Disc:
+    def from_csv(
+        cls, path: str | os.PathLike[str], pairs: Literal["given", "mean"] = "given"
+    ) -> Disc:
         """Read a table of modes.
 
         Parameters
         ----------
-        path : CSV file. Its columns, in any order, are ``diameters``, ``frequency_Hz`` or ``omega_rad_per_s``, and
-            ``amplitude_per_sqrt_kg``; optional are ``damping_ratio``, ``circles``, ``tangential_per_sqrt_kg``, and
-            shapes at radii, such as ``shape_at_0.08_m``. Lines that begin with # are comments; one may give
-            ``static_compliance_m_per_N: ...``
+        path : CSV file, with commas, semicolons or tabs. Its columns, in any order, are ``diameters``,
+            ``frequency_Hz`` or ``omega_rad_per_s``, and ``amplitude_per_sqrt_kg``; optional are ``damping_ratio``,
+            ``circles``, ``tangential_per_sqrt_kg``, and shapes at radii, such as ``shape_at_0.08_m``. Heads may also
+            give a name and its unit, such as "frequency (kHz)", "damping [%]" or "pole (rad/s)". Lines that begin
+            with # are comments; one may give ``static_compliance_m_per_N: ...``
+        pairs : "given" if each pair of modes is given once; "mean" if both halves of a pair may be given: two modes of
+            equal diameters within 5 % in frequency become their mean, and `report` has the split
 
         Raises
         ------
         ParameterError
             If the file cannot be read or breaks a rule; the message names the column or mode, its value and the rule.
 
+        Warns
+        -----
+        ImplausibleValue
+            If frequencies or amplitudes are implausible, such as one frequency in kHz among others in Hz.
+
         Returns
         -------
         Disc
         """
         file = import_module("disc_model.data.dataset").regular_file(path)
-        return import_module("disc_model.disc.given").read_disc(file)
+        disc = import_module("disc_model.disc.files.table").read_disc(file, pairs)
+        import_module("disc_model.disc.plausibility").warn_of_disc(disc)
+        return disc
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the table that `from_csv` reads, with enough digits to restore each number exactly.
@@ -280,38 +312,68 @@ class Disc(Strict):
         >>> dm.Disc.from_csv("disc.csv") == disc
         True
         """
-        dataset, given = (
-            import_module(f"disc_model.{name}") for name in ("data.dataset", "disc.given")
-        )
-        text = given.table_text(self)
-        dataset.write_atomically(
-            dataset.regular_file(path), lambda name: Path(name).write_text(text, encoding="utf-8")
-        )
+        dataset = import_module("disc_model.data.dataset")
+        text = import_module("disc_model.disc.files.table").table_text(self)
+        file = dataset.regular_file(path)
+        dataset.write_atomically(file, lambda name: Path(name).write_text(text, encoding="utf-8"))
 
     @classmethod
-    def from_uff(cls, path: str | os.PathLike[str], r_0: float) -> Disc:
-        """Read mode shapes from a universal file, as modal software writes it (pyuff, extra
-        ``uff``).
+    def from_uff(
+        cls,
+        path: str | os.PathLike[str],
+        r_0: Quantity,
+        *,
+        axis: str | Iterable[float] | None = None,
+        centre: Iterable[Quantity] | None = None,
+        units: Iterable[str] | None = None,
+        modal_mass: Quantity | None = None,
+    ) -> Disc:
+        """Read mode shapes from a universal file of modal tests or finite elements.
 
         Parameters
         ----------
-        path : file with a dataset 55 for each mode, real or complex, with modal masses; and the nodes' coordinates in
-            m, dataset 15 or 2411, around the disc's axis z. Only the motion along z is used
-        r_0 : m, radius of a circle of nodes, at which the slider is. Other circles give the shapes
+        path : file with normal or complex modes at nodes as datasets 55 or 2414, scaled by modal masses or modal A,
+            and the nodes' coordinates, datasets 15 or 2411 (coordinate systems: 18 or 2420, units: 164). Motion may
+            be displacement, velocity or acceleration
+        r_0 : radius of the circle of nodes under the slider, in m or with its unit: 0.1, "100 mm". Other circles at
+            the same height give the shapes
+        axis : direction of the disc's axis, from the disc to the slider: "x", "-z" or three numbers; if left out, it is
+            found. Its sense is then that in which the nodes move as on the face under the slider; without motion in
+            the plane its largest part is positive
+        centre : a point on the axis (m); if left out, it is found
+        units : of length and force in a file without dataset 164, such as ("mm", "N"); ("m", "N") if left out
+        modal_mass : of modes whose modal mass or modal A is 0 in the file, in its unit of mass: 1 for shapes that
+            finite elements have mass-normalised
 
         Returns
         -------
         Disc
-            The number of nodal diameters of a mode is that of the harmonic with most of its motion along the circle. A
-            mode with less than half of it in one harmonic is left out, such as one in the plane of the disc. Two modes
-            of equal diameters within 5 % in frequency are the halves of a pair, which is their mean.
+            The number of nodal diameters of a mode is that of the harmonic with most of its motion along the circle.
+            Two modes of equal diameters within 5 % in frequency are the halves of a pair, which is their mean; a mode
+            that the file has several times is one. Tangential amplitudes are those of the nodes on the circle, None
+            if the file has motion along the axis alone. Modes in the plane of the disc, and with less than half of
+            their motion in one harmonic, are left out. `report` says what was used and left out.
 
         Raises
         ------
         ParameterError
-            If the file cannot be read, or lacks nodes on the circle, modal masses or modes across the disc.
+            If the file cannot be read, is cut off, or lacks scaled modes, or nodes around the circle; the message
+            names the axis, the radii of the nodes and the datasets of the file.
+
+        Warns
+        -----
+        ImplausibleValue
+            If the nodes are too few for the modes, poles seem to be in Hz, or frequencies or amplitudes are
+            implausible.
         """
-        return import_module("disc_model.disc.given").read_uff(path, r_0)
+        file = import_module("disc_model.data.dataset").regular_file(path)
+        places = import_module("disc_model.disc.files.place")
+        place = places.Place.of(
+            r_0=r_0, axis=axis, centre=centre, units=units, modal_mass=modal_mass
+        )
+        disc = import_module("disc_model.disc.files.universal_file").read_uff(file, place)
+        import_module("disc_model.disc.plausibility").warn_of_disc(disc)
+        return disc
 
     @classmethod
     def from_section(  # noqa: PLR0913
@@ -337,7 +399,8 @@ class Disc(Strict):
         E, nu, rho : Pa, 1 and kg/m^3
         clamped : function that says which edges around the section are held, from the coordinates (r, z) of their
             middles, shape (2, k)
-        slider : (r, z) of the point under the slider, m; a corner of a rectangle, or a node of the mesh
+        slider : (r, z) of the point under the slider, m; a corner of a rectangle, or a node of the mesh; on the upper
+            or the lower face of the disc
         highest_Hz : modes up to this frequency are found
         damping_ratio : damping ratio of every mode
 
@@ -358,10 +421,10 @@ class Disc(Strict):
         ImplausibleValue
             If E or rho is not within a hundredth and a hundred times that of Table 1.
         """
-        given = import_module("disc_model.disc.given")
-        mesh = section if size is None else given.section(section, size)
+        sections = import_module("disc_model.disc.files.section")
+        mesh = section if size is None else sections.section(section, size)
         material = {"E": E, "nu": nu, "rho": rho, "damping_ratio": damping_ratio}
-        return given.disc_of_section(mesh, material, clamped, slider, highest_Hz)
+        return sections.disc_of_section(mesh, material, clamped, slider, highest_Hz)
 
     def __repr__(self) -> str:
         low, high = (end(self.omega) / math.tau for end in (min, max))
@@ -510,7 +573,9 @@ class Parameters(Strict):
         """Find the parameters that follow from ratios, and remember these."""
         if cls is not Parameters or not isinstance(data, dict) or not (data.keys() & RATIOS.keys()):
             return handler(data)
-        ratios, faults = {name: data[name] for name in RATIOS if name in data}, list[Fault]()
+        faults: list[Fault] = []
+        ratios = {name: data[name] for name in RATIOS if name in data}
+        ratios = in_si(ratios, "1", faults, ())
         for name, value in ratios.items():
             if RATIOS[name][0] in data:
                 faults.append(
@@ -529,6 +594,17 @@ class Parameters(Strict):
         p = handler(data)
         p.__pydantic_private__["_ratios"] = {name: float(value) for name, value in ratios.items()}
         return p
+
+    @pydantic.model_serializer(mode="wrap")
+    def _with_ratios_in_json(
+        self, handler: Any, info: pydantic.SerializationInfo
+    ) -> dict[str, Any]:
+        """In JSON, have the ratios by which the case was given, and not what follows from them."""
+        values = handler(self)
+        if info.mode != "json" or not self._ratios:
+            return values
+        follow = {RATIOS[name][0] for name in self._ratios}
+        return {name: x for name, x in values.items() if name not in follow} | self._ratios
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -719,12 +795,6 @@ def _documented() -> str:
 
 
 Parameters.__doc__ = _documented()
-_arguments = [
-    inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY) for name in Parameters.model_fields
-]
-Parameters.__signature__ = inspect.Signature(
-    [x.replace(default=DEFAULTS.get(x.name, x.empty)) for x in _arguments]
-)
 
 
 def in_words(values: Mapping[str, Any], words: Mapping[str, str] = CONTACTS) -> dict[str, Any]:

@@ -4,13 +4,26 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import inspect
 import json
 import math
 import numbers
+import operator
 import re
+import types
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any, Self, TypeGuard, get_args
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    Literal,
+    Self,
+    TypeGuard,
+    Union,
+    get_args,
+    get_origin,
+)
 
 from pydantic import (
     AfterValidator,
@@ -23,6 +36,11 @@ from pydantic import (
 )
 
 from disc_model.errors import Fault, ParameterError, faults_of, raise_faults
+
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass
+else:
+    ModelMetaclass = type(BaseModel)  # which pydantic does not make public
 
 # Least and greatest tolerance
 TOLERANCES = (1e-15, 1e-2)  # of a simulation: error of event times after a second of motion, s
@@ -54,10 +72,22 @@ UNITS: dict[str, str] = {}  # units of parameters by their names, filled by `dis
 _WITH_UNIT = re.compile(
     r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?+)\s*((?:1/)?[A-Za-zµΩ°%].*)"
 )
-_POWER = r"[A-Za-zµΩ°%]+(?:(?:\^|\*\*)-?\d)?"
+_POWER = r"[A-Za-zµΩ°%]+(?:\*\*-?\d)?"
 _UNIT = re.compile(rf"(?:1/)?{_POWER}(?:(?:\s*[*/]\s*|\s+){_POWER}){{0,5}}\s*")
 """A product of units to small powers; longer expressions could take arbitrarily long to evaluate."""
-_ANGLES = ("rad", "deg", "rev", "turn", "rpm", "rps", "cycle", "°")
+_ANGLES = ("rad", "deg", "gon", "turn", "revolution", "rpm", "rps", "cycle", "°")
+_SPELLINGS = str.maketrans(
+    {"\u03bc": "µ", "\u2126": "Ω", "·": "*", "⋅": "*", "∙": "*"}
+    | {sign: f"^{digit}" for sign, digit in zip("²³⁴⁵⁶⁷⁸⁹", "23456789", strict=True)}
+    | {"⁻": "^-", "¹": "^1"}
+)
+"""The Greek mu, the sign of the ohm, dots of products and superscripts, as the parser of units has
+them."""
+_OTHER_WORDS = {"rev": "turn", "revs": "turn", "RPM": "rpm", "Rpm": "rpm"}
+_PER_MINUTE = ("1/min", "min**-1", "1/minute", "minute**-1")  # of a speed of rotation: turns
+_MISLEADING = {"gr": "g", "grad": "deg", "ton": "t", "Nm": "N m"}
+"""Words for other units than they seem to be (grain, a hundredth of a right angle, short ton,
+nanometre), and what is meant."""
 
 
 @functools.lru_cache(maxsize=1)
@@ -67,11 +97,79 @@ def _units() -> Any:
     return pint.UnitRegistry()
 
 
+def _plain_unit(text: str) -> str:
+    """The text of a unit in the spelling of its parser: powers with **, and turns for
+    revolutions."""
+    text = text.translate(_SPELLINGS).replace("^-^", "^-").replace("**", "^").strip()
+    text = re.sub(r"(?<=[A-Za-zµΩ])(?=-?\d)", "^", text)  # kg/m3, kg m-3
+    text = re.sub(r"[A-Za-z]+", lambda word: _OTHER_WORDS.get(word[0], word[0]), text)
+    return text.replace("^", "**")
+
+
+def _converted(magnitude: float, text: str, unit: str) -> float:
+    """A number with a unit, as the number in another unit; raises ValueError, or an error of pint
+    or of Python's tokenizer, which have no common base."""
+    text, target = _plain_unit(text), "" if unit == "1" else unit
+    if not _UNIT.fullmatch(text):
+        raise ValueError("no unit")
+    if unit.startswith("rad") and not any(word in text for word in _ANGLES):
+        if text not in _PER_MINUTE:
+            raise ValueError("Hz may mean turns or radians")
+        text = "rpm"
+    if any(word in _MISLEADING for word in re.findall(r"\w+", text)):
+        raise ValueError("another unit than it seems to be")
+    return _rounded(_units().Quantity(magnitude, text), _units().Unit(target))
+
+
+def _rounded(quantity: Any, target: Any) -> float:
+    """A quantity of pint as the number in a unit, with 15 digits, so that equal decimal numbers are
+    equal in any unit; as it is in the same unit."""
+    if quantity.units == target:
+        return float(quantity.magnitude)
+    return float(f"{quantity.to(target).magnitude:.15g}")
+
+
+def is_quantity(value: object) -> bool:
+    """Whether a value is a quantity of pint."""
+    return hasattr(value, "magnitude") and hasattr(value, "units") and hasattr(value, "to")
+
+
+def _quantity_in_si(value: Any, unit: str) -> Any:
+    """A quantity of pint, or an array of them as a list, in SI; raises as `_converted`."""
+    if getattr(value.magnitude, "ndim", 0):
+        return [_quantity_in_si(part, unit) for part in value]
+    text = format(value.units, "C")
+    if unit.startswith("rad") and not any(word in text for word in _ANGLES):
+        return _converted(float(value.magnitude), text, unit)
+    return _rounded(value, value._REGISTRY.Unit("" if unit == "1" else unit))
+
+
+def _data_in_si(value: Any, text: str, unit: str) -> Any:
+    """Numbers of xarray with the text of their unit, in SI; raises as `_converted`."""
+    if text == unit == "1":
+        return value
+    if value.ndim == 0:
+        return _converted(number(value), text, unit)
+    factor = _converted(1.0, text, unit)
+    return value if factor == 1.0 else factor * value.values
+
+
+def _unit_fault(path: tuple[str, ...], value: Any, text: str, unit: str) -> Fault:
+    """The fault of a number whose unit is unknown, ambiguous or of another kind."""
+    rule = "must be a number " + (
+        "without a unit" if unit == "1" else f"in {unit}, or with a unit of its kind"
+    )
+    rule += ", such as rpm; Hz may mean turns or radians" * (unit == "rad/s")
+    meant = [_MISLEADING[word] for word in re.findall(r"\w+", text) if word in _MISLEADING]
+    rule += f", did you mean {meant[0]}?" if meant else ""
+    return Fault.of(path, value, rule)
+
+
 def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -> Any:
-    """A value with all texts within it that have a unit, such as ``"150 GPa"``, as numbers in the
-    given unit. They have 15 digits, so that equal decimal numbers are equal in any unit. A unit of
+    """A value with all texts within it that have a unit, such as ``"150 GPa"``, and all quantities
+    of pint and single numbers of xarray with a unit, as numbers in the given unit. A unit of
     another kind is a fault at its `path`."""
-    if not unit:
+    if not unit or type(value) is float:
         return value
     if isinstance(value, dict):
         units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
@@ -82,33 +180,36 @@ def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -
         return type(value)(
             in_si(part, unit, faults, (*path, str(i))) for i, part in enumerate(value)
         )
-    if not (
-        isinstance(unit, str) and isinstance(value, str) and (match := _WITH_UNIT.fullmatch(value))
-    ):
+    if not isinstance(unit, str):
         return value
+    text = ""
     try:
-        if not _UNIT.fullmatch(match[2]):
-            raise ValueError("no unit")
-        if unit.startswith("rad") and not any(word in match[2] for word in _ANGLES):
-            raise ValueError("Hz may mean turns or radians")
-        converted = (
-            _units()
-            .Quantity(float(match[1]), match[2].replace("^", "**"))
-            .to("" if unit == "1" else unit)
-        )
-        return float(f"{converted.magnitude:.15g}")
-    except Exception:  # exceptions of pint and of Python's tokenizer, which have no common base
-        rule = "must be a number " + (
-            "without a unit" if unit == "1" else f"in {unit}, or with a unit of its kind"
-        )
-        rule += ", such as rpm; Hz may mean turns or radians" * (unit == "rad/s")
-        faults.append(Fault.of(path, value, rule))
-        return value
+        if isinstance(value, str):
+            if match := _WITH_UNIT.fullmatch(value.translate(_SPELLINGS)):
+                text = match[2]
+                return _converted(float(match[1]), text, unit)
+        elif is_quantity(value):
+            text = str(value.units)
+            return _quantity_in_si(value, unit)
+        elif "units" in getattr(value, "attrs", {}):
+            text = str(value.attrs["units"])
+            return _data_in_si(value, text, unit)
+    except Exception:  # of pint and of Python's tokenizer, which have no common base
+        faults.append(_unit_fault(path, value, text, unit))
+    return value
+
+
+def _scalar(value: Any) -> Any:
+    """The single number of a numpy or xarray object without dimensions; all else as it is."""
+    if getattr(value, "ndim", None) == 0 and hasattr(value, "item") and not is_quantity(value):
+        return value.item()
+    return value
 
 
 def number(value: Any) -> Any:
-    """A number, or a text such as ``1e-3`` of YAML, as a float; raises ValueError for all else,
-    also for a bool."""
+    """A number, a text such as ``1e-3`` of YAML, or an array of one number without dimensions, as a
+    float; raises ValueError for all else, also for a bool."""
+    value = _scalar(value)
     if isinstance(value, bool) or not isinstance(value, str | int | float | numbers.Real):
         raise ValueError("must be a number")
     try:
@@ -121,17 +222,26 @@ def number(value: Any) -> Any:
 
 def whole(value: Any) -> Any:
     """A count by the rules of `number`: 4, 4.0 and "4" are the same, 4.5 is refused."""
+    value = _scalar(value)
     if not is_whole(value) and not (value := number(value)).is_integer():
         raise ValueError("must be a whole number")
     return int(value)
 
 
 def is_number(value: object) -> bool:
-    """Whether a value is a number within the range of floats; a text or a bool is not."""
+    """Whether a value is a number within the range of floats, or an array of one without
+    dimensions; a text or a bool is not."""
     # the usual types first: the test for the abstract one takes several times as long
     if isinstance(value, bool | float):
         return isinstance(value, float)
-    return isinstance(value, numbers.Real) and -LIMIT < value < LIMIT  # type: ignore[operator]
+    value = _scalar(value)
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        return False
+    try:
+        float(value)
+    except OverflowError:
+        return False
+    return True
 
 
 def is_whole(value: object) -> TypeGuard[int]:
@@ -165,7 +275,6 @@ def within(limits: tuple[float, float]) -> AfterValidator:
     return AfterValidator(must(lambda value: limits[0] <= value <= limits[1], _limits_rule(limits)))
 
 
-LIMIT = 2**1024  # above all floats but inf
 Real = Annotated[float, BeforeValidator(number)]
 Finite = Annotated[Real, Field(allow_inf_nan=False)]
 Positive = Annotated[
@@ -200,12 +309,57 @@ def _marks(model: type[BaseModel]) -> dict[str, Unit]:
     return marks
 
 
-class Strict(BaseModel):
+def plain_type(annotation: Any) -> Any:
+    """A type as a reader knows it: without validators and units."""
+    if get_origin(annotation) is Annotated:
+        return plain_type(get_args(annotation)[0])
+    parts = get_args(annotation)
+    if not parts or get_origin(annotation) is Literal:
+        return annotation
+    if isinstance(annotation, types.UnionType) or get_origin(annotation) is Union:
+        return functools.reduce(operator.or_, map(plain_type, parts))
+    if get_origin(annotation) in (tuple, list, dict):
+        return types.GenericAlias(get_origin(annotation), tuple(map(plain_type, parts)))
+    return annotation
+
+
+def plain_signature(model: type[BaseModel]) -> inspect.Signature:
+    """The arguments of a model as a reader knows them: names, plain types and defaults."""
+    arguments = []
+    for name, field in model.model_fields.items():
+        default = field.get_default(call_default_factory=True, validated_data={})
+        arguments.append(
+            inspect.Parameter(
+                name,
+                inspect.Parameter.KEYWORD_ONLY,
+                default=inspect.Parameter.empty if field.is_required() else default,
+                annotation=plain_type(field.annotation),
+            )
+        )
+    return inspect.Signature(arguments)
+
+
+class _Model(ModelMetaclass):
+    """Models of which `dir`, and so help and completion, show their own names, not pydantic's."""
+
+    def __dir__(cls) -> list[str]:
+        own = {
+            name
+            for base in cls.__mro__
+            if issubclass(base, BaseModel) and base is not BaseModel
+            for name in vars(base)
+        }
+        own -= {"model_config", "model_post_init"}
+        return sorted(name for name in own if not name.startswith("_"))
+
+
+class Strict(BaseModel, metaclass=_Model):
     """Base of all models of input: immutable, no unknown keys, numbers converted to SI. Its
     `ParameterError` lists all faults, those of parts too; rules between values are checked where
     each by itself is right."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    # JSON has no infinities: they are texts, which `number` reads
+    model_config = ConfigDict(frozen=True, extra="forbid", ser_json_inf_nan="strings")
 
     if not TYPE_CHECKING:  # type checkers have the fields from pydantic
 
@@ -214,6 +368,11 @@ class Strict(BaseModel):
                 super().__init__(**data)
             except ValidationError as error:
                 raise ParameterError(*faults_of(error, data, type(self))) from None
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: Any) -> None:
+        super().__pydantic_init_subclass__(**kwargs)
+        cls.__signature__ = plain_signature(cls)
 
     @model_validator(mode="wrap")
     @classmethod
@@ -245,9 +404,25 @@ class Strict(BaseModel):
         except ValidationError as error:
             raise ParameterError(*faults_of(error, obj, cls)) from None
 
+    @classmethod
+    def model_validate_json(cls, json_data: str | bytes | bytearray, **kwargs: Any) -> Self:
+        """The model from the JSON that `model_dump_json` writes."""
+        try:
+            return super().model_validate_json(json_data, **kwargs)
+        except ValidationError as error:
+            raise ParameterError(*faults_of(error, _parsed(json_data), cls)) from None
+
     def replace(self, **changes: Any) -> Self:
         """A validated copy with some values changed."""
         return type(self)(**{**dict(self), **changes})
+
+
+def _parsed(text: str | bytes | bytearray) -> Any:
+    """What a JSON text holds, of whatever kind; None if it is no JSON."""
+    try:
+        return json.loads(text)
+    except (ValueError, RecursionError):
+        return None
 
 
 def given_values(model: Strict) -> dict[str, Any]:

@@ -1,63 +1,95 @@
 """Methods whose errors and costs are laid down, and what a benchmark makes of them."""
 
 import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import answers, figures, scenes, work_precision
-from disc_model.benchmarks.answers import AnswerStatus, Reply
+from disc_model.benchmarks import answers, figures, own_answers, scenes, work_precision
 from disc_model.benchmarks.methods import METHODS, SCENES, Method
-from disc_model.benchmarks.methods.integrators import MethodResult, RunStatus
+from disc_model.benchmarks.methods.integrators import MethodResult, Problem, RunStatus
+from disc_model.benchmarks.questions import AnswerStatus, Replies, Reply
 from disc_model.benchmarks.scenes import answer
 
 SET_UP = 1e-4
 """s that every run of a `Known` method takes, however long the motion."""
 
 
+@dataclass
 class Known:
-    """A method whose error is ``error`` (value) seconds at every event, and which takes ``cost``
-    (value) seconds.
+    """A method whose error and cost are known.
 
-    Of these ``glue`` is the share of Python.
+    Attributes
+    ----------
+    like : name of the method that it stands for
+    error : error of every event, s, by the setting
+    cost : time of a scene, s, by the setting
+    outcome : how its runs end
+    glue : share of Python in its time
+    tried : settings that were run
     """
 
-    def __init__(self, like: str, error, cost, outcome=RunStatus.FINISHED, glue=math.nan) -> None:
-        own = METHODS[like]
-        self.name, self.label, self.setting = own.name, own.label, own.setting
-        self.error, self.cost, self.outcome, self.glue = error, cost, outcome, glue
-        self.tried: list[float] = []
+    like: str
+    error: Callable[[float], float]
+    cost: Callable[[float], float]
+    outcome: RunStatus = RunStatus.FINISHED
+    glue: float = math.nan
+    tried: list[float] = field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        return self.like
+
+    @property
+    def label(self) -> str:
+        return DECLARED[self.like].label
+
+    @property
+    def setting(self) -> str:
+        return DECLARED[self.like].setting
 
     def absent(self) -> list[str]:
         return []
 
-    def solve(self, problem, value, budget):
+    def solve(self, problem: Problem, value: float, budget: float) -> MethodResult:
         self.tried.append(value)
-        name = next(name for name in SCENES if scenes.problem(name).start is problem.start)
-        times_longer = problem.span / scenes.problem(name).span
-        right, off = answer(name), self.error(value)
-        kinds = right.kinds if off < 1e-2 else ("slip_reversal",) * len(right.kinds)
-        times = (right.times[: len(kinds)] + off).astype(float)
-        final = right.final.replace(psi=right.final.psi * (1 + off), f=right.final.f * (1 + off))
-        work = round(1 / value) if self.setting == "step" else 1000
+        scene = next(name for name in SCENES if scenes.problem(name).start is problem.start)
+        right = answer(scene)
+        off = self.error(value)
+        kinds = right.kinds
+        if off >= 1e-2:
+            kinds = ("slip_reversal",) * len(right.kinds)
+        times_longer = problem.span / scenes.problem(scene).span
         seconds = SET_UP + times_longer * (self.cost(value) - SET_UP)
         return MethodResult(
-            times, kinds, final, seconds, work, self.outcome, glue=self.glue * seconds
+            times=(right.times + off).astype(float),
+            kinds=kinds,
+            final=right.final.replace(psi=right.final.psi * (1 + off), f=right.final.f * (1 + off)),
+            seconds=seconds,
+            work=round(1 / value) if self.setting == "step" else 1000,
+            outcome=self.outcome,
+            glue=self.glue * seconds,
         )
+
+
+DECLARED = dict(METHODS)
+"""The methods themselves, in whose place tests put known ones."""
 
 
 @pytest.fixture
 def known(monkeypatch: pytest.MonkeyPatch) -> dict[str, Known]:
-    methods = {
-        "series": Known("series", lambda tol: 0.5 * tol, lambda tol: 1e-3 - 1e-5 * math.log10(tol)),
-        "RK4": Known("RK4", lambda h: 1e8 * h**4, lambda h: 1e-5 / h, glue=0.25),
-        "Radau": Known("Radau", lambda tol: 1.0, lambda tol: 0.2),
-        "regularised": Known("regularised", lambda e: 1e-4, lambda e: 100.0, RunStatus.TOO_SLOW),
-    }
-    for name, method in methods.items():
-        monkeypatch.setitem(METHODS, name, method)
-    return methods
+    methods = [
+        Known("series", lambda tol: 0.5 * tol, lambda tol: 1e-3 - 1e-5 * math.log10(tol)),
+        Known("RK4", lambda h: 1e8 * h**4, lambda h: 1e-5 / h, glue=0.25),
+        Known("Radau", lambda tol: 1.0, lambda tol: 0.2),
+        Known("regularised", lambda e: 1e-4, lambda e: 100.0, RunStatus.TOO_SLOW),
+    ]
+    for method in methods:
+        monkeypatch.setitem(METHODS, method.name, method)
+    return {method.name: method for method in methods}
 
 
 SETTINGS = {
@@ -76,15 +108,22 @@ def dataset(known: dict[str, Known]) -> xr.Dataset:
 
 
 class Late(Method):
-    """Finds the first separation late by its tolerance, and none at a coarse one; the finest takes
-    too long."""
+    """Finds the first separation late by its tolerance, and none at a coarse one.
 
-    def solve(self, problem, value, budget=math.inf):
-        times = [54.4 + value, 54.9] if 1e-5 < value < 0.5 else []
-        outcome = RunStatus.FINISHED if value > 1e-5 else RunStatus.TOO_SLOW
-        seconds = 2.0 if value > 1e-3 else 3.0
+    The finest takes too long.
+    """
+
+    def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
+        times = []
+        if 1e-5 < value < 0.5:
+            times = [54.4 + value, 54.9]
         return MethodResult(
-            np.array(times), ("separation",) * len(times), problem.start, seconds, 1, outcome
+            times=np.array(times),
+            kinds=("separation",) * len(times),
+            final=problem.start,
+            seconds=2.0 if value > 1e-3 else 3.0,
+            work=1,
+            outcome=RunStatus.FINISHED if value > 1e-5 else RunStatus.TOO_SLOW,
         )
 
 
@@ -96,28 +135,35 @@ def late(monkeypatch: pytest.MonkeyPatch) -> Method:
     return method
 
 
+def ask_model(model: dict[str, int]) -> Replies:
+    """Reply with a first separation that comes later with more modes, and never without pairs."""
+    count = model["n_diameters"]
+    reply = Reply(math.nan, 0.1, AnswerStatus.NONE)
+    if count:
+        reply = Reply(51.0 + (8 - count) / 80, 0.1, AnswerStatus.FOUND)
+    return {"first_separation": reply}
+
+
+def ask_cycle(model: dict[str, int], tol: float) -> Replies:
+    """Reply with an onset that is off by the tolerance, and without a growth rate."""
+    seconds = 1e-4 / tol**0.1
+    return {
+        "onset": Reply(15.09 + tol, seconds, AnswerStatus.FOUND),
+        "growth_rate": Reply(math.nan, seconds, AnswerStatus.NONE, "no cycle"),
+    }
+
+
 @pytest.fixture
 def priced(late: Method, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
-    """Costs of answers: of `Late`, of the cycle itself and of models with other modes, which are
-    all laid down."""
-
-    def ask(model):
-        count = model["n_diameters"]
-        status = AnswerStatus.FOUND if count else AnswerStatus.NONE
-        return {
-            "first_separation": Reply(51.0 + (8 - count) / 80 if count else math.nan, 0.1, status)
-        }
-
-    def ask_cycle(model, tol):
-        onset, none = Reply(15.09 + tol, 1e-4 / tol**0.1, AnswerStatus.FOUND), AnswerStatus.NONE
-        return {"onset": onset, "growth_rate": Reply(math.nan, 1e-4 / tol**0.1, none, "no cycle")}
-
-    monkeypatch.setattr(answers, "ask_model", ask)
-    monkeypatch.setattr(answers, "ask_cycle", ask_cycle)
-    monkeypatch.setattr(answers, "_richest", lambda: ask({"n_diameters": 8}))
+    """Costs of answers of `Late`, of the cycle itself and of models, which are all laid down."""
+    monkeypatch.setattr(own_answers, "ask_model", ask_model)
+    monkeypatch.setattr(own_answers, "ask_cycle", ask_cycle)
+    monkeypatch.setattr(own_answers, "richest", lambda: ask_model({"n_diameters": 8}))
     monkeypatch.setattr(answers, "CONTACTS", {"rigid": {}})
+    settings = (1.0, 0.3, 1e-2, 1e-4, 1e-6, 1e-7)
     parts = [
-        answers.answers(late.name, (1.0, 0.3, 1e-2, 1e-4, 1e-6, 1e-7), asked=("first_separation",))
+        answers.answers(late.name, settings, asked=("first_separation",)),
+        answers.answers("cycle"),
+        answers.answers("models", models=(0, 4, 8)),
     ]
-    parts += [answers.answers("cycle"), answers.answers("models", models=(0, 4, 8))]
     return xr.concat(parts, "row", combine_attrs="override")

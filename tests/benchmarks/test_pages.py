@@ -3,6 +3,7 @@
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 import xarray as xr
@@ -24,28 +25,45 @@ def test_every_number_on_speed_is_of_the_one_stored_run() -> None:
     assert named == known.keys()
 
 
-def test_what_a_run_on_speed_comes_to(dataset: xr.Dataset, priced: xr.Dataset) -> None:
-    """A quarter of the costs of conftest's RK4 is Python; natively, the engine is given half of its
-    costs."""
-    heyoka = dataset.assign_coords(
-        solver=[{"RK4": "heyoka"}.get(name, name) for name in dataset["solver"].values]
-    )
+@pytest.fixture
+def heyoka(dataset: xr.Dataset) -> xr.Dataset:
+    """Speed against accuracy, with RK4 as heyoka; a quarter of its costs is Python."""
+    solvers = dataset["solver"].values
+    names = ["heyoka" if name == "RK4" else name for name in solvers]
+    return dataset.assign_coords(solver=names)
+
+
+@pytest.fixture
+def run(heyoka: xr.Dataset, priced: xr.Dataset) -> dict[str, Any]:
+    """Numbers of a run in which the engine takes half of its costs if compiled natively."""
     fast = heyoka.copy(deep=True)
     fast["marginal_cost"].loc[{"solver": "series"}] *= 0.5
-    run = pages.speed_numbers(fast, heyoka, priced)
+    return pages.speed_numbers(fast, heyoka, priced)
+
+
+def test_a_run_on_speed_is_stored_as_json(run: dict[str, Any]) -> None:
     assert json.loads(json.dumps(run)) == run
-    # of conftest's methods, whose costs are laid down: 1 ms a further second at the default
+
+
+def test_a_run_on_speed_has_the_costs_that_are_laid_down(run: dict[str, Any]) -> None:
+    """The engine takes 1 ms a further second at the default."""
     assert run["own"] == [{"letter": "a", "ms": pytest.approx(0.5), "error": pytest.approx(5e-11)}]
     assert run["narrow"][0]["ms"] == pytest.approx(1.0)
     assert run["glue"] == [{"letter": letter, "share": pytest.approx(25.0)} for letter in "ab"]
-    assert run["costs"]["heyoka"]["(a), times"] == pytest.approx(2 * run["narrowly"][0]["times"])
+    narrowly = run["narrowly"][0]["times"]
+    assert run["costs"]["heyoka"]["(a), times"] == pytest.approx(2 * narrowly)
     assert run["cycle"] == []  # conftest's cycle has no growth rate
-    text = "".join(
-        pages.passages(run | {"cycle": [{"ms": 1.23}], "scaling": SPEED["scaling"]}).values()
-    )
+
+
+def test_passages_say_the_numbers_of_a_run(run: dict[str, Any]) -> None:
+    numbers = {**run, "cycle": [{"ms": 1.23}], "scaling": SPEED["scaling"]}
+    text = "".join(pages.passages(numbers).values())
     assert "1.2 ms" in text
     assert "| heyoka | 630 | - |" in text
     assert "Of heyoka's time, 25 % for (a) and 25 % for (b) is spent in Python" in text
     assert "only, the package takes 1 ms for (a). heyoka, which" in text
+
+
+def test_datasets_of_two_machines_make_no_run(dataset: xr.Dataset, priced: xr.Dataset) -> None:
     with pytest.raises(DiscModelError, match="another machine"):
         pages.speed_numbers(dataset, dataset, priced.assign_attrs(machine="another machine"))

@@ -101,6 +101,32 @@ def test_a_failed_case_is_a_status_in_the_table(tree: xr.DataTree, tmp_path: Pat
     ]
 
 
+def test_parameters_that_do_not_count_have_no_number_in_a_file(tmp_path: Path) -> None:
+    """D_star was 1e-5 beside the damping ratio that replaces it, and an absent ratio a text."""
+    damped = P.replace(
+        damping_ratio=1e-3, normalization="orthonormal", contact_force="normal", contact="bilateral"
+    )
+    disc = P.replace(disc=Disc(diameters=[0], omega=[9000], amplitude=[2]))
+    found = {}
+    for name, p in {"paper": P, "damped": damped, "given": disc}.items():
+        spec = CaseSpec(parameters=p, t_end=0.01)
+        save(run_case(spec), tmp_path / f"{name}.nc")
+        found[name] = load(tmp_path / f"{name}.nc")
+    assert found["paper"]["D_star"] == 1e-5
+    assert np.isnan(found["paper"]["damping_ratio"])
+    assert np.isnan(found["damped"]["D_star"])
+    assert found["damped"]["damping_ratio"] == 1e-3
+    assert np.isnan([found["given"][name] for name in ("D_star", "E", "a", "b", "h", "nu")]).all()
+    assert found["given"]["m"] == P.m
+    for name, word in (
+        ("normalization", "orthonormal"), ("contact_force", "normal"), ("contact", "bilateral"),
+    ):  # fmt: skip
+        assert found["damped"][name].dtype == np.int8
+        assert flag_names(found["damped"][name]) == word
+    table = merge_cases(found, {}).to_dataset()
+    np.testing.assert_array_equal(table["damping_ratio"], [np.nan, 1e-3, np.nan])
+
+
 HISTORY = np.sin(np.arange(3000.0))
 TREE = xr.DataTree.from_dict(
     {"/history": xr.Dataset(dict.fromkeys(("P", "history"), ("time", HISTORY)))}

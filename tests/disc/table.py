@@ -3,9 +3,9 @@
 import numpy as np
 
 from disc_model import Disc, Parameters
+from disc_model.disc.files.table import table_text
 from disc_model.disc.flexibility import residual_flexibility
-from disc_model.disc.given import damping_ratios, table_text
-from disc_model.disc.plate import mode_arrays, tangential_amplitudes
+from disc_model.disc.plate import damping_ratios, mode_arrays, tangential_amplitudes
 
 
 def disc_table(p: Parameters) -> str:

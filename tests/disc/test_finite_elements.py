@@ -100,10 +100,20 @@ def test_what_cannot_be_found_is_said(change: dict[str, Any], phrase: str) -> No
     assert phrase in str(error.value)
 
 
+def test_a_slider_on_the_lower_face_sees_what_one_on_the_upper_face_sees() -> None:
+    """A ring is the same from both sides; the tangential amplitude of the lower face had the other
+    sign."""
+    upper, lower = (ring_by_elements(slider=(0.1, side * 0.005)) for side in (1, -1))
+    assert upper.diameters == lower.diameters
+    assert max(map(abs, upper.tangential)) > 0.1
+    for name in ("omega", "amplitude", "tangential"):
+        np.testing.assert_allclose(getattr(lower, name), getattr(upper, name), rtol=1e-6, atol=1e-9)
+
+
 def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The table, the section and the case of the page, as they stand there."""
     text = PAGE.read_text(encoding="utf-8")
-    table, first, drawing, _ = re.findall(r"```(?:text|python)\n(.*?)```", text, re.DOTALL)
+    table, first, drawing, *_ = re.findall(r"```(?:text|python)\n(.*?)```", text, re.DOTALL)
     monkeypatch.chdir(tmp_path)
     Path("disc.csv").write_text(table)
     phrase: dict[str, object] = {}

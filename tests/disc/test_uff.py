@@ -1,5 +1,8 @@
-"""Mode shapes of universal files: those of the plate, written and read back."""
+"""Mode shapes of universal files: a disc whose modes are known, written in many dialects and read
+back."""
 
+import warnings
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -9,77 +12,547 @@ import pytest
 import disc_model as dm
 from disc_model.disc.plate import mode_shapes
 from tests import needs
+from tests.disc.bricks import Ring, brick_modes, export
+from tests.disc.universal import END, MODES, R_0, RADII, Dialect, Half, begin, halves, whole
+from tests.test_cli import Command
 
-pytestmark = needs.UNIVERSAL_FILES.mark
-
-P = dm.Parameters(N=0, Omega=0, normalization="orthonormal")
-RADII, ANGLES = np.array([0.06, 0.08, 0.1, 0.12]), np.arange(24) * np.pi / 12
-R, ANGLE = (grid.ravel() for grid in np.meshgrid(RADII, ANGLES, indexing="ij"))
-MASS = 2.5
+RECORDS = ((55, 15), (55, 2411), (2414, 15), (2414, 2411))
+DIGITS = 2e-5  # a file has six digits, and its coordinates as well
 
 
-def written(path: Path, **changes: Any) -> Path:
-    """A universal file of the plate, both halves of each pair turned by 0.3 rad, and a mode in the
-    disc's plane."""
-    import pyuff
+def read(path: Path, dialect: Dialect, modes: Sequence[Half] = (), **how: Any) -> dm.Disc:
+    """The disc of a file in a dialect."""
+    file = dialect.write(path / "modes.unv", modes or halves(MODES))
+    return dm.Disc.from_uff(file, **{"r_0": R_0} | how)
 
-    file = pyuff.UFF(str(path))
-    numbers = np.arange(1, R.size + 1)
-    nodes = {
-        "type": 15,
-        "node_nums": numbers,
-        "x": R * np.cos(ANGLE),
-        "y": R * np.sin(ANGLE),
-        "z": 0 * R,
+
+def assert_right(disc: dm.Disc, tangential: bool = True) -> None:
+    """That a disc has the known modes."""
+    diameters, frequencies, amplitudes, along = zip(*MODES, strict=True)
+    assert disc.diameters == diameters
+    np.testing.assert_allclose(np.array(disc.omega) / (2 * np.pi), frequencies, rtol=DIGITS)
+    np.testing.assert_allclose(disc.amplitude, amplitudes, rtol=DIGITS)
+    np.testing.assert_allclose(disc.damping_ratio, 2e-3, rtol=DIGITS)
+    np.testing.assert_allclose(disc.radii, RADII, rtol=DIGITS)
+    growth = (np.array(RADII) / R_0) ** 2
+    np.testing.assert_allclose(disc.shapes, np.outer(amplitudes, growth), rtol=5 * DIGITS)
+    if tangential:
+        np.testing.assert_allclose(disc.tangential, along, atol=DIGITS)
+    else:
+        assert disc.tangential == ()
+
+
+@pytest.fixture(autouse=True)
+def _strict() -> Any:
+    """A warning that no test expects is an error."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", dm.ImplausibleValue)
+        yield
+
+
+@pytest.mark.parametrize(("results", "nodes"), RECORDS)
+@pytest.mark.parametrize(
+    "change",
+    [
+        {},
+        {"exponent": "D"},
+        {"values": 6},
+        {"newline": "\r\n"},
+        {"hysteretic": True},
+        {"scale": 2.5},
+        {"order": 1, "scale": 1.7},
+        {"order": 2},
+        {"complex": 3, "order": 1, "scale": np.exp(0.4j)},
+        {"complex": 3, "order": 2},
+        {"complex": 3, "values": 6, "scale": 3 * np.exp(2j)},
+        {"complex": 3, "exponent": "D", "modal_b": True, "scale": 6.2831},
+        {"heights": (-0.006, 0.006)},
+    ],
+    ids=str,
+)
+def test_every_dialect_gives_the_same_disc(
+    results: int, nodes: int, change: dict[str, Any], tmp_path: Path
+) -> None:
+    assert_right(read(tmp_path, Dialect(results=results, nodes=nodes, **change)))
+
+
+@pytest.mark.parametrize("results", [55, 2414])
+@pytest.mark.parametrize("analysis", [3, 7])
+@pytest.mark.parametrize("phase", [0.0, 0.5, np.pi / 3, np.pi / 2, np.pi, -2.0])
+def test_the_scale_of_a_complex_mode_does_not_matter(
+    results: int, analysis: int, phase: float, tmp_path: Path
+) -> None:
+    """The receptance is the same in all of them; unit modal A is the phase of -90 degrees."""
+    for size in (1.0, 1e-5):
+        dialect = Dialect(results=results, complex=analysis, scale=size * np.exp(1j * phase))
+        assert_right(read(tmp_path, dialect))
+
+
+def test_a_modal_mass_in_the_place_of_modal_a_is_noticed(tmp_path: Path) -> None:
+    """Dataset 2414 has it there for equations of the second order; the shapes are then in phase."""
+    for phase in (0.0, 1.0):
+        dialect = Dialect(results=2414, complex=7, mass=True, scale=2 * np.exp(1j * phase))
+        assert_right(read(tmp_path, dialect))
+
+
+@pytest.mark.parametrize(
+    ("length", "force"), [(1e3, 1e3), (1e3, 1.0), (39.37007874, 0.2248089431), (1.0, 1e-3)]
+)
+@pytest.mark.parametrize("analysis", [0, 3])
+def test_units_are_those_of_the_file(
+    length: float, force: float, analysis: int, tmp_path: Path
+) -> None:
+    dialect = Dialect(length=length, force=force, units=True, complex=analysis)
+    assert_right(read(tmp_path, dialect, r_0="100 mm"))
+
+
+def test_a_code_of_units_stands_for_its_factors(tmp_path: Path) -> None:
+    """Millimetres and milli-newtons, code 5, in a file that leaves the factors out."""
+    file = Dialect(length=1e3, force=1e3).write(tmp_path / "modes.unv", halves(MODES))
+    text = file.read_text()
+    millimetres = "\n".join([*begin(164), whole(5) + "mm (milli-newton)   " + whole(2), END, ""])
+    file.write_text(millimetres + text)
+    assert_right(dm.Disc.from_uff(file, R_0))
+    metres = millimetres.replace("         5mm", "         1mm")
+    file.write_text(metres + millimetres + text)
+    with pytest.raises(dm.ParameterError, match="must have one system of units"):
+        dm.Disc.from_uff(file, R_0)
+    file.write_text(millimetres.replace("         5mm", "        77mm") + text)
+    with pytest.raises(dm.ParameterError, match="must have the factors of its units, or a code"):
+        dm.Disc.from_uff(file, R_0)
+
+
+def test_units_may_be_stated_where_the_file_has_none(tmp_path: Path) -> None:
+    dialect = Dialect(length=1e3, force=1.0)
+    assert_right(read(tmp_path, dialect, units=("mm", "N")))
+    with pytest.raises(dm.ParameterError, match=r"nodes at 80, 100, 130 m"):
+        read(tmp_path, dialect)
+    rule = "units=.*: must be left out: the file states its units in dataset 164"
+    with pytest.raises(dm.ParameterError, match=rule):
+        read(tmp_path, Dialect(units=True), units=("mm", "N"))
+
+
+@pytest.mark.parametrize(
+    "axis", [(1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, -1), (1, -2, 3)], ids=str
+)
+@pytest.mark.parametrize("centre", [(0, 0, 0), (0.001, -0.002, 0), (0.1, 0.2, -0.3)], ids=str)
+def test_axis_and_centre_are_found_or_given(
+    axis: tuple[float, ...], centre: tuple[float, ...], tmp_path: Path
+) -> None:
+    dialect = Dialect(axis=axis, centre=centre, nodes=2411)
+    assert_right(read(tmp_path, dialect))
+    assert_right(read(tmp_path, dialect, axis=axis, centre=centre))
+    assert_right(read(tmp_path, dialect, centre=[f"{1e3 * x} mm" for x in centre]))
+    by_word = {(1, 0, 0): "x", (0, 1, 0): "y", (0, -1, 0): "-Y", (0, 0, -1): "-z"}
+    if axis in by_word:
+        assert_right(read(tmp_path, dialect, axis=by_word[axis]))
+
+
+def test_the_axis_points_to_the_face_under_the_slider(tmp_path: Path) -> None:
+    """Both faces of a plate move alike, seen from outside."""
+    both = Dialect(heights=(-0.006, 0.006))
+    assert_right(read(tmp_path, both, axis="-z"))
+    assert "height 0.006 m" in str(read(tmp_path, both, axis="-z").report)
+    one = Dialect(axis=(0, 0, -1))
+    with pytest.warns(dm.ImplausibleValue, match="moves as that of a face away from the slider"):
+        disc = read(tmp_path, one, axis="z")
+    assert disc.tangential[0] == pytest.approx(-MODES[0][3], rel=DIGITS)
+
+
+@pytest.mark.parametrize("arc", [1.5 * np.pi, np.pi])
+def test_nodes_on_part_of_the_circle_suffice(arc: float, tmp_path: Path) -> None:
+    assert_right(read(tmp_path, Dialect(arc=arc, centre=(0.03, -0.01, 0))))
+
+
+def test_displacements_in_cylindrical_systems_are_turned(tmp_path: Path) -> None:
+    """Whether displacements are global, as the format has them, or in the systems of nodes, is
+    decided by what makes waves of them."""
+    for axis in ((0, 0, 1), (1, 0, 0), (1, 2, -3)):
+        dialect = Dialect(local=True, axis=axis, centre=(0.1, 0, 0.2), units=True, length=1e3)
+        disc = read(tmp_path, dialect)
+        assert_right(disc)
+        assert "displacements in systems of nodes" in str(disc.report)
+    plain = Dialect(extra=Dialect(local=True).system_lines())
+    assert_right(read(tmp_path, plain))
+
+
+@pytest.mark.parametrize("number", [18, 2420])
+def test_nodes_in_systems_of_definition_are_placed(number: int, tmp_path: Path) -> None:
+    """Dataset 15 has coordinates in them: here cylindrical, with angles in degrees."""
+    dialect = Dialect(axial_only=True)
+    file = dialect.write(tmp_path / "modes.unv", halves(MODES))
+    r, angle, height = dialect.grid()
+    nodes = begin(15)
+    for i, place in enumerate(zip(r, np.degrees(angle), height, strict=True), 1):
+        nodes.append(whole(i, 5, 0, 8) + dialect.real(*place))
+    system = [*begin(18), whole(5, 1, 0, 8, 1), "disc"]
+    system += [dialect.real(0, 0, 0, 2, 0, 0), dialect.real(1, 0, 1)]
+    if number == 2420:
+        rows = [dialect.real(*row, width=25, digits=16) for row in [*np.eye(3), np.zeros(3)]]
+        system = [*begin(2420), whole(1), "Part", whole(5, 1, 8), "disc", *rows]
+    old = "\n".join(dialect.node_lines(r, angle, height))
+    text = file.read_text().replace(old, "\n".join([*system, END, *nodes, END]))
+    file.write_text(text)
+    assert_right(dm.Disc.from_uff(file, R_0), tangential=False)
+
+
+def test_only_modes_of_displacement_are_taken_and_the_rest_is_counted(tmp_path: Path) -> None:
+    """Stress, scalars, values on elements, and other analyses beside the modes."""
+    dialect = Dialect()
+    motion = np.full((4, 3), 0.7)
+    extra: list[str] = []
+    changes = {
+        (1, 2, 4, 2, 2, 6): "stress of a normal mode",
+        (1, 2, 1, 8, 2, 1): "normal mode without three displacements a node",
+        (1, 1, 2, 8, 2, 3): "static analysis",
+        (1, 4, 2, 8, 2, 3): "transient analysis",
+        (1, 5, 2, 8, 5, 3): "frequency response or deflection shape",
+        (1, 6, 2, 8, 2, 3): "buckling",
+        (1, 0, 2, 8, 2, 3): "unknown analysis",
     }
-    plain = dict.fromkeys(("def_cs", "disp_cs", "color"), 0 * numbers)
-    file.write_sets(nodes | plain, "overwrite")
-    modes, shapes = dm.plate_modes(P), mode_shapes(P, RADII)
-    moves = []
-    for l, omega, shape in zip(modes["diameters"], modes["omega"], shapes, strict=True):
-        for half in range(1 + (l > 0)):
-            wave = np.cos(l * (ANGLE - 0.3) + half * np.pi / 2)
-            # the halves of a pair differ a little in frequency, as in a test
-            moves.append((omega * (1 + 0.01 * half), np.repeat(shape, ANGLES.size) * wave))
-    moves.append((5000.0, 1e-6 * np.random.default_rng(1).standard_normal(R.size)))
-    for i, (omega, z) in enumerate(moves):
-        data = {
-            "type": 55, "model_type": 1, "analysis_type": 2, "data_ch": 2, "spec_data_type": 8, "data_type": 2,
-            "n_data_per_node": 3, "load_case": 0, "mode_n": i + 1, "freq": omega / (2 * np.pi), "modal_m": MASS,
-            "modal_damp_vis": 0.01, "modal_damp_his": 0.0, "node_nums": numbers, "r1": 0 * z, "r2": 0 * z,
-            "r3": -np.sqrt(MASS) * z,
-        }  # fmt: skip
-        file.write_sets(data | changes, "add")
+    for head in changes:
+        lines = dialect.mode_lines(1, halves(MODES)[0], motion)
+        lines[7] = whole(*head)
+        extra += lines
+    on_elements = Dialect(results=2414).mode_lines(1, halves(MODES)[0], motion)
+    on_elements[4] = whole(2)
+    rigid = dialect.mode_lines(1, Half(0, 0.0, 0.0, 1.0, 0.0), motion)
+    disc = read(tmp_path, Dialect(extra=[*extra, *on_elements, *rigid]))
+    assert_right(disc)
+    assert disc.report is not None
+    assert disc.report.left_out == {
+        **dict.fromkeys(changes.values(), 1),
+        "normal mode on elements": 1,
+        "mode at 0 Hz or without oscillation": 1,
+    }
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-4])
+def test_modes_in_the_plane_are_left_out(size: float, tmp_path: Path) -> None:
+    """A pair of them, whose normal motion is nothing or next to nothing."""
+    pair = halves([(2, 1800.0, size, 0.9)], split=5e-4)
+    disc = read(tmp_path, Dialect(), [*halves(MODES), *pair])
+    assert_right(disc)
+    assert disc.report is not None
+    assert disc.report.left_out == {"mode in the plane of the disc": 2}
+
+
+def test_motion_that_follows_no_diameters_is_left_out(tmp_path: Path) -> None:
+    noise = np.random.default_rng(1).standard_normal((72, 3)) * 1e-6
+    lines = Dialect().mode_lines(9, Half(0, 5000.0, 0.0, 1.0, 0.0), noise * [0, 0, 1])
+    disc = read(tmp_path, Dialect(axial_only=True, extra=lines))
+    assert_right(disc, tangential=False)
+    assert disc.report is not None
+    assert sum(disc.report.left_out.values()) == 1
+
+
+def test_a_mode_that_is_there_several_times_is_one(tmp_path: Path) -> None:
+    """As conjugate modes, for several references, and in other combinations of both halves."""
+    known = halves(MODES)
+    assert_right(read(tmp_path, Dialect(complex=3), [*known, *known]))
+    lines = Dialect(complex=3, conjugate=True).all_mode_lines(known)
+    assert_right(read(tmp_path, Dialect(complex=3, extra=lines)))
+    turned = [
+        Half(**{**vars(half), "turn": half.turn + 0.6 * (half.diameters > 0)}) for half in known
+    ]
+    disc = read(tmp_path, Dialect(), [*known, *turned])
+    assert_right(disc)
+    assert disc.report is not None
+    assert [mode.shapes for mode in disc.report.modes] == [4, 2, 4, 4]
+
+
+def test_the_split_of_a_pair_is_reported(tmp_path: Path) -> None:
+    disc = read(tmp_path, Dialect(), halves(MODES, split=0.03))
+    assert_right(disc)
+    assert disc.report is not None
+    np.testing.assert_allclose(disc.report.split, [0.03, 0, 0.03, 0.03], rtol=1e-3)
+    with pytest.warns(dm.ImplausibleValue, match=r"modes of 2 nodal diameters .* kept as two"):
+        apart = read(tmp_path, Dialect(), halves(MODES[1:3], split=0.06))
+    assert apart.diameters == (0, 2, 2)
+
+
+def test_poles_in_hertz_are_noticed(tmp_path: Path) -> None:
+    """By modal B, by frequencies in the texts, or by modal masses of 2 pi."""
+    ways: list[dict[str, Any]] = [
+        {},
+        {"scale": 1.7, "modal_b": True},
+        {"scale": 1.7, "texts": "Mode, Frequency: {pole:.3f} Hz"},
+    ]
+    for way in ways:
+        with pytest.warns(dm.ImplausibleValue, match="are taken to be in Hz"):
+            assert_right(read(tmp_path, Dialect(complex=3, in_hertz=True, **way)))
+    two_pi = {"complex": 3, "scale": 2 * np.pi}
+    assert_right(read(tmp_path, Dialect(**two_pi, modal_b=True)))
+    assert_right(read(tmp_path, Dialect(complex=3, texts="F = {pole:.2f} rad/s")))
+
+
+def test_shapes_without_a_scale_are_refused_or_taken_as_normalised(tmp_path: Path) -> None:
+    for analysis, name in ((0, "modal mass=0: must be > 0"), (3, "modal A=0: must not be 0")):
+        dialect = Dialect(complex=analysis, stated=False)
+        with pytest.raises(dm.ParameterError, match=rf"{name} .*modal_mass=1"):
+            read(tmp_path, dialect)
+        assert_right(read(tmp_path, dialect, modal_mass=1))
+        assert_right(read(tmp_path, Dialect(complex=analysis), modal_mass=7))
+
+
+def test_shapes_that_are_not_in_phase_are_left_out(tmp_path: Path) -> None:
+    """A modal A of the wrong sign would mean a negative modal mass; a phase of 0.3 rad is that of a
+    slightly complex mode, and the report has it."""
+    with pytest.raises(
+        dm.ParameterError, match=r"7 x mode whose motion is not in phase by its modal A"
+    ):
+        read(tmp_path, Dialect(complex=3, turned_by=np.pi / 2))
+    disc = read(tmp_path, Dialect(complex=3, turned_by=0.3))
+    np.testing.assert_allclose(
+        disc.amplitude, np.cos(0.3) * np.array([m[2] for m in MODES]), rtol=DIGITS
+    )
+    assert disc.report is not None
+    np.testing.assert_allclose(
+        [m.in_phase for m in disc.report.modes], np.cos(0.3) ** 2, rtol=DIGITS
+    )
+
+
+def test_a_disc_that_grows_by_itself_is_refused(tmp_path: Path) -> None:
+    for analysis in (0, 3):
+        dialect = Dialect(complex=analysis)
+        with pytest.raises(
+            dm.ParameterError, match=r"has a pole with a positive real part, the mode at"
+        ):
+            read(tmp_path, dialect, halves(MODES, damping=-1e-3))
+
+
+def test_nodes_that_are_too_few_are_told(tmp_path: Path) -> None:
+    """Six nodes cannot have three nodal diameters."""
+    with pytest.warns(dm.ImplausibleValue, match=r"modes at 1919, 1921 Hz, .* are left out"):
+        disc = read(tmp_path, Dialect(angles=6))
+    assert disc.diameters == (1, 0, 2)
+    known = halves(MODES[:3])
+    with pytest.warns(dm.ImplausibleValue, match=r"modes of more may be taken for modes of fewer"):
+        read(tmp_path, Dialect(angles=6), known)
+
+
+@pytest.mark.parametrize(
+    ("change", "how", "phrase"),
+    [
+        ({"arc": np.pi / 2}, {}, "has 24 on 86 degrees of it (axis z through (0, 0, 0) m)"),
+        ({}, {"r_0": 0.09}, "at r_0=0.09 m. Around the axis z through (0, 0, 0) m there are nodes"),
+        ({}, {"r_0": 0.09}, "nodes at 0.08, 0.1, 0.13 m. The file has datasets 15, 55 (7)"),
+        ({}, {"axis": "x"}, "Around the axis x through (0, 0, 0) m"),
+        ({}, {"axis": "w"}, "axis='w': must be"),
+        ({}, {"axis": (0, 0, 0)}, "axis=(0, 0, 0): must be"),
+        ({}, {"axis": (1, 2)}, "axis=(1, 2): must be"),
+        ({}, {"centre": (1, 2)}, "centre=(1, 2): must be three numbers"),
+        ({}, {"units": ("mm", "kg")}, "units=('mm', 'kg'): must be units of length and of force"),
+        ({}, {"modal_mass": -1}, "modal_mass=-1: must be > 0"),
+        ({}, {"r_0": None}, "r_0=None: must be a number"),
+        ({}, {"r_0": [0.1]}, "r_0=[0.1]: must be a number"),
+        ({}, {"r_0": "10 kg"}, "r_0='10 kg': must be a number in m"),
+        ({}, {"r_0": float("nan")}, "r_0=nan: must be"),
+        ({}, {"r_0": -0.1}, "r_0=-0.1: must be > 0"),
+    ],
+)
+def test_what_cannot_be_read_is_said_in_one_line(
+    change: dict[str, Any], how: dict[str, Any], phrase: str, tmp_path: Path
+) -> None:
+    with pytest.raises(dm.ParameterError) as error:
+        read(tmp_path, Dialect(**change), **how)
+    assert phrase in str(error.value)
+    assert "\n" not in str(error.value)
+    assert len(error.value.faults) == 1
+
+
+def damaged(path: Path, place: int, change: Callable[[list[str]], None]) -> Path:
+    """A file in which the lines of one dataset are changed."""
+    dialect = Dialect()
+    lines = dialect.all_mode_lines(halves(MODES)[:1])
+    nodes = dialect.node_lines(*dialect.grid())
+    change((nodes, lines)[place])
+    path.write_text("\n".join([*nodes, *lines, ""]))
     return path
 
 
-def test_the_modes_of_a_universal_file_are_found(tmp_path: Path) -> None:
-    disc = dm.Disc.from_uff(written(tmp_path / "modes.uff"), P.r_0)
-    modes = dm.plate_modes(P)
+def replaced(i: int, text: str) -> Callable[[list[str]], None]:
+    """A change of line `i` of a dataset, counted from the mark at its beginning."""
+
+    def change(lines: list[str]) -> None:
+        lines[i] = text
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("place", "change", "phrase"),
+    [
+        (1, replaced(9, "  ***********  1.00000E+00"), "numbers only in record 8, and not '***"),
+        (1, replaced(9, "          NaN  1.00000E+00"), "numbers only in record 8, and not 'NaN'"),
+        (1, replaced(8, "         2"), "must have 2 numbers in record 7, and not 1"),
+        (1, replaced(7, "         1         2"), "must have 6 numbers in record 6, and not 2"),
+        (1, replaced(11, "  0.00000E+00  1.00000E+00"), "must have a number and 3 values for each node"),
+        (1, replaced(11, "  0.0  0.0  nan"), "must have a whole number and 3 finite values"),
+        (1, replaced(11, "  0.0  0.0  ***"), "must have numbers only in its records, and not '***'"),
+        (1, replaced(10, "       1.5"), "must have a whole number and 3 finite values"),
+        (1, list.pop, "dataset 55 (no. 2 of the file) must end with a line -1: the file is cut off"),
+        (0, list.pop, "dataset 15 (no. 1 of the file) must have a line -1 at its end"),
+        (0, replaced(2, "         1         0"), "must have seven numbers for each node"),
+        (0, replaced(2, "         1         0         0         8  inf  0.0  0.0"), "finite coordinates"),
+    ],
+)  # fmt: skip
+def test_damaged_records_are_named(
+    place: int, change: Callable[[list[str]], None], phrase: str, tmp_path: Path
+) -> None:
+    with pytest.raises(dm.ParameterError) as error:
+        dm.Disc.from_uff(damaged(tmp_path / "m.unv", place, change), R_0)
+    assert phrase in str(error.value)
+    assert str(error.value).startswith("m.unv: ")
+
+
+def test_numbers_that_touch_are_read(tmp_path: Path) -> None:
+    """Fields of fixed width need no blanks between them, and exponents of three digits have no
+    letter."""
+    file = Dialect(axial_only=True).write(tmp_path / "modes.unv", halves(MODES))
+    lines = file.read_text().splitlines()
+    text = "\n".join(
+        line.replace("  0.00000E+00  0.00000E+00", "-1.000000E-25 -1.00000-101") for line in lines
+    )
+    file.write_text(text + "\n")
+    assert_right(dm.Disc.from_uff(file, R_0), tangential=False)
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"a text", bytes(range(256)), b"    -1\n    -1\n", b"    -1\n    55\n    -1\n"]
+)
+def test_what_is_no_universal_file_is_refused(content: bytes, tmp_path: Path) -> None:
+    (tmp_path / "x.uff").write_bytes(content)
+    with pytest.raises(dm.ParameterError, match=r"x\.uff: "):
+        dm.Disc.from_uff(tmp_path / "x.uff", R_0)
+    with pytest.raises(dm.ParameterError, match=r"must be a universal file that can be read"):
+        dm.Disc.from_uff(tmp_path / "none.uff", R_0)
+
+
+def test_a_comment_between_datasets_and_bytes_of_measurements_are_passed_over(
+    tmp_path: Path,
+) -> None:
+    """A dataset 58b may hold bytes that look like the mark of an end."""
+    head = "    58b     1     2          11        40     0     0           0           0"
+    mark = "\n    -1\n    55\n"
+    binary = [END, head, *["NONE"] * 11, (mark + "x" * (40 - len(mark))) + END]
+    disc = read(tmp_path, Dialect(extra=["1 comment", *binary, "another", ""]))
+    assert_right(disc)
+
+
+def test_the_command_line_reads_universal_files(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It says what was used and left out, and writes the table that studies read."""
+    monkeypatch.setenv("COLUMNS", "80")
+    command = Command(capsys)
+    extra = Dialect(axis=(0, 1, 0)).all_mode_lines(halves([(2, 1800.0, 0.0, 0.9)]))
+    file = Dialect(axis=(0, 1, 0), extra=extra).write(tmp_path / "modes.unv", halves(MODES))
+    table = tmp_path / "disc.csv"
+    options = ("--r-0", "100 mm", "--axis", "y", "--centre", "0,0,0", "--save", str(table))
+    shown = command.out("modes", "--from", str(file), *options)
+    assert "axis of the disc, towards the slider: y through (0, 0, 0) m" in shown
+    assert "2 x mode in the plane of the disc" in shown
+    for head in ("amplitude", "(kg^-1/2)", "tangent.", "damping", "split", "(rad/s)"):
+        assert head in shown
+    assert "…" not in shown
+    assert_right(dm.Disc.from_csv(table))
+    assert command.out("modes", "--from", str(table), "--r-0", "0.1").count("-0.27") == 1
+
+    said = command.error("modes", "--from", str(file), "--r-0", "0.09")
+    assert said.startswith(
+        "error: modes.unv: must have 3 or more nodes at r_0=0.09 m. Around the axis y"
+    )
+    assert "r_0: is required" in command.error("modes", "--from", str(file))
+    both = command.error("modes", "--from", str(file), "--disc", str(table), "--r-0", "0.1")
+    assert "disc: must be left out: --from gives the disc" in both
+    turned = Dialect(axis=(0, -1, 0), length=1e3).write(tmp_path / "mm.unv", halves(MODES))
+    units = ("--r-0", "0.1", "--axis", "-y", "--units", "mm,N", "--modal-mass", "1")
+    assert "-y through (0, 0, 0) m" in command.out("modes", "--from", str(turned), *units)
+    assert "axis='w': must be" in command.error(
+        "modes", "--from", str(file), "--r-0", "0.1", "--axis", "w"
+    )
+    assert "save: needs the disc of a file" in command.run("modes", "--save", str(table))[2]
+    assert "none.uff" in command.error(
+        "modes", "--from", str(tmp_path / "none.uff"), "--r-0", "0.1"
+    )
+
+
+def test_the_command_line_shows_doubts_as_lines(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = Dialect(angles=6).write(tmp_path / "six.unv", halves(MODES))
+    code, shown, said = Command(capsys).run("modes", "--from", str(file), "--r-0", "0.1")
+    assert code == 0
+    assert said.startswith(
+        "warning: 6 nodes on the circle tell modes of up to 2 nodal diameters apart"
+    )
+    assert "a disc of 3 modes" in shown
+
+
+@needs.FINITE_ELEMENTS.mark
+def test_an_export_of_finite_elements_gives_the_disc_of_its_section(tmp_path: Path) -> None:
+    """Bricks around the whole ring against the harmonics of its section: amplitudes, and tangential
+    amplitudes with their sign, to 1 %. With 24 sectors frequencies are up to 3 % too high."""
+    ring = Ring()
+    modes = brick_modes(ring, 15)
+    inner, *_, outer = ring.radii
+    rectangles = [(inner, R_0, -ring.half, ring.half), (R_0, outer, -ring.half, ring.half)]
+    for face in (1, -1):
+        section = dm.Disc.from_section(
+            rectangles, size=0.006, E=ring.E, nu=ring.nu, rho=ring.rho,
+            clamped=lambda x: x[0] < ring.radii[0] + 1e-9, slider=(R_0, face * ring.half),
+            highest_Hz=9000, damping_ratio=1e-3,
+        )  # fmt: skip
+        known = [*zip(section.diameters, section.circles, strict=True)]
+        for results, nodes in RECORDS:
+            file = export(tmp_path / "ring.unv", modes, Dialect(results=results, nodes=nodes))
+            disc = dm.Disc.from_uff(file, R_0, axis="z" if face > 0 else "-z")
+            order = [known.index(mode) for mode in zip(disc.diameters, disc.circles, strict=True)]
+            assert disc.diameters[:6] == (0, 1, 2, 3, 4, 5)
+            assert (1, 1) in [known[i] for i in order]  # it moves in the plane above all
+            np.testing.assert_allclose(disc.omega, np.array(section.omega)[order], rtol=0.04)
+            for name in ("amplitude", "tangential"):
+                expected = np.array(getattr(section, name))[order]
+                scale = np.hypot(np.array(section.amplitude), section.tangential)[order]
+                np.testing.assert_array_less(np.abs(getattr(disc, name) - expected), 0.01 * scale)
+                assert np.all(
+                    np.abs(getattr(disc, name) - expected)[:6] <= 0.01 * np.abs(expected[:6])
+                )
+
+
+@needs.UNIVERSAL_FILES.mark
+def test_a_file_of_another_writer_is_read(tmp_path: Path) -> None:
+    """The plate's modes, written by pyuff, both halves of each pair turned by 0.3 rad."""
+    import pyuff
+
+    p = dm.Parameters(N=0, Omega=0, normalization="orthonormal")
+    radii, angles, mass = np.array([0.06, 0.08, 0.1, 0.12]), np.arange(24) * np.pi / 12, 2.5
+    r, angle = (grid.ravel() for grid in np.meshgrid(radii, angles, indexing="ij"))
+    numbers = np.arange(1, r.size + 1)
+    nodes = {"type": 15, "node_nums": numbers, "x": r * np.cos(angle), "y": r * np.sin(angle)}
+    file = pyuff.UFF(str(tmp_path / "modes.uff"))
+    plain = dict.fromkeys(("def_cs", "disp_cs", "color"), 0 * numbers)
+    file.write_sets({**nodes, **plain, "z": 0 * r}, "overwrite")
+    modes, shapes = dm.plate_modes(p), mode_shapes(p, radii)
+    for l, omega, shape in zip(modes["diameters"], modes["omega"], shapes, strict=True):
+        for half in range(1 + (l > 0)):
+            wave = np.cos(l * (angle - 0.3) + half * np.pi / 2)
+            z = -np.sqrt(mass) * np.repeat(shape, angles.size) * wave
+            file.write_sets(
+                {
+                    "type": 55, "model_type": 1, "analysis_type": 2, "data_ch": 2, "spec_data_type": 8,
+                    "data_type": 2, "n_data_per_node": 3, "load_case": 0, "mode_n": 1,
+                    "freq": omega * (1 + 0.01 * half) / (2 * np.pi), "modal_m": mass, "modal_damp_vis": 0.01,
+                    "modal_damp_his": 0.0, "node_nums": numbers, "r1": 0 * z, "r2": 0 * z, "r3": z,
+                }, "add",
+            )  # fmt: skip
+    disc = dm.Disc.from_uff(tmp_path / "modes.uff", p.r_0)
     assert list(disc.diameters) == modes["diameters"].tolist()
     paired = np.where(modes["diameters"] > 0, 1.005, 1.0)
-    np.testing.assert_allclose(
-        disc.omega, modes["omega"] * paired, rtol=1e-5
-    )  # the file has six digits
+    np.testing.assert_allclose(disc.omega, modes["omega"] * paired, rtol=DIGITS)
     np.testing.assert_allclose(disc.amplitude, np.abs(modes["psi"]), rtol=1e-4)
-    np.testing.assert_allclose(disc.damping_ratio, 0.01)
-    assert np.allclose(disc.radii, RADII)
-    shapes = mode_shapes(P, RADII)
-    np.testing.assert_allclose(
-        disc.shapes, shapes * np.sign(shapes[:, 2:3]), atol=1e-4 * np.abs(shapes).max()
-    )
-    again = tmp_path / "disc.csv"
-    disc.to_csv(again)
-    assert dm.Disc.from_csv(again) == disc
-
-
-def test_what_a_universal_file_lacks_is_said(tmp_path: Path) -> None:
-    path = written(tmp_path / "modes.uff")
-    with pytest.raises(
-        dm.ParameterError, match=r"modes.uff=0: must give coordinates in m of 3 or more nodes"
-    ):
-        dm.Disc.from_uff(path, 0.09)
-    with pytest.raises(dm.ParameterError, match=r"modal mass=0: must be > 0"):
-        dm.Disc.from_uff(written(tmp_path / "none.uff", modal_m=0.0), P.r_0)
-    with pytest.raises(dm.ParameterError, match=r"must be a universal file that can be read"):
-        dm.Disc.from_uff(tmp_path / "no.uff", P.r_0)
+    signed = shapes * np.sign(shapes[:, 2:3])
+    np.testing.assert_allclose(disc.shapes, signed, atol=1e-4 * np.abs(shapes).max())
+    disc.to_csv(tmp_path / "disc.csv")
+    assert dm.Disc.from_csv(tmp_path / "disc.csv") == disc

@@ -2,9 +2,11 @@
 
 import doctest
 import inspect
+import math
 import re
 from pathlib import Path
 from pkgutil import resolve_name
+from typing import Any
 
 import pytest
 from matplotlib import pyplot
@@ -16,147 +18,218 @@ from disc_model.studies.study import load_study
 from tests.disc.table import disc_table
 
 ROOT = Path(__file__).parents[2]
-PAGES = sorted(
-    {*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("howto/*.md"), ROOT / "README.md"}
-)
+DOCS = ROOT / "docs"
+PAGES = sorted({*DOCS.glob("*.md"), *DOCS.glob("howto/*.md"), ROOT / "README.md"})
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.M | re.S)
 WITH_EXAMPLES = [page for page in PAGES if ">>>" in page.read_text(encoding="utf-8")]
+OPTIONS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
-
-def blocks(page):
-    return BLOCK.findall(page.read_text(encoding="utf-8"))
-
-
-@pytest.mark.parametrize("page", WITH_EXAMPLES, ids=lambda page: page.name)
-def test_examples_print_what_they_say(page, tmp_path, monkeypatch):
-    """A page is one session."""
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "config").symlink_to(ROOT / "config")
-    test = doctest.DocTestParser().get_doctest("\n".join(blocks(page)), {}, page.name, str(page), 0)
-    outcome = doctest.DocTestRunner(
-        optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
-    ).run(test)
-    assert outcome.attempted > 0
-    assert outcome.failed == 0
-
-
-#: Classes of what functions return, whose methods draw, and those that others have them from.
 RETURNED = [
     "mode_choice.ModeChoice",
     "simulation.pictures.Pictures",
     "stability.continuation.Branch",
     "display.Drawn",
 ]
+"""Classes of what functions return, whose methods draw, and those that others have them from."""
 
 
-@pytest.mark.parametrize("name", [*disc_model.__all__, *RETURNED])
-def test_examples_of_docstrings_print_what_they_say(name, tmp_path, monkeypatch):
+def page_name(page: Path) -> str:
+    return page.name
+
+
+def blocks(page: Path) -> list[str]:
+    """Return the blocks of Python of a page."""
+    return BLOCK.findall(page.read_text(encoding="utf-8"))
+
+
+# ---- Pages
+
+
+@pytest.mark.parametrize("page", WITH_EXAMPLES, ids=page_name)
+def test_examples_print_what_they_say(
+    page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A page is one session."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(plausibility, "_reported", set())  # each doubt is told once in a process
-    runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE)
-    tests = doctest.DocTestFinder().find(resolve_name(f"disc_model.{name}"), name, globs={})
-    assert not sum(runner.run(test).failed for test in tests)
-    pyplot.close("all")
+    (tmp_path / "config").symlink_to(ROOT / "config")
+    session = "\n".join(blocks(page))
+    test = doctest.DocTestParser().get_doctest(session, {}, page.name, str(page), 0)
+    outcome = doctest.DocTestRunner(optionflags=OPTIONS).run(test)
+    assert outcome.attempted > 0
+    assert outcome.failed == 0
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_every_example_is_in_a_block_that_is_run(page):
+@pytest.mark.parametrize("page", PAGES, ids=page_name)
+def test_every_example_is_in_a_block_that_is_run(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     assert text.count(">>> ") == sum(block.count(">>> ") for block in blocks(page))
 
 
-#: What the sentences of each notebook say of the output above them.
-SAID = {
-    "first_run": (
-        "set(run.events['kind'].iloc[-40:]) == {'stick_to_slip', 'slip_to_stick', 'separation', 'reattachment'}",
-        "abs((run.events['kind'].iloc[-1000:] == 'separation').sum() - 2 * (run.events['kind'].iloc[-1000:] == "
-        "'stick_to_slip').sum()) <= 2",  # once in each cycle of the disc, which sticks in every second one
-        "axes[0, 1].get_xlim()[1] == 60 and run['late']['P'].attrs['units'] == 'N'",
-        "dm.floquet(case.replace(Omega=15)).stable",
-        "(growth['growth_rate'] > 0).any() and (growth['growth_rate'] < 0).any()",
-        "set(growth['status'].values) == {'ok', 'no_cycle'}",
-    ),
-    "reading_results": (
-        "list(tree.children) == ['events', 'history', 'final_state']",
-        "len(named) > 3 and sum('f_s' in name or 'f_Ω' in name for name in named) == len(named)",
-    ),
-    "brake_disc": (
-        "len(disc.omega) == 7 and max(disc.omega) < math.tau * 3000",
-        "sum(dm.steady_sliding(case).eigenvalues.real > 0) == 2 * 3",
-        "round(abs(dm.steady_sliding(case).eigenvalues[0]) / math.tau) == 1769",
-        "dm.steady_sliding(middle).stable and math.isnan(dm.simulate(middle, 60).first_separation)",
-        "(growth.Omega[growth['growth_rate'] > 0].min(), growth.Omega[growth['growth_rate'] > 0].max()) == (17, 25)",
-        "set(growth['status'].values[growth.Omega > 25]) == {'no_stick_slip'}",
-        "abs(run.first_separation - 1 / 3) < 0.01 and run.statistics['surface_speed'] < 1",
-    ),
-}
+STUDIES = []
+for _page in PAGES:
+    for _text in re.findall(
+        r"^```yaml\n(.*?)^```$", _page.read_text(encoding="utf-8"), re.M | re.S
+    ):
+        if _text.startswith("study:"):
+            STUDIES.append(pytest.param(_text, id=_page.name))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "page", sorted((ROOT / "docs" / "notebooks").glob("*.md")), ids=lambda page: page.stem
-)
-def test_notebooks_show_what_they_say(page, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    text = page.read_text(encoding="utf-8")
-    assert text.count("\n") <= 90, "a screen and a half"
-    names = {}
-    for cell in re.findall(r"^```{code-cell}\n(?::tags:[^\n]*\n)?(.*?)^```$", text, re.M | re.S):
-        exec(compile(cell, page.name, "exec"), names)
-    pyplot.close("all")
-    assert [fact for fact in SAID[page.stem] if not eval(fact, names)] == []
-
-
-def test_everything_public_is_in_the_reference_and_shows_its_use():
-    text = (ROOT / "docs" / "api.md").read_text(encoding="utf-8")
-    assert ".. auto" not in "".join(re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)), (
-        "shown as code"
-    )
-    listed = set(re.findall(r"^\.\. auto\w+:: disc_model\.(\w+)$", text, re.M))
-    assert listed == set(disc_model.__all__) - {"__version__"}
-    values = {name: getattr(disc_model, name) for name in listed}
-    errors = {
-        name
-        for name, value in values.items()
-        if isinstance(value, type) and issubclass(value, Exception)
-    }
-    for name in sorted(
-        listed - errors
-    ):  # the table for those who read the page in a repository's browser
-        paragraph = " ".join((inspect.getdoc(values[name]) or "").split("\n\n")[0].split())
-        assert f"| `{name}` | {re.split(r'(?<!Eq[.])(?<=[.]) ', paragraph)[0]} |" in text
-    assert not [name for name in listed - errors if ">>> " not in (values[name].__doc__ or "")]
-    for name in sorted(listed - errors):
-        if inspect.isfunction(values[name]):
-            sections = re.findall(r"^(\w+)\n---", inspect.getdoc(values[name]), re.M)
-            assert {"Parameters", "Returns", "Raises", "Examples"} <= {*sections}, name
-    drawing = [
-        member for name in RETURNED for member in vars(resolve_name(f"disc_model.{name}")).values()
-    ]
-    drawing = [
-        member
-        for member in drawing
-        if getattr(member, "__name__", "").startswith(("plot", "animate"))
-    ]
-    assert len(drawing) == 7
-    for word in (">>> ", "Returns|returns", "Raises|raises"):
-        assert not [
-            member.__qualname__ for member in drawing if not re.search(word, member.__doc__)
-        ], word
-
-
-STUDIES = [
-    (page.name, text)
-    for page in PAGES
-    for text in re.findall(r"^```yaml\n(.*?)^```$", page.read_text(encoding="utf-8"), re.M | re.S)
-    if text.startswith("study:")
-]
-
-
-@pytest.mark.parametrize("text", [text for _, text in STUDIES], ids=[name for name, _ in STUDIES])
-def test_study_files_on_pages_are_right(text, tmp_path):
-    disc = disc_table(Parameters(N=0, Omega=0, friction_offset="surface"))  # some of them name one
-    (tmp_path / "disc.csv").write_text(disc)
+@pytest.mark.parametrize("text", STUDIES)
+def test_study_files_on_pages_are_right(text: str, tmp_path: Path) -> None:
+    p = Parameters(N=0, Omega=0, friction_offset="surface")
+    (tmp_path / "disc.csv").write_text(disc_table(p))  # some of them name one
     path = tmp_path / "study.yaml"
     path.write_text(text, encoding="utf-8")
     assert load_study(path).name in text
+
+
+# ---- Docstrings
+
+
+@pytest.mark.parametrize("name", [*disc_model.__all__, *RETURNED])
+def test_examples_of_docstrings_print_what_they_say(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(plausibility, "_reported", set())  # each doubt is told once in a process
+    runner = doctest.DocTestRunner(optionflags=OPTIONS)
+    thing = resolve_name(f"disc_model.{name}")
+    tests = doctest.DocTestFinder().find(thing, name, globs={})
+    assert not sum(runner.run(test).failed for test in tests)
+    pyplot.close("all")
+
+
+PUBLIC = sorted(set(disc_model.__all__) - {"__version__"})
+API = (DOCS / "api.md").read_text(encoding="utf-8")
+
+
+def is_error(name: str) -> bool:
+    """Return whether a public name is that of an exception."""
+    value = getattr(disc_model, name)
+    return isinstance(value, type) and issubclass(value, Exception)
+
+
+NO_ERRORS = [name for name in PUBLIC if not is_error(name)]
+FUNCTIONS = [name for name in NO_ERRORS if inspect.isfunction(getattr(disc_model, name))]
+
+
+def test_everything_public_is_in_the_reference() -> None:
+    listed = re.findall(r"^\.\. auto\w+:: disc_model\.(\w+)$", API, re.M)
+    assert sorted(set(listed)) == PUBLIC
+    assert ".. auto" not in "".join(BLOCK.findall(API)), "shown as code"
+
+
+@pytest.mark.parametrize("name", NO_ERRORS)
+def test_the_table_of_the_reference_has_the_first_sentence(name: str) -> None:
+    """It is for those who read the page in a repository's browser."""
+    docstring = inspect.getdoc(getattr(disc_model, name)) or ""
+    paragraph = " ".join(docstring.split("\n\n")[0].split())
+    sentence = re.split(r"(?<!Eq[.])(?<=[.]) ", paragraph)[0]
+    assert f"| `{name}` | {sentence} |" in API
+
+
+@pytest.mark.parametrize("name", NO_ERRORS)
+def test_everything_public_shows_its_use(name: str) -> None:
+    assert ">>> " in (getattr(disc_model, name).__doc__ or "")
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_public_functions_have_all_sections(name: str) -> None:
+    docstring = inspect.getdoc(getattr(disc_model, name))
+    sections = set(re.findall(r"^(\w+)\n---", docstring, re.M))
+    assert sections >= {"Parameters", "Returns", "Raises", "Examples"}
+
+
+def drawing_methods() -> list[Any]:
+    """Return the methods of what functions return that draw."""
+    methods = []
+    for name in RETURNED:
+        for member in vars(resolve_name(f"disc_model.{name}")).values():
+            if getattr(member, "__name__", "").startswith(("plot", "animate")):
+                methods.append(member)
+    return methods
+
+
+def test_methods_that_draw_show_their_use_and_say_what_they_return_and_raise() -> None:
+    methods = drawing_methods()
+    assert len(methods) == 7
+    for method in methods:
+        for word in (">>> ", "Returns|returns", "Raises|raises"):
+            assert re.search(word, method.__doc__), f"{method.__qualname__}: {word}"
+
+
+# ---- Notebooks
+
+
+def said_of_a_first_run(names: dict[str, Any]) -> None:
+    run = names["run"]
+    kinds = run.events["kind"]
+    assert set(kinds.iloc[-40:]) == {"stick_to_slip", "slip_to_stick", "separation", "reattachment"}
+    # once in each cycle of the disc, which sticks in every second one
+    separations = (kinds.iloc[-1000:] == "separation").sum()
+    releases = (kinds.iloc[-1000:] == "stick_to_slip").sum()
+    assert abs(separations - 2 * releases) <= 2
+    assert names["axes"][0, 1].get_xlim()[1] == 60
+    assert run["late"]["P"].attrs["units"] == "N"
+    assert names["dm"].floquet(names["case"].replace(Omega=15)).stable
+    growth = names["growth"]
+    assert (growth["growth_rate"] > 0).any()
+    assert (growth["growth_rate"] < 0).any()
+    assert set(growth["status"].values) == {"ok", "no_cycle"}
+
+
+def said_of_reading_results(names: dict[str, Any]) -> None:
+    assert list(names["tree"].children) == ["events", "history", "final_state"]
+    named = names["named"]
+    assert len(named) > 3
+    for name in named:
+        assert "f_s" in name or "f_Ω" in name
+
+
+def said_of_a_brake_disc(names: dict[str, Any]) -> None:
+    dm = names["dm"]
+    disc = names["disc"]
+    assert len(disc.omega) == 7
+    assert max(disc.omega) < math.tau * 3000
+    sliding = dm.steady_sliding(names["case"]).eigenvalues
+    assert sum(sliding.real > 0) == 2 * 3
+    assert round(abs(sliding[0]) / math.tau) == 1769
+    middle = names["middle"]
+    assert dm.steady_sliding(middle).stable
+    assert math.isnan(dm.simulate(middle, 60).first_separation)
+    growth = names["growth"]
+    unstable = growth.Omega[growth["growth_rate"] > 0]
+    assert unstable.min() == 17
+    assert unstable.max() == 25
+    assert set(growth["status"].values[growth.Omega > 25]) == {"no_stick_slip"}
+    run = names["run"]
+    assert abs(run.first_separation - 1 / 3) < 0.01
+    assert run.statistics["surface_speed"] < 1
+
+
+SAID = {
+    "first_run": said_of_a_first_run,
+    "reading_results": said_of_reading_results,
+    "brake_disc": said_of_a_brake_disc,
+}
+"""What the sentences of each notebook say of the output above them."""
+NOTEBOOKS = sorted((DOCS / "notebooks").glob("*.md"))
+CELL = re.compile(r"^```{code-cell}\n(?::tags:[^\n]*\n)?(.*?)^```$", re.M | re.S)
+
+
+@pytest.mark.parametrize("page", NOTEBOOKS, ids=lambda page: page.stem)
+def test_notebooks_are_short(page: Path) -> None:
+    assert page.read_text(encoding="utf-8").count("\n") <= 90, "a screen and a half"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", NOTEBOOKS, ids=lambda page: page.stem)
+def test_notebooks_show_what_they_say(
+    page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, Any] = {}
+    for cell in CELL.findall(page.read_text(encoding="utf-8")):
+        exec(compile(cell, page.name, "exec"), names)
+    pyplot.close("all")
+    SAID[page.stem](names)

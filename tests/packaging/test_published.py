@@ -13,34 +13,69 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 WORKFLOWS = {path.stem: path for path in (ROOT / ".github" / "workflows").glob("*.yml")}
 
 
-def test_addresses_are_those_of_pyproject() -> None:
-    urls = PROJECT["urls"]
-    repository, site = urls["Repository"], urls["Documentation"]
-    lines = {
-        "README.md": [f"[{name}]({address})" for name, address in urls.items()],
-        "CITATION.cff": [
-            f"repository-code: {repository}",
-            f"url: {site}",
-            f"doi: {urls['DOI'].split('/', 3)[3]}",
-        ],
-        "recipe/meta.yaml": [f"home: {repository}", f"doc_url: {site}"],
-    }
-    texts = {path: (ROOT / path).read_text(encoding="utf-8") for path in lines}
-    wrong = [
+ADDRESSES: dict[str, str] = PROJECT.get("urls", {})
+"""Addresses of repository, documentation and DOI; none before the first release."""
+LINKING = ("README.md", "CITATION.cff", "recipe/meta.yaml", "CONTRIBUTING.md", "CHANGELOG.md")
+OWN = re.compile(
+    r"https://github\.com/\w+/disc_model"
+    r"|https://\w+\.github\.io/disc_model"
+    r"|10\.5281/zenodo\.\d+"
+    r"|\bOWNER\b"
+)
+"""An address of this project, or the placeholder of one."""
+
+
+def linking_texts() -> dict[str, str]:
+    """Texts of the pages and of the files that describe the project, by path."""
+    paths = [ROOT / name for name in LINKING]
+    paths += [path for path in (ROOT / "docs").rglob("*.md") if "_build" not in path.parts]
+    return {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in paths}
+
+
+def lines_with_addresses(addresses: dict[str, str]) -> dict[str, list[str]]:
+    """Lines by which files have to state the addresses of what is published, by file."""
+    lines: dict[str, list[str]] = {name: [] for name in LINKING}
+    lines["README.md"] += [f"[{name}]({address})" for name, address in addresses.items()]
+    if "Repository" in addresses:
+        lines["CITATION.cff"].append(f"repository-code: {addresses['Repository']}")
+        lines["recipe/meta.yaml"].append(f"home: {addresses['Repository']}")
+    if "Documentation" in addresses:
+        lines["CITATION.cff"].append(f"url: {addresses['Documentation']}")
+        lines["recipe/meta.yaml"].append(f"doc_url: {addresses['Documentation']}")
+    if "DOI" in addresses:
+        lines["CITATION.cff"].append(f"doi: {addresses['DOI'].removeprefix('https://doi.org/')}")
+    return lines
+
+
+def test_pages_state_the_addresses_of_pyproject() -> None:
+    texts = linking_texts()
+    missing = [
         f"{path}: no {line}"
-        for path, text in texts.items()
-        for line in lines[path]
-        if line not in text
+        for path, lines in lines_with_addresses(ADDRESSES).items()
+        for line in lines
+        if line not in texts[path]
     ]
-    owner = re.compile(r"https://(?:github\.com/\w+/disc_model|\w+\.github\.io/disc_model)")
-    for path in (*ROOT.glob("*.md"), *ROOT.glob("docs/*.*")):
-        found = owner.finditer(path.read_text(encoding="utf-8") if path.is_file() else "")
-        wrong += [
-            f"{path.name}: {match[0]}"
-            for match in found
-            if match[0] not in (repository, site.rstrip("/"))
-        ]
+    assert not missing, "\n".join(missing)
+
+
+def test_what_is_not_published_is_not_linked() -> None:
+    published = " ".join(ADDRESSES.values())
+    texts = linking_texts()
+    texts["pyproject.toml"] = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    wrong = [
+        f"{path}: {match[0]}"
+        for path, text in texts.items()
+        for match in OWN.finditer(text)
+        if match[0] not in published or match[0] == "OWNER"
+    ]
     assert not wrong, "\n".join(wrong)
+
+
+def test_a_placeholder_and_an_address_of_another_owner_are_recognised() -> None:
+    assert OWN.search("git clone https://github.com/OWNER/disc_model")
+    assert OWN.search("[site](https://someone.github.io/disc_model/)")
+    assert OWN.search("doi: 10.5281/zenodo.0000000")
+    assert not OWN.search("https://github.com/snakemake/snakemake-workflow-catalog")
 
 
 @needs.ACTIONLINT.mark

@@ -1,5 +1,7 @@
-"""Evidence for rows of the ledger: the paper's cases, simulated, changed as stories.yaml says; and
-made-up grids."""
+"""Evidence for rows of the ledger.
+
+It is made of the paper's cases, simulated and changed as stories.yaml says, and of made-up grids.
+"""
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
@@ -20,50 +22,64 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import run_case
 from disc_model.studies.study import load_study
 
-SPECS = load_study(Path(__file__).parents[2] / "config" / "paper.yaml").specs
-TEXTS = yaml.safe_load(Path(__file__).with_name("stories.yaml").read_text(encoding="utf-8"))
+ROOT = Path(__file__).parents[2]
+SPECS = load_study(ROOT / "config" / "paper.yaml").specs
+STORIES = Path(__file__).with_name("stories.yaml")
+TEXTS = yaml.safe_load(STORIES.read_text(encoding="utf-8"))
 Groups = dict[str, xr.Dataset]
+
+
+# ---- Cases
 
 
 @cache
 def simulated(*names: str, normalization: str = "as_published") -> dict[str, xr.DataTree]:
-    """Cases of the paper, all unless some are named: half a minute of one core."""
-    specs = {name: SPECS[name] for name in names or SPECS}
-    for name, spec in specs.items():
+    """Return cases of the paper, all unless some are named: half a minute of one core."""
+    specs = {}
+    for name in names or SPECS:
+        spec = SPECS[name]
         own = spec.parameters.replace(normalization=normalization)
         specs[name] = spec.model_copy(update={"parameters": own})
     with ThreadPoolExecutor(2) as threads:
-        return dict(zip(specs, threads.map(run_case, specs.values()), strict=True))
+        cases = threads.map(run_case, specs.values())
+        return dict(zip(specs, cases, strict=True))
 
 
 @cache
 def groups_of(name: str) -> Groups:
-    """The datasets of a case, by the names of their groups; that of the case itself is ""."""
+    """Return the datasets of a case, by the names of their groups; that of the case itself is ""."""
     node = simulated()[name]
-    return {"": node.to_dataset()} | {
-        str(n): group.to_dataset(inherit=False) for n, group in node.children.items()
-    }
+    groups = {"": node.to_dataset()}
+    for child, group in node.children.items():
+        groups[str(child)] = group.to_dataset(inherit=False)
+    return groups
 
 
 def view(name: str, groups: Groups) -> CaseView:
-    return CaseView(
-        name, xr.DataTree.from_dict({f"/{group}": held for group, held in groups.items()})
-    )
+    """Return the view of a case made of groups."""
+    tree = {f"/{group}": held for group, held in groups.items()}
+    return CaseView(name, xr.DataTree.from_dict(tree))
 
 
 def said_to_be(name: str, story: str | Mapping[str, Any]) -> CaseView:
-    """A case as a story has it.
+    """Return a case as a story has it.
 
-    story : the name of another case, whose motion is said to be this one's, or a mapping: by groups of the case, that
-        of another case; by variables of the disc, lines of a spectrum instead of them (frequency in Hz, amplitude, rate
-        of the frequency in Hz/s; noise without a frequency); ``says``, other values for the whole run
+    Parameters
+    ----------
+    name : of the case
+    story : the name of another case, whose motion is said to be this one's; or a mapping of
+        groups of the case, to that of another case; of variables of the disc, to lines of a
+        spectrum instead of them (frequency in Hz, amplitude, rate of the frequency in Hz/s; noise
+        without a frequency); of ``says``, to other values for the whole run
     """
     own = groups_of(name)[""]
     if isinstance(story, str):
-        given = groups_of(story)
-        root = given[""].assign({key: own[key] for key in Parameters.model_fields if key in own})
-        root.attrs = own.attrs
-        return view(name, given | {"": root})
+        given = dict(groups_of(story))
+        parameters = {key: own[key] for key in Parameters.model_fields if key in own}
+        given[""] = given[""].assign(parameters)
+        given[""].attrs = own.attrs
+        return view(name, given)
+
     found = dict(groups_of(name))
     for key, value in story.items():
         if key == "says":
@@ -71,48 +87,61 @@ def said_to_be(name: str, story: str | Mapping[str, Any]) -> CaseView:
         elif isinstance(value, str):
             found[key] = groups_of(value)[key]
         else:
-            found |= {
-                n: group.assign({key: _lines(group, value)})
-                for n, group in found.items()
-                if key in group and "time" in group.sizes
-            }
+            for group, held in found.items():
+                if key in held and "time" in held.sizes:
+                    found[group] = held.assign({key: signal(held["time"], value)})
     return view(name, found)
 
 
-def _lines(group: xr.Dataset, lines: Sequence[Sequence[float | None]]) -> xr.DataArray:
-    t, noise = group["time"], np.random.default_rng(0)
-    parts = [
-        size
-        * (
-            noise.standard_normal(t.size)
-            if f is None
-            else np.cos(2 * np.pi * (f + sum(drift) / 2 * t) * t)
-        )
-        for f, size, *drift in lines
-    ]
-    return xr.DataArray(sum(parts), {"time": t}, ["time"])
+def signal(time: xr.DataArray, lines: Sequence[Sequence[float | None]]) -> xr.DataArray:
+    """Return a sum of lines of a spectrum over time, as stories have them."""
+    noise = np.random.default_rng(0)
+    total = xr.zeros_like(time)
+    for frequency, size, *drift in lines:
+        if frequency is None:
+            part = noise.standard_normal(time.size)
+        else:
+            part = np.cos(2 * np.pi * (frequency + sum(drift) / 2 * time) * time)
+        total = total + size * part
+    return xr.DataArray(total, {"time": time}, ["time"])
 
 
 def cases(
     stories: Mapping[str, Any], scans: Mapping[str, xr.Dataset] | None = None
 ) -> dict[str, CaseView]:
-    """All cases, those of stories (one name or several) as these have them, and grid studies."""
+    """Return all cases by name, and grid studies.
+
+    Parameters
+    ----------
+    stories : what some cases are said to be, by one name or several
+    scans : the grid studies
+    """
     found = {name: CaseView(name, node) for name, node in simulated().items()}
-    found |= {
-        name: said_to_be(name, story) for names, story in stories.items() for name in names.split()
-    }
-    return found | {name: CaseView(name, xr.DataTree(scan)) for name, scan in (scans or {}).items()}
+    for names, story in stories.items():
+        for name in names.split():
+            found[name] = said_to_be(name, story)
+    for name, scan in (scans or {}).items():
+        found[name] = CaseView(name, xr.DataTree(scan))
+    return found
 
 
 def kept_events(rows: Iterable[tuple[Any, ...]], start: float, stop: float) -> xr.Dataset:
-    """Events as a case keeps them between two times: each a time, a kind and a phase."""
+    """Return events as a case keeps them between two times: each a time, a kind and a phase."""
     codes = [(time, EVENT_KINDS.index(kind), PHASES.index(phase)) for time, kind, phase in rows]
     frame = pd.DataFrame(codes, columns=["time", "kind", "phase"])
     return series_dataset(frame, "event").assign_attrs(kept_from=start, kept_until=stop)
 
 
-WORDS = ("ok", "failed", "quiet", "growing", "separation", "no_cycle", "no_stick_slip")
-WORDS += (
+# ---- Grid studies
+
+WORDS = (
+    "ok",
+    "failed",
+    "quiet",
+    "growing",
+    "separation",
+    "no_cycle",
+    "no_stick_slip",
     "none",
     "begins",
     "ends",
@@ -125,47 +154,68 @@ WORDS += (
     "simulation",
     "inferred",
 )
+"""Words of flags."""
 
 
 def grid(
     axes: Mapping[str, Any], stated: Mapping[str, Any] | None = None, **variables: Any
 ) -> xr.Dataset:
-    """A grid study: each variable along the first axes, as many as it has dimensions, its words as
-    flags.
+    """Return a grid study.
 
+    Parameters
+    ----------
+    axes : its coordinates
     stated : what it states, as its base and as its options alike
+    variables : each along the first axes, as many as it has dimensions; words become flags
     """
-    found = xr.Dataset(
-        coords=axes, attrs=dict.fromkeys(("base", "options"), json.dumps(stated or {}))
-    )
+    text = json.dumps(stated or {})
+    found = xr.Dataset(coords=axes, attrs={"base": text, "options": text})
     for name, given in variables.items():
-        values, attrs = np.asarray(given), {}
+        values = np.asarray(given)
+        attrs = {}
         if values.dtype.kind == "U":
-            values, attrs = np.vectorize(WORDS.index)(values), {"flag_meanings": " ".join(WORDS)}
-        found[name] = (list(axes)[: values.ndim], values, attrs)
+            values = np.vectorize(WORDS.index)(values)
+            attrs = {"flag_meanings": " ".join(WORDS)}
+        dims = list(axes)[: values.ndim]
+        found[name] = (dims, values, attrs)
     return found
 
 
 def scans(
     windows: Sequence[Sequence[float]] = TEXTS["windows"], **changes: Mapping[str, Any]
 ) -> dict[str, xr.Dataset]:
-    """Grid studies as stories.yaml has them, by name, some of them with other values.
+    """Return grid studies as stories.yaml has them, by name.
 
+    Parameters
+    ----------
     windows : rad/s, where separation begins and ends, at three preloads or more
+    changes : other values of some studies
     """
     texts = TEXTS["scans"]
-    found = {
-        x: grid(**texts.get(x, {}) | changes.get(x, {})).assign_attrs(study=x)
-        for x in texts | changes
+    found = {}
+    for name in {**texts, **changes}:
+        values = {**texts.get(name, {}), **changes.get(name, {})}
+        found[name] = grid(**values).assign_attrs(study=name)
+    found["critical_speed"] = critical_speeds(windows)
+    return found
+
+
+def critical_speeds(windows: Sequence[Sequence[float]]) -> xr.Dataset:
+    """Return a study of speeds in rad/s at which separation begins and ends, by preload."""
+    speeds = np.array(windows)[:, None]
+    preloads = [50.0, 200.0, 385.0, 500.0, 510.0]
+    axes = {
+        "normalization": ["as_published"],
+        "N": preloads[: len(windows)],
+        "horizon": [1000.0],
+        "crossing_number": [0, 1],
+        "scan_Omega": [5.0, 24.0],
     }
-    speeds, preloads = np.array(windows)[:, None], [50.0, 200.0, 385.0, 500.0, 510.0]
-    axes = {"normalization": ["as_published"], "N": preloads[: len(windows)], "horizon": [1000.0]}
-    found["critical_speed"] = grid(
-        axes | {"crossing_number": [0, 1], "scan_Omega": [5.0, 24.0]},
+    return grid(
+        axes,
         {"precision": 0.1},
         status=[["ok"] * len(windows)],
         critical_speed=[speeds[..., 0]],
         crossing=[speeds],
         crossing_kind=[np.where(np.isnan(speeds), "none", ["begins", "ends"])],
     )
-    return found

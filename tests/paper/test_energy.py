@@ -1,10 +1,12 @@
-"""The balance of powers of simulated motions: contact passes on what the slope supplies, and
-impacts take it."""
+"""The balance of powers: contact passes on what the slope supplies, and impacts take it."""
 
+from collections.abc import Sequence
+
+import numpy as np
 import pytest
 
+from disc_model.paper.energy import Powers, at_width, in_the_end, power_history
 from disc_model.paper.measures import Absent
-from disc_model.paper.section41 import Powers, at_width, course, in_the_end
 from disc_model.parameters import Parameters
 
 pytestmark = pytest.mark.compiled
@@ -15,38 +17,40 @@ SETTLES = Parameters(N=600, Omega=25, c=0.2)
 """The slider's damper takes nearly all."""
 
 
-def mean(found: tuple[Powers, ...]) -> Powers:
-    """Over the whole time: the two hundred samples of a stage say little of powers that change
-    their sign."""
-    return Powers(*(sum(each) / len(found) for each in zip(*found, strict=True)))
+def mean(history: Sequence[Powers]) -> Powers:
+    """Return means over the whole time.
+
+    The two hundred samples of a stage say little of powers that change their sign.
+    """
+    return Powers(*np.mean(history, axis=0).tolist())
 
 
 @pytest.mark.parametrize("p", [GROWS, SETTLES])
 def test_while_contact_lasts_what_the_slope_supplies_is_damped_or_gained(p: Parameters) -> None:
-    whole = mean(course(p, 30.0))
+    whole = mean(power_history(p, 30.0))
     # 12,000 samples at random phases of the swing leave half a per cent
     assert whole.impacts == pytest.approx(0, abs=0.01 * whole.supplied)
     assert whole.pulls == 0  # the contact force does not change its sign
-    assert (
-        (whole.gained > 0.7 * whole.supplied)
-        if p is GROWS
-        else (whole.gained < 0.05 * whole.supplied)
-    )
+    if p is GROWS:
+        assert whole.gained > 0.7 * whole.supplied
+    else:
+        assert whole.gained < 0.05 * whole.supplied
 
 
 def test_in_the_end_impacts_take_what_damping_does_not() -> None:
     """Contact is first lost at 11 s."""
-    end = in_the_end(course(Parameters(N=800, Omega=40, n_diameters=2), 60.0))
+    p = Parameters(N=800, Omega=40, n_diameters=2)
+    end = in_the_end(power_history(p, 60.0))
     assert end.gained == pytest.approx(0, abs=0.01 * end.supplied)
     assert end.impacts > 5 * end.damped > 0
 
 
 def test_damping_follows_the_square_of_the_width_to_which_a_motion_has_grown() -> None:
-    found = course(GROWS, 30.0)
-    small, large = (
-        at_width(found, width).damped - found[0].damped for width in (4e-3, 8e-3)
-    )  # less the cycle's own
+    history = power_history(GROWS, 30.0)
+    of_cycle = history[0].damped
+    small = at_width(history, 4e-3).damped - of_cycle
+    large = at_width(history, 8e-3).damped - of_cycle
     # interpolated between stages half a second apart
     assert large == pytest.approx(4 * small, rel=0.02)
     with pytest.raises(Absent, match=r"maintained contact comes to 13\.\d mm only"):
-        at_width(found, 0.1)
+        at_width(history, 0.1)

@@ -1,8 +1,9 @@
 """The ledger's table: complete, computed, and honest about what it lacks."""
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
-from types import FunctionType, SimpleNamespace
+from types import FunctionType, ModuleType, SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,8 +13,6 @@ from disc_model.paper import SCANS, SURVIVAL_GRIDS, paper_tables, survival
 from disc_model.paper.ledger import COLUMNS, MODULES, ROWS, check_claims
 from disc_model.paper.measures import CaseView
 from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, VERDICTS, Answer, Row
-from disc_model.paper.paper_tables import impact_law
-from disc_model.paper.survival import CONCLUSIONS
 from disc_model.studies.study import load_study
 from tests.paper import evidence
 
@@ -22,65 +21,65 @@ STUDY = load_study(ROOT / "config" / "paper.yaml")
 
 
 def labelled(name: str, **attrs: str) -> CaseView:
-    """A case whose file says otherwise what it is."""
-    groups = evidence.groups_of(name)
-    return evidence.view(name, groups | {"": groups[""].assign_attrs(attrs)})
+    """Return a case whose file says otherwise what it is."""
+    groups = dict(evidence.groups_of(name))
+    groups[""] = groups[""].assign_attrs(attrs)
+    return evidence.view(name, groups)
 
 
-def test_rows_quote_say_why_and_show() -> None:
-    """There are few enough to read; each has a quotation of its own, and the pictures that it names
-    are drawn."""
+# ---- Rows
+
+
+def test_there_are_few_enough_rows_to_read_each_with_its_quotation() -> None:
     assert len(ROWS) <= 80
-    assert len({row.quote for row in ROWS}) == len({row.id for row in ROWS}) == len(ROWS)
-    drawn = {
-        *STUDY.figures,
-        *(name for grid in STUDY.grids((ROOT,))[0].values() for name in grid.plots),
-    }
+    assert len({row.quote for row in ROWS}) == len(ROWS)
+    assert len({row.id for row in ROWS}) == len(ROWS)
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
+def test_a_row_quotes_says_why_it_matters_and_how_it_is_judged(row: Row) -> None:
+    assert len(row.quote.split()) >= 4
+    assert row.matters.endswith(".")
+    if row.check:
+        assert row.judged
+    else:
+        assert row.verdict in VERDICTS
+    code = re.search(r"\b[FSTP]\d\d", f"{row.matters} {row.rule} {row.note}")
+    assert code is None, "a name of ours that readers do not know"
+
+
+def test_the_pictures_that_rows_name_are_drawn() -> None:
+    grids, *_ = STUDY.grids((ROOT,))
+    drawn = {*STUDY.figures}
+    for grid in grids.values():
+        drawn.update(grid.plots)
     for row in ROWS:
-        assert len(row.quote.split()) >= 4, row.id
-        assert row.matters.endswith("."), row.id
-        assert row.judged if row.check else row.verdict in VERDICTS, row.id
         assert {*row.figures} <= drawn, row.id
-        assert not re.search(r"\b[FSTP]\d\d", f"{row.matters} {row.rule} {row.note}"), (
-            f"{row.id}: a code of ours"
-        )
 
 
-@pytest.mark.compiled
-def test_the_table_of_impacts_has_what_follows_them_or_why_not() -> None:
-    cases = evidence.cases({"P03res": "F11"})
-    table = impact_law(cases)
-    case = cases["P03l8"]
-    row = table.set_index("modes").loc["8 nodal diameters"]
-    assert row["rate_Hz"] == pytest.approx(case.rate_of("separation"), rel=1e-12)
-    assert row["longest_ms"] == pytest.approx(1e3 * case.longest_separation, rel=1e-12)
-    assert np.isnan(table["rate_Hz"].iloc[-1])
-    assert "separation" in table["releases"].iloc[-1]
+def test_the_workflow_is_told_of_every_scan() -> None:
+    scans = {name for row in ROWS for name in row.scans + row.optional_scans}
+    assert sorted(scans) == sorted(SCANS)
+    of_survival = {name for row in survival.CONCLUSIONS for name in row.scans}
+    assert of_survival == {*SURVIVAL_GRIDS}
 
 
-def test_a_period_is_told_with_the_speeds_between_which_it_is_the_same(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Known to an eighth: of a motion of period 45 from 0.01 rad/s below to 0.02 above."""
+@pytest.mark.parametrize(
+    ("modules", "rows"),
+    [(MODULES, ROWS), ((survival,), survival.CONCLUSIONS)],
+    ids=["ledger", "survival"],
+)
+def test_every_check_has_a_row(modules: Sequence[ModuleType], rows: Sequence[Row]) -> None:
+    checks = set()
+    for module in modules:
+        for function in vars(module).values():
+            returned = getattr(function, "__annotations__", {}).get("return")
+            if isinstance(function, FunctionType) and returned is Answer:
+                checks.add(function)
+    assert checks == {row.check for row in rows if row.check}
 
-    class Case(dict[str, float]):
-        parameters = Parameters(N=300, Omega=20)
 
-    def motion_to(
-        p: Parameters, t_end: float, tol: float = 1e-10, start: object = None
-    ) -> tuple[object, object]:
-        period = 45 * (-0.01 < p.Omega - 20 < 0.02 and p.n_diameters != 8)
-        return SimpleNamespace(period=period, kind="irregular"), SimpleNamespace(time=t_end)
-
-    assert str(paper_tables.motion_to(Case.parameters, 0.1)[0]) == "undecided"  # too few releases
-    monkeypatch.setattr(paper_tables, "motion_to", motion_to)
-    table = paper_tables.periods(dict.fromkeys(("F02", "F07", "F22"), Case(t_end=100.0)))
-    assert table["case"].tolist() == [*["300 N, 20 rad/s"] * 2, "300 N, 20 rad/s, k_p = 20 kN/m"]
-    assert (set(table["one nodal circle"]), set(table["8 nodal diameters"])) == (
-        {"45"},
-        {"irregular"},
-    )
-    assert 0.03 * 7 / 8 < table["width"][0] < 0.03
+# ---- The table
 
 
 @pytest.mark.compiled
@@ -93,15 +92,18 @@ def test_the_table_has_every_row_once_and_says_what_it_lacks() -> None:
     assert list(table["id"]) == [row.id for row in ROWS]
     table = table.set_index("id")
     assert table["here"].str.len().gt(0).all()
+
     expected = {"F13": TRUE, "P04": TRUE, "P07": FALSE, "eq17": FALSE}
     assert table["verdict"][list(expected)].to_dict() == expected
     assert table.loc["F13", "here"].startswith("Contact is lost at 54.42 s")
     assert "frequencies are 850.86, 1492.55, 1516.76, 1814.90, " in table.loc["P04", "here"]
-    for row, reason in (
-        ("F04", "F04 is not in this study"),
-        ("F11", "F11 ends at 1 s"),
-        ("F16", "F16 has another N"),
-    ):
+
+    lacking = {
+        "F04": "F04 is not in this study",
+        "F11": "F11 ends at 1 s",
+        "F16": "F16 has another N",
+    }
+    for row, reason in lacking.items():
         assert table.loc[row, "verdict"] == NOT_COMPUTED
         assert table.loc[row, "here"].startswith(f"case {reason}")
 
@@ -113,15 +115,51 @@ def test_a_case_that_starts_elsewhere_is_not_the_papers() -> None:
     assert row.judge({"F11": labelled("F11")}).verdict == TRUE
 
 
-def test_the_workflow_is_told_of_every_scan_and_every_check_has_a_row() -> None:
-    assert sorted(set().union(*(row.scans + row.beside for row in ROWS))) == sorted(SCANS)
-    assert {*SURVIVAL_GRIDS} == {name for row in CONCLUSIONS for name in row.scans}
-    for modules, rows in ((MODULES, ROWS), ((survival,), CONCLUSIONS)):
-        functions = {
-            one
-            for module in modules
-            for one in vars(module).values()
-            if isinstance(one, FunctionType)
-        }
-        checks = {one for one in functions if one.__annotations__.get("return") is Answer}
-        assert checks == {row.check for row in rows if row.check}
+# ---- Tables of what results rest on
+
+
+@pytest.mark.compiled
+def test_the_table_of_impacts_has_what_follows_them_or_why_not() -> None:
+    cases = evidence.cases({"P03res": "F11"})
+    table = paper_tables.impact_law(cases)
+    case = cases["P03l8"]
+    row = table.set_index("modes").loc["8 nodal diameters"]
+    assert row["rate_Hz"] == pytest.approx(case.rate_of("separation"), rel=1e-12)
+    assert row["longest_ms"] == pytest.approx(1e3 * case.longest_separation, rel=1e-12)
+    assert np.isnan(table["rate_Hz"].iloc[-1])
+    assert "separation" in table["releases"].iloc[-1]
+
+
+def test_a_motion_of_few_releases_is_undecided() -> None:
+    motion, _ = paper_tables.motion_to(Parameters(N=300, Omega=20), 0.1)
+    assert str(motion) == "undecided"
+
+
+class Case(dict[str, float]):
+    """A case of the paper without its results."""
+
+    parameters = Parameters(N=300, Omega=20)
+
+
+def repeating(
+    p: Parameters, t_end: float, tol: float = 1e-10, start: object = None
+) -> tuple[object, object]:
+    """Return a motion of period 45 from 0.01 rad/s below its speed to 0.02 above."""
+    change = p.Omega - Case.parameters.Omega
+    repeats = -0.01 < change < 0.02 and p.n_diameters != 8
+    motion = SimpleNamespace(period=45 if repeats else 0, kind="irregular")
+    return motion, SimpleNamespace(time=t_end)
+
+
+def test_a_period_is_told_with_the_speeds_between_which_it_is_the_same(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(paper_tables, "motion_to", repeating)
+    case = Case(t_end=100.0)
+    table = paper_tables.periods({"F02": case, "F07": case, "F22": case})
+    place = "300 N, 20 rad/s"
+    assert table["case"].tolist() == [place, place, f"{place}, k_p = 20 kN/m"]
+    assert set(table["one nodal circle"]) == {"45"}
+    assert set(table["8 nodal diameters"]) == {"irregular"}
+    # known to an eighth
+    assert 0.03 * 7 / 8 < table["width"][0] < 0.03

@@ -13,7 +13,7 @@ import pytest
 import xarray as xr
 
 from disc_model.data.texts import fill
-from disc_model.paper import measures, section41
+from disc_model.paper import energy, measures, section41, section43
 from disc_model.paper.ledger import ROWS
 from disc_model.paper.measures import Range
 from disc_model.paper.paper_tables import TABLE_CASES, impact_law
@@ -84,8 +84,8 @@ def test_a_small_vibration_is_in_micrometres_under_the_slider_and_in_millimetres
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     row = row_of("stays_small")
-    monkeypatch.setitem(row.check.__globals__, "_different", lambda *_: 1)
-    monkeypatch.setitem(row.check.__globals__, "stays_calm", lambda _: True)
+    monkeypatch.setattr(section43, "_different_points", lambda *_: 1)
+    monkeypatch.setattr(section43, "stays_steady", lambda _: True)
     small = case(
         intervals=lambda: np.full(4, 0.0148),
         late=Range(49.0, 51.0),
@@ -127,14 +127,13 @@ def test_energies_of_a_period_are_in_millijoules(monkeypatch: pytest.MonkeyPatch
     )
     monkeypatch.setattr(type(free), "__getitem__", lambda self, key: 1.0)
     monkeypatch.setattr(type(bonded), "__getitem__", lambda self, key: 1.0)
-    held = section41.Powers(3e-3, 0.5, 0.0, 0.3, 0.2)
-    kept = section41.Powers(3e-3, 0.8, 0.0, 0.3, 0.5)
-    check = section41.excites_less.__globals__
-    monkeypatch.setitem(check, "pairs", lambda cases: [(free, bonded)])
-    monkeypatch.setitem(check, "course", lambda *_: None)
-    monkeypatch.setitem(check, "in_the_end", lambda _: held)
-    monkeypatch.setitem(check, "at_width", lambda *_: kept)
-    monkeypatch.setitem(check, "powers", lambda *_: SimpleNamespace(pushes=1.0, pulls=-2.0))
+    held = energy.Powers(3e-3, 0.5, 0.0, 0.3, 0.2)
+    kept = energy.Powers(3e-3, 0.8, 0.0, 0.3, 0.5)
+    monkeypatch.setattr(section41, "pairs", lambda cases: [(free, bonded)])
+    monkeypatch.setattr(energy, "power_history", lambda *_: None)
+    monkeypatch.setattr(energy, "in_the_end", lambda _: held)
+    monkeypatch.setattr(energy, "at_width", lambda *_: kept)
+    monkeypatch.setattr(energy, "powers", lambda *_: SimpleNamespace(pushes=1.0, pulls=-2.0))
     text = said(row_of("excites_less"), free, bonded)
     supplied = [1e-3 * float(found) for found in re.findall(rf"{NUMBER} mJ", text)]
     assert supplied == pytest.approx([0.5 * 7.4e-3, 0.8 * 7.4e-3], abs=5.1e-6)

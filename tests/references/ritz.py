@@ -1,52 +1,72 @@
-"""Rayleigh-Ritz eigenvalues of the annular plate: no Bessel functions, no root search, nothing to
-miss."""
+"""Rayleigh-Ritz eigenvalues of the annular plate: no Bessel functions, no root search to miss one."""
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
 from scipy import linalg
 
 
+class Basis(NamedTuple):
+    """Legendre polynomials at Gauss nodes."""
+
+    nodes: np.ndarray
+    weights: np.ndarray
+    polynomials: np.ndarray
+    """P_0, P_1, ... with two derivatives, (3, count, nodes)."""
+
+
 @lru_cache
-def _basis(count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Gauss nodes and weights (k,), and P_0..P_{count-1} with two derivatives there, (3, count,
-    k)."""
+def _basis(count: int) -> Basis:
+    """Return a number of polynomials at enough nodes."""
     nodes, weights = legendre.leggauss(2 * count + 20)
-    rows = np.eye(count)
-    polynomials = [
-        [legendre.legval(nodes, legendre.legder(row, d)) for row in rows] for d in range(3)
-    ]
-    return nodes, weights, np.array(polynomials)
+    polynomials = np.empty((3, count, nodes.size))
+    for derivative in range(3):
+        for degree, row in enumerate(np.eye(count)):
+            series = legendre.legder(row, derivative)
+            polynomials[derivative, degree] = legendre.legval(nodes, series)
+    return Basis(nodes, weights, polynomials)
 
 
 def ritz_lambdas(inner: float, nu: float, l: int, count: int, n_basis: int = 60) -> np.ndarray:
-    """The lowest `count` lambda = beta b for `l` nodal diameters, radii `inner` and 1, clamped and
-    free.
+    """Return the lowest lambda = beta b, clamped inside and free outside.
 
-    Basis (x - inner)^2 P_n: clamped inside by construction, free outside as the energy's natural
+    The basis (x - inner)^2 P_n is clamped by construction; the free edge is the energy's natural
     condition.
+
+    Parameters
+    ----------
+    inner : inner radius; the outer one is 1
+    nu : Poisson's ratio
+    l : nodal diameters
+    count : number of eigenvalues
+    n_basis : number of polynomials
     """
     nodes, weights, polynomials = _basis(n_basis)
     half = (1 - inner) / 2
     x = inner + half * (nodes + 1)
     s = x - inner
-    value, first, second = (polynomials[d] / half**d for d in range(3))
-    R, dR, d2R = (
-        s**2 * value,
-        2 * s * value + s**2 * first,
-        2 * value + 4 * s * first + s**2 * second,
-    )
+    value = polynomials[0]
+    first = polynomials[1] / half
+    second = polynomials[2] / half**2
+    R = s**2 * value
+    dR = 2 * s * value + s**2 * first
+    d2R = 2 * value + 4 * s * first + s**2 * second
+
+    # the energy of bending and twisting
     w = weights * half * x
-    bend, twist = dR / x - l**2 * R / x**2, l * (dR / x - R / x**2)
+    bend = dR / x - l**2 * R / x**2
+    twist = l * (dR / x - R / x**2)
     laplacian = d2R + bend
     cross = (d2R * w) @ bend.T
-    stiffness = (laplacian * w) @ laplacian.T - (1 - nu) * (
-        cross + cross.T - 2 * (twist * w) @ twist.T
-    )
+    twisting = (twist * w) @ twist.T
+    saddle = cross + cross.T - 2 * twisting
+    stiffness = (laplacian * w) @ laplacian.T - (1 - nu) * saddle
     mass = (R * w) @ R.T
+
     scale = 1 / np.sqrt(np.diag(stiffness))
-    inverse = linalg.eigh(
-        scale[:, None] * mass * scale, scale[:, None] * stiffness * scale, eigvals_only=True
-    )
+    scaled_mass = scale[:, None] * mass * scale
+    scaled_stiffness = scale[:, None] * stiffness * scale
+    inverse = linalg.eigh(scaled_mass, scaled_stiffness, eigvals_only=True)
     return np.sort(inverse[::-1][:count] ** -0.25)

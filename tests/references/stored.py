@@ -1,8 +1,7 @@
-"""The stored references (parameters, modes, starts, event times) and the way from them to
-disc_model."""
+"""The stored references (parameters, modes, starts, event times) and the way to disc_model."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cache
 from pathlib import Path
 
@@ -12,12 +11,21 @@ from disc_model import plate_modes
 from disc_model.simulation.states import State as EngineState
 
 DATA = Path(__file__).parent / "data"
+PLAIN = ("time", "phase", "direction", "psi", "f", "u", "u_velocity")
+MODAL = ("a", "b", "alpha", "beta")
 
 
 @dataclass
 class State:
-    """Time (s), phase, direction (sign of f in slip, else 0) and the variables of the slider's
-    frame."""
+    """A state in the slider's frame, with amplitudes that are all positive under the slider.
+
+    Attributes
+    ----------
+    time : s
+    phase, direction : the phase, and the sign of f in slip, else 0
+    psi, f, u, u_velocity : of the slider
+    a, b, alpha, beta : of the modes
+    """
 
     time: float
     phase: str
@@ -32,60 +40,71 @@ class State:
     beta: list
 
 
+def _read(found):
+    """Return an object of JSON, as a `State` if it is one."""
+    names = {field.name for field in fields(State)}
+    return State(**found) if found.keys() == names else found
+
+
 @cache
 def load(name):
-    """Stored reference `name`, a file of ``data``, as a dict; states as `State`, `time` as
-    floats."""
-
-    def read(found):
-        return State(**found) if found.keys() == State.__annotations__.keys() else found
-
-    return json.loads((DATA / f"{name}.json").read_text(), object_hook=read)
+    """Return a stored reference, a file of ``data``; states are `State`."""
+    text = (DATA / f"{name}.json").read_text()
+    return json.loads(text, object_hook=_read)
 
 
 def times_of(data):
-    """Event times in long double: 20 decimals."""
+    """Return event times in long double, which have 20 decimals."""
     return np.array([np.longdouble(time) for time in data["times"]])
 
 
+def _signs(p):
+    """Return the signs of the amplitudes of `plate_modes`."""
+    return np.sign(plate_modes(p)["psi"].to_numpy())
+
+
 def engine_state(state, p):
-    """`State` of the references (all psi positive) as disc_model's (signs as plate_modes has
-    them)."""
-    sign = np.sign(plate_modes(p)["psi"].to_numpy())
-    values = {
-        k: sign * np.array(v, float) if isinstance(v, list) else v for k, v in vars(state).items()
-    }
-    if (
-        state.phase != "separation" and p.contact_compliance == 0
-    ):  # where the references leave u as it last was
-        values["u"] = float(plate_modes(p)["psi"].to_numpy() @ values["a"])
+    """Return a state of the references as disc_model's, with signs as `plate_modes` has them."""
+    sign = _signs(p)
+    modal = {name: sign * np.array(getattr(state, name), float) for name in MODAL}
+    u = float(state.u)
+    if state.phase != "separation" and p.contact_compliance == 0:
+        # where the references leave u as it last was
+        u = float(plate_modes(p)["psi"].to_numpy() @ modal["a"])
     return EngineState(
-        **{k: float(v) if isinstance(v, np.floating) else v for k, v in values.items()}
+        time=float(state.time),
+        phase=state.phase,
+        direction=state.direction,
+        psi=float(state.psi),
+        f=float(state.f),
+        u=u,
+        u_velocity=float(state.u_velocity),
+        **modal,
     )
 
 
 def as_json(state):
-    """disc_model's state, as files of references hold it."""
-    values = {name: getattr(state, name) for name in State.__annotations__}
-    return {
-        name: value.tolist() if isinstance(value, np.ndarray) else value
-        for name, value in values.items()
-    }
+    """Return disc_model's state as files of references hold it."""
+    values = {name: getattr(state, name) for name in PLAIN}
+    for name in MODAL:
+        values[name] = getattr(state, name).tolist()
+    return values
 
 
 def reference_state(state, p):
-    """The other way round."""
-    sign = np.sign(plate_modes(p)["psi"].to_numpy())
-    modal = {k: [float(x) for x in sign * getattr(state, k)] for k in ("a", "b", "alpha", "beta")}
-    plain = {
-        k: getattr(state, k) for k in ("time", "phase", "direction", "psi", "f", "u", "u_velocity")
-    }
-    return State(**plain, **modal)
+    """Return disc_model's state as one of the references."""
+    sign = _signs(p)
+    values = {name: getattr(state, name) for name in PLAIN}
+    for name in MODAL:
+        values[name] = [float(x) for x in sign * getattr(state, name)]
+    return State(**values)
 
 
 def rounded(state):
-    """`State` with every number a double."""
-    values = {
-        k: [float(x) for x in v] if isinstance(v, list) else v for k, v in vars(state).items()
-    }
-    return State(**{k: float(v) if isinstance(v, np.floating) else v for k, v in values.items()})
+    """Return a `State` with every number a double."""
+    values = dict(vars(state))
+    for name in MODAL:
+        values[name] = [float(x) for x in values[name]]
+    for name in ("time", "psi", "f", "u", "u_velocity"):
+        values[name] = float(values[name])
+    return State(**values)

@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from disc_model import Execution, Parameters, Result, simulate
-from disc_model.errors import ParameterError, StepLimit
+from disc_model.engine import audit
+from disc_model.errors import NonFinite, ParameterError, StepLimit
+from disc_model.simulation import api
 from tests.simulation.equal import same
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -40,6 +42,10 @@ def test_a_state_that_overflows_is_named():
         result = simulate(P, 0.01, initial_state=start.replace(phase="slip", direction=1, f=1e308))
     assert result.status == "non_finite"
     assert result.message == "non_finite: at t = 1e-06 s in slip"
+    with pytest.raises(
+        NonFinite, match=r"^non_finite: at t = 1e-06 s in slip. The state overflowed"
+    ):
+        result.raise_for_status()
 
 
 def test_a_duration_begins_at_the_initial_state():
@@ -55,6 +61,27 @@ def test_a_duration_begins_at_the_initial_state():
     ):
         with pytest.raises(ParameterError, match=f"t_end{rule}"):
             simulate(P, **times)
+
+
+def test_the_tolerance_that_was_used_is_recorded():
+    for law, loosest in ({}, 1.25e-7), ({"contact_compliance": 1e-7}, 2e-6):
+        for tol in (1e-15, 1e-10, 1e-2):
+            run = simulate(P.replace(**law), 1e-4, tol=tol)
+            assert run.tol == pytest.approx(min(tol, loosest), rel=1e-12)
+    for tol in (0.9e-15, 1.1e-2):
+        with pytest.raises(ParameterError, match=r"^tol=.*: must be within 1e-15 and 0\.01$"):
+            simulate(P, 1e-4, tol=tol)
+
+
+def test_each_balance_of_energy_has_its_own_terms():
+    run = api._Run(P, 0.01, 1e-10, None, {}, True, None, (), Execution(audit_every_step=True))
+    sums = run.collector.buffers.audit
+    sums[:] = 0.0
+    sums[[audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER]] = -2.0, 3.0, 5.0
+    sums[[audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER]] = 7.0, 11.0, 13.0
+    found = run._statistics()
+    assert found["energy_residual_transverse"] == 2 / 8
+    assert found["energy_residual_inplane"] == 7 / 24
 
 
 def test_runs_in_threads_equal_runs_in_turn() -> None:

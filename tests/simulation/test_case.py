@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from disc_model import ParameterError, Parameters, Poincare, Ramp, Window, simulate
 from disc_model.simulation import api
 from disc_model.simulation.case import CaseSpec, Start, resolved_windows
+from disc_model.simulation.states import perturb, static_start
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
 
@@ -156,3 +157,31 @@ def test_what_no_memory_holds_is_refused_before_anything_runs(what, monkeypatch)
         match=rf"^windows\.w{len(windows) - 1}: must fit into memory: .* GB of samples",
     ):
         simulate(p, 1.0, windows)
+
+
+def test_a_window_counts_back_from_where_a_run_stops():
+    """From t_end there was not a sample, without a word."""
+    p = Parameters(N=385, Omega=15.1)
+    start = perturb(p, static_start(p), u=-0.02)
+    windows = {
+        "late": Window(last=1e-3, rate=1e5),
+        "bins": Window(last=1e-3, rate=1e5, envelope=10),
+        "long": Window(last=5.0, rate=1e4),
+        "after": Window(start=0.5, stop=0.6, rate=1e3),
+    }
+    run = simulate(p, 1.0, windows, stop_at="first_separation", initial_state=start)
+    stop = run.first_separation
+    assert run.status == "stopped"
+    assert 1e-3 < stop < 0.1
+    late = run.samples["late"]["time"]
+    assert len(late) == 101
+    assert late[[0, -1]] == pytest.approx([stop - 1e-3, stop], abs=1e-15)
+    assert len(run.samples["bins"]["time"]) == 10
+    assert run.samples["long"]["time"][0] == 0.0
+    assert len(run.samples["after"]["time"]) == 0
+    assert run.windows["late"].stop == stop
+    whole = simulate(p, stop, {"late": Window(last=1e-3, rate=1e5)}, initial_state=start)
+    np.testing.assert_array_equal(whole.samples["late"]["P"], run.samples["late"]["P"])
+    # a run that does not separate before its end is as without the option
+    quiet = simulate(P, 0.03, {"w": Window(last=0.01, rate=1e3)}, stop_at="first_separation")
+    assert len(quiet.samples["w"]["time"]) == 11

@@ -1,10 +1,12 @@
 """The whole disc's deflection: against the engine's own samples at one point, and the plate's
 clamp."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from disc_model import Parameters, Window, deflection, simulate, snapshots
+from disc_model import ParameterError, Parameters, Ramp, Window, deflection, simulate, snapshots
 
 P = Parameters(N=200, Omega=20)
 
@@ -41,3 +43,59 @@ def test_the_static_disc_is_lowest_under_the_slider(p: Parameters) -> None:
     assert float(w.isel(r=1)[0, 90]) == pytest.approx(start.u, rel=1e-12)
     assert np.allclose(w.isel(r=0), 0, atol=1e-9 * abs(start.u))
     assert np.allclose(w.isel(r=1), w.isel(r=1, theta=slice(None, None, -1)).values, atol=1e-15)
+
+
+RAMPS = (
+    Ramp(parameter="Omega", to=12, start=0.02, end=0.05),
+    Ramp(parameter="N", to=150, start=0.03, end=0.06),
+)
+AT_ONE = Window(rate=1000, theta=1.0)
+
+
+def test_on_a_ramp_the_drive_has_turned_by_less_than_omega_times_the_time() -> None:
+    """The angle of the drive was Omega(0) t, so that the disc stood elsewhere."""
+    run = simulate(P, 0.1, {"w": AT_ONE}, ramps=RAMPS)
+    w = deflection(P, run.final_state, P.r_0, 1.0).item()
+    assert w == pytest.approx(run.samples["w"]["w_point"][-1], rel=1e-9)
+    # 20 rad/s for 20 ms, 16 rad/s in the mean for 30 ms, 12 rad/s for 50 ms
+    assert run.final_state.drive_angle == pytest.approx(1.48, rel=1e-14)
+    assert run.final_state.slider_angle(P) == pytest.approx(1.48 - run.final_state.psi)
+    for state in snapshots(P, [0.01, 0.045, 0.1], ramps=RAMPS):
+        i = round(1000 * state.time)
+        there = deflection(P, state, P.r_0, 1.0).item()
+        # pieces of a run differ from the whole run by truncation errors
+        assert there == pytest.approx(run.samples["w"]["w_point"][i], rel=1e-8)
+    with pytest.raises(ParameterError, match=r"^ramps="):
+        snapshots(P, [0.0], ramps="x")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("ramps", [(), RAMPS], ids=["constant", "on ramps"])
+def test_a_point_of_the_disc_does_not_jump_where_the_speed_of_the_drive_does(
+    ramps: tuple[Ramp, ...],
+) -> None:
+    first = simulate(P, 0.1, {"w": AT_ONE}, ramps=ramps)
+    other = P.replace(Omega=33.0)
+    second = simulate(other, 0.2, {"w": AT_ONE}, initial_state=first.final_state)
+    before, after = (run.samples["w"]["w_point"] for run in (first, second))
+    assert after[0] == pytest.approx(before[-1], rel=1e-12)
+    there = deflection(other, second.final_state, P.r_0, 1.0).item()
+    assert there == pytest.approx(after[-1], rel=1e-9)
+    # a clock that is set anew says where the drive is
+    turned = first.final_state.replace(time=0.0)
+    assert turned.drive_angle is None
+    assert turned.slider_angle(P) == -turned.psi
+    with pytest.raises(ParameterError, match=r"^drive_angle=nan: must be a finite number, or None"):
+        turned.replace(drive_angle=float("nan"))
+
+
+def test_a_film_shows_the_disc_and_the_slider_of_the_run_with_its_ramps(tmp_path: Path) -> None:
+    """They were those of a run without ramps, beside the force of the right one."""
+    run = simulate(P, 0.1, {"w": AT_ONE}, ramps=RAMPS)
+    film = run.animate(tmp_path / "film.gif", window="w", frames=2)
+    disc, circle, _ = film._fig.axes
+    (slider,) = (line for line in disc.lines if line.get_marker() == "o")
+    angle = np.arctan2(slider.get_ydata()[0], slider.get_xdata()[0])
+    state = run.final_state
+    assert angle == pytest.approx(1.48 - state.psi, rel=1e-6)
+    (height,) = (line for line in circle.lines if line.get_marker() == "s")
+    assert height.get_ydata()[0] == pytest.approx(1e3 * state.u, rel=1e-6)

@@ -1,13 +1,19 @@
 """Results and states: constants that runs share, and what is handed on: files, a line of text,
 another time."""
 
+import copy
+import json
+import pickle
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Poincare, Ramp, Result, State, Window, simulate
 from disc_model.data.dataset import MissingFile, UnreadableFile
+from disc_model.data.tables import load_tables, save_tables
 from tests.simulation.equal import same
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -99,3 +105,156 @@ def test_a_height_that_contradicts_contact_is_refused() -> None:
     assert simulate(P, 0.06, initial_state=state.replace(u=state.u * (1 + 1e-12))).status.complete
     apart = state.replace(u=state.u + 1e-3, phase="separation", direction=0)
     assert simulate(P, 0.04, initial_state=apart).status.complete
+
+
+@pytest.mark.parametrize("suffix", [".nc", ".mat"])
+def test_a_result_keeps_the_ratio_by_which_its_case_was_given(tmp_path: Path, suffix: str) -> None:
+    p = P.replace(mu_k_over_mu_s=0.6)
+    result, path = simulate(p, 0.02), tmp_path / f"r{suffix}"
+    result.save(path)
+    for again in (Result.load(path), pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
+        assert again.parameters == p
+        assert again.parameters.replace(mu_s=0.5).mu_k == 0.3
+
+
+def test_a_run_that_overflowed_is_saved_but_its_last_state_is_not(tmp_path: Path) -> None:
+    start = simulate(P, 1e-6).final_state
+    with np.errstate(all="ignore"):
+        run = simulate(P, 0.01, initial_state=start.replace(phase="slip", direction=1, f=1e308))
+    run.save(tmp_path / "run.nc")
+    same(Result.load(tmp_path / "run.nc"), run)
+    broken = start.replace(a=np.full_like(start.a, np.nan))
+    with pytest.raises(ParameterError, match=r"^a=.*: must be finite"):
+        broken.save(tmp_path / "state.nc")
+    assert not (tmp_path / "state.nc").exists()
+
+
+def test_pictures_of_a_run_begin_where_it_begins() -> None:
+    run = simulate(P, duration=0.02, initial_state=simulate(P, 0.05).final_state)
+    for name in ("run", "late"):
+        time = run._case(name)[name]["time"].values
+        assert 0.05 <= time[0] <= time[-1] <= 0.07
+    whole = run._case("run")["run"]["time"].values
+    assert np.ptp(whole) == pytest.approx(0.02, rel=0.01)
+    half = run._case("late")["late"]["time"].values
+    assert half[[0, -1]] == pytest.approx([0.06, 0.07], abs=1e-3)
+
+
+# ---- Files that another program has put together
+
+
+def edits(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
+    """Paths into a structure of JSON, with what may stand there instead; ... for nothing at all."""
+    for other in (..., None, "x", [], {}, [[[]]], -1, 1e300, True, "NaN", "1e999"):
+        if path:
+            yield path, other
+    names: Any = value.keys() if isinstance(value, dict) else ()
+    if isinstance(value, list):
+        names = range(len(value))
+    for name in names:
+        yield from edits(value[name], (*path, name))
+
+
+def edited(value: Any, path: tuple[Any, ...], other: Any) -> Any:
+    """A copy of a structure with something else at a path."""
+    changed = copy.deepcopy(value)
+    part = changed
+    for step in path[:-1]:
+        part = part[step]
+    if other is ...:
+        del part[path[-1]]
+    else:
+        part[path[-1]] = other
+    return changed
+
+
+RECORDED = simulate(
+    P.replace(mu_k_over_mu_s=0.6),
+    0.02,
+    {"late": Window(last=0.01, rate=1000), "turns": Poincare()},
+    ramps=Ramp(parameter="N", to=190, start=0.01, end=0.02),
+    initial_state=simulate(P, 1e-6).final_state,
+)
+
+
+def test_what_is_no_result_is_an_unreadable_file_whatever_it_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Ten of sixteen files ended in a KeyError, TypeError or RecursionError."""
+    path = tmp_path / "r.mat"
+    RECORDED.save(path)
+    text, tables = load_tables(path)
+    header, refused = json.loads(text), 0
+    changed: list[Any] = [edited(header, *edit) for edit in edits(header)]
+    changed += [None, 1, [], "x", {}]
+    texts = [json.dumps(each) for each in changed] + ["{", "[" * 100_000, "\0"]
+    for each in texts:
+        monkeypatch.setattr("disc_model.data.tables.load_tables", lambda _, x=each: (x, tables))
+        try:
+            Result.load(path)
+        except UnreadableFile:
+            refused += 1
+    assert len(texts) > 700
+    # the others are numbers and texts that may be there
+    assert refused > 0.6 * len(texts)
+
+
+Columns = dict[str, dict[str, Any]]
+
+
+def _wrong_columns(tables: Columns) -> Iterator[Columns]:
+    """Tables that are not those of a result."""
+    for name, table in tables.items():
+        yield {**tables, name: {}}
+        for key, column in table.items():
+            yield {**tables, name: {**table, key: np.append(column, 0.0)}}
+            if key != "mode_amplitudes":  # a state that was made by hand has none
+                yield {**tables, name: {x: y for x, y in table.items() if x != key}}
+        yield {**tables, name: {**table, "other": np.zeros(len(next(iter(table.values()))))}}
+    yield {**tables, "more": tables["late"]}
+    yield {name: table for name, table in tables.items() if name != "late"}
+    for key in ("kind", "phase"):
+        yield {**tables, "events": {**tables["events"], key: tables["events"][key] + 7}}
+
+
+@pytest.mark.parametrize("suffix", [".nc", ".mat"])
+def test_so_is_one_with_other_columns(
+    tmp_path: Path, suffix: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / f"r{suffix}"
+    RECORDED.save(path)
+    text, tables = load_tables(path)
+    for each in _wrong_columns(tables):
+        monkeypatch.setattr("disc_model.data.tables.load_tables", lambda _, x=each: (text, x))
+        with pytest.raises(UnreadableFile, match="cannot be read: "):
+            Result.load(path)
+    monkeypatch.undo()
+    save_tables(tables | {"late": {"time": np.array(["a", "b"])}}, text, path)
+    with pytest.raises(UnreadableFile, match="cannot be read: "):
+        Result.load(path)
+
+
+def test_a_state_that_cannot_be_is_an_unreadable_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A phase "x" and a psi of nan were read, and refused by simulate."""
+    path, state = tmp_path / "s.nc", RECORDED.final_state
+    state.save(path)
+    text, tables = load_tables(path)
+    values, arrays = json.loads(text), tables["state"]
+    found = []
+    for name, wrong in (
+        ("phase", "x"), ("psi", "NaN"), ("time", "Infinity"), ("direction", 2), ("roots", [9, 0]),
+        ("roots", [1]), ("drive_angle", "x"), ("case_key", 1), ("u", None),
+    ):  # fmt: skip
+        found.append((json.dumps({**values, name: wrong}), arrays, name))
+    for name in arrays:
+        found.append((text, {**arrays, name: arrays[name][:-1]}, "numbers, as many as of a"))
+    found.append((text, {**arrays, "a": np.full(len(arrays["a"]), np.nan)}, "a=.*must be finite"))
+    found.append((text, {"a": arrays["a"]}, "arrays=.*: must be a, b, alpha, beta"))
+    for each, columns, fault in found:
+        monkeypatch.setattr(
+            "disc_model.data.tables.load_tables", lambda _, x=each, y=columns: (x, {"state": y})
+        )
+        with pytest.raises(UnreadableFile, match=f"s\\.nc: cannot be read: .*{fault}"):
+            State.load(path)

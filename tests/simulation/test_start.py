@@ -1,6 +1,7 @@
 """Motions that begin where another one ended, or with a kick."""
 
 import functools
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -57,6 +58,14 @@ def test_a_state_of_other_modes_is_refused(tmp_path: Path) -> None:
         deflection(ORTHONORMAL, other, 0.1, 0.0)
     with pytest.raises(ParameterError, match=rf"^initial_state\.{rule}"):
         floquet(ORTHONORMAL, guess=other)
+    # by less than other processors make it the state is the same, and by more it is not
+    for share, same in ((1e-12, True), (1e-6, False)):
+        near = state.replace(mode_amplitudes=(1 + share) * state.mode_amplitudes)
+        if same:
+            simulate(ORTHONORMAL, 0.101, initial_state=near)
+        else:
+            with pytest.raises(ParameterError, match="must be psi of plate_modes"):
+                simulate(ORTHONORMAL, 0.101, initial_state=near)
     by_hand = state.replace(mode_amplitudes=None)
     assert simulate(
         ORTHONORMAL, 0.2, initial_state=by_hand.replace(phase="separation", u=1.0)
@@ -147,6 +156,25 @@ def test_a_switch_of_a_compliant_contact_keeps_its_distance(
     apart = samples["phase"] == PHASES.index("separation")
     assert apart[:10].all()
     assert (samples["u"] - samples["w"])[apart].min() > -1e-15
+
+
+def test_a_switch_continued_under_other_parameters_keeps_the_digits_of_its_clock(
+    switch: Callable[..., State],
+) -> None:
+    """The phase is found by a run of no duration, with a clock of fewer digits."""
+    p, start = APART.replace(N=386.0), switch()
+    late = start.replace(time=1e6)
+    digit = math.ulp(late.time)
+    ends = [
+        simulate(p, 1e6 + 1e-3, initial_state=late.replace(time_low=low)).final_state
+        for low in (0.0, digit)
+    ]
+    speed = p.Omega - ends[0].f
+    assert abs(speed) > 1
+    # the second run is shorter by a digit of the clock
+    assert ends[0].psi - ends[1].psi == pytest.approx(speed * digit, rel=1e-3)
+    with pytest.raises(ParameterError, match=r"time_low=.* less than the last digit of the time"):
+        simulate(p, 1e6 + 1e-3, initial_state=late.replace(time_low=1.01 * digit))
 
 
 # ---- kicks

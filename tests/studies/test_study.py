@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +10,15 @@ import pytest
 import yaml
 
 from disc_model import Parameters
+from disc_model.data.files import MissingFile, UnreadableFile
 from disc_model.simulation.case import Window
-from disc_model.studies.study import StudyError, load_study, parse_study, study_from_config
+from disc_model.studies.study import (
+    StudyError,
+    load_study,
+    parse_study,
+    read_file,
+    study_from_config,
+)
 from tests.studies.refused import faults_of
 
 CASE = {"title": "", "parameters": {"N": 1, "Omega": 1}, "t_end": 1}
@@ -89,6 +97,54 @@ def test_keys_given_twice(tmp_path: Path) -> None:
         lambda file: study_from_config({"study": "x", "cases": {"A": CASE}}, [file]),
     ):
         assert re.search(r"N is given twice\n.* line 3, column 56", faults_of(load, path)[0])
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("010000", "010000 for a number in base 8: leave the zero"),
+        ("-017", "-017 for a number in base 8: leave the zero"),
+        ("1:30", "1:30 for a number in base 60: write a number without a colon"),
+        ("1:30:15.5", "1:30:15.5 for a number in base 60: write a number without a colon"),
+    ],
+)
+def test_numbers_that_yaml_takes_in_another_base_are_refused(
+    text: str, shown: str, tmp_path: Path
+) -> None:
+    """k: 010000 was 4096 N/m, and N: 1:30 was 90 N."""
+    (path := tmp_path / "base.yaml").write_text(f"study: x\nbase: {{N: {text}, Omega: 2}}\n")
+    (fault,) = faults_of(load_study, path)
+    assert f"YAML takes {shown}" in fault
+    assert "line 2, column 11" in fault
+    for right in ("0", "10000", "1e6", "0x10", "'010000'", "0.5", "010.5", "100_000", "12 rpm"):
+        path.write_text(f"N: {right}\n")
+        assert read_file(path) == yaml.safe_load(path.read_text())
+
+
+def test_aliases_that_repeat_too_much_are_refused_at_once(tmp_path: Path) -> None:
+    """300 bytes took minutes and gigabytes in a message."""
+    lines = ["a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]"]
+    for i in range(1, 12):
+        lines.append(f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]")
+    (path := tmp_path / "deep.yaml").write_text("\n".join([*lines, "study: *a11"]))
+    assert "repeat more than 1000000 values" in faults_of(load_study, path)[0]
+    path.write_text("study: &a [*a]\n")
+    assert "or a part within itself" in faults_of(load_study, path)[0]
+    path.write_text("\n".join(lines[:3]))
+    assert len(read_file(path)["a2"]) == 10
+
+
+@pytest.mark.parametrize("read", [load_study, lambda path: study_from_config({}, [path])])
+def test_a_file_that_cannot_be_read_is_told_in_one_line(
+    read: Callable[[Path], object], tmp_path: Path
+) -> None:
+    with pytest.raises(MissingFile, match=r"^[^\n]*none\.yaml: there is no such file$"):
+        read(tmp_path / "none.yaml")
+    with pytest.raises(UnreadableFile, match=r"^[^\n]*: cannot be read: Is a directory$"):
+        read(tmp_path)
+    (path := tmp_path / "x.yaml").write_bytes(b"study: \xff\xfe")
+    with pytest.raises(UnreadableFile, match=r"^[^\n]*x\.yaml: cannot be read: 'utf-8' codec"):
+        read(path)
 
 
 def test_faults_between_studies_are_reported_together(tmp_path: Path) -> None:

@@ -17,10 +17,10 @@ FAILURE_MAPS = [
 # Module and function of each study; a change of one measures only what it is part of.
 STUDIES = {
     "work_precision": "work_precision.work_precision",
-    "contact_truncation": "scaling.contact_study",
+    "contact_truncation": "truncation.contact_study",
     "answers": "answers.answers",
-    "answer_maps": "answers.answer_map",
-    "failure_maps": "work_precision.failure_map",
+    "answer_maps": "answer_maps.answer_map",
+    "failure_maps": "failure_maps.failure_map",
     "scaling": "scaling.scaling",
 }
 BENCH_FIGURES = {

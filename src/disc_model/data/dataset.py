@@ -7,10 +7,7 @@ from __future__ import annotations
 import contextlib
 import json
 import math
-import os
-import re
-import secrets
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -20,15 +17,24 @@ import xarray as xr
 from netCDF4 import Dataset
 from xarray.backends import NetCDF4DataStore
 
+from disc_model.data.files import (
+    MissingFile,
+    UnreadableFile,
+    WriteError,
+    check_netcdf,
+    regular_file,
+    seal_netcdf,
+    unreadable,
+    write_atomically,
+)
 from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, require
-from disc_model.parameters import RESIDUAL, SURFACE, Parameters
+from disc_model.errors import DiscModelError, require
+from disc_model.parameters import PLATE, RESIDUAL, SURFACE, Parameters
+
+__all__ = ["MissingFile", "UnreadableFile", "WriteError", "load", "save"]
 
 CONVENTIONS = "CF-1.11"
-Tables = dict[
-    str, dict[str, Any]
-]  # columns of numbers, shape (n,), by the names of tables and their own
 
 
 def series_dataset(columns: Mapping[str, Any], along: str) -> xr.Dataset:
@@ -51,25 +57,31 @@ def scalars_dataset(
         name: ((), variable.dtype(known.get(name, variable.missing)), variable.attributes)
         for name, variable in SCALARS.items()
     }
-    numbers: dict[str, Any] = {
-        "disc": p.disc.model_dump_json() if p.disc else ""
-    }  # netCDF variables hold no mapping
-    if p.contact_compliance == RESIDUAL:
-        numbers["contact_compliance"] = (
-            math.nan
-        )  # if no modes are left out for it, which has made the case fail
-        with contextlib.suppress(DiscModelError):
-            numbers["contact_compliance"] = contact_compliance(p)
-    if p.friction_offset == SURFACE:  # nan if it follows from the table of a disc
-        numbers["friction_offset"] = p.h / 2 if p.disc is None else math.nan
-    for name, value in (p.model_dump() | numbers).items():
-        data[name] = (
-            (),
-            np.int8(CHOICES[name].index(value)) if name in CHOICES else value,
-            attributes(name),
-        )
+    for name, value in _parameter_values(p).items():
+        if name in CHOICES:
+            value = np.int8(CHOICES[name].index(value))
+        data[name] = ((), value, attributes(name))
     attrs = {"Conventions": CONVENTIONS, "parameters": p.json_in_words, "parameters_key": p.key}
     return xr.Dataset(data, attrs=attrs | {"status": status, "message": message})
+
+
+def _parameter_values(p: Parameters) -> dict[str, Any]:
+    """The parameters by name: numbers in place of words where these stand for one, and nan for what
+    has no value, or does not count beside another one."""
+    values: dict[str, Any] = p.model_dump()
+    values["disc"] = p.disc.model_dump_json() if p.disc else ""  # variables hold no mapping
+    if p.contact_compliance == RESIDUAL:
+        # nan if no modes are left out for it, which has made the case fail
+        values["contact_compliance"] = math.nan
+        with contextlib.suppress(DiscModelError):
+            values["contact_compliance"] = contact_compliance(p)
+    if p.friction_offset == SURFACE:  # nan if it follows from the table of a disc
+        values["friction_offset"] = p.h / 2 if p.disc is None else math.nan
+    unused: tuple[str, ...] = () if p.damping_ratio is None else ("D_star",)
+    if p.disc is not None:
+        unused = tuple(name for name in PLATE if isinstance(values[name], float))
+    values |= dict.fromkeys(unused, math.nan)
+    return {name: math.nan if value is None else value for name, value in values.items()}
 
 
 # ---- Trees and files
@@ -79,7 +91,12 @@ def save(tree: xr.DataTree, path: str | Path) -> None:
     """Write a tree as compressed netCDF 4, atomically; raises `ParameterError` for what is no tree,
     or `WriteError`."""
     require((isinstance(tree, xr.DataTree), "tree", tree, "must be an xarray.DataTree"))
-    write_atomically(regular_file(path), lambda name: _write(tree, name))
+
+    def write(name: str) -> None:
+        _write(tree, name)
+        seal_netcdf(name)
+
+    write_atomically(regular_file(path), write)
 
 
 def _write(tree: xr.DataTree, name: str) -> None:
@@ -129,18 +146,22 @@ def load(path: str | Path) -> xr.DataTree:
     >>> sorted(dm.load("run.nc").children)
     ['events', 'final_state', 'late']
     """
-    file = regular_file(path)
+    return read_tree(regular_file(path))
+
+
+def read_tree(file: Path, *, sealed: bool = False) -> xr.DataTree:
+    """As `load`; a file that has to be `sealed` is unreadable without the checksum of `save`."""
     try:
+        check_netcdf(file, required=sealed)
         with xr.open_datatree(file, engine="netcdf4", decode_timedelta=False) as tree:
-            return tree.map_over_datasets(
-                xr.Dataset.load
-            )  # DataTree.load skips a variable with its group's name
+            # DataTree.load skips a variable with its group's name
+            return tree.map_over_datasets(xr.Dataset.load)
     except FileNotFoundError:
-        raise MissingFile(f"{path}: there is no such file") from None
-    except (OSError, RuntimeError, ValueError) as error:
-        raise UnreadableFile(
-            f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}"
-        ) from error
+        raise MissingFile(f"{file}: there is no such file") from None
+    except DiscModelError:
+        raise
+    except Exception as error:  # whatever a file of another kind leads the libraries to
+        raise unreadable(file, getattr(error, "strerror", None) or error) from error
 
 
 def json_attribute(value: Any) -> str:
@@ -170,123 +191,7 @@ def _encode(variable: xr.Variable) -> dict[str, Any]:
     return {"_FillValue": None} | (compression if variable.ndim and variable.size else {})
 
 
-# ---- Tables of a result in files of several kinds
-
-
-def save_tables(
-    tables: Tables, described: str, path: str | Path, tree: xr.DataTree | None = None
-) -> None:
-    """Write tables and a text that describes them in the form of which `Result.save` tells; as
-    netCDF, the groups of a tree, with columns and tables that it lacks."""
-    file = regular_file(path)
-    if file.suffix == ".nc":
-        tree = xr.DataTree() if tree is None else tree
-        for name, table in tables.items():
-            known = tree[name].to_dataset() if name in tree.children else xr.Dataset()
-            along = next(iter(known.dims), "mode")
-            tree[name] = known.assign(
-                {key: (along, x) for key, x in table.items() if key not in known}
-            )
-        tree.attrs["result"] = described
-        save(tree, file)
-    elif file.suffix == ".mat":
-        from scipy.io import savemat
-
-        allowed = re.compile(r"(?!(result|units)$)[A-Za-z]\w{0,62}", re.ASCII)
-        rule = "must be a name that MATLAB allows, but not `units`"
-        raise_faults(
-            [Fault(("windows", name), "", rule) for name in tables if not allowed.fullmatch(name)]
-        )
-        units = {
-            name: SERIES[name].units
-            for table in tables.values()
-            for name in table
-            if name in SERIES
-        }
-        content = {"result": described, "units": units, **tables}
-        options: dict[str, Any] = {
-            "appendmat": False,
-            "long_field_names": True,
-            "oned_as": "column",
-        }
-        write_atomically(file, lambda name: savemat(name, content, **options))
-    else:
-        raise ParameterError(Fault.of(("path",), str(path), "must end in .nc or .mat"))
-
-
-def load_tables(path: str | Path) -> tuple[str, Tables]:
-    """The text, or "", and the tables that `save_tables` has written; of netCDF the attribute
-    `result` and groups."""
-    file = regular_file(path)
-    if not file.exists():
-        raise MissingFile(f"{path}: there is no such file")
-    if file.suffix != ".mat":
-        tree, tables = load(file), {}
-        for name, node in tree.children.items():
-            group = node.to_dataset(inherit=False).variables
-            tables[name] = {
-                str(key): np.asarray(group[key], float) for key in sorted(group, key="time".__ne__)
-            }
-        return tree.attrs.get("result", ""), tables
-    from scipy.io import loadmat
-
-    try:
-        content = loadmat(file, appendmat=False, simplify_cells=True)
-    except Exception as error:  # whatever a damaged file leads scipy to
-        raise UnreadableFile(f"{path}: cannot be read: {error}") from error
-    named = {
-        name: table
-        for name, table in content.items()
-        if name != "units" and isinstance(table, dict)
-    }
-    flat = {
-        name: {key: np.atleast_1d(x).ravel() for key, x in table.items()}
-        for name, table in named.items()
-    }
-    return content.get("result", ""), flat
-
-
-# ---- Whole files
-
-
-class WriteError(DiscModelError, OSError):
-    """A file could not be written."""
-
-
-class MissingFile(DiscModelError, FileNotFoundError):
-    """A file that is to be read does not exist."""
-
-
-class UnreadableFile(DiscModelError):
-    """A file that is damaged, or that `save` has not written."""
-
-
-def regular_file(path: str | Path) -> Path:
-    """A path that leads to a file or to nothing; raises `ParameterError` otherwise."""
-    named = isinstance(path, str | os.PathLike) and (
-        Path(path).is_file() or not Path(path).exists()
-    )
-    require((named, "path", str(path), "must be the name of a file"))
-    return Path(path)
-
-
-def write_atomically(path: Path, write: Callable[[str], object]) -> None:
-    """Write a file by `write` under a temporary name, and rename it: after a failure `path` is
-    unchanged. Raises `WriteError`."""
-    if not path.parent.is_dir():
-        raise WriteError(f"{path}: must be in a folder that exists")
-    # `write` makes the file, so that the umask determines its permissions
-    temporary = path.with_name(f".{path.name}.{secrets.token_hex(8)}.tmp")
-    try:
-        write(str(temporary))
-        os.replace(temporary, path)
-    except (
-        OSError,
-        RuntimeError,
-    ) as error:  # the netCDF library raises RuntimeError, without the system's reason
-        raise WriteError(f"{path}: cannot be written: {error}") from error
-    finally:
-        temporary.unlink(missing_ok=True)
+# ---- Several files
 
 
 def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:

@@ -257,6 +257,15 @@ def modal_damping(p: Parameters) -> Array:
     return p.D_star / p.D * omega**2 if ratio is None else 2 * ratio * omega
 
 
+def damping_ratios(p: Parameters) -> Array:
+    """Damping ratios of the modes of a case, in the order of `plate_modes`; of a disc that is given
+    by its modes, exactly those given."""
+    if p.disc is not None:
+        return np.array(p.disc.damping_ratio)
+    with np.errstate(invalid="ignore"):
+        return modal_damping(p) / (2 * mode_arrays(p).omega)
+
+
 @lru_cache(maxsize=64)
 def modes_of_table(disc: Disc) -> Modes:
     """The modes of a disc that is given by a table."""

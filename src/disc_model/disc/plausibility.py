@@ -10,7 +10,9 @@ import numpy as np
 
 from disc_model.disc.plate import mode_arrays
 from disc_model.errors import DiscModelError
-from disc_model.parameters import DEFAULTS, Parameters
+from disc_model.parameters import DEFAULTS, Disc, Parameters
+
+APART = 20.0  # ratio of a frequency to the nearest other one beyond which its unit is doubted
 
 
 class ImplausibleValue(UserWarning):
@@ -43,6 +45,17 @@ def warn_of_doubts(p: Parameters, tell: Callable[[str], object] | None = None) -
         if kind not in _reported:
             _reported.add(kind)
             (tell or partial(warnings.warn, category=ImplausibleValue))(text)
+
+
+def warn_of_disc(disc: Disc) -> None:
+    """Warn of implausible modes of a disc that was read from a file, and of the doubts of its
+    report."""
+    for text in disc.report.doubts if disc.report else ():
+        warnings.warn(text, ImplausibleValue, stacklevel=3)
+    for kind, doubt in DISC_RULES.items():
+        if text := doubt(disc):
+            _reported.add(kind)
+            warnings.warn(text, ImplausibleValue, stacklevel=3)
 
 
 def _value(p: Parameters, name: str) -> str:
@@ -81,15 +94,34 @@ def _deflected(p: Parameters) -> str:
     return f"{_value(p, 'N')} bends the disc by {times}, and its theory is linear"
 
 
-def _pitch(p: Parameters) -> str:
-    if p.disc is None or 10.0 <= (lowest := min(p.disc.omega) / math.tau) <= 1e5:  # Hz
+def _pitch(disc: Disc) -> str:
+    lowest = min(disc.omega) / math.tau
+    if 10.0 <= lowest <= 1e5 or _alone(disc):  # Hz
         return ""
-    return f"the lowest mode of the disc has {lowest:.3g} Hz: a table has frequencies in Hz or rad/s, by its column"
+    text = f"the lowest mode of the disc has {lowest:.3g} Hz: "
+    return f"{text}a table has frequencies in Hz or rad/s, by its column"
 
 
-def _modal_mass(p: Parameters) -> str:
-    largest = max(map(abs, p.disc.amplitude)) if p.disc else 1.0
-    if 1e-3 <= largest**-2 <= 1e3:  # kg
+def _alone(disc: Disc) -> str:
+    """One frequency a thousand times too low or too high to stand among the others."""
+    frequencies = np.array(disc.omega) / math.tau
+    if len(frequencies) < 3:
+        return ""
+    for i, frequency in enumerate(frequencies):
+        others = np.delete(frequencies, i)
+        if others.min() / APART < frequency < others.max() * APART:
+            continue
+        meant = frequency * (1000 if frequency < others.min() else 1e-3)
+        if others.min() / 3 <= meant <= 3 * others.max():
+            text = f"mode {i + 1} of the disc has {frequency:.4g} Hz, and the others "
+            text += f"{others.min():.4g} to {others.max():.4g} Hz: "
+            return f"{text}{meant:.4g} Hz, with another unit, would be among them"
+    return ""
+
+
+def _modal_mass(disc: Disc) -> str:
+    largest = max(map(abs, disc.amplitude))
+    if largest == 0 or 1e-3 <= largest**-2 <= 1e3:  # kg
         return ""
     return f"the largest amplitude of the disc, {largest:.3g} kg^-1/2, is that of a modal mass of {largest**-2:.2g} kg"
 
@@ -129,6 +161,18 @@ def _unstated(p: Parameters) -> str:
     return f"{_value(p, changed[0])} is not the paper's disc: state {' and '.join(unstated)}"
 
 
+def _of_disc(doubt: Callable[[Disc], str], p: Parameters) -> str:
+    """What a rule says of the disc of a case, "" if the case has a plate."""
+    return "" if p.disc is None else doubt(p.disc)
+
+
+# what each rule says of a disc that is given by its modes, "" if that is plausible
+DISC_RULES: dict[str, Callable[[Disc], str]] = {
+    "frequencies of the disc": _pitch,
+    "a frequency of the disc": _alone,
+    "amplitudes of the disc": _modal_mass,
+}
+
 # what each rule says of a case, "" if that is plausible
 RULES: dict[str, Callable[[Parameters], str]] = {
     name: partial(_far, name, DEFAULTS[name])
@@ -136,8 +180,7 @@ RULES: dict[str, Callable[[Parameters], str]] = {
 } | {
     "thickness": _thick,
     "modes and damping": _unstated,
-    "frequencies of the disc": _pitch,
-    "amplitudes of the disc": _modal_mass,
+    **{kind: partial(_of_disc, doubt) for kind, doubt in DISC_RULES.items()},
     "radius of the slider": _elsewhere,
     "static deflection": _deflected,
 }

@@ -204,9 +204,72 @@ def _sooner(s, c, known, n, x_end, cause, later):
     return x, cause
 
 
+@helper
+def _zeros_of_gap(model, s, state, tolerance):
+    """How many first coefficients of the gap are zero, but for their errors: see `first_event`."""
+    zeros, closing = 0, 0.0
+    rounding = transitions.gap_error(model, state, 0, 0.0)
+    if not model.compliant and s.switch[3] > 0.0:
+        # the time for which an error of the acceleration closes the gap, before its rate opens it
+        closing = transitions.gap_error(model, state, 2, tolerance) / s.switch[3]
+    while zeros < 3 and s.switch[zeros] <= rounding:
+        error = transitions.gap_error(model, state, zeros, tolerance)
+        if zeros < 2:
+            error += s.switch[3] * closing ** (3 - zeros)
+        if s.switch[zeros] < -error:
+            break
+        zeros += 1
+    return zeros
+
+
+@helper
+def _zeros_of_slip(model, s, state, tolerance):
+    """How many first coefficients of f in slip are zero, but for their errors: see
+    `first_event`."""
+    usual_speed = layout.drive_now(model, state)
+    rounding = transitions.slip_error(model, state, 0.0)
+    error = transitions.slip_error(model, state, tolerance)
+    least = -error - tolerance * usual_speed
+    greatest = rounding + transitions.ROUNDING * usual_speed
+    if not least <= s.switch[0] <= greatest:
+        return 0
+    return 2 if -error <= s.switch[1] <= rounding else 1
+
+
 @inlined
-def first_event(model, s, state, order, x_end):
-    """Place and cause of the phase's end within (0, x_end]: (x, cause), or (x_end, NOTHING)."""
+def _end_of_slip(model, s, state, known, order, x_end, tolerance):
+    """Place and cause of the end of slip by f = 0; ``known``: multiplicity of its root at 0."""
+    x, cause = _sooner(s, s.switch, known, order, x_end, transitions.AT_REST, transitions.NOTHING)
+    if cause == transitions.AT_REST and known == 0:
+        known = _zeros_of_slip(model, s, state, tolerance)
+        if known > 0 and s.switch[known] > 0.0:
+            set_powers(s.powers, x_end, order)
+            return _sooner(
+                s, s.switch, known, order, x_end, transitions.AT_REST, transitions.NOTHING
+            )
+    return x, cause
+
+
+@inlined
+def _end_of_contact(model, s, state, known, order, x_end, cause, tolerance):
+    """Place where P = 0 ends the phase, and CONTACT_LOST; (x_end, ``cause``) if it does not;
+    ``known``: multiplicity of its root at 0."""
+    x, found = _sooner(s, s.P, known, order - 1, x_end, transitions.CONTACT_LOST, cause)
+    if model.compliant and found == transitions.CONTACT_LOST and known == 0 and s.P[1] > 0.0:
+        just_begun = abs(s.P[0]) <= transitions.force_error(model, state, tolerance)
+        if just_begun:
+            set_powers(s.powers, x_end, order)
+            return _sooner(s, s.P, 1, order - 1, x_end, transitions.CONTACT_LOST, cause)
+    return x, found
+
+
+@inlined
+def first_event(model, s, state, order, x_end, tolerance):
+    """Place and cause of the phase's end within (0, x_end]: (x, cause), or (x_end, NOTHING).
+
+    A run that was cut just after an event knows no root at its start, but its first coefficients
+    are still errors of the state at the event, by the rounding and the ``tolerance`` of the series.
+    They do not end the phase that has just begun: the first coefficient beyond them decides."""
     phase, known, known_force = state.x[layout.PHASE], int(state.x[layout.KNOWN]), 0
     if model.compliant:  # there the contact force, too, starts at zero
         known_force = int(state.x[layout.KNOWN_FORCE])
@@ -216,24 +279,18 @@ def first_event(model, s, state, order, x_end):
             s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING
         )
         if cause == transitions.GAP_CLOSED and known == 0:
-            # a run that was cut just after a separation knows no root there, but the gap, and its
-            # rates per radian of the fastest motion, are still rounding
-            rounding = transitions.ROUNDING * transitions.deflection_size(model, state)
-            while known < 3 and abs(s.switch[known]) <= rounding:
-                known += 1
-            if known > 0:
+            known = _zeros_of_gap(model, s, state, tolerance)
+            if known > 0 and s.switch[known] > 0.0:
                 set_powers(s.powers, x_end, order)
                 return _sooner(
                     s, s.switch, known, order, x_end, transitions.GAP_CLOSED, transitions.NOTHING
                 )
         return x, cause
     if phase == layout.SLIP:
-        x_end, cause = _sooner(
-            s, s.switch, known, order, x_end, transitions.AT_REST, transitions.NOTHING
-        )
+        x_end, cause = _end_of_slip(model, s, state, known, order, x_end, tolerance)
         if not model.bonded:
-            x_end, cause = _sooner(
-                s, s.P, known_force, order - 1, x_end, transitions.CONTACT_LOST, cause
+            x_end, cause = _end_of_contact(
+                model, s, state, known_force, order, x_end, cause, tolerance
             )
         return x_end, cause
     cause, known_release = transitions.NOTHING, known_force
@@ -242,9 +299,7 @@ def first_event(model, s, state, order, x_end):
     )
     if not model.bonded and never_pulled:
         # P = 0 and the friction limit coincide, and it is contact that ends
-        x_end, cause = _sooner(
-            s, s.P, known_force, order - 1, x_end, transitions.CONTACT_LOST, cause
-        )
+        x_end, cause = _end_of_contact(model, s, state, known_force, order, x_end, cause, tolerance)
         if not model.normal:
             return x_end, cause
         # the slope of the disc may pull: here P is no factor of the release functions
@@ -261,9 +316,7 @@ def first_event(model, s, state, order, x_end):
     if not model.bonded and (model.mu_s == 0.0 or (model.compliant and model.normal)):
         # friction may hold although contact ends: without any, or on a slope so steep that it holds
         # the slider down
-        x_end, cause = _sooner(
-            s, s.P, known_force, order - 1, x_end, transitions.CONTACT_LOST, cause
-        )
+        x_end, cause = _end_of_contact(model, s, state, known_force, order, x_end, cause, tolerance)
     return x_end, cause
 
 
@@ -407,7 +460,9 @@ def follow(model, s, state, probe, limits, buffers, t):
                     / (model.m * model.r_0)
                 )
                 longest = min(longest, limits.longest / max(growth, 1.0))
-            x_end, cause = first_event(model, s, state, order, min(x_end, longest))
+            x_end, cause = first_event(
+                model, s, state, order, min(x_end, longest), limits.tolerance
+            )
         before, dt = x[layout.TIME], x_end * model.unit
         if len(t) == 0:
             buffers.phase_times[int(x[layout.PHASE])] += dt

@@ -111,6 +111,45 @@ def deflection_size(model, state):
     return size
 
 
+@helper
+def force_error(model, state, tolerance):
+    """Error of the force of a compliant contact that has just begun, for series of this relative
+    ``tolerance``."""
+    rounding = ROUNDING * deflection_size(model, state) / model.compliance
+    return rounding + tolerance * layout.load_now(model, state)
+
+
+@helper
+def gap_error(model, state, order, tolerance):
+    """Error of a coefficient of the gap's series, of this order, where contact has just been lost:
+    of rounding and, on the side of the force that has ended, of series of this relative
+    ``tolerance``. The force decides the gap itself, or its acceleration in rigid contact."""
+    rounding = ROUNDING * deflection_size(model, state)
+    force = tolerance * layout.load_now(model, state)
+    if model.compliant:
+        return rounding + force * model.compliance if order == 0 else rounding
+    if order < 2:
+        return rounding
+    inverse_mass = 1.0 / model.m + model.inverse_effective_mass
+    return rounding + 0.5 * model.unit**2 * force * inverse_mass
+
+
+@helper
+def slip_error(model, state, tolerance):
+    """Error of f' where slip has just begun, rad/s per time unit: of rounding if ``tolerance`` is
+    0, else of series of this relative tolerance too."""
+    P, _, noise = slip_force(model, state, state.x[layout.DIRECTION])
+    F = inplane_force_per_radius(model, state)
+    resistance = model.mu_s if model.decaying else model.mu_k
+    if model.normal:
+        _, _, dw_dtheta = disc_point(model, state)
+        resistance += abs(dw_dtheta) / model.r_0
+    load = max(abs(P), layout.load_now(model, state))
+    pull_error = (ROUNDING + tolerance) * abs(F)
+    friction_error = resistance * (noise + tolerance * load) / model.r_0
+    return model.unit * (pull_error + friction_error) / model.m
+
+
 @inlined
 def _rounding(model, state, i, size):
     """Rounding error of V in stick, or of the numerator of P where B F is rounded too."""

@@ -50,10 +50,9 @@ class Motion(NamedTuple):
     def of(cls, p: Parameters, states: Sequence[Any]) -> Self:
         """The motion through states such as those of `disc_model.snapshots`."""
         time = np.array([state.time for state in states])
-        psi = np.array([state.psi for state in states])
         u = np.array([state.u for state in states])
         phase = np.array([state.phase for state in states])
-        slider = p.Omega * time - psi
+        slider = np.array([state.slider_angle(p) for state in states])
         shapes = np.transpose([state.a + 1j * state.b for state in states])
         turned = shapes * np.exp(1j * np.multiply.outer(mode_arrays(p).diameters, slider))
         return cls(p, time, turned, slider, u, phase)
@@ -219,6 +218,19 @@ def animate(
 ) -> FuncAnimation:
     """Make a film of disc, slider and contact force through states; written to a path if there is
     one."""
+    writer = film_writer(path, fps)
+    with styled():
+        figure = Figure(figsize=(6.4, 2.7))
+        motion = Motion.of(p, states)
+        made = film(figure, motion, window["time"].values, window["P"].values)
+        if path is not None:
+            made.save(path, writer=writer, fps=fps, dpi=100)
+        return made
+
+
+def film_writer(path: str | Path | None, fps: int) -> str:
+    """The program that writes a film to a path, "" without a path; raises `ParameterError` if none
+    can, or `fps` is no number of pictures in a second."""
     file = Path(path) if isinstance(path, str | Path) else Path()
     writer = {".gif": "pillow", ".mp4": "ffmpeg"}.get(file.suffix, "")
     suffix = "must end in .gif or .mp4; a window is given by window="
@@ -229,10 +241,4 @@ def animate(
         (file.absolute().parent.is_dir(), "path", str(path), "must be in a folder that exists"),
         (available, "path", str(path), f"needs the program {writer}"),
     )
-    with styled():
-        figure = Figure(figsize=(6.4, 2.7))
-        motion = Motion.of(p, states)
-        made = film(figure, motion, window["time"].values, window["P"].values)
-        if path is not None:
-            made.save(path, writer=writer, fps=fps, dpi=100)
-        return made
+    return writer

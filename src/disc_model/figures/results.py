@@ -2,9 +2,10 @@
 
 from disc_model.figures.branch import plot_branch
 from disc_model.figures.critical import plot_critical
-from disc_model.figures.disc import animate
+from disc_model.figures.disc import animate, film_writer
 from disc_model.figures.eigenvalues import plot_eigenvalues
 from disc_model.figures.exponents import plot_exponents
+from disc_model.figures.fit import plot_fit
 from disc_model.figures.history import plot_run
 from disc_model.figures.modes import plot_modes
 from disc_model.figures.multipliers import plot_multipliers
@@ -17,10 +18,12 @@ from disc_model.figures.sweep import plot_sweep
 
 __all__ = [
     "animate",
+    "film_writer",
     "plot_branch",
     "plot_critical",
     "plot_eigenvalues",
     "plot_exponents",
+    "plot_fit",
     "plot_modes",
     "plot_multipliers",
     "plot_neutral_curves",

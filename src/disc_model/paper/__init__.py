@@ -1,9 +1,23 @@
-"""The paper's claims as data and checks: `ledger.check_claims`. Here are names that the workflow
-reads."""
+"""The paper's claims as data and checks: see `ledger.check_claims`.
 
-_MAPS = (f"map_{name}" for name in ("D_star", "E", "N", "c_p", "k", "k_p", "m"))
-SCANS = ("basins", "bonded", "critical_speed", "hysteresis", *_MAPS)
+Here are the names that the workflow reads.
+"""
+
+SCANS = (
+    "basins",
+    "bonded",
+    "critical_speed",
+    "hysteresis",
+    "map_D_star",
+    "map_E",
+    "map_N",
+    "map_c_p",
+    "map_k",
+    "map_k_p",
+    "map_m",
+)
 """Grid studies that rows of the ledger use."""
+
 SURVIVAL_GRIDS = (
     "survival_growth",
     "survival_outcome",
@@ -11,11 +25,15 @@ SURVIVAL_GRIDS = (
     "survival_curves",
     "survival_damping",
 )
-"""Grid studies of config/survival.yaml, by which `survival` judges the conclusions under other models."""
+"""Grid studies of config/survival.yaml, by which `survival` judges conclusions under other models."""
+
 TABLE_CASES = {
     "table1": ("F13",),
     "table2": ("F13",),
     "periods": ("F02", "F07", "F22"),
     "impact_law": ("F13", "P03l8", "P03l4c1", "P03l4c2", "P03res"),
 }
-"""Cases of each table; of periods those that the paper calls quasi-periodic or unpredictable, and that repeat."""
+"""Cases of each table.
+
+Those of `periods` repeat, although the paper calls them quasi-periodic or unpredictable.
+"""

@@ -1,12 +1,14 @@
-"""The ledger: every statement of the paper with a verdict, as a table and as a page with a summary
-on top; and the paper's cases and statements under the two normalisations of the modes: as
-published, and by Eq. (17)."""
+"""The ledger: every statement of the paper with a verdict.
 
-import math
+It is a table, and a page with a summary on top. A second page sets the paper's cases and statements
+under the two normalisations of the modes beside each other: as published, and by Eq. (17).
+"""
+
 import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from disc_model.data.dataset import Missing
@@ -34,60 +36,107 @@ FILES = (
     "paper/section41.yaml",
     "paper/section43.yaml",
     "paper/section44.yaml",
+    "paper/precursor.yaml",
 )
-ROWS = tuple(row for file in (*FILES, "paper/precursor.yaml") for row in rows_of(file, CHECKS))
-COLUMNS = ["id", "section", "place", "quote", "verdict", "here", "matters", "notes"]
-COLUMNS += ["rule", "figures", "data", "counts"]
+ROWS = tuple(row for file in FILES for row in rows_of(file, CHECKS))
+COLUMNS = [
+    "id",
+    "section",
+    "place",
+    "quote",
+    "verdict",
+    "here",
+    "matters",
+    "notes",
+    "rule",
+    "figures",
+    "data",
+    "counts",
+]
+
+NUMBER = r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
 
 
 def check_claims(cases: Mapping[str, CaseView]) -> pd.DataFrame:
-    """Judge all rows: a table with `COLUMNS`; figures and data are links from the paper's results,
-    by their words."""
-    return judge(ROWS, {"": cases}).join(pd.DataFrame(map(_stated, ROWS)))[COLUMNS]
+    """Judge all rows by cases and grid studies, by name.
+
+    Returns a table with `COLUMNS`; ``figures`` and ``data`` are links from the paper's results, by
+    their words.
+    """
+    judged = judge(ROWS, {"": cases})
+    stated = pd.DataFrame([_stated(row) for row in ROWS])
+    return judged.join(stated)[COLUMNS]
 
 
 def _stated(row: Row) -> dict[str, Any]:
-    """The columns of a row that do not depend on what was computed."""
-    part = re.sub(r"^(Sec\. 2)\.\d.*", r"\1", row.place.partition(",")[0])
-    names = {
-        name: f"Fig. {name[3:].lstrip('0')}" if name.startswith("fig") else name
-        for name in row.figures
-    }
-    data = {f"table {name.replace('_', ' ')}": f"tables/{name}.html" for name in row.tables}
-    data |= {x: f"cases/{x}.nc" for x in row.cases} | {
-        x: f"../{x}/{x}.nc" for x in row.scans + row.beside
-    }
-    return {name: getattr(row, name) for name in ("place", "quote", "matters", "rule")} | {
-        "section": "Conclusions" if part.startswith("Conclusion") else part,
-        "figures": {words: _link(name) for name, words in names.items()},
+    """Return the columns of a row that do not depend on what was computed."""
+    section = re.sub(r"^(Sec\. 2)\.\d.*", r"\1", row.place.partition(",")[0])
+    if section.startswith("Conclusion"):
+        section = "Conclusions"
+
+    figures = {}
+    for name in row.figures:
+        words = name
+        if name.startswith("fig"):
+            number = name.removeprefix("fig").lstrip("0")
+            words = f"Fig. {number}"
+        figures[words] = _link(name)
+
+    data = {}
+    for name in row.tables:
+        words = name.replace("_", " ")
+        data[f"table {words}"] = f"tables/{name}.html"
+    for name in row.cases:
+        data[name] = f"cases/{name}.nc"
+    for name in row.scans + row.optional_scans:
+        data[name] = f"../{name}/{name}.nc"
+
+    counts = ""
+    if row.print_error:
+        counts = "error in print"
+    elif row.after_the_fact:
+        counts = "after the fact"
+    return {
+        "place": row.place,
+        "quote": row.quote,
+        "matters": row.matters,
+        "rule": row.rule,
+        "section": section,
+        "figures": figures,
         "data": data,
-        "counts": "error in print" if row.print_error else "after the fact" * row.after_the_fact,
+        "counts": counts,
     }
 
 
 def _link(figure: str) -> str:
-    return (
-        f"figures/{figure}.png" if figure.startswith("fig") else f"../{figure}/figures/{figure}.png"
-    )
+    """Return the path of a figure from the paper's results."""
+    if figure.startswith("fig"):
+        return f"figures/{figure}.png"
+    return f"../{figure}/figures/{figure}.png"
 
 
 def summary(table: pd.DataFrame) -> dict[str, Any]:
-    """What the page says on top: counts of verdicts, and sentences whose rows have the verdicts
-    that they speak of."""
+    """Return what the page says on top of a table of `check_claims`.
+
+    These are counts of verdicts, and sentences whose rows have the verdicts that they speak of.
+    """
     texts = read_texts("paper/ledger.yaml")
     counted = table[table["counts"] != "error in print"]
     parts = pd.crosstab(counted["section"], counted["verdict"])
     parts = parts.reindex(index=counted["section"].unique(), columns=[*VERDICTS], fill_value=0)
-    verdicts = table.set_index("id")["verdict"]
-    numbers = table.set_index("id")["here"].str.findall(
-        r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
-    )
+
+    by_row = table.set_index("id")
+    numbers = by_row["here"].str.findall(NUMBER)
     for name, verdict in (("headline", TRUE), ("stands", TRUE), ("falls", FALSE)):
-        items = [(row, text) for row, text in texts[name].items() if verdicts[row] == verdict]
-        texts[name] = [{"id": row, "text": fill(text, n=numbers[row])} for row, text in items]
-    texts["links"] = {name: _link(name) for name in texts["pictures"]}
+        items = []
+        for row, text in texts[name].items():
+            if by_row.loc[row, "verdict"] == verdict:
+                sentence = fill(text, n=numbers[row])
+                items.append({"id": row, "text": sentence})
+        texts[name] = items
     return {
         **texts,
+        "links": {name: _link(name) for name in texts["pictures"]},
         "counts": parts.sum().to_dict(),
         "parts": parts,
         "errors": len(table) - len(counted),
@@ -95,76 +144,108 @@ def summary(table: pd.DataFrame) -> dict[str, Any]:
 
 
 # ---- The two normalisations
+
 TEXTS: dict[str, str] = read_texts("paper/pages.yaml")["normalisation"]
-OLD, NEW = "As published", "With Eq. (17)"
-SHOWN = (
-    "F02",
-    "F07",
-    "F09",
-    "F13",
-    "F17",
-    "F18",
-    "F22",
-    "F23",
-)  # cases of the paper's figures with a separation
+OLD = "As published"
+NEW = "With Eq. (17)"
+SHOWN = ("F02", "F07", "F09", "F13", "F17", "F18", "F22", "F23")
+"""Cases of the paper's figures with a separation."""
 
 
 def compare(
     published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]
 ) -> dict[str, Section]:
-    """What changes with orthonormal modes; cases of the second set alone are "instead", if there
-    are any."""
-    shared: dict[Parameters, str] = {}  # without repetitions at another tolerance
+    """Return what changes with orthonormal modes, as sections of a page.
+
+    Parameters
+    ----------
+    published, orthonormal : cases by name under the two normalisations; those of the second alone
+        get a section ``instead``, if there are any
+    """
+    pairs = _pairs(published, orthonormal)
+    whole = []
+    failed = []
+    for case, other in pairs:
+        if "failed" in (case.status, other.status):
+            failed.append(case.name)
+        else:
+            whole.append((case, other))
+    verdicts = _verdicts(published, orthonormal)
+    brief = fill(
+        TEXTS["brief"],
+        cases=len(whole),
+        before=sum(case.separates for case, _ in whole),
+        after=sum(other.separates for _, other in whole),
+        failed=failed,
+    )
+    old_cases = [case for case, _ in pairs]
+    new_cases = [other for _, other in pairs]
+    parts = {
+        "brief": ("", brief, _brief(whole, verdicts)),
+        "modes": ("The modes", TEXTS["modes"], _modes()),
+        "cases": ("The cases of the paper", TEXTS["cases"], _cases(old_cases, new_cases)),
+    }
+    additional = [case for name, case in orthonormal.items() if name not in published]
+    if additional:
+        table = _cases(additional)
+        parts["instead"] = ("Where instability goes instead", TEXTS["instead"], table)
+    changes = verdicts[OLD] != verdicts[NEW]
+    changed = verdicts[changes & (verdicts[OLD] != NOT_COMPUTED)]
+    heading = "Statements of the paper whose verdict changes"
+    parts["verdicts"] = (heading, TEXTS["verdicts"], changed)
+    return parts
+
+
+def _pairs(
+    published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]
+) -> list[tuple[CaseView, CaseView]]:
+    """Return the cases from rest under both normalisations, each set of parameters once."""
+    names: dict[Parameters, str] = {}  # without repetitions at another tolerance
     for name, case in published.items():
         if name in orthonormal and case.from_rest:
-            shared.setdefault(case.parameters, name)
-    pairs = [(published[name], orthonormal[name]) for name in shared.values()]
-    whole = [(case, other) for case, other in pairs if "failed" not in (case.status, other.status)]
-    failed = [case.name for case, other in pairs if "failed" in (case.status, other.status)]
-    verdicts = _verdicts(published, orthonormal)
-    before, after = (sum(case.separates for case in column) for column in zip(*whole, strict=True))
-    text = fill(TEXTS["brief"], cases=len(whole), before=before, after=after, failed=failed)
-    parts = {
-        "brief": ("", text, _brief(whole, verdicts)),
-        "modes": ("The modes", TEXTS["modes"], _modes()),
-        "cases": ("The cases of the paper", TEXTS["cases"], _cases(*zip(*pairs, strict=True))),
-    }
-    if new := [case for name, case in orthonormal.items() if name not in published]:
-        parts["instead"] = ("Where instability goes instead", TEXTS["instead"], _cases(new))
-    changed = verdicts[(verdicts[OLD] != verdicts[NEW]) & (verdicts[OLD] != NOT_COMPUTED)]
-    return parts | {
-        "verdicts": ("Statements of the paper whose verdict changes", TEXTS["verdicts"], changed)
-    }
+            names.setdefault(case.parameters, name)
+    return [(published[name], orthonormal[name]) for name in names.values()]
 
 
 def _brief(pairs: Sequence[tuple[CaseView, CaseView]], verdicts: pd.DataFrame) -> pd.DataFrame:
-    """How many cases separate, grow and agree with the paper under both; first separations of the
-    paper's figures."""
-    known = [pair for pair in pairs if not any(math.isnan(case.growth_rate) for case in pair)]
-    judged = [verdicts[name] for name in (OLD, NEW)]
-    grow = f"cases whose stick-slip cycle grows, of {len(known)} that have one under both"
-    rows: dict[str, list[Any]] = {
-        f"cases that separate, of {len(pairs)}": [
-            sum(pair[i].separates for pair in pairs) for i in (0, 1)
-        ],
-        grow: [sum(pair[i].growth_rate > 0 for pair in known) for i in (0, 1)],
-        f"statements that are true, of {len(verdicts)} that are judged by cases": [
-            sum(of == TRUE) for of in judged
-        ],
-        "statements that are false": [sum(of == FALSE) for of in judged],
-        "statements that no motion decides": [sum(of == NOT_COMPUTED) for of in judged],
-    }
-    rows |= {
-        f"first separation, {pair[0].place}": [*map(_first, pair)]
-        for pair in pairs
-        if pair[0].name in SHOWN
-    }
-    return pd.DataFrame(
-        [(name, *map(str, values)) for name, values in rows.items()], columns=["", OLD, NEW]
-    )
+    """Return counts under both normalisations, and first separations of the paper's figures.
+
+    Counted are cases that separate or grow, and statements by what becomes of them.
+
+    Parameters
+    ----------
+    pairs : cases under both normalisations
+    verdicts : a table of `_verdicts`
+    """
+    separate = np.zeros(2, int)
+    grow = np.zeros(2, int)
+    with_cycles = 0
+    for pair in pairs:
+        rates = np.array([case.growth_rate for case in pair])
+        separate += [case.separates for case in pair]
+        if not np.isnan(rates).any():
+            with_cycles += 1
+            grow += rates > 0
+    judged = verdicts[[OLD, NEW]]
+    rows: list[tuple[Any, ...]] = [
+        (f"cases that separate, of {len(pairs)}", *separate),
+        (f"cases whose stick-slip cycle grows, of {with_cycles} that have one under both", *grow),
+        (
+            f"statements that are true, of {len(verdicts)} that are judged by cases",
+            *(judged == TRUE).sum(),
+        ),
+        ("statements that are false", *(judged == FALSE).sum()),
+        ("statements that no motion decides", *(judged == NOT_COMPUTED).sum()),
+    ]
+    for case, other in pairs:
+        if case.name in SHOWN:
+            name = f"first separation, {case.place}"
+            rows.append((name, _first_separation(case), _first_separation(other)))
+    return pd.DataFrame(rows, columns=["", OLD, NEW]).astype(str)
 
 
 def _modes() -> pd.DataFrame:
+    """Return amplitudes and frequencies of the modes under both normalisations."""
     models = {", as published": section2.BASE, ", Eq. (17)": section2.NORMALISED}
     modes = plate_modes(section2.BASE)
     table = pd.DataFrame({"Nodal diameters": modes["diameters"].astype(str)})
@@ -179,52 +260,60 @@ def _modes() -> pd.DataFrame:
 
 
 def _cases(cases: Sequence[CaseView], new: Sequence[CaseView] = ()) -> pd.DataFrame:
-    """Results of the cases, beside those of the same cases with orthonormal modes if these are
-    given."""
-    models = {", as published": cases, ", Eq. (17)": new} if new else {"": cases}
-    values = [
-        values_text(dict(case.parameters)) + (", separation ignored" if case.bonded else "")
-        for case in cases
-    ]
-    columns = {"Case": [case.name for case in cases], "Parameters": values}
-    columns |= {
-        f"First separation{which}": [*map(_first, those)] for which, those in models.items()
+    """Return results of cases, and of the same cases with orthonormal modes if these are given."""
+    models = {"": cases}
+    if new:
+        models = {", as published": cases, ", Eq. (17)": new}
+    columns = {
+        "Case": [case.name for case in cases],
+        "Parameters": [_parameters_text(case) for case in cases],
     }
-    for which, those in models.items():
+    for which, each in models.items():
+        columns[f"First separation{which}"] = [_first_separation(case) for case in each]
+    for which, each in models.items():
         columns[f"Growth{which} (1/s)"] = [
-            rate_text(case.growth_rate, without="–") for case in those
+            rate_text(case.growth_rate, without="–") for case in each
         ]
-    return pd.DataFrame(columns | {f"P in the end{[*models][-1]} (N)": [*map(_late, new or cases)]})
+    last = [*models][-1]
+    columns[f"P in the end{last} (N)"] = [_late_force(case) for case in models[last]]
+    return pd.DataFrame(columns)
+
+
+def _parameters_text(case: CaseView) -> str:
+    """Return preload, speed and what else differs from Table 1, and whether separation is ignored."""
+    text = values_text(dict(case.parameters))
+    return f"{text}, separation ignored" if case.bilateral else text
 
 
 def _verdicts(
     published: Mapping[str, CaseView], orthonormal: Mapping[str, CaseView]
 ) -> pd.DataFrame:
-    """The rows of the ledger that are judged by cases, as they come out for both."""
-    table = judge(
-        [row for row in ROWS if row.cases], {"published": published, "orthonormal": orthonormal}
-    )
+    """Return the rows of the ledger that are judged by cases, as they come out for both."""
+    rows = [row for row in ROWS if row.cases]
+    table = judge(rows, {"published": published, "orthonormal": orthonormal})
     old, new = (part.set_index("id") for _, part in table.groupby("model", sort=False))
-    by_model = new.index.isin(
-        [row.get("also") for row in read_texts("paper/survival.yaml").values()]
-    )
+    several_models = [row.get("also") for row in read_texts("paper/survival.yaml").values()]
     columns = {
         "Place": pd.Series({row.id: row.place for row in ROWS}),
         "Statement": pd.Series({row.id: f"“{row.quote}”" for row in ROWS}),
         OLD: old["verdict"],
-        NEW: new["verdict"].mask(by_model, "see model sensitivity"),
+        NEW: new["verdict"].mask(new.index.isin(several_models), "see model sensitivity"),
         f"Found {NEW[0].lower()}{NEW[1:]}": new["here"],
     }
     return pd.DataFrame(columns).loc[old.index]
 
 
-def _first(case: CaseView) -> str:
-    if case.status == "failed" or case.bonded:
-        return "failed" if case.status == "failed" else "ignored"
+def _first_separation(case: CaseView) -> str:
+    """Return the time of the first separation as text, or why there is none."""
+    if case.status == "failed":
+        return "failed"
+    if case.bilateral:
+        return "ignored"
     return or_none(case["first_separation"], ".2f", " s", f"none in {case['time_reached']:g} s")
 
 
-def _late(case: CaseView) -> str:
+def _late_force(case: CaseView) -> str:
+    """Return the late range of the contact force as text, or a dash if it was not recorded."""
     try:
         return f"{case.late:.1f}"
     except Missing:

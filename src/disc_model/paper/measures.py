@@ -1,50 +1,51 @@
-"""Numbers that the rows of the ledger measure, from events and samples, and their words."""
+"""Views of cases and grid studies, with what rows of the ledger measure in them and its words."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.analysis import spectra
-from disc_model.analysis.classify import FEWEST, Motion, Settled, Settling, motion_of, settling
-from disc_model.analysis.spectra import Line
-from disc_model.data import dataset
+from disc_model.analysis import classify, spectra
+from disc_model.analysis.classify import FEWEST, Motion, Settled, Settling
+from disc_model.data import dataset, variables
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import (
-    EVENT_KINDS,
-    PHASES,
-    STATUSES,
-    flag_names,
-    stated_in,
-    values_text,
-)
 from disc_model.display import counted
+from disc_model.paper import growth
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import simulate
-from disc_model.stability.cycle import floquet
-from disc_model.stability.sliding import steady_sliding
 
 Array = NDArray[np.float64]
-SEPARATION = PHASES.index("separation")
-STRETCHES, STRETCH = 3, 20.0  # number and length of the last stretches of a case, s
-STEADY = 3e-4  # 1/s: a motion is steady if its ranges of contact force and disc change more slowly
-LOW, HIGH = (
-    20.0,
-    700.0,
-)  # Hz: above the drive's line and its multiples; above the disc's highest natural frequency
+
+SEPARATION = variables.PHASES.index("separation")
+
+STRETCHES = 3
+"""Number of the last stretches of a case that are compared."""
+STRETCH = 20.0
+"""Length of such a stretch, s."""
+STEADY = 3e-4
+"""Greatest rate in 1/s at which the ranges of contact force and disc of a steady motion change."""
+
+LOW = 20.0
+"""Hz, above the drive's line and its multiples."""
+HIGH = 700.0
+"""Hz, above the disc's highest natural frequency."""
+
+FEWEST_SAMPLES = 100
+"""Samples below which a stretch of a window is not looked at."""
+FEWEST_BINS = 4
+"""Bins of the history below which no slope is fitted."""
 
 
 class Absent(Missing):
-    """The evidence exists but lacks the feature that a row states: it is false."""
+    """The evidence exists but lacks the feature that a row states: the statement is false."""
 
 
 class Range(NamedTuple):
-    """Least and greatest value; formatted as ``low to high``, or as one number."""
+    """Least and greatest value; formatted as ``low to high``, or as one number if they are equal."""
 
     low: float
     high: float
@@ -54,20 +55,26 @@ class Range(NamedTuple):
         return self.high - self.low
 
     def __format__(self, spec: str) -> str:
-        return f"{self.low:{spec}}" + (f" to {self.high:{spec}}" if self.high != self.low else "")
+        if self.high == self.low:
+            return f"{self.low:{spec}}"
+        return f"{self.low:{spec}} to {self.high:{spec}}"
 
 
 @dataclass(frozen=True)
 class CaseView:
-    """View of one case, or of a grid study; raises `Missing` where the case does not hold what is
-    asked for."""
+    """View of one case, or of a grid study.
+
+    Its members raise `Missing` where the case does not hold what they need.
+    """
 
     name: str
     node: xr.DataTree
 
     def __getitem__(self, name: str) -> float:
-        """A scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
+        """Return a scalar: a parameter, or one of `disc_model.data.variables.SCALARS`."""
         return float(self.node.variables[name].values)  # node[name] would make a dataset
+
+    # ---- What the case is
 
     @cached_property
     def parameters(self) -> Parameters:
@@ -75,7 +82,7 @@ class CaseView:
 
     @property
     def status(self) -> str:
-        return STATUSES[int(self["status"])]
+        return variables.STATUSES[int(self["status"])]
 
     @property
     def separates(self) -> bool:
@@ -86,7 +93,7 @@ class CaseView:
         return "parameters" not in self.node.attrs
 
     @property
-    def bonded(self) -> bool:
+    def bilateral(self) -> bool:
         """Whether separation is ignored."""
         return self.parameters.contact == "bilateral"
 
@@ -95,62 +102,67 @@ class CaseView:
         return "start" not in self.node.attrs
 
     @property
-    def place(self) -> str:
-        """Preload and speed, and what else differs from Table 1, in words."""
-        p = self.parameters
-        others = {name: x for name, x in p if name not in ("N", "Omega") and not isinstance(x, str)}
-        return ", ".join(filter(None, [place(p.N, p.Omega), values_text(others)]))
-
-    @property
     def drive(self) -> float:
         """Frequency of the drive, Hz."""
         return self["Omega"] / (2 * np.pi)
 
     @property
+    def growth_rate(self) -> float:
+        """Growth rate of small disturbances of the cycle near the static start, 1/s."""
+        return growth.growth_of(self.parameters)
+
+    # ---- Words
+
+    @property
+    def place(self) -> str:
+        """Preload and speed, and what else differs from Table 1, in words."""
+        p = self.parameters
+        others = {
+            name: value
+            for name, value in p
+            if name not in ("N", "Omega") and not isinstance(value, str)
+        }
+        parts = [place(p.N, p.Omega), variables.values_text(others)]
+        return ", ".join(filter(None, parts))
+
+    @property
     def contact(self) -> str:
-        """For how long contact is kept, in words."""
-        time, end = self["first_separation"], self["time_reached"]
-        return (
-            f"contact is kept for {end:g} s"
-            if math.isnan(time)
-            else f"contact is lost at {time:.2f} s"
-        )
+        """How long contact is kept, in words."""
+        first = self["first_separation"]
+        if math.isnan(first):
+            return f"contact is kept for {self['time_reached']:g} s"
+        return f"contact is lost at {first:.2f} s"
 
     @property
     def contact_and_growth(self) -> str:
-        """The same, and how disturbances of its cycle grow."""
-        growth = rate_text(
-            self.growth_rate,
-            "/s",
-            "not defined, because no cycle was found near static equilibrium",
-        )
-        return f"{self.contact}, and growth is {growth}"
+        """How long contact is kept, and how disturbances of the cycle grow, in words."""
+        no_cycle = "not defined, because no cycle was found near static equilibrium"
+        return f"{self.contact}, and growth is {rate_text(self.growth_rate, '/s', no_cycle)}"
 
     @property
     def fate(self) -> str:
-        """The same as a sentence, with the place."""
+        """Place, contact and growth, as a sentence."""
         return f"At {self.place}, {self.contact_and_growth}."
-
-    @cached_property
-    def late_motion(self) -> Motion:
-        """Class of the in-plane motion within the stored events."""
-        return motion_of(self.intervals())
 
     @property
     def motion(self) -> str:
-        """The same in words."""
-        times, motion = self.intervals(), self.late_motion
+        """Class of the in-plane motion within the stored events, in words."""
+        intervals = self.intervals()
+        motion = self.late_motion
         if not motion.period:
-            most = (
-                f"{motion}: it does not repeat after any number of releases up to {times.size // 2}"
+            most = intervals.size // 2
+            return (
+                f"{motion}: it does not repeat after any number of releases up to {most}, "
+                f"and the 0-1 test for chaos gives {motion.chaos:.2f}"
             )
-            return f"{most}, and the 0-1 test for chaos gives {motion.chaos:.2f}"
-        length = float(times[: motion.period].sum())
-        apart = round(self.rate_of("separation") * length)
-        after = counted(motion.period, "release") + (
-            f" and {counted(apart, 'separation')}" if apart else ""
-        )
-        return f"periodic: it repeats after {after}, every {length:.6g} s"
+        length = float(intervals[: motion.period].sum())
+        events = counted(motion.period, "release")
+        separations = round(self.rate_of("separation") * length)
+        if separations:
+            events += f" and {counted(separations, 'separation')}"
+        return f"periodic: it repeats after {events}, every {length:.6g} s"
+
+    # ---- Ranges
 
     @property
     def early(self) -> Range:
@@ -167,6 +179,122 @@ class CaseView:
         """Range of the disc's point over the last 20 s, m."""
         return self.late_range("w_point")
 
+    @cached_property
+    def history(self) -> xr.Dataset:
+        """Least and greatest values of variables within the bins of the window ``history``."""
+        return self._stored(dataset.samples, "history", 1, envelope=True)
+
+    def range_of(self, name: str, start: float, stop: float) -> Range:
+        """Return the range of a variable in the whole bins of the history between two times, s."""
+        time = self.history["time"].values
+        half_bin = np.inf  # the width of a single bin is unknown
+        if time.size > 1:
+            half_bin = (time[1] - time[0]) / 2
+        margin = 0.99 * half_bin
+        inside = (time >= start + margin) & (time <= stop - margin)
+        if not inside.any():
+            raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
+        low = self.history[f"{name}_min"].values[inside].min()
+        high = self.history[f"{name}_max"].values[inside].max()
+        return Range(float(low), float(high))
+
+    def late_range(self, name: str) -> Range:
+        """Return the range of a variable over the last 20 s of the run."""
+        end = self["time_reached"]
+        return self.range_of(name, end - STRETCH, end)
+
+    def last_widths(self, name: str, length: float, count: int) -> list[float]:
+        """Return widths of a variable's ranges over the last stretches, the last one first.
+
+        Parameters
+        ----------
+        name : of the variable
+        length : of a stretch, s
+        count : number of stretches
+        """
+        end = self["time_reached"]
+        widths = []
+        for i in range(count):
+            stop = end - i * length
+            start = end - (i + 1) * length
+            widths.append(self.range_of(name, start, stop).width)
+        return widths
+
+    def last_quarters(self, name: str) -> list[float]:
+        """Return widths over the last two quarters of the time after the first separation."""
+        quarter = (self["time_reached"] - self["first_separation"]) / 4
+        return self.last_widths(name, quarter, 2)
+
+    def slope(self, name: str, start: float, stop: float) -> float:
+        """Return the mean growth rate of a variable's range between two times in s, in 1/s."""
+        part = self.history.sel(time=slice(start, stop))
+        if part.sizes["time"] < FEWEST_BINS:
+            raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
+        low = part[f"{name}_min"].values
+        high = part[f"{name}_max"].values
+        width = high - low
+        if not width.min() > 0:
+            raise Missing(
+                f"case {self.name} has no vibration in {name} from {start:g} to {stop:g} s"
+            )
+        slope, _ = np.polyfit(part["time"].values, np.log(width), 1)
+        return float(slope)
+
+    def settling(self) -> Settling:
+        """Return whether the ranges of contact force and disc have settled.
+
+        They are followed over the run, and over its last stretches, in which alone a change that
+        has just begun shows.
+        """
+        whole = self.history.isel(time=slice(None, -1))  # the last bin is cut
+        begin = self["time_reached"] - STRETCHES * STRETCH
+        over_the_run = _settling_of_ranges(whole)
+        late = _settling_of_ranges(whole.sel(time=slice(begin, None)))
+        changing = [each for each in late if each.answer is Settled.CHANGING]
+        order = [*Settled]
+        return min(changing or over_the_run, key=lambda each: order.index(each.answer))
+
+    # ---- Events
+
+    @cached_property
+    def events(self) -> xr.Dataset:
+        return self._stored(dataset.events)
+
+    @property
+    def kept_span(self) -> Range:
+        """Span of time in s for which the case stores its events."""
+        attrs = self.events.attrs
+        stop = min(float(attrs["kept_until"]), self["time_reached"])
+        return Range(float(attrs["kept_from"]), stop)
+
+    def switches(self, kind: str) -> xr.Dataset:
+        """Return the stored events of one kind."""
+        code = variables.EVENT_KINDS.index(kind)
+        return self.events.isel(event=self.events["kind"].values == code)
+
+    def times_of(self, kind: str) -> Array:
+        """Return the times of the stored events of one kind, s."""
+        return np.asarray(self.switches(kind)["time"])
+
+    def intervals(self, kind: str = "stick_to_slip") -> Array:
+        """Return times between successive stored releases, or separations, s."""
+        intervals = np.diff(self.times_of(kind))
+        if intervals.size < FEWEST:
+            what = f"{kind}s"
+            if kind == "stick_to_slip":
+                what = "stick-slip cycles"
+            raise Missing(f"case {self.name} keeps fewer than {FEWEST} {what}")
+        return intervals
+
+    def rate_of(self, kind: str) -> float:
+        """Return the rate of one kind of event within the stored events, 1/s."""
+        return self.times_of(kind).size / self.kept_span.width
+
+    @cached_property
+    def late_motion(self) -> Motion:
+        """Class of the in-plane motion within the stored events."""
+        return classify.motion_of(self.intervals())
+
     @property
     def stick(self) -> float:
         """Fraction of time in stick, within the stored events."""
@@ -178,149 +306,78 @@ class CaseView:
         return self["time_stick"] / self["time_reached"]
 
     @property
-    def growth_rate(self) -> float:
-        return growth_of(self.parameters)
-
-    @cached_property
-    def events(self) -> xr.Dataset:
-        return self._held(dataset.events)
-
-    @cached_property
-    def history(self) -> xr.Dataset:
-        """Least and greatest values of variables within the bins of the window `history`."""
-        return self._held(dataset.samples, "history", 1, envelope=True)
-
-    def samples(self, window: str) -> xr.Dataset:
-        """Samples of a window, or of the section ``poincare``."""
-        return self._held(dataset.samples, window)
-
-    def _held(self, ask: Callable[..., xr.Dataset], *args: Any, **options: Any) -> xr.Dataset:
-        try:
-            return ask(self.node, *args, **options)
-        except Missing as reason:
-            raise Missing(f"case {self.name} {reason}") from None
-
-    def range_of(self, name: str, start: float, stop: float) -> Range:
-        """Range of a variable from the whole bins of the history between two times, s."""
-        time = self.history["time"].values
-        half = (
-            (time[1] - time[0]) / 2 if time.size > 1 else np.inf
-        )  # the width of a single bin is unknown
-        inside = (time >= start + 0.99 * half) & (time <= stop - 0.99 * half)
-        if not inside.any():
-            raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
-        low, high = (self.history[f"{name}_{end}"].values[inside] for end in ("min", "max"))
-        return Range(float(low.min()), float(high.max()))
-
-    def late_range(self, name: str) -> Range:
-        """Range over the last 20 s of the run."""
-        return self.range_of(name, self["time_reached"] - STRETCH, self["time_reached"])
-
-    def last_widths(self, name: str, length: float, count: int) -> list[float]:
-        """Widths of a variable's ranges over stretches of a length, s, up to the end, the last one
-        first."""
-        end = self["time_reached"]
-        return [
-            self.range_of(name, end - (i + 1) * length, end - i * length).width
-            for i in range(count)
-        ]
-
-    def last_quarters(self, name: str) -> list[float]:
-        """Widths over the last two quarters of the time after the first separation."""
-        return self.last_widths(name, (self["time_reached"] - self["first_separation"]) / 4, 2)
-
-    def settling(self) -> Settling:
-        """Whether the ranges of contact force and disc have settled, over the run and over its last
-        stretches, in which alone a change that has just begun shows."""
-        whole = self.history.isel(time=slice(None, -1))  # the last bin is cut
-        late = whole.sel(time=slice(self["time_reached"] - STRETCHES * STRETCH, None))
-        whole_and_late = [
-            settling(
-                part["time"].values,
-                (part[f"{name}_max"] - part[f"{name}_min"]).values,
-                STEADY,
-                still=1.0,
-            )
-            for part in (whole, late)
-            for name in ("P", "w_point")
-        ]
-        moving = [each for each in whole_and_late[2:] if each.answer is Settled.CHANGING]
-        return min(moving or whole_and_late[:2], key=lambda each: [*Settled].index(each.answer))
-
-    def switches(self, kind: str) -> xr.Dataset:
-        """The stored events of one kind."""
-        return self.events.isel(event=self.events["kind"].values == EVENT_KINDS.index(kind))
-
-    def times_of(self, kind: str) -> Array:
-        return np.asarray(self.switches(kind)["time"])
-
-    def intervals(self, kind: str = "stick_to_slip") -> Array:
-        """Times between successive releases, or separations, among the stored events, s."""
-        intervals = np.diff(self.times_of(kind))
-        if intervals.size < FEWEST:
-            what = "stick-slip cycles" if kind == "stick_to_slip" else f"{kind}s"
-            raise Missing(f"case {self.name} keeps fewer than {FEWEST} {what}")
-        return intervals
-
-    def rate_of(self, kind: str) -> float:
-        """Rate of one kind of event within the stored events, 1/s."""
-        return self.times_of(kind).size / self.kept_span.width
-
-    @property
-    def kept_span(self) -> Range:
-        """Span of time for which a case stores its events, s."""
-        attrs = self.events.attrs
-        return Range(
-            float(attrs["kept_from"]), min(float(attrs["kept_until"]), self["time_reached"])
-        )
-
-    @property
     def longest_separation(self) -> float:
-        """Longest of the separations that begin within the stored events, s; one that lasts counts
-        to their end."""
-        apart, together = self.times_of("separation"), self.times_of("reattachment")
-        ends = np.searchsorted(together, apart, side="right")
-        whole = ends < together.size
+        """Longest of the separations that begin within the stored events, s.
+
+        One that lasts beyond them counts to their end.
+        """
+        begins = self.times_of("separation")
+        ends = self.times_of("reattachment")
+        next_end = np.searchsorted(ends, begins, side="right")
+        whole = next_end < ends.size
         if not whole.any():
             raise Missing(f"case {self.name} keeps no whole separation")
-        longest = float((together[ends[whole]] - apart[whole]).max())
-        return longest if whole.all() else max(longest, self.kept_span.high - float(apart[-1]))
+        durations = ends[next_end[whole]] - begins[whole]
+        longest = float(durations.max())
+        if whole.all():
+            return longest
+        return max(longest, self.kept_span.high - float(begins[-1]))
 
     def phase_share(self, phase: str) -> float:
-        """Fraction of time spent in a phase, within the stored events."""
-        lasting = np.diff(np.append(self.events["time"].values, self.kept_span.high))
-        spent = lasting[self.events["phase"].values == PHASES.index(phase)]
+        """Return the fraction of time spent in a phase, within the stored events."""
+        ends = np.append(self.events["time"].values, self.kept_span.high)
+        durations = np.diff(ends)
+        in_phase = self.events["phase"].values == variables.PHASES.index(phase)
         return ratio(
-            float(spent.sum()),
-            float(lasting.sum()),
+            float(durations[in_phase].sum()),
+            float(durations.sum()),
             f"the time that events of case {self.name} cover",
         )
 
+    # ---- Samples
+
+    def samples(self, window: str) -> xr.Dataset:
+        """Return the samples of a window, or of the section ``poincare``."""
+        return self._stored(dataset.samples, window)
+
     def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> "Signal":
-        """A variable between two times, from the samples of a window."""
+        """Return a variable between two times in s, from the samples of a window."""
         samples = self.samples(window).sel(time=slice(start, stop))
-        if samples.sizes["time"] < 100:
+        if samples.sizes["time"] < FEWEST_SAMPLES:
             raise Missing(
                 f"case {self.name} has no samples in {window} from {start:g} to {stop:g} s"
             )
         return Signal(self.name, window, samples["time"].values, samples[name].values)
 
-    def slope(self, name: str, start: float, stop: float) -> float:
-        """Mean rate at which the logarithm of a variable's range grows between two times, 1/s."""
-        part = self.history.sel(time=slice(start, stop))
-        if part.sizes["time"] < 4:
-            raise Missing(f"case {self.name} has no history from {start:g} to {stop:g} s")
-        width = part[f"{name}_max"].values - part[f"{name}_min"].values
-        if not width.min() > 0:
-            raise Missing(
-                f"case {self.name} has no vibration in {name} from {start:g} to {stop:g} s"
-            )
-        return float(np.polyfit(part["time"].values, np.log(width), 1)[0])
+    def _stored(self, read: Callable[..., xr.Dataset], *args: Any, **options: Any) -> xr.Dataset:
+        """Return what a function reads from the case; if that is missing, say of which case.
+
+        Parameters
+        ----------
+        read : a function of `disc_model.data.dataset`, whose first argument is the case
+        args, options : its further arguments
+        """
+        try:
+            return read(self.node, *args, **options)
+        except Missing as reason:
+            raise Missing(f"case {self.name} {reason}") from None
+
+
+def _settling_of_ranges(history: xr.Dataset) -> list[Settling]:
+    """Return whether the ranges of contact force and disc have settled in a history."""
+    found = []
+    for name in ("P", "w_point"):
+        width = history[f"{name}_max"] - history[f"{name}_min"]
+        time = history["time"].values
+        found.append(classify.settling(time, width.values, STEADY, still=1.0))
+    return found
 
 
 class Signal(NamedTuple):
-    """Samples of a case between two times, s; fractions are comparable for stretches of equal
-    length only."""
+    """Samples of a variable of a case between two times.
+
+    Fractions of its spectrum are comparable for stretches of equal length only.
+    """
 
     case: str
     window: str
@@ -329,130 +386,168 @@ class Signal(NamedTuple):
 
     @property
     def filled(self) -> float:
-        """Fraction of 20..300 Hz where the amplitude exceeds 1e-4 of the strongest: fuzz fills it,
-        lines do not."""
+        """Fraction of 20 to 300 Hz in which the amplitude exceeds 1e-4 of the strongest.
+
+        Fuzz fills it, and lines do not.
+        """
         return spectra.coverage(self.time, self.values, LOW, 300.0, floor=1e-4)
 
     def power_above(self, frequency: float) -> float:
-        """Ratio of the power above a frequency in Hz to that above `LOW`; raises `Missing` without
-        any line."""
+        """Return the ratio of the power above a frequency in Hz to that above `LOW`.
+
+        Raises `Missing` if there is no line above `LOW`.
+        """
         self.lines(above=LOW)
         return spectra.power_share(self.time, self.values, frequency, LOW)
 
-    def lines(self, count: int | None = None, **options: float) -> list[Line]:
-        """Lines, as by `disc_model.analysis.spectra`, the strongest ones of a count; raises
-        `Missing` without any."""
-        peaks = spectra.lines(self.time, self.values, **options)
-        if not peaks:
-            raise Missing(f"case {self.case} has no line in the spectrum of {self.window}")
-        return sorted(peaks, key=lambda line: -line.amplitude)[:count] if count else peaks
+    def lines(self, count: int | None = None, **options: float) -> list[spectra.Line]:
+        """Return lines of the spectrum; raises `Missing` if there are none.
 
-    def strongest(self, near: float, within: float) -> Line:
-        """The strongest line within `within` Hz of a frequency; raises `Absent`."""
+        Parameters
+        ----------
+        count : number of lines to return, the strongest first; all by frequency if None
+        options : of `disc_model.analysis.spectra.lines`
+        """
+        found = spectra.lines(self.time, self.values, **options)
+        if not found:
+            raise Missing(f"case {self.case} has no line in the spectrum of {self.window}")
+        if count is None:
+            return found
+        return sorted(found, key=lambda line: -line.amplitude)[:count]
+
+    def strongest(self, near: float, within: float) -> spectra.Line:
+        """Return the strongest line within `within` Hz of a frequency; raises `Absent`."""
         try:
             return spectra.strongest(self.time, self.values, near, within)
         except ValueError as error:
             raise Absent(f"case {self.case}: {error} in w_point") from None
 
 
+# ---- Several cases
+
+
 def views(trees: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
-    """Views of the merged cases, which bear the name ``cases``, and of grid studies, by name."""
+    """Return views, by name, of merged cases and of grid studies.
+
+    The merged cases bear the name ``cases``.
+    """
     nodes = {**trees["cases"].children, **trees}
-    return {name: CaseView(name, node) for name, node in nodes.items() if name != "cases"}
+    nodes.pop("cases")
+    return {name: CaseView(name, node) for name, node in nodes.items()}
 
 
 def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
-    """Cases with separation, each with the case that ignores separation; raises `Missing` if one
-    has no such case."""
-    bonded = {case.parameters: case for case in cases if case.bonded}
-    free = [
-        (case, case.parameters.replace(contact="bilateral")) for case in cases if not case.bonded
-    ]
-    if alone := [case.name for case, p in free if p not in bonded]:
+    """Return cases with separation, each with the case that ignores separation.
+
+    Raises `Missing` if one has no such case.
+    """
+    bilateral = {case.parameters: case for case in cases if case.bilateral}
+    found = []
+    alone = []
+    for case in cases:
+        if case.bilateral:
+            continue
+        other = bilateral.get(case.parameters.replace(contact="bilateral"))
+        if other is None:
+            alone.append(case.name)
+        else:
+            found.append((case, other))
+    if alone:
         raise Missing(
             f"without separation there is no case with the parameters of {', '.join(alone)}"
         )
-    return [(case, bonded[p]) for case, p in free]
+    return found
 
 
 def ratio(part: float, whole: float, what: str) -> float:
-    """Ratio of two numbers; raises `Missing` if the denominator, which is `what`, is zero."""
+    """Return the ratio of two numbers; raises `Missing` if the denominator is not positive.
+
+    Parameters
+    ----------
+    part, whole : numerator and denominator
+    what : what the denominator is, for the message
+    """
     if not whole > 0:
         raise Missing(f"{what} is {whole:g}")
     return part / whole
 
 
-def width_ratio(case: CaseView, bonded: CaseView) -> float:
-    """Range of the disc in the end with separation over that without."""
-    return ratio(case.disc.width, bonded.disc.width, f"the range of the disc in case {bonded.name}")
+def width_ratio(case: CaseView, bilateral: CaseView) -> float:
+    """Return the late range of the disc with separation over that without."""
+    what = f"the range of the disc in case {bilateral.name}"
+    return ratio(case.disc.width, bilateral.disc.width, what)
 
 
 # ---- Grid studies
+
+
 def published(study: xr.Dataset) -> xr.Dataset:
+    """Return the points of a grid study with the published modes."""
     return study.sel(normalization="as_published")
 
 
 def sound(study: xr.Dataset) -> xr.Dataset:
-    """The grid study; raises `Missing` if a point failed."""
-    by_outcome = "outcome" in study
-    words = flag_names(study["outcome" if by_outcome else "status"])
-    if np.any(words == "failed" if by_outcome else words != "ok"):
+    """Return the grid study; raises `Missing` if a point failed."""
+    if np.any(_failed(study)):
         raise Missing(f"study {study.attrs.get('study', '')} has points that failed")
     return study
 
 
+def _failed(study: xr.Dataset) -> NDArray[np.bool_]:
+    """Return which points of a grid study failed, by their outcome or else their status."""
+    if "outcome" in study:
+        return variables.flag_names(study["outcome"]) == "failed"
+    return variables.flag_names(study["status"]) != "ok"
+
+
 def facts(study: xr.Dataset) -> dict[str, Any]:
-    """What sentences say of a grid study: its base values, its options, and how far each axis of
-    numbers extends."""
-    axes = {
-        str(name): extent(axis) for name, axis in study.indexes.items() if axis.dtype.kind in "if"
-    }
-    return stated_in(study, "base") | stated_in(study, "options") | axes
+    """Return what sentences state of a grid study.
+
+    These are its base values, its options, and the extent of each axis of numbers.
+    """
+    found = {**variables.stated_in(study, "base"), **variables.stated_in(study, "options")}
+    for name, axis in study.indexes.items():
+        if axis.dtype.kind in "if":
+            found[str(name)] = extent(axis)
+    return found
 
 
 # ---- Numbers in words
+
+
 def extent(values: Iterable[float]) -> Range:
+    """Return the range of numbers."""
     numbers = np.asarray([*values])
     return Range(float(numbers.min()), float(numbers.max()))
 
 
 def repeats(motion: Motion, name: str) -> str:
-    """After how many events of this name a motion repeats, or else its class, in words."""
-    return f"repeats after {counted(motion.period, name)}" if motion.period else f"is {motion}"
+    """Return after how many events of a name a motion repeats, or else its class, in words."""
+    if motion.period:
+        return f"repeats after {counted(motion.period, name)}"
+    return f"is {motion}"
 
 
 def place(N: float, Omega: float) -> str:
+    """Return a preload in N and a speed in rad/s as text."""
     return f"{N:g} N, {Omega:g} rad/s"
 
 
 def or_none(value: float, spec: str, unit: str = "", without: str = "none") -> str:
-    """A number with its unit, or a text if it is missing."""
-    return without if math.isnan(value) else f"{value:{spec}}{unit}"
+    """Return a number with its unit as text, or another text if the number is nan.
+
+    Parameters
+    ----------
+    value : the number
+    spec : its format
+    unit : what follows the number
+    without : the text for nan
+    """
+    if math.isnan(value):
+        return without
+    return f"{value:{spec}}{unit}"
 
 
 def rate_text(rate: float, unit: str = "", without: str = "no cycle") -> str:
-    """A growth rate as text, or a text if there is no cycle."""
+    """Return a growth rate as text, or another text if there is no cycle."""
     return or_none(rate, "+.4f", unit, without)
-
-
-# ---- Computed for the rows
-@cache
-def growth_of(p: Parameters) -> float:
-    """Largest growth rate of small disturbances of the stick-slip cycle near the static start, 1/s;
-    nan without one."""
-    return floquet(p).growth_rate
-
-
-@cache
-def sliding_growth(p: Parameters) -> float:
-    """Largest growth rate of small disturbances of steady sliding, 1/s; nan without an
-    equilibrium."""
-    return steady_sliding(p).growth_rate
-
-
-@cache
-def separates_within(p: Parameters, until: float) -> bool:
-    """Whether the static start separates before a time in s, in a simulation of its own."""
-    return math.isfinite(
-        simulate(p, until, stop_at="first_separation").raise_for_status().first_separation
-    )

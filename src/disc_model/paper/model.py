@@ -1,15 +1,14 @@
-"""A row of the ledger: a quotation of the paper, and the function that judges it from cases and
-grid studies."""
+"""Rows of the ledger: quotations of the paper, and the checks that judge them."""
 
 import json
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache
-from itertools import product
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 import pandas as pd
+import xarray as xr
 import yaml
 from pydantic import BaseModel, ConfigDict, TypeAdapter
 
@@ -19,182 +18,302 @@ from disc_model.data.texts import fill
 from disc_model.paper.measures import Absent, CaseView, facts
 from disc_model.parameters import Parameters
 
-TRUE, PART, FALSE = "true", "true in part", "false"
-AMBIGUOUS, NOT_COMPUTED = "ambiguous in the paper", "not computed"
+TRUE = "true"
+PART = "true in part"
+FALSE = "false"
+AMBIGUOUS = "ambiguous in the paper"
+NOT_COMPUTED = "not computed"
 VERDICTS = (TRUE, PART, FALSE, AMBIGUOUS, NOT_COMPUTED)
 
 
 def read_texts(name: str) -> Any:
-    """A file of texts, by its path from the package on."""
-    return yaml.safe_load((Path(__file__).parents[1] / name).read_text(encoding="utf-8"))
+    """Return the content of a YAML file, by its path from the package on."""
+    path = Path(__file__).parents[1] / name
+    return yaml.safe_load(path.read_text(encoding="utf-8"))
 
 
 @cache
 def paper_cases() -> dict[str, dict[str, Any]]:
-    """The named cases of the paper: the values of each, beside the study's base values."""
+    """Return the named cases of the paper: what each adds to the study's base values."""
     return dict(read_texts("config/paper.yaml")["cases"])
-
-
-class Answer:
-    """Result of a check: verdict, or whether the statement is true; words; values for the words of
-    the row."""
-
-    def __init__(
-        self, verdict: bool | np.bool_ | str, here: str = "", *notes: str, **values: Any
-    ) -> None:
-        self.verdict = verdict if isinstance(verdict, str) else TRUE if verdict else FALSE
-        self.here, self.notes, self.values = here, " ".join(filter(None, notes)), values
-
-
-def graded(holds: Iterable[bool | np.bool_]) -> str:
-    """The verdict on a statement by what becomes of its parts."""
-    each = [bool(part) for part in holds]
-    return TRUE if all(each) else PART if any(each) else FALSE
-
-
-class Row(BaseModel):
-    """A statement of the paper, as a file has it. Its words may name values of the answer, those in
-    `given`, the `place` of the first case, and what the first grid study has `stated`."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-    id: str
-    place: str  # in the paper
-    quote: str = ""  # literally; or, of what it does not say,
-    statement: str = ""  # the statement in words of ours
-    check: Callable[..., Answer] | None = (
-        None  # judges it; a file has its name. None for what nothing is computed for:
-    )
-    verdict: str = ""  # then the verdict
-    here: str = (
-        ""  # and what is said for it; otherwise what is said of the check's values, as in the note
-    )
-    matters: str = ""  # the consequence, in one sentence
-    judged: str = ""  # the rule by which the check judges, with the numbers below
-    note: str = ""  # what should be known in any case
-    given: dict[str, bool | float | str | list[float]] = {}  # for the check and for the rule
-    cases: dict[
-        str, float
-    ] = {}  # for the check, of config/paper.yaml: the time in s to which each must have run
-    every: bool = False  # the check is given all cases instead, whatever their names
-    separates: (
-        Literal[True] | tuple[str, ...]
-    ) = ()  # it speaks of these after separation; of all cases if true
-    steady: Literal[True] | tuple[str, ...] = ()  # it is about the steady states of these
-    scans: tuple[str, ...] = ()  # the grid studies that the check is given besides
-    beside: tuple[str, ...] = ()  # further ones, for notes: None instead of one that is missing
-    tables: tuple[str, ...] = ()  # further ones of results on which it rests
-    figures: tuple[
-        str, ...
-    ] = ()  # of the paper's study, or names of grid studies with a figure of the same name
-    print_error: bool = False  # it is an error in print, counted apart
-    after_the_fact: bool = False  # the rule was chosen when the numbers were known
-    also: str = ""  # the row of the ledger that judges the same, of a conclusion that is judged under several models
-
-    @property
-    def rule(self) -> str:
-        """How it is judged, in words."""
-        return fill(self.judged, **self.given)
-
-    def judge(self, cases: Mapping[str, CaseView]) -> Answer:
-        """Judge it by these cases and grid studies; evidence that is missing or does not decide is
-        named."""
-        try:
-            return self._judge(cases)
-        except Missing as missing:
-            return Answer(FALSE if isinstance(missing, Absent) else NOT_COMPUTED, f"{missing}.")
-
-    def _judge(self, cases: Mapping[str, CaseView]) -> Answer:
-        if self.check is None:
-            return Answer(self.verdict, self.here, self.note)
-        needed = {name: _needed(cases, name, until) for name, until in self.cases.items()}
-        if self.every:
-            needed = {name: case for name, case in cases.items() if not case.is_grid}
-        for name in self.scans:
-            if name not in cases:
-                raise Missing(f"study {name} is not among those of this run")
-        for case in needed.values():
-            if (self.separates is True or case.name in self.separates) and not (
-                case.separates or case.bonded
-            ):
-                raise Missing(f"no separation in {case['time_reached']:g} s (case {case.name})")
-        steady = [
-            case for name, case in needed.items() if self.steady is True or name in self.steady
-        ]
-        for case in steady:
-            if (settling := case.settling()).answer is not Settled.SETTLED:
-                raise Missing(
-                    f"case {case.name} has not settled in {case['time_reached']:g} s: {settling}"
-                )
-        studies = [cases[name].node.to_dataset() for name in self.scans]
-        beside = [cases[name].node.to_dataset() if name in cases else None for name in self.beside]
-        answer = self.check(*needed.values(), *studies, *beside, **self.given)
-        which = "The motion has" if len(steady) == 1 else "All motions judged here have"
-        place, stated = (
-            next((case.place for case in needed.values()), ""),
-            facts(studies[0]) if studies else {},
-        )
-        texts = (
-            (self.here, self.note) if not answer.here or not self.here else ("", "")
-        )  # nothing fills them
-        here, note = (
-            fill(text, **{"place": place, "stated": stated} | self.given | answer.values)
-            for text in texts
-        )
-        return Answer(
-            answer.verdict,
-            answer.here or here,
-            answer.notes,
-            note,
-            f"{which} settled." * bool(steady),
-        )
-
-
-def rows_of(file: str, checks: Mapping[str, Any]) -> tuple[Row, ...]:
-    """The rows of a file, in its order, with their checks by name; raises pydantic.ValidationError
-    with all faults."""
-    texts = {f"{file}: {name}": {"id": name, **raw} for name, raw in read_texts(file).items()}
-    for text in texts.values():
-        if "check" in text:
-            text["check"] = checks.get(text["check"], text["check"])
-    return tuple(TypeAdapter(dict[str, Row]).validate_python(texts).values())
-
-
-def judge(rows: Iterable[Row], models: Mapping[str, Mapping[str, CaseView]]) -> pd.DataFrame:
-    """Judge rows under models, each with its own cases: a row for every statement and model, see
-    `Answer`."""
-    pairs = product(models, rows)
-    return pd.DataFrame(
-        {"id": row.id, "model": name, **vars(row.judge(models[name]))} for name, row in pairs
-    )
-
-
-def _needed(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
-    """The case that equals the paper's case of this name and has run this far (s); raises
-    `Missing`."""
-    if name not in cases:
-        raise Missing(f"case {name} is not in this study")
-    case, paper = cases[name], paper_cases()[name]
-    if case.status not in ("ok", "stopped"):
-        raise Missing(f"{case.status} (case {name})")
-    p, expected = case.parameters, parameters_of(name, case.parameters.normalization)
-    if p != expected:
-        differ = [
-            key for key in Parameters.model_fields if getattr(p, key) != getattr(expected, key)
-        ]
-        raise Missing(f"case {name} has another {', '.join(differ)} in this study")
-    starts = (json.loads(case.node.attrs.get("start", "{}")), paper.get("start", {}))
-    ours, its = (
-        [(start.get("prerun") or {}).get("parameters"), start.get("perturbation") or {}]
-        for start in starts
-    )
-    if ours != its:
-        raise Missing(f"case {name} has another start in this study")
-    if case.status == "ok" and case["time_reached"] < until:
-        raise Missing(f"case {name} ends at {case['time_reached']:g} s, {until:g} s are needed")
-    return case
 
 
 @cache
 def parameters_of(name: str, normalization: str) -> Parameters:
-    """Those of a case of the paper, with the study's normalisation."""
+    """Return the parameters of a case of the paper, with a normalisation of the modes."""
     return Parameters(**paper_cases()[name]["parameters"], normalization=normalization)
+
+
+class Answer:
+    """Result of a check.
+
+    Attributes
+    ----------
+    verdict : one of `VERDICTS`; the constructor also takes whether the statement is true
+    here : what was computed, instead of the row's own text
+    notes : remarks, in one text
+    values : values that the row's texts may name
+    """
+
+    def __init__(
+        self, verdict: bool | np.bool_ | str, here: str = "", *notes: str, **values: Any
+    ) -> None:
+        self.verdict = verdict_on(verdict)
+        self.here = here
+        self.notes = " ".join(filter(None, notes))
+        self.values = values
+
+
+def verdict_on(holds: bool | np.bool_ | str) -> str:
+    """Return the verdict on a statement that holds or does not; a verdict stays as it is."""
+    if isinstance(holds, str):
+        return holds
+    return TRUE if holds else FALSE
+
+
+def graded(holds: Iterable[bool | np.bool_]) -> str:
+    """Return the verdict on a statement by whether each of its parts holds."""
+    each = [bool(part) for part in holds]
+    if all(each):
+        return TRUE
+    return PART if any(each) else FALSE
+
+
+def partly(holds: bool | np.bool_, reservation: bool | np.bool_) -> str:
+    """Return the verdict on a statement that holds, perhaps with a reservation, or does not."""
+    if not holds:
+        return FALSE
+    return PART if reservation else TRUE
+
+
+class Evidence(NamedTuple):
+    """What a row is judged by."""
+
+    cases: list[CaseView]
+    steady: list[CaseView]
+    """Those whose steady state the row is about; each has settled."""
+    studies: list[xr.Dataset]
+    optional_studies: list[xr.Dataset | None]
+    """Grid studies for notes, None where one is missing."""
+
+
+class Row(BaseModel):
+    """A statement of the paper with the check that judges it, as an entry of a file.
+
+    Texts are templates. They may name values of the answer, those in `given`, the ``place`` of the
+    first case, and what the first grid study has ``stated``.
+
+    Attributes
+    ----------
+    id : name of the row
+    place : where the statement stands in the paper
+    quote : the statement, literally
+    statement : the statement in words of ours, of what the paper does not say literally
+    check : function that judges the row, which a file names; None if nothing is computed for it
+    verdict : the verdict, without a check
+    here : what is said for the verdict, or of the check's values
+    matters : the consequence, in one sentence
+    judged : the rule by which the check judges, with the numbers of `given`
+    note : what should be known in any case
+    given : numbers for the check and the rule
+    cases : cases of config/paper.yaml for the check, with the time in s to which each must have run
+    every : whether the check is given all cases instead
+    separates : cases of which the row speaks after separation, or True for all
+    steady : cases whose steady state the row is about, or True for all
+    scans : grid studies that the check is given after the cases
+    optional_scans : further ones, for notes; the check is given None for one that is missing
+    tables : tables of results on which the row rests as well
+    figures : figures of the paper's study, or grid studies with a figure of the same name
+    print_error : whether the row is on an error in print, which is counted separately
+    after_the_fact : whether the rule was chosen when the numbers were known
+    also : the row of the ledger that judges the same as a conclusion under several models
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    id: str
+    place: str
+    quote: str = ""
+    statement: str = ""
+    check: Callable[..., Answer] | None = None
+    verdict: str = ""
+    here: str = ""
+    matters: str = ""
+    judged: str = ""
+    note: str = ""
+    given: dict[str, bool | float | str | list[float]] = {}
+    cases: dict[str, float] = {}
+    every: bool = False
+    separates: Literal[True] | tuple[str, ...] = ()
+    steady: Literal[True] | tuple[str, ...] = ()
+    scans: tuple[str, ...] = ()
+    optional_scans: tuple[str, ...] = ()
+    tables: tuple[str, ...] = ()
+    figures: tuple[str, ...] = ()
+    print_error: bool = False
+    after_the_fact: bool = False
+    also: str = ""
+
+    @property
+    def rule(self) -> str:
+        """How the row is judged, in words."""
+        return fill(self.judged, **self.given)
+
+    def judge(self, cases: Mapping[str, CaseView]) -> Answer:
+        """Judge the row by cases and grid studies, by name.
+
+        Evidence that is missing, or that does not decide, is named in the answer.
+        """
+        if self.check is None:
+            return Answer(self.verdict, self.here, self.note)
+        try:
+            evidence = self._gather(cases)
+            answer = self.check(
+                *evidence.cases, *evidence.studies, *evidence.optional_studies, **self.given
+            )
+            return self._put_in_words(answer, evidence)
+        except Absent as absent:
+            return Answer(FALSE, f"{absent}.")
+        except Missing as missing:
+            return Answer(NOT_COMPUTED, f"{missing}.")
+
+    def _gather(self, known: Mapping[str, CaseView]) -> Evidence:
+        """Return the evidence for the check; raises `Missing` if there is not enough of it."""
+        if self.every:
+            cases = [case for case in known.values() if not case.is_grid]
+        else:
+            cases = [required_case(known, name, until) for name, until in self.cases.items()]
+        for name in self.scans:
+            if name not in known:
+                raise Missing(f"study {name} is not among those of this run")
+
+        for case in self._those(self.separates, cases):
+            if not (case.separates or case.bilateral):
+                raise Missing(f"no separation in {case['time_reached']:g} s (case {case.name})")
+        steady = self._those(self.steady, cases)
+        for case in steady:
+            settling = case.settling()
+            if settling.answer is not Settled.SETTLED:
+                raise Missing(
+                    f"case {case.name} has not settled in {case['time_reached']:g} s: {settling}"
+                )
+
+        studies = [known[name].node.to_dataset() for name in self.scans]
+        optional: list[xr.Dataset | None] = []
+        for name in self.optional_scans:
+            if name in known:
+                optional.append(known[name].node.to_dataset())
+            else:
+                optional.append(None)
+        return Evidence(cases, steady, studies, optional)
+
+    @staticmethod
+    def _those(named: Literal[True] | tuple[str, ...], cases: list[CaseView]) -> list[CaseView]:
+        """Return the cases that a key of the row names, all of them if it is True."""
+        if named is True:
+            return cases
+        return [case for case in cases if case.name in named]
+
+    def _put_in_words(self, answer: Answer, evidence: Evidence) -> Answer:
+        """Return an answer with the row's texts, filled with the values of the check."""
+        values: dict[str, Any] = {"place": "", "stated": {}}
+        if evidence.cases:
+            values["place"] = evidence.cases[0].place
+        if evidence.studies:
+            values["stated"] = facts(evidence.studies[0])
+        values.update(self.given)
+        values.update(answer.values)
+
+        here = answer.here
+        note = ""
+        # where the check has words of its own, nothing fills the row's
+        if not answer.here or not self.here:
+            here = here or fill(self.here, **values)
+            note = fill(self.note, **values)
+
+        settled = ""
+        if len(evidence.steady) == 1:
+            settled = "The motion has settled."
+        elif evidence.steady:
+            settled = "All motions judged here have settled."
+        return Answer(answer.verdict, here, answer.notes, note, settled)
+
+
+def rows_of(file: str, checks: Mapping[str, Any]) -> tuple[Row, ...]:
+    """Return the rows of a YAML file, in its order.
+
+    Parameters
+    ----------
+    file : its path from the package on
+    checks : functions that judge rows, by the names that the file uses
+
+    Raises
+    ------
+    pydantic.ValidationError
+        With all faults of the file.
+    """
+    entries = {}
+    for name, values in read_texts(file).items():
+        entry = {"id": name, **values}
+        if "check" in entry:
+            entry["check"] = checks.get(entry["check"], entry["check"])
+        entries[f"{file}: {name}"] = entry
+    return tuple(TypeAdapter(dict[str, Row]).validate_python(entries).values())
+
+
+def judge(rows: Iterable[Row], models: Mapping[str, Mapping[str, CaseView]]) -> pd.DataFrame:
+    """Judge rows under models, each with its own cases by name.
+
+    Returns a table with a row for each statement and model: ``id``, ``model`` and the attributes of
+    `Answer`.
+    """
+    rows = tuple(rows)
+    judged = []
+    for model, cases in models.items():
+        for row in rows:
+            answer = row.judge(cases)
+            judged.append({"id": row.id, "model": model, **vars(answer)})
+    return pd.DataFrame(judged)
+
+
+def required_case(cases: Mapping[str, CaseView], name: str, until: float) -> CaseView:
+    """Return the case that equals the paper's case of a name.
+
+    Parameters
+    ----------
+    cases : the cases of a study, by name
+    name : of the case
+    until : time in s to which it must have run
+
+    Raises
+    ------
+    disc_model.data.dataset.Missing
+        If the study has no such case, if it failed, differs from the paper's, or ended earlier.
+    """
+    if name not in cases:
+        raise Missing(f"case {name} is not in this study")
+    case = cases[name]
+    if case.status not in ("ok", "stopped"):
+        raise Missing(f"{case.status} (case {name})")
+
+    own = case.parameters
+    expected = parameters_of(name, own.normalization)
+    if own != expected:
+        differ = [
+            key for key in Parameters.model_fields if getattr(own, key) != getattr(expected, key)
+        ]
+        raise Missing(f"case {name} has another {', '.join(differ)} in this study")
+    own_start = json.loads(case.node.attrs.get("start", "{}"))
+    expected_start = paper_cases()[name].get("start", {})
+    if _start(own_start) != _start(expected_start):
+        raise Missing(f"case {name} has another start in this study")
+
+    end = case["time_reached"]
+    if case.status == "ok" and end < until:
+        raise Missing(f"case {name} ends at {end:g} s, {until:g} s are needed")
+    return case
+
+
+def _start(stated: Mapping[str, Any]) -> tuple[Any, Any]:
+    """Return what makes a start another one: parameters of a run before it, and perturbations."""
+    prerun = stated.get("prerun") or {}
+    return prerun.get("parameters"), stated.get("perturbation") or {}

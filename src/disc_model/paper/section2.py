@@ -1,9 +1,10 @@
-"""Rows on the abstract, Sections 2 to 4 and the precursor: scale and number of modes, disc and
-slider at rest."""
+"""Rows on the abstract, Sections 2 to 4 and the precursor.
+
+They are about the scale and the number of modes, and about the disc and the slider at rest.
+"""
 
 from collections.abc import Mapping, Sequence
 from functools import cache
-from itertools import product
 
 import numpy as np
 import pandas as pd
@@ -13,192 +14,296 @@ from scipy.integrate import fixed_quad
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import coupled_natural_frequencies, mode_shapes, plate_modes
-from disc_model.paper import measures
-from disc_model.paper.measures import Array, CaseView, extent, pairs, sliding_growth
+from disc_model.paper import growth, measures
+from disc_model.paper.growth import sliding_growth
+from disc_model.paper.measures import Array, CaseView
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded, parameters_of
 from disc_model.parameters import Parameters
 
 BASE = Parameters(N=200, Omega=20)
 NORMALISED = BASE.replace(normalization="orthonormal")
-SEPARATING = {f"Fig. {figure}": ("map_N", f"F{figure:02}") for figure in (2, 7, 9, 13, 17)}
-SEPARATING |= {"Fig. 18": ("map_D_star", "F18"), "Fig. 19": ("map_c_p", "F19")}
-SEPARATING |= {"Fig. 22": ("map_k_p", "F22"), "Fig. 23": ("map_m", "F23")}
-"""The figures of the paper that show separation, each with a map that has its case, and this case."""
+
+SEPARATING = {
+    "Fig. 2": ("map_N", "F02"),
+    "Fig. 7": ("map_N", "F07"),
+    "Fig. 9": ("map_N", "F09"),
+    "Fig. 13": ("map_N", "F13"),
+    "Fig. 17": ("map_N", "F17"),
+    "Fig. 18": ("map_D_star", "F18"),
+    "Fig. 19": ("map_c_p", "F19"),
+    "Fig. 22": ("map_k_p", "F22"),
+    "Fig. 23": ("map_m", "F23"),
+}
+"""The figures of the paper that show separation, each with a map that has its case, and the case."""
 
 
 def separating_points(maps: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
-    """The points of `SEPARATING`; raises `Missing` if one is not computed."""
+    """Return the points of `SEPARATING` on maps; raises `Missing` if one is not computed."""
     points = {}
     for figure, (name, case) in SEPARATING.items():
+        parameters = parameters_of(case, "as_published")
         axes = {*maps[name]["outcome"].dims} - {"normalization"}
-        values = {axis: getattr(parameters_of(case, "as_published"), str(axis)) for axis in axes}
-        point = points[figure] = maps[name].sel(values, method="nearest")
-        if not all(np.isclose(point[axis], value) for axis, value in values.items()):
-            raise Missing(f"study {name} has no point of {figure}")
+        values = {axis: getattr(parameters, str(axis)) for axis in axes}
+        point = maps[name].sel(values, method="nearest")
+        for axis, value in values.items():
+            if not np.isclose(point[axis], value):
+                raise Missing(f"study {name} has no point of {figure}")
         if np.any(flag_names(point["outcome"]) == "failed"):
             raise Missing(f"study {name} failed at {figure}")
+        points[figure] = point
     return points
 
 
 def first_separations(points: Mapping[str, xr.Dataset]) -> pd.DataFrame:
-    """Times of the first separation at the points of `SEPARATING`, s, nan for none: a column for
-    each normalization."""
-    return pd.DataFrame(
-        {figure: point["first_separation"].to_series() for figure, point in points.items()}
-    ).T
+    """Return times of the first separation at the points of `SEPARATING`, s.
+
+    There is a column for each normalisation; nan stands for no separation.
+    """
+    times = {figure: point["first_separation"].to_series() for figure, point in points.items()}
+    return pd.DataFrame(times).T
 
 
 def survive(*maps: xr.Dataset, share: float) -> Answer:
-    critical, plane = moving_load_speed(BASE), maps[0].transpose("normalization", "Omega", ...)
-    apart = flag_names(plane["outcome"]) == "separation"
-    lowest = [np.min(plane["Omega"].values[each.any(axis=1)], initial=np.inf) for each in apart]
+    """Judge whether low speeds separate with both sets of modes.
+
+    Parameters
+    ----------
+    maps : that over speed and preload first, and those with the other points of `SEPARATING`
+    share : of the critical speed of a moving load, below which a speed is low
+    """
+    critical = moving_load_speed(BASE)
+    plane = maps[0].transpose("normalization", "Omega", ...)
+    lowest = []
+    for separates in flag_names(plane["outcome"]) == "separation":
+        speeds = plane["Omega"].values[separates.any(axis=1)]
+        lowest.append(np.min(speeds, initial=np.inf))
+
+    # with modes by Eq. (17), points that only seem to keep contact are simulated to the horizon
     points = separating_points({study.attrs["study"]: study for study in maps})
-    times, horizons = (
-        first_separations(points),
-        {x: stated_in(points[x], "options")["horizon"] for x in points},
-    )
-    kinds = {
-        x: str(flag_names(point.sel(normalization="orthonormal")["outcome"]))
-        for x, point in points.items()
-    }
-    quiet = {
-        x: parameters_of(SEPARATING[x][1], "orthonormal")
-        for x in points
-        if kinds[x] != "separation"
-    }
-    kept = [x for x, p in quiet.items() if not measures.separates_within(p, horizons[x])]
-    grow = [horizons[figure] for figure in kept if kinds[figure] == "growing"]
+    times = first_separations(points)
+    in_contact = 0
+    grow = []
+    for figure, point in points.items():
+        outcome = str(flag_names(point.sel(normalization="orthonormal")["outcome"]))
+        if outcome == "separation":
+            continue
+        horizon = stated_in(point, "options")["horizon"]
+        case = parameters_of(SEPARATING[figure][1], "orthonormal")
+        if growth.separates_within(case, horizon):
+            continue
+        in_contact += 1
+        if outcome == "growing":
+            grow.append(horizon)
+
     counts = (
         len(times),
         times["as_published"].count(),
-        len(times) - len(kept),
-        len(kept) - len(grow),
+        len(times) - in_contact,
+        in_contact - len(grow),
         len(grow),
     )
-    verdict, until = (
+    return Answer(
         graded(speed < share * critical for speed in lowest),
-        extent(grow) if grow else None,
+        counts=counts,
+        until=measures.extent(grow) if grow else None,
+        lowest=lowest,
+        critical=critical,
     )
-    return Answer(verdict, counts=counts, until=until, lowest=lowest, critical=critical)
+
+
+# ---- Scale and number of modes
 
 
 def norms(p: Parameters) -> Array:
-    """Left side of the first relation of Eq. (17), which should be 1, for the modes of 0, 1, ...
-    nodal diameters."""
-    pairs = np.where(
-        plate_modes(p)["diameters"] > 0, 2.0, 1.0
-    )  # whose two modes have one amplitude in `plate_modes`
+    """Return the left side of the first relation of Eq. (17), which should be 1.
+
+    It has an entry for the modes of 0, 1, ... nodal diameters.
+    """
+    # in `plate_modes` the two modes of a pair share one amplitude
+    modes_of_amplitude = np.where(plate_modes(p)["diameters"] > 0, 2.0, 1.0)
     square, _ = fixed_quad(lambda r: mode_shapes(p, r) ** 2 * r, p.a, p.b, n=40)
-    return np.asarray(2 * np.pi * p.rho * p.h * square / pairs)
+    mass_per_area = p.rho * p.h
+    return np.asarray(2 * np.pi * mass_per_area * square / modes_of_amplitude)
 
 
 def normalised(*, within: float) -> Answer:
-    norms_of_base = norms(BASE)
-    return Answer(np.max(np.abs(norms_of_base - 1)) <= within, norms=[*norms_of_base])
+    """Judge whether the published modes satisfy the first relation of Eq. (17)."""
+    first = norms(BASE)
+    off = np.max(np.abs(first - 1))
+    return Answer(off <= within, norms=[*first])
 
 
 def second_relation(*, within: float) -> Answer:
+    """Judge whether normalised modes satisfy the second relation of Eq. (17)."""
     p = NORMALISED
-    second = (
-        norms(p) * plate_modes(p)["omega"].to_numpy() ** 2 / p.D
-    )  # of the biharmonic: rho h omega^2/D
-    return Answer(np.max(np.abs(second - 1)) <= within, second=[*second])
-
-
-def slip_condition(*cases: CaseView) -> Answer:
-    """Check the relation at a stop of the slider: ψ' = Ω there, and c_p = 0 in both cases."""
-    true: list[bool] = []
-    for case in cases:
-        stops = case.switches("slip_to_stick")
-        pull = case["r_0"] * np.abs(case["c_p"] * case["Omega"] + case["k_p"] * stops["psi"].values)
-        true += (pull < case["mu_s"] * stops["P"].values).tolist()
-    if not true:
-        raise Missing("no case keeps an end of slip")
-    return Answer(not any(true), held=sum(true), ends=len(true))
+    # the biharmonic operator multiplies a mode by rho h omega^2/D
+    omega = plate_modes(p)["omega"].to_numpy()
+    second = norms(p) * omega**2 / p.D
+    off = np.max(np.abs(second - 1))
+    return Answer(off <= within, second=[*second])
 
 
 def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
-    """Whether more modes change nothing: cases with 4, 5, 6 and 8 diameters, and with one and two
-    circles."""
+    """Judge whether more modes change nothing.
+
+    Parameters
+    ----------
+    evidence : cases with 4, 5, 6 and 8 nodal diameters, then with one and with two nodal circles
+    seconds : greatest difference of first separations that counts as none
+    share : greatest relative difference of rates and shares of time that counts as none
+    """
     first = [case["first_separation"] for case in evidence]
-    soon, all_soon = (
-        np.ptp(first[:4]) <= seconds,
-        np.ptp(first) <= seconds,
-    )  # nan if one does not separate
-    shown = (evidence[0], *evidence[3:])
+    soon = np.ptp(first[:4]) <= seconds  # false if one does not separate: its time is nan
+    all_soon = np.ptp(first) <= seconds
+
     rows = [
-        (case.rate_of("separation"), case.phase_share("separation"), case.stick) for case in shown
+        (case.rate_of("separation"), case.phase_share("separation"), case.stick)
+        for case in (evidence[0], *evidence[3:])
     ]
-    more, *circles = [bool(np.allclose(row, rows[0], rtol=share)) for row in rows[1:]]
-    verdict = TRUE if all_soon and more and all(circles) else PART if soon and more else FALSE
-    change = ["hardly change" if same else "change" for same in (more, all(circles))]
+    equal = [bool(np.allclose(row, rows[0], rtol=share)) for row in rows[1:]]
+    diameters, *circles = equal
+    if all_soon and diameters and all(circles):
+        verdict = TRUE
+    elif soon and diameters:
+        verdict = PART
+    else:
+        verdict = FALSE
+    effect = {True: "hardly change", False: "change"}
+    change = [effect[diameters], effect[all(circles)]]
     return Answer(verdict, change=change, rows=rows)
 
 
+# ---- Conditions and frequencies
+
+
+def slip_condition(*cases: CaseView) -> Answer:
+    """Judge Eq. (24) at stops of the slider, where ψ' = Ω; in these cases c_p = 0."""
+    holds: list[bool] = []
+    for case in cases:
+        stops = case.switches("slip_to_stick")
+        damper = case["c_p"] * case["Omega"]
+        spring = case["k_p"] * stops["psi"].values
+        pull = case["r_0"] * np.abs(damper + spring)
+        friction = case["mu_s"] * stops["P"].values
+        holds += (pull < friction).tolist()
+    if not holds:
+        raise Missing("no case keeps an end of slip")
+    return Answer(not any(holds), held=sum(holds), ends=len(holds))
+
+
 def attached_frequencies(*, printed: Sequence[float], within: float) -> Answer:
+    """Judge the printed natural frequencies with the slider attached, rad/s."""
     ours = coupled_natural_frequencies(BASE)
-    return Answer(np.all(np.abs(ours - np.sort(printed)) <= within), ours=[*ours])
+    off = np.abs(ours - np.sort(printed))
+    return Answer(np.all(off <= within), ours=[*ours])
 
 
 def moving_load(*, printed: float, within: float) -> Answer:
-    ours, modes = moving_load_speed(BASE), plate_modes(BASE)
+    """Judge the printed critical speed of a moving load, rad/s."""
+    ours = moving_load_speed(BASE)
     holds = abs(ours - printed) <= within
-    return Answer(
-        holds,
-        ours=ours,
-        shifted="" if holds else float(np.min(modes["omega"] / (modes["diameters"] + 1))),
-    )
+    shifted: float | str = ""
+    if not holds:
+        modes = plate_modes(BASE)
+        orders = modes["diameters"] + 1
+        shifted = float(np.min(modes["omega"] / orders))
+    return Answer(holds, ours=ours, shifted=shifted)
 
 
 def moving_load_speed(p: Parameters) -> float:
-    """Critical speed of a load that moves around the disc: the least omega_l/l, rad/s."""
+    """Return the critical speed of a load that moves round the disc, min omega_l/l, in rad/s."""
     modes = plate_modes(p).query("diameters > 0")
     return float(np.min(modes["omega"] / modes["diameters"]))
 
 
+# ---- What separation changes
+
+
 def different(*cases: CaseView, factor: float, share: float = 0.0, both: bool = False) -> Answer:
-    """Whether separation changes range of the disc or share of stick, or both, in a pair or in a
-    share of the pairs."""
-    rows, differ = [], 0
-    for case, other in pairs(cases):
-        ratio, sticks = measures.width_ratio(case, other), (case.stick, other.stick)
-        changes = ratio * factor <= 1, max(sticks) >= factor * min(sticks)
-        differ += all(changes) if both else any(changes)
+    """Judge whether separation changes the range of the disc or the share of stick.
+
+    Parameters
+    ----------
+    cases : with separation and without it, which form pairs
+    factor : by which one of the two has to change
+    share : of the pairs in which it has to; at least one
+    both : whether range and share of stick have to change
+    """
+    rows = []
+    differ = 0
+    for case, other in measures.pairs(cases):
+        ratio = measures.width_ratio(case, other)
+        sticks = (case.stick, other.stick)
+        changes = [ratio * factor <= 1, max(sticks) >= factor * min(sticks)]
+        if all(changes) or (any(changes) and not both):
+            differ += 1
         rows.append((case.place, ratio, *sticks, case.disc.width, other.disc.width))
-    return Answer(differ >= max(1, share * len(rows)), rows=rows, differ=differ)
+    fewest = max(1, share * len(rows))
+    return Answer(differ >= fewest, rows=rows, differ=differ)
 
 
-# ---- The abstract of the model's precursor, J. Sound Vib. 209 (1998): steady sliding where
-# friction falls
-SPEEDS = np.arange(5.0, 1501.0, 5.0)  # rad/s, up to where all speeds are unstable without friction
+# ---- The abstract of the model's precursor, J. Sound Vib. 209 (1998): steady sliding with friction
+# that falls
+
+SPEEDS = np.arange(5.0, 1501.0, 5.0)
+"""Speeds in rad/s, up to where sliding is unstable at all speeds without friction."""
 
 
 @cache
 def growths(loads: tuple[float, ...], c: float, **friction: float) -> Array:
-    """Largest growth rates of sliding, 1/s: without friction, with it, and with a damper too: (3,
-    load, speed)."""
+    """Return largest growth rates of sliding in 1/s, shape (3, loads, speeds).
+
+    They are those without friction, with it, and with it and a damper.
+
+    Parameters
+    ----------
+    loads : preloads, N
+    c : damping of the damper normal to the disc, N s/m
+    friction : parameters of friction
+    """
     p = BASE.replace(contact="bilateral", **friction)
-    points = product((p.replace(mu_s=0.0, mu_k=0.0), p, p.replace(c=c)), loads, SPEEDS)
-    growth = [sliding_growth(each.replace(N=N, Omega=speed)) for each, N, speed in points]
-    return np.reshape(growth, (3, len(loads), SPEEDS.size))
+    frictionless = p.replace(mu_s=0.0, mu_k=0.0)
+    rates = [
+        sliding_growth(case.replace(N=N, Omega=speed))
+        for case in (frictionless, p, p.replace(c=c))
+        for N in loads
+        for speed in SPEEDS
+    ]
+    return np.reshape(rates, (3, len(loads), SPEEDS.size))
 
 
 def additional(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
-    """Whether friction makes speeds unstable that are stable without, and the damper raises growth
-    at all of them."""
-    alone, both, damped = growths(tuple(loads), c, **friction)
-    critical, new = moving_load_speed(BASE), (both > 0) & ~(alone > 0)
+    """Judge whether friction makes stable speeds unstable, and the damper raises growth there.
+
+    The statement is open if the damper raises some of these growth rates only: of the precursor we
+    have the abstract, and do not know its disc.
+    """
+    without, both, damped = growths(tuple(loads), c, **friction)
+    critical = moving_load_speed(BASE)
+    new = (both > 0) & ~(without > 0)
     raised = new & (damped > both)
-    # open if it raises some: the disc of the precursor, of which we have the abstract, is not known
-    verdict = FALSE if not raised.any() else TRUE if (raised == new).all() else NOT_COMPUTED
-    slowest, below = SPEEDS[raised.any(axis=0)].min(initial=np.inf), new[:, critical > SPEEDS]
+    if not raised.any():
+        verdict = FALSE
+    elif np.array_equal(raised, new):
+        verdict = TRUE
+    else:
+        verdict = NOT_COMPUTED
+    slowest = SPEEDS[raised.any(axis=0)].min(initial=np.inf)
+    below = new[:, critical > SPEEDS]
     counts = (new.sum(), raised.sum(), below.sum())
     return Answer(verdict, size=new.size, counts=counts, slowest=slowest, critical=critical)
 
 
 def reduced(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
-    alone, both, _ = growths(tuple(loads), c, **friction)
-    old = alone > 0
-    stable, lower = ((old & each).sum() for each in (both < 0, both < alone))
-    verdict = FALSE if not lower else TRUE if lower == old.sum() and stable else NOT_COMPUTED
-    return Answer(verdict, size=old.size, counts=(old.sum(), stable, lower))
+    """Judge whether friction lowers growth where sliding is unstable without it."""
+    without, both, _ = growths(tuple(loads), c, **friction)
+    unstable = without > 0
+    stabilised = (unstable & (both < 0)).sum()
+    lowered = (unstable & (both < without)).sum()
+    if not lowered:
+        verdict = FALSE
+    elif lowered == unstable.sum() and stabilised:
+        verdict = TRUE
+    else:
+        verdict = NOT_COMPUTED
+    return Answer(verdict, size=without.size, counts=(unstable.sum(), stabilised, lowered))

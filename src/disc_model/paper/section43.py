@@ -1,8 +1,9 @@
 """Rows on Section 4.3: effects of single parameters."""
 
 import math
-from itertools import product
-from typing import Any
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -12,301 +13,576 @@ from scipy.stats import spearmanr
 from disc_model.analysis.classify import SAME, distinct_points, separation_location
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, values_text
-from disc_model.paper import measures
-from disc_model.paper.measures import STRETCH, Array, CaseView, extent, published, sound
-from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
+from disc_model.paper import growth, measures
+from disc_model.paper.measures import STRETCH, Array, CaseView, extent
+from disc_model.paper.model import (
+    AMBIGUOUS,
+    FALSE,
+    NOT_COMPUTED,
+    PART,
+    TRUE,
+    Answer,
+    graded,
+    partly,
+)
 from disc_model.parameters import Parameters
 
+LOADS = (50, 125, 200, 300, 385, 600)
+"""Preloads of the paper and beyond, N."""
+SPEEDS = (10, 15, 20, 30, 40)
+"""Speeds of the paper and beyond, rad/s."""
 
-def stays_calm(case: CaseView) -> bool:
-    """Whether contact is kept, and the contact force has no wider range at the end than at
-    first."""
-    return (
-        not case.separates and not 1.02 * case.early.width < case.late.width
-    )  # sampling adds far less than 2 %
+SAMPLING = 1.02
+"""Factor by which the range of a steady contact force may differ; sampling adds far less."""
 
 
-def calm_text(case: CaseView) -> str:
-    """What becomes of a case; where contact is kept, with the ranges of the contact force, if it
-    stores them."""
+def _combinations(p: Parameters) -> list[Parameters]:
+    """Return a case at all combinations of `LOADS` and `SPEEDS`."""
+    return [p.replace(N=N, Omega=speed) for N in LOADS for speed in SPEEDS]
+
+
+def stays_steady(case: CaseView) -> bool:
+    """Return whether contact is kept, and the contact force has no wider range in the end."""
+    return not case.separates and not SAMPLING * case.early.width < case.late.width
+
+
+def steadiness_text(case: CaseView) -> str:
+    """Return what becomes of a case, in words.
+
+    Where contact is kept, ranges of the contact force are named, if the case stores them.
+    """
     if case.separates or "history" not in case.node:
         return case.fate
-    widths = (
-        f"{case.early.width:.2f} N between 1 and 21 s, and {case.late.width:.2f} N in the last 20 s"
+    early = case.early.width
+    late = case.late.width
+    return (
+        f"{case.fate} The range of the contact force is {early:.2f} N between 1 and 21 s, "
+        f"and {late:.2f} N in the last 20 s."
     )
-    return f"{case.fate} The range of the contact force is {widths}."
 
 
 def stays_small(
     case: CaseView, *_: CaseView, share: float, within: float, last: float = 0, same: float = 1
 ) -> Answer:
+    """Judge whether a case stays in contact with a small periodic vibration.
+
+    Parameters
+    ----------
+    case : the run; further ones only belong to the figure
+    share : of the preload, below which the range of the contact force is small
+    within : greatest spread of the intervals between releases, over their mean
+    last : number of the last points of the section that are compared, if any
+    same : percentage of their range up to which they count as equal
+    """
     intervals = case.intervals()
-    spread = float(intervals.std() / intervals.mean())
-    points = [_different(case, last, x) for x in (same, 1e-4)] if last else [0]
-    holds = stays_calm(case) and case.late.width < share * case["N"] and spread <= within
-    small = not last or (case.disc.width / 2 < case["h"] and points[0] <= last / 2)
-    widths = (1e3 * case.disc.width, 1e6 * case.late_range("u").width) if last else ()
-    told = {"fate": calm_text(case), "rate": 1 / intervals.mean(), "spread": spread}
-    return Answer(holds if small or not holds else PART, points=points, widths=widths, **told)
+    mean = intervals.mean()
+    spread = float(intervals.std() / mean)
+    small_force = case.late.width < share * case["N"]
+    holds = stays_steady(case) and small_force and spread <= within
+
+    points = [0]
+    widths: tuple[float, ...] = ()
+    small = True
+    if last:
+        points = [_different_points(case, last, limit) for limit in (same, 1e-4)]
+        disc = case.disc.width
+        widths = (1e3 * disc, 1e6 * case.late_range("u").width)
+        small = disc / 2 < case["h"] and points[0] <= last / 2
+    return Answer(
+        partly(holds, not small),
+        points=points,
+        widths=widths,
+        fate=steadiness_text(case),
+        rate=1 / mean,
+        spread=spread,
+    )
 
 
 def becomes_unstable(case: CaseView) -> Answer:
-    other = measures.growth_of(case.parameters.replace(normalization="orthonormal"))
+    """Judge whether a case separates; the answer has its growth with modes by Eq. (17)."""
+    other = growth.growth_of(case.parameters.replace(normalization="orthonormal"))
     return Answer(case.separates, case.fate, other=other)
 
 
 def only_between(*cases: CaseView, largest: float) -> Answer:
-    shown = sum(case["N"] <= largest for case in cases)
-    stable = [
-        stays_calm(x) if x["N"] <= largest or "history" in x.node else not x.separates
-        for x in cases
-    ]
-    holds, rows = (
-        stable[:shown] == [True, False, True],
-        [(cases[i].place, calm) for i, calm in enumerate(stable)],
-    )
-    return Answer(PART if holds and not all(stable[shown:]) else holds, rows=rows)
+    """Judge whether the system is unstable at the second of three preloads only.
+
+    Parameters
+    ----------
+    cases : by rising preload
+    largest : preload of the paper's last case, N; larger ones are a reservation
+    """
+    shown = []
+    further = []
+    rows = []
+    for case in cases:
+        of_paper = case["N"] <= largest
+        stable = not case.separates
+        if of_paper or "history" in case.node:
+            stable = stays_steady(case)
+        if of_paper:
+            shown.append(stable)
+        else:
+            further.append(stable)
+        rows.append((case.place, stable))
+    holds = shown == [True, False, True]
+    return Answer(partly(holds, not all(further)), rows=rows)
 
 
 def hardly_moves(large: CaseView, huge: CaseView, *, held: float) -> Answer:
+    """Judge whether the slider sticks for good at a huge preload.
+
+    Parameters
+    ----------
+    large, huge : runs at two preloads
+    held : time in s for which the slider has to stick
+    """
     p = huge.parameters
-    released = p.mu_s * p.N / (p.r_0 * p.k_p * p.Omega)
-    rows = [(case.place, case.stick_in_all, case["time_reached"]) for case in (large, huge)]
-    sticks = huge.stick_in_all == 1 and not huge.separates
-    verdict = AMBIGUOUS if sticks and released < held else sticks
-    return Answer(verdict, rows=rows, released=released, needed=1e-6 * p.N * held / released)
+    friction = p.mu_s * p.N
+    released = friction / (p.r_0 * p.k_p * p.Omega)
+    needed = 1e-6 * p.N * held / released
+    rows = []
+    for case in (large, huge):
+        rows.append((case.place, case.stick_in_all, case["time_reached"]))
+    verdict = FALSE
+    if huge.stick_in_all == 1 and not huge.separates:
+        verdict = AMBIGUOUS if released < held else TRUE
+    return Answer(verdict, rows=rows, released=released, needed=needed)
 
 
 def critical_speed(known: CaseView, *cases: CaseView, printed: float, within: float) -> Answer:
-    times = {
-        case["Omega"]: case["first_separation"]
-        for case in sorted(cases, key=lambda case: case["Omega"])
-    }
-    horizon, end = known["first_separation"], cases[0]["time_reached"]
-    never = [speed for speed, time in times.items() if math.isnan(time)]
-    lower = [speed for speed, time in times.items() if speed < printed - within and time <= horizon]
-    apart, rows = times[printed] <= horizon, [row for row in times.items() if row[0] not in never]
-    verdict = PART if apart and lower else apart
+    """Judge the printed critical speed for separation.
+
+    Parameters
+    ----------
+    known : case of the paper, whose first separation is the horizon
+    cases : at speeds around the printed one
+    printed : rad/s
+    within : rad/s by which lower speeds with separation may differ from it
+    """
+    by_speed = sorted(cases, key=lambda case: case["Omega"])
+    times = {case["Omega"]: case["first_separation"] for case in by_speed}
+    horizon = known["first_separation"]
+    never = []
+    rows = []
+    lower = []
+    for speed, time in times.items():
+        if math.isnan(time):
+            never.append(speed)
+        else:
+            rows.append((speed, time))
+        if speed < printed - within and time <= horizon:
+            lower.append(speed)
     return Answer(
-        verdict, N=known["N"], rows=rows, never=never, end=end, horizon=horizon, lower=lower
+        partly(times[printed] <= horizon, bool(lower)),
+        N=known["N"],
+        rows=rows,
+        never=never,
+        end=cases[0]["time_reached"],
+        horizon=horizon,
+        lower=lower,
     )
+
+
+# ---- Damping
 
 
 def undamped_separates_lower(*cases: CaseView) -> Answer:
-    undamped, damped = (
-        [case for case in cases if (case["D_star"] == 0) == free] for free in (True, False)
-    )
-    lowest = [
-        min((case["Omega"] for case in each if case.separates), default=math.inf)
-        for each in (undamped, damped)
-    ]
-    return Answer(lowest[0] < lowest[1], N=cases[0]["N"], lowest=lowest)
+    """Judge whether the disc without damping separates at lower speeds than that with damping."""
+    undamped = math.inf
+    damped = math.inf
+    for case in cases:
+        if not case.separates:
+            continue
+        if case["D_star"] == 0:
+            undamped = min(undamped, case["Omega"])
+        else:
+            damped = min(damped, case["Omega"])
+    return Answer(undamped < damped, N=cases[0]["N"], lowest=[undamped, damped])
 
 
 def twice_the_damping(*cases: CaseView) -> Answer:
-    stable = [stays_calm(case) for case in cases]
-    return Answer(
-        stable[0] if len({*stable}) == 1 else AMBIGUOUS, fates=[calm_text(case) for case in cases]
-    )
+    """Judge whether cases are stable; ambiguous if some are."""
+    stable = {stays_steady(case) for case in cases}
+    fates = [steadiness_text(case) for case in cases]
+    if len(stable) > 1:
+        return Answer(AMBIGUOUS, fates=fates)
+    return Answer(stable.pop(), fates=fates)
 
 
 def inplane_damping(without: CaseView, case: CaseView) -> Answer:
+    """Judge whether in-plane damping makes a quiet case separate."""
     verdict = not without.separates and case.separates
     return Answer(verdict, fates=(without.fate, case.fate))
 
 
 def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
-    grid, raised, growing, lowered, lost = _grid(case.parameters), list[str](), 0, 0, 0
-    values = (0.0, value, 2 * value)
-    none, some, twice = (
-        np.array([measures.growth_of(p.replace(**{name: x})) for p in grid]) for x in values
+    """Judge whether damping lowers all growth rates.
+
+    Parameters
+    ----------
+    case : the run whose parameters are taken, at `LOADS` and `SPEEDS`
+    name : parameter of the damping
+    value : its value, which is raised from zero to this and to twice this
+    """
+    cases = _combinations(case.parameters)
+    rates = []
+    for damping in (0.0, value, 2 * value):
+        damped = [p.replace(**{name: damping}) for p in cases]
+        rates.append(np.array([growth.growth_of(p) for p in damped]))
+    raised: list[str] = []
+    growing = 0
+    lowered = 0
+    lost = 0
+    for before, after in pairwise(rates):
+        grows = before > 0
+        compared = grows & np.isfinite(after)
+        growing += int(compared.sum())
+        lowered += int((compared & (after < before)).sum())
+        lost += int((grows & np.isnan(after)).sum())
+        for i in np.flatnonzero((before < 0) & (after > before)):
+            p = cases[i]
+            raised.append(measures.place(p.N, p.Omega))
+    return Answer(
+        growing == lowered > 0,
+        most=values_text({name: 2 * value}),
+        lowered=lowered,
+        growing=growing,
+        raised=raised,
+        lost=lost,
     )
-    for before, after in ((none, some), (some, twice)):
-        grows = (before > 0) & np.isfinite(after)
-        growing, lowered = (
-            growing + int(grows.sum()),
-            lowered + int((grows & (after < before)).sum()),
-        )
-        raised += [
-            measures.place(grid[i].N, grid[i].Omega)
-            for i in np.flatnonzero((before < 0) & (after > before))
-        ]
-        lost += int(((before > 0) & np.isnan(after)).sum())
-    verdict, most = growing == lowered > 0, values_text({name: 2 * value})
-    return Answer(verdict, most=most, lowered=lowered, growing=growing, raised=raised, lost=lost)
 
 
-def _grid(p: Parameters) -> list[Parameters]:
-    """A case at loads and speeds of the paper and beyond."""
-    grid = product((50, 125, 200, 300, 385, 600), (10, 15, 20, 30, 40))
-    return [p.replace(N=N, Omega=speed) for N, speed in grid]
+def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
+    """Judge whether in-plane damping brings separation at large preloads.
+
+    Parameters
+    ----------
+    study : map of preload and in-plane damping
+    c_p : the paper's damping, N s/m; others are a reservation
+    """
+    loads, damping, separates, _ = plane(study, "N", "c_p")
+    quiet = ~separates[:, 0]
+    with_damper = separates[:, damping == c_p][:, 0]
+    with_any = separates[:, 1:].any(axis=1)
+    newly = loads[quiet & with_damper]
+    never = loads[quiet & ~with_any]
+    never = never[never > newly.max(initial=0)]
+    verdict = partly(newly.size > 0, never.size > 0)
+    return Answer(verdict, newly=[*newly], never=[*never])
+
+
+# ---- Stiffness and modulus
 
 
 def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
-    growth = published(study)["growth_rate"].transpose("Omega", name).values
-    rows = [growing for row in growth if (growing := row[row > 0]).size > 2]
+    """Judge whether growth falls with a parameter, along each row of a map with growing cycles.
+
+    Parameters
+    ----------
+    study : map over the speed and the parameter
+    name : of the parameter
+    trend : rank correlation, with the opposite sign, from which growth falls on the whole
+    """
+    rates = measures.published(study)["growth_rate"].transpose("Omega", name).values
+    rows = []
+    for row in rates:
+        growing = row[row > 0]
+        if growing.size > 2:
+            rows.append(growing)
     if not rows:
         raise Missing(f"study {study.attrs.get('study', '')} has no growing cycle")
-    part = np.mean(np.concatenate([np.diff(row) < 0 for row in rows]))
+    falls = [np.diff(row) < 0 for row in rows]
+    part = np.mean(np.concatenate(falls))
     ranks = [spearmanr(range(row.size), row)[0] for row in rows]
     rank = np.median(ranks)
-    return Answer(TRUE if part == 1 else PART if rank <= -trend else FALSE, part=part, rank=rank)
+    verdict = FALSE
+    if part == 1:
+        verdict = TRUE
+    elif rank <= -trend:
+        verdict = PART
+    return Answer(verdict, part=part, rank=rank)
 
 
 def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = False) -> Answer:
-    count = int(case["time_reached"] / (4 * STRETCH))
+    """Judge whether the vibration of a soft disc grows and stays bounded, in contact.
+
+    Parameters
+    ----------
+    case : the run
+    factor : by which the range of the contact force must have grown
+    bounded : factor by which its median range may still grow over the last half of the run
+    cause : whether the statement names a cause, which is not shown
+    """
+    end = case["time_reached"]
+    needed = 4 * STRETCH
+    count = int(end / needed)
     if not count:
         if case.separates:  # where it was to be stopped
             return Answer(FALSE, case.fate)
-        raise Missing(
-            f"case {case.name} ends at {case['time_reached']:g} s, {4 * STRETCH:g} s are needed"
-        )
+        raise Missing(f"case {case.name} ends at {end:g} s, {needed:g} s are needed")
     widths = case.last_widths("P", STRETCH, 2 * count)
-    last, before = float(np.median(widths[:count])), float(np.median(widths[count:]))
-    holds = not case.separates and last > factor * case.early.width and last < bounded * before
-    verdict = PART if holds and cause else holds
-    return Answer(verdict, fate=calm_text(case), before=before, last=last)
+    last = float(np.median(widths[:count]))
+    before = float(np.median(widths[count:]))
+    grown = last > factor * case.early.width
+    holds = not case.separates and grown and last < bounded * before
+    verdict = partly(holds, cause)
+    return Answer(verdict, fate=steadiness_text(case), before=before, last=last)
 
 
 def quasi_periodic_and_irregular(case: CaseView) -> Answer:
-    if case.late_motion.kind is Outcome.UNDECIDED:
+    """Judge whether a motion is both quasi-periodic and irregular; one of them is a part."""
+    kind = case.late_motion.kind
+    if kind is Outcome.UNDECIDED:
         return Answer(
             NOT_COMPUTED, "The 0-1 test for chaos lies between regular and chaotic motion."
         )
-    verdict = graded(
-        case.late_motion.kind is kind for kind in (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
-    )
+    verdict = graded([kind is Outcome.QUASI_PERIODIC, kind is Outcome.IRREGULAR])
     return Answer(verdict, span=case.kept_span, motion=case.motion)
 
 
 def softer_separates_sooner(*evidence: Any) -> Answer:
+    """Judge whether a softer spring brings separation sooner.
+
+    Parameters
+    ----------
+    evidence : cases by rising stiffness, and last the map of speed and stiffness
+    """
     *cases, study = evidence
-    speed, _, apart, _ = plane(study, "Omega", "k")
-    again = np.any(np.diff(apart.astype(int)) > 0, axis=1)  # by rising stiffness
-    neighbours = np.split(
-        np.flatnonzero(again), np.flatnonzero(np.diff(np.flatnonzero(again)) > 1) + 1
+    times = [case["first_separation"] for case in cases]
+    holds = bool(np.all(np.diff(times) > 0))  # false if one does not separate: its time is nan
+
+    # speeds at which a stiffer spring separates again, in groups of neighbours
+    speed, _, separates, _ = plane(study, "Omega", "k")
+    begins = np.diff(separates.astype(int)) > 0
+    again = np.flatnonzero(begins.any(axis=1))
+    gaps = np.flatnonzero(np.diff(again) > 1)
+    groups = np.split(again, gaps + 1)
+    returns = [extent(speed[group]) for group in groups if group.size]
+    return Answer(
+        partly(holds, bool(returns)),
+        place=measures.place(cases[0]["N"], cases[0]["Omega"]),
+        rows=[(1e-3 * case["k"], case.contact) for case in cases],
+        returns=returns,
     )
-    returns = [extent(speed[each]) for each in neighbours if each.size]
-    holds = bool(
-        np.all(np.diff([x["first_separation"] for x in cases]) > 0)
-    )  # false if one does not separate
-    rows, place = (
-        [(1e-3 * case["k"], case.contact) for case in cases],
-        measures.place(cases[0]["N"], cases[0]["Omega"]),
-    )
-    return Answer(PART if holds and returns else holds, place=place, rows=rows, returns=returns)
 
 
-def stiff_enough(case: CaseView, *, name: str, larger: list[float]) -> Answer:
-    points = _grid(case.parameters)
-    calm, stable = stays_calm(case), sum(_growth(p) < 0 for p in points)
-    more = [(x, sum(_growth(p.replace(**{name: 1e3 * x})) < 0 for p in points)) for x in larger]
-    every = calm and all(count == len(points) for count in (stable, *dict(more).values()))
-    verdict = PART if calm and stable and not every else every
-    return Answer(verdict, fate=calm_text(case), stable=stable, size=len(points), more=more)
+def stiff_enough(case: CaseView, *, name: str, larger: Sequence[float]) -> Answer:
+    """Judge whether a stiffness is enough for stability.
+
+    Parameters
+    ----------
+    case : the run with this stiffness, which is also taken to `LOADS` and `SPEEDS`
+    name : of the stiffness
+    larger : values from which on all combinations must be stable too, kN/m
+    """
+    cases = _combinations(case.parameters)
+    steady = stays_steady(case)
+    stable = sum(_growth(p) < 0 for p in cases)
+    more = []
+    for stiffness in larger:
+        stiffer = [p.replace(**{name: 1e3 * stiffness}) for p in cases]
+        count = sum(_growth(p) < 0 for p in stiffer)
+        more.append((stiffness, count))
+    counts = [stable]
+    counts += [count for _, count in more]
+    verdict = FALSE
+    if steady and all(count == len(cases) for count in counts):
+        verdict = TRUE
+    elif steady and stable:
+        verdict = PART
+    return Answer(verdict, fate=steadiness_text(case), stable=stable, size=len(cases), more=more)
 
 
 def _growth(p: Parameters) -> float:
-    """Largest growth rate of the stick-slip cycle, or of steady sliding where there is none,
-    1/s."""
-    rate = measures.growth_of(p)
-    return measures.sliding_growth(p) if math.isnan(rate) else rate
+    """Return the largest growth rate of the stick-slip cycle in 1/s.
 
-
-def wanders(case: CaseView, near: CaseView, *, last: float, same: float) -> Answer:
-    points, motion = _different(case, last, same), case.late_motion
-    verdict = (
-        graded([points > last / 2, motion.kind is Outcome.IRREGULAR]) if case.separates else FALSE
-    )
-    turns = float(case.intervals()[: motion.period].sum()) * case.drive
-    other = measures.repeats(near.late_motion, "release")
-    return Answer(
-        verdict, fate=case.fate, points=points, motion=case.motion, turns=turns, near=other
-    )
-
-
-def _different(case: CaseView, last: float, same: float) -> int:
-    """How many of the last points of the disc's section differ, along an axis, by more than a share
-    of their range."""
-    section = case.samples("poincare").isel(time=slice(-int(last), None))
-    points = np.column_stack([section[name].values for name in ("w_point", "w_point_velocity")])
-    return distinct_points(points, np.ptp(points, axis=0) * same / SAME)
+    Where there is none, it is that of steady sliding.
+    """
+    rate = growth.growth_of(p)
+    if math.isnan(rate):
+        return growth.sliding_growth(p)
+    return rate
 
 
 def faster_and_sooner(soft: CaseView, base: CaseView) -> Answer:
+    """Judge whether the stiffer of two springs brings faster growth and an earlier separation."""
     sooner = base.separates and base["first_separation"] < soft["first_separation"]
-    verdict = graded([sooner, base.growth_rate > soft.growth_rate])
-    rows = [(1e-3 * case["k_p"], case.contact_and_growth) for case in (soft, base)]
-    return Answer(verdict, place=measures.place(base["N"], base["Omega"]), rows=rows)
+    faster = base.growth_rate > soft.growth_rate
+    return Answer(
+        graded([sooner, faster]),
+        place=measures.place(base["N"], base["Omega"]),
+        rows=[(1e-3 * case["k_p"], case.contact_and_growth) for case in (soft, base)],
+    )
+
+
+# ---- Motions after separation
+
+
+def wanders(case: CaseView, near: CaseView, *, last: float, same: float) -> Answer:
+    """Judge whether points of the section wander and the motion is irregular.
+
+    Parameters
+    ----------
+    case : the run
+    near : one at a speed nearby, whose period is told
+    last : number of the last points of the section that are compared
+    same : percentage of their range up to which they count as equal
+    """
+    points = _different_points(case, last, same)
+    motion = case.late_motion
+    verdict = FALSE
+    if case.separates:
+        irregular = motion.kind is Outcome.IRREGULAR
+        verdict = graded([points > last / 2, irregular])
+    period = float(case.intervals()[: motion.period].sum())
+    return Answer(
+        verdict,
+        fate=case.fate,
+        points=points,
+        motion=case.motion,
+        turns=period * case.drive,
+        near=measures.repeats(near.late_motion, "release"),
+    )
+
+
+def _different_points(case: CaseView, last: float, same: float) -> int:
+    """Return how many of the last points of the disc's section differ along an axis.
+
+    Parameters
+    ----------
+    case : the run
+    last : number of points
+    same : percentage of their range up to which they count as equal
+    """
+    section = case.samples("poincare")
+    section = section.isel(time=slice(-int(last), None))
+    columns = [section[name].values for name in ("w_point", "w_point_velocity")]
+    points = np.column_stack(columns)
+    extents = np.ptp(points, axis=0)
+    return distinct_points(points, extents * same / SAME)
 
 
 def lowest_position(case: CaseView, *, share: float) -> Answer:
+    """Judge whether separations begin in the lowest part of the slider's motion.
+
+    Parameters
+    ----------
+    case : the run, with the window ``zoom``
+    share : of the range of the height, which this part takes
+    """
     window = case.samples("zoom")
-    time, height = window["time"].values, window["u"].values - case["u_0"]
-    starts = (
-        np.flatnonzero(np.diff((window["phase"].values == measures.SEPARATION).astype(int)) == 1)
-        + 1
-    )
-    lost = case.switches("separation")
-    if not starts.size or not lost.sizes["event"]:
+    height = window["u"].values - case["u_0"]
+    separated = window["phase"].values == measures.SEPARATION
+    begins = np.diff(separated.astype(int)) == 1
+    starts = np.flatnonzero(begins) + 1
+    separations = case.switches("separation")
+    if not starts.size or not separations.sizes["event"]:
         raise Missing(f"no separation in the window of case {case.name}")
     part = separation_location(height, starts)
-    # by its events: samples come late, and the velocity of a light slider changes fast
-    speed = float(np.median(lost["u_velocity"].values))
-    above = float(np.median(height[starts - 1]) - height.min()) / np.ptp(height)
-    swings = int(np.sum((np.diff(height)[1:] > 0) & (np.diff(height)[:-1] <= 0)))
-    counts = (starts.size, swings)
-    holds = part <= share and above <= share
-    return Answer(holds, counts=counts, span=extent(time), part=part, above=above, speed=speed)
+    typical = np.median(height[starts - 1])
+    above = float(typical - height.min()) / np.ptp(height)
+    # by the events: samples come late, and the velocity of a light slider changes fast
+    speed = float(np.median(separations["u_velocity"].values))
+    rises = np.diff(height) > 0
+    swings = int(np.sum(rises[1:] & ~rises[:-1]))
+    return Answer(
+        part <= share and above <= share,
+        counts=(starts.size, swings),
+        span=extent(window["time"].values),
+        part=part,
+        above=above,
+        speed=speed,
+    )
 
 
 def seen_in_section(case: CaseView, *, share: float) -> Answer:
+    """Judge whether separations show in the section elsewhere than at its least displacements.
+
+    Parameters
+    ----------
+    case : the run
+    share : of the range of displacements, below which they are least
+    """
     samples = case.samples("poincare")
     late = samples.isel(time=samples["time"].values > case["first_separation"])
-    w, apart = late["w_point"].values, late["phase"].values == measures.SEPARATION
-    if not apart.any():
+    w = late["w_point"].values
+    separated = late["phase"].values == measures.SEPARATION
+    if not separated.any():
         raise Missing(f"case {case.name} has no point of the section in separation")
-    lost, every = extent(1e3 * w[apart]), extent(1e3 * w)
-    return Answer(
-        FALSE if lost.high <= every.low + share * every.width else PART, lost=lost, every=every
-    )
+    lost = extent(1e3 * w[separated])
+    every = extent(1e3 * w)
+    lowest = lost.high <= every.low + share * every.width
+    verdict = FALSE if lowest else PART
+    return Answer(verdict, lost=lost, every=every)
 
 
 def bounded(*cases: CaseView, factor: float) -> Answer:
+    """Judge whether the disc's range stays bounded after the first separation.
+
+    Parameters
+    ----------
+    cases : the runs
+    factor : by which the range may grow from the third quarter of the time after it to the last
+    """
     widths = [case.last_quarters("w_point") for case in cases]
-    widest, most = (
-        max(late / before for late, before in widths),
-        max(late for late, _ in widths) / cases[0]["h"],
-    )
+    largest = max(late for late, _ in widths)
     return Answer(
-        graded(late <= factor * before for late, before in widths), widest=widest, most=most
+        graded(late <= factor * before for late, before in widths),
+        widest=max(late / before for late, before in widths),
+        most=largest / cases[0]["h"],
     )
 
 
 def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
-    vanishes = any(case.stick_in_all > share >= case.stick for case in cases if case.from_rest)
-    begun = [
-        [(x.place, x.stick, x.stick_in_all) for x in cases if x.from_rest == rest]
-        for rest in (True, False)
-    ]
-    return Answer(vanishes, begun=begun)
+    """Judge whether a run from rest that stuck does not in the end.
+
+    Parameters
+    ----------
+    cases : the runs
+    share : of time, above which a run sticks
+    """
+    vanishes = False
+    from_rest = []
+    from_elsewhere = []
+    for case in cases:
+        row = (case.place, case.stick, case.stick_in_all)
+        if case.from_rest:
+            from_rest.append(row)
+            vanishes = vanishes or case.stick_in_all > share >= case.stick
+        else:
+            from_elsewhere.append(row)
+    return Answer(vanishes, begun=[from_rest, from_elsewhere])
 
 
-def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
-    loads, damping, apart, _ = plane(study, "N", "c_p")
-    quiet = ~apart[:, 0]
-    newly = loads[quiet & apart[:, damping == c_p][:, 0]]
-    never = loads[quiet & ~apart[:, 1:].any(axis=1)]
-    never = never[never > newly.max(initial=0)]
-    verdict = FALSE if not newly.size else PART if never.size else TRUE
-    return Answer(verdict, newly=[*newly], never=[*never])
+# ---- Maps
 
 
-def plane(
-    study: xr.Dataset, first: str, second: str
-) -> tuple[Array, Array, NDArray[np.bool_], Array]:
-    """Values of two parameters of a map, ascending; whether the static start separates, and growth
-    rates, 1/s."""
-    study = sound(published(study)).sortby([first, second]).transpose(first, second, ...)
-    apart = flag_names(study["outcome"]) == "separation"
-    return study[first].values, study[second].values, apart, study["growth_rate"].values
+class Plane(NamedTuple):
+    """A map with the published modes."""
+
+    first: Array
+    """Values of its first parameter, ascending."""
+    second: Array
+    """Values of its second parameter, ascending."""
+    separates: NDArray[np.bool_]
+    """Whether the static start separates, shape (first, second)."""
+    growth: Array
+    """Growth rates of the cycle, 1/s, of the same shape."""
+
+    def newly_separating(self) -> NDArray[np.bool_]:
+        """Return for each first value whether it separates, but not at the least second value."""
+        at_least = self.separates[:, :1]
+        return np.any(self.separates & ~at_least, axis=1)
+
+
+def plane(study: xr.Dataset, first: str, second: str) -> Plane:
+    """Return a map over two parameters; raises `Missing` if a point failed."""
+    ordered = measures.sound(measures.published(study)).sortby([first, second])
+    ordered = ordered.transpose(first, second, ...)
+    return Plane(
+        first=ordered[first].values,
+        second=ordered[second].values,
+        separates=flag_names(ordered["outcome"]) == "separation",
+        growth=ordered["growth_rate"].values,
+    )

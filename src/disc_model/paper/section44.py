@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -10,284 +10,537 @@ import xarray as xr
 from disc_model.analysis import spectra
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
-from disc_model.paper import measures
-from disc_model.paper.measures import HIGH, LOW, Array, CaseView, rate_text, sliding_growth
-from disc_model.paper.model import AMBIGUOUS, FALSE, PART, TRUE, Answer, graded
-from disc_model.paper.paper_tables import (
-    COMBINED,
-    SEARCHED,
-    UNNAMED,
-    stick_slip_rate,
-    table_2,
-    table_2_lines,
-)
+from disc_model.paper import growth, measures, paper_tables
+from disc_model.paper.growth import sliding_growth
+from disc_model.paper.measures import HIGH, LOW, Array, CaseView
+from disc_model.paper.model import AMBIGUOUS, FALSE, PART, TRUE, Answer, graded, partly
 from disc_model.paper.section2 import BASE
 from disc_model.paper.section43 import plane
 from disc_model.parameters import Parameters
 
-EARLY, LATER, LATE = (
-    ("spectrum_a", 0.0, 10.0),
-    ("spectrum_b", 38.0, 48.0),
-    ("spectrum_d", 100.0, 110.0),
-)
-"""Windows of N = 385 N, 15.1 rad/s, and their stretches that are compared, s."""
+
+class Stretch(NamedTuple):
+    """A stretch of a window, s."""
+
+    window: str
+    start: float
+    stop: float
+
+
+EARLY = Stretch("spectrum_a", 0.0, 10.0)
+LATER = Stretch("spectrum_b", 38.0, 48.0)
+LATE = Stretch("spectrum_d", 100.0, 110.0)
+"""Stretches of the motion at N = 385 N, 15.1 rad/s that are compared."""
 
 
 def when_it_separates(case: CaseView, *, printed: float, within: float) -> Answer:
+    """Judge the printed time of the first separation, s."""
     off = abs(case["first_separation"] - printed)
     return Answer(off <= within, contact=case.contact.capitalize())
 
 
+def natural_frequencies(case: CaseView) -> Array:
+    """Return natural frequencies with the slider attached, Hz."""
+    return np.asarray(coupled_natural_frequencies(case.parameters) / (2 * np.pi))
+
+
+# ---- Lines of the spectrum
+
+
 def rest_late(case: CaseView, *, within: float) -> Answer:
-    drifts = [_drift(case, *stretch) for stretch in (EARLY, LATE)]
-    return Answer(
-        graded(each.high > within for each in drifts), drifts=drifts, first=case["first_separation"]
-    )
+    """Judge whether lines move by more than a number of Hz early and late."""
+    drifts = [_drift(case, stretch) for stretch in (EARLY, LATE)]
+    verdict = graded(each.high > within for each in drifts)
+    return Answer(verdict, drifts=drifts, first=case["first_separation"])
 
 
-def _drift(case: CaseView, window: str, start: float, stop: float) -> measures.Range:
-    """How far the lines move between the halves of a stretch of time, at least and at most, Hz."""
+def _drift(case: CaseView, stretch: Stretch) -> measures.Range:
+    """Return how far lines move between the halves of a stretch, at least and at most, Hz."""
+    window, start, stop = stretch
     half = (start + stop) / 2
-    first, second = (
-        case.signal(window, *x).lines(above=LOW, floor=1e-2) for x in ((start, half), (half, stop))
-    )
-    return measures.extent(min(abs(a.frequency - b.frequency) for b in second) for a in first)
+    first = case.signal(window, start, half).lines(above=LOW, floor=1e-2)
+    second = case.signal(window, half, stop).lines(above=LOW, floor=1e-2)
+    later = np.array([line.frequency for line in second])
+    return measures.extent(np.min(np.abs(later - line.frequency)) for line in first)
 
 
-def constant_by_separation(case: CaseView, bonded: CaseView, *, within: float) -> Answer:
-    drift, other = (_drift(each, *LATE).high for each in (case, bonded))
-    return Answer(
-        FALSE if drift > within else PART if other <= within else TRUE, drift=drift, other=other
-    )
+def constant_by_separation(case: CaseView, bilateral: CaseView, *, within: float) -> Answer:
+    """Judge whether lines come to rest by separation.
+
+    Parameters
+    ----------
+    case, bilateral : with separation and without it
+    within : Hz by which lines at rest may move
+    """
+    drift = _drift(case, LATE).high
+    other = _drift(bilateral, LATE).high
+    verdict = partly(drift <= within, other <= within)
+    return Answer(verdict, drift=drift, other=other)
 
 
 def lines(case: CaseView, *, bound: float) -> Answer:
-    lines, table, signal = table_2_lines(case), table_2(case), case.signal(*EARLY)
-    off = np.abs(table["ours_Hz"] - table["paper_Hz"])
-    chance = len(lines) * max(
-        spectra.chance(signal.time, signal.values, line, SEARCHED) for line in lines
+    """Judge the printed lines of Table 2.
+
+    Parameters
+    ----------
+    case : the run
+    bound : greatest difference of a line from the printed one, Hz
+    """
+    found = paper_tables.table_2_lines(case)
+    table = paper_tables.table_2(case)
+    signal = case.signal(*EARLY)
+    most = np.abs(table["ours_Hz"] - table["paper_Hz"]).max()
+    chances = [
+        spectra.chance(signal.time, signal.values, line, paper_tables.SEARCHED) for line in found
+    ]
+    chance = len(found) * max(chances)
+    rows = []
+    for row in table.itertuples():
+        rows.append(f"{row.ours_Hz:.2f} ({row.paper_Hz:g}, {row.ours_is})")
+    return Answer(
+        most <= bound and chance <= 1e-3,
+        off=most,
+        named=(table["ours_is"] != paper_tables.UNNAMED).sum(),
+        rate=paper_tables.stick_slip_rate(case),
+        rows=rows,
     )
-    rows = [f"{row.ours_Hz:.2f} ({row.paper_Hz:g}, {row.ours_is})" for row in table.itertuples()]
-    named, rate, most = (table["ours_is"] != UNNAMED).sum(), stick_slip_rate(case), off.max()
-    return Answer(most <= bound and chance <= 1e-3, off=most, named=named, rate=rate, rows=rows)
 
 
 def follow(*cases: CaseView, within: float) -> Answer:
-    off, shifted, natural = list[float](), list[bool](), list[bool]()
+    """Judge whether the lines are natural frequencies, shifted by the drive.
+
+    In part if they are combinations of the stick-slip rate with the drive's frequency.
+
+    Parameters
+    ----------
+    cases : the runs
+    within : Hz by which lines may differ
+    """
+    combined: list[bool] = []
+    shifted: list[bool] = []
+    natural: list[bool] = []
+    orders = np.array([-3, -2, -1, 1, 2, 3])
     for case in cases:
-        lines = sorted(case.signal(*EARLY).lines(6, above=100, below=300, apart=1.0))
-        rate = stick_slip_rate(case)
-        names = [spectra.identify(line.frequency, rate, case.drive) for line in lines]
-        off, shifted = (
-            off + [abs(each.deviation) for each in names],
-            shifted + [each.m != 0 for each in names],
-        )
-        beside = np.add.outer(
-            natural_frequencies(case), case.drive * np.array([-3, -2, -1, 1, 2, 3])
-        )
-        natural += [bool(np.min(np.abs(beside - line.frequency)) <= within) for line in lines]
-    combined = [each <= within for each in off]
-    verdict = TRUE if all(natural) else PART if all(combined) and np.mean(shifted) >= 0.5 else FALSE
+        rate = paper_tables.stick_slip_rate(case)
+        expected = np.add.outer(natural_frequencies(case), case.drive * orders)
+        strongest = case.signal(*EARLY).lines(6, above=100, below=300, apart=1.0)
+        for line in sorted(strongest):
+            name = spectra.identify(line.frequency, rate, case.drive)
+            combined.append(abs(name.deviation) <= within)
+            shifted.append(name.m != 0)
+            off = np.min(np.abs(expected - line.frequency))
+            natural.append(bool(off <= within))
+    verdict = FALSE
+    if all(natural):
+        verdict = TRUE
+    elif all(combined) and np.mean(shifted) >= 0.5:
+        verdict = PART
     return Answer(verdict, combined=combined, shifted=shifted, natural=natural)
 
 
 def inplane_frequency(case: CaseView, *, printed: float, within: float) -> Answer:
-    rate, pair = stick_slip_rate(case), table_2(case).iloc[1:3]
-    frequencies, names, holds = (
-        [*pair["ours_Hz"]],
-        [*pair["ours_is"]],
-        abs(rate - printed) <= within,
+    """Judge the printed in-plane frequency of the slider, which the drive splits.
+
+    Parameters
+    ----------
+    case : the run
+    printed : frequency, Hz
+    within : Hz by which the stick-slip rate may differ from it
+    """
+    rate = paper_tables.stick_slip_rate(case)
+    pair = paper_tables.table_2(case).iloc[1:3]
+    names = [*pair["ours_is"]]
+    holds = abs(rate - printed) <= within
+    free: float | str = ""
+    if not holds:
+        free = _own_frequency(case["k_p"], case["m"])
+    return Answer(
+        graded([names == ["f_s − f_Ω", "f_s + f_Ω"], holds]),
+        rate=rate,
+        drive=case.drive,
+        lines=[*pair["ours_Hz"]],
+        names=names,
+        free=free,
     )
-    free = "" if holds else float(np.sqrt(case["k_p"] / case["m"])) / (2 * np.pi)
-    verdict = graded([names == ["f_s − f_Ω", "f_s + f_Ω"], holds])
-    return Answer(verdict, rate=rate, drive=case.drive, lines=frequencies, names=names, free=free)
+
+
+def _own_frequency(stiffness: float, mass: float) -> float:
+    """Return the natural frequency of a mass on a spring, Hz."""
+    return float(np.sqrt(stiffness / mass)) / (2 * np.pi)
 
 
 def close_to_natural(case: CaseView, *, within: float) -> Answer:
-    natural, computed = natural_frequencies(case), table_2(case)["ours_Hz"].to_numpy()[3:]
-    nearest = np.array([natural[np.argmin(np.abs(natural - f))] for f in computed])
-    far = np.abs(nearest - computed) > within
-    verdict = TRUE if not far.any() else PART if far.mean() <= 0.5 else FALSE
-    rows = [f"{f:.1f} Hz ({n:.1f} Hz)" for f, n in zip(computed, nearest, strict=True)]
-    return Answer(verdict, rows=rows, far=(far.sum(), far.size))
+    """Judge whether the six higher lines of Table 2 are natural frequencies, within Hz."""
+    natural = natural_frequencies(case)
+    rows = []
+    far = 0
+    computed = paper_tables.table_2(case)["ours_Hz"].to_numpy()[3:]
+    for frequency in computed:
+        nearest = natural[np.argmin(np.abs(natural - frequency))]
+        far += bool(abs(nearest - frequency) > within)
+        rows.append(f"{frequency:.1f} Hz ({nearest:.1f} Hz)")
+    verdict = partly(far <= 0.5 * computed.size, far > 0)
+    return Answer(verdict, rows=rows, far=(far, computed.size))
+
+
+def inplane_contribution(case: CaseView, *, share: float) -> Answer:
+    """Judge whether a share of the power is in combinations of the stick-slip rate."""
+    rate = paper_tables.stick_slip_rate(case)
+
+    def is_combination(frequency: float) -> bool:
+        return abs(spectra.identify(frequency, rate, case.drive).deviation) <= paper_tables.COMBINED
+
+    found = case.signal(*EARLY).lines(above=LOW, below=HIGH, floor=1e-3)
+    combinations = [line for line in found if is_combination(line.frequency)]
+    part = _power(combinations) / _power(found)
+    anywhere = [is_combination(frequency) for frequency in np.arange(LOW, HIGH, 0.2)]
+    return Answer(
+        part > share,
+        counts=(len(combinations), len(found)),
+        rate=rate,
+        drive=case.drive,
+        part=part,
+        near=np.mean(anywhere),
+    )
+
+
+def _power(found: Sequence[spectra.Line]) -> float:
+    """Return the sum of the squares of the amplitudes of lines."""
+    return sum(line.amplitude**2 for line in found)
+
+
+# ---- Power at high frequencies, and fuzz between lines
 
 
 def higher(
     *cases: CaseView, factor: float, floor: float, windows: str, spans: Sequence[float]
 ) -> Answer:
-    """In `spans` what is compared begins before the separation of each pair's first case, and ends
-    after it, s."""
-    rows, rises = [], []
-    pairs = zip(cases[::2], cases[1::2], windows.split(), spans[::2], spans[1::2], strict=True)
-    for case, bonded, window, low, high in pairs:
+    """Judge whether power above `HIGH` appears with the first separation.
+
+    Parameters
+    ----------
+    cases : with separation and without it, in turn
+    factor : by which the share of power must rise
+    floor : share of power that must be reached
+    windows : names of the windows to look in, one for each pair
+    spans : for each pair, when what is compared begins before the first separation, and when it
+        ends after it, s
+    """
+    rows = []
+    rises = []
+    also_without = []
+    places = zip(cases[::2], cases[1::2], windows.split(), spans[::2], spans[1::2], strict=True)
+    for case, bilateral, window, low, high in places:
         first = case["first_separation"]
-        (before, after), (ignored, control) = (
-            [each.signal(window, *span).power_above(HIGH) for span in ((low, first), (first, high))]
-            for each in (case, bonded)
-        )
-        rises.append([after > max(factor * before, floor), control > max(factor * ignored, floor)])
-        rows.append((case.place, before, after, control, low, first, high))
-    rise, alone = zip(*rises, strict=True)
-    return Answer(FALSE if not all(rise) else PART if any(alone) else TRUE, rows=rows)
+        before = case.signal(window, low, first).power_above(HIGH)
+        after = case.signal(window, first, high).power_above(HIGH)
+        control_before = bilateral.signal(window, low, first).power_above(HIGH)
+        control_after = bilateral.signal(window, first, high).power_above(HIGH)
+        rises.append(after > max(factor * before, floor))
+        also_without.append(control_after > max(factor * control_before, floor))
+        rows.append((case.place, before, after, control_after, low, first, high))
+    return Answer(partly(all(rises), any(also_without)), rows=rows)
 
 
 def fuzz_goes(*pair: CaseView, share: float) -> Answer:
-    filled = [case.signal(*span).filled for case in pair for span in (LATER, LATE)]
+    """Judge whether fuzz falls below a share of what it was, with separation.
+
+    Parameters
+    ----------
+    pair : with separation and without it
+    share : of the filled band
+    """
+    filled = []
+    for case in pair:
+        filled += _filled(case, LATER, LATE)
     return Answer(filled[1] < share * filled[0], filled=filled)
 
 
+def _filled(case: CaseView, *stretches: Stretch, name: str = "w_point") -> list[float]:
+    """Return the share of the band that the spectrum of a variable fills in stretches."""
+    return [case.signal(*stretch, name).filled for stretch in stretches]
+
+
+def _falls(filled: Sequence[float], share: float) -> bool:
+    """Return whether the last of the shares is below a part of the first."""
+    return filled[-1] < share * filled[0]
+
+
 def explained_by_slider(*pair: CaseView, share: float) -> Answer:
+    """Judge whether fuzz goes where it goes in the slider's motion; the cause is not shown.
+
+    Parameters
+    ----------
+    pair : with separation and without it
+    share : of the filled band, below which fuzz has gone
+    """
     first = pair[0]["first_separation"]
     length = first - 50
-    begins = (("spectrum_c", 50.0), ("spectrum_c", first), ("spectrum_d", 100.0))
-    disc = [[case.signal(*span).filled for span in (LATER, LATE)] for case in pair]
-    slider = [
-        [case.signal(name, start, start + length, "psi").filled for name, start in begins]
-        for case in pair
-    ]
-    clear, alike = ([each[-1] < share * each[0] for each in filled] for filled in (disc, slider))
-    return Answer(PART if clear[0] and clear == alike else FALSE, disc=disc, slider=slider)
+    of_slider = (
+        Stretch("spectrum_c", 50.0, 50.0 + length),
+        Stretch("spectrum_c", first, first + length),
+        Stretch("spectrum_d", 100.0, 100.0 + length),
+    )
+    disc = [_filled(case, LATER, LATE) for case in pair]
+    slider = [_filled(case, *of_slider, name="psi") for case in pair]
+    gone_from_disc = [_falls(filled, share) for filled in disc]
+    gone_from_slider = [_falls(filled, share) for filled in slider]
+    verdict = FALSE
+    if gone_from_disc[0] and gone_from_disc == gone_from_slider:
+        verdict = PART
+    return Answer(verdict, disc=disc, slider=slider)
 
 
-def later_periodic(case: CaseView, bonded: CaseView) -> Answer:
-    periodic, other = (each.late_motion.period > 0 for each in (case, bonded))
-    return Answer(periodic, motion=case.motion, span=case.kept_span, other=bonded.motion * other)
+def fuzz_stays(*pair: CaseView, share: float) -> Answer:
+    """Judge whether fuzz keeps a share of what it was over the first separation.
+
+    Parameters
+    ----------
+    pair : with separation and without it
+    share : of the filled band
+    """
+    first = pair[0]["first_separation"]
+    before = Stretch("spectrum_d", first - 4, first)
+    after = Stretch("spectrum_d", first, first + 4)
+    filled = []
+    for case in pair:
+        filled += _filled(case, before, after)
+    return Answer(filled[1] >= share * filled[0], filled=filled, first=first)
+
+
+def no_high_line(case: CaseView, *, share: float, printed: float) -> Answer:
+    """Judge whether power above the highest natural frequency is less than a share.
+
+    Parameters
+    ----------
+    case : the run
+    share : of the power
+    printed : this natural frequency in the paper, rad/s; another one is a reservation
+    """
+    omega = float(plate_modes(case.parameters)["omega"].max())
+    highest = omega / (2 * np.pi)
+    first = case.signal("spectrum_d", 465, 475).power_above(highest)
+    last = case.signal("spectrum_late", 1490, 1500).power_above(highest)
+    verdict = partly(max(first, last) < share, abs(omega - printed) > 0.01)
+    return Answer(verdict, shares=(first, last), omega=omega, base=BASE.E)
+
+
+# ---- Stages of the motion
+
+
+def later_periodic(case: CaseView, bilateral: CaseView) -> Answer:
+    """Judge whether the late motion is periodic; that without separation is told if it is."""
+    periodic = case.late_motion.period > 0
+    other = ""
+    if bilateral.late_motion.period > 0:
+        other = bilateral.motion
+    return Answer(periodic, motion=case.motion, span=case.kept_span, other=other)
 
 
 def growth_stages(case: CaseView, *, factor: float, least: float) -> Answer:
-    first, end = case["first_separation"], case["time_reached"]
+    """Judge whether the disc's vibration grows slowly, then sharply, then slowly.
+
+    Parameters
+    ----------
+    case : the run
+    factor : by which growth must be faster in the sharp stage than at first
+    least : growth rate that it must reach there, 1/s
+    """
+    first = case["first_separation"]
+    end = case["time_reached"]
     if not 20 <= first <= end - 20:
         raise Missing(
             f"case {case.name} does not run for 20 s both before and after its first separation"
         )
     starts = np.arange(5.0, first - 5, 2.5)
     rates = np.array([case.slope("w_point", t, t + 5) for t in starts])
-    slow, sharp = float(rates[starts < first / 2].mean()), float(rates.max())
-    last, after = case.slope("w_point", first - 3, first), case.slope("w_point", end - 20, np.inf)
-    verdict, when = sharp > max(factor * slow, least) and last < sharp, starts[rates.argmax()] + 2.5
-    return Answer(verdict, rates=(slow, sharp, last, after), when=when, first=first)
-
-
-def fuzz_stays(*pair: CaseView, share: float) -> Answer:
-    first = pair[0]["first_separation"]
-    spans = (("spectrum_d", first - 4, first), ("spectrum_d", first, first + 4))
-    filled = [case.signal(*span).filled for case in pair for span in spans]
-    return Answer(filled[1] >= share * filled[0], filled=filled, first=first)
-
-
-def no_high_line(case: CaseView, *, share: float, printed: float) -> Answer:
-    omega = float(plate_modes(case.parameters)["omega"].max())
-    spans = (("spectrum_d", 465, 475), ("spectrum_late", 1490, 1500))
-    first, last = (case.signal(*span).power_above(omega / (2 * np.pi)) for span in spans)
-    verdict = FALSE if max(first, last) >= share else TRUE if abs(omega - printed) <= 0.01 else PART
-    return Answer(verdict, shares=(first, last), omega=omega, base=BASE.E)
-
-
-def inplane_contribution(case: CaseView, *, share: float) -> Answer:
-    rate, drive = stick_slip_rate(case), case.drive
-
-    def combined(frequency: float) -> bool:
-        return abs(spectra.identify(frequency, rate, drive).deviation) <= COMBINED
-
-    lines = case.signal(*EARLY).lines(above=LOW, below=HIGH, floor=1e-3)
-    made = [line for line in lines if combined(line.frequency)]
-    part = sum(line.amplitude**2 for line in made) / sum(line.amplitude**2 for line in lines)
-    counts, near = (
-        (len(made), len(lines)),
-        np.mean([combined(f) for f in np.arange(LOW, HIGH, 0.2)]),
+    slow = float(rates[starts < first / 2].mean())
+    sharp = float(rates.max())
+    last = case.slope("w_point", first - 3, first)
+    after = case.slope("w_point", end - 20, np.inf)
+    return Answer(
+        sharp > max(factor * slow, least) and last < sharp,
+        rates=(slow, sharp, last, after),
+        when=starts[rates.argmax()] + 2.5,
+        first=first,
     )
-    return Answer(part > share, counts=counts, rate=rate, drive=drive, part=part, near=near)
-
-
-def natural_frequencies(case: CaseView) -> Array:
-    """Natural frequencies with the slider attached, Hz."""
-    return np.asarray(coupled_natural_frequencies(case.parameters) / (2 * np.pi))
 
 
 # ---- The conclusions, as far as the rows on the sections do not judge them
+
+
 def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
-    smooth = [sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0)) for case in cases]
-    apart = any(case.separates and rate < growth for case, rate in zip(cases, smooth, strict=True))
-    return Answer(apart, rows=[case.fate for case in cases], most=max(smooth))
+    """Judge whether a case separates that is stable without friction.
+
+    Parameters
+    ----------
+    cases : the runs
+    growth : rate of steady sliding in 1/s below which a case counts as stable
+    """
+    frictionless = []
+    by_friction = False
+    for case in cases:
+        rate = sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0))
+        frictionless.append(rate)
+        by_friction = by_friction or (case.separates and rate < growth)
+    rows = [case.fate for case in cases]
+    return Answer(by_friction, rows=rows, most=max(frictionless))
 
 
 def not_monotonous(*evidence: Any) -> Answer:
+    """Judge whether preload, in-plane damping and in-plane stiffness act both ways.
+
+    Parameters
+    ----------
+    evidence : three cases by rising preload, and last the map of preload and in-plane damping
+    """
     *cases, study = evidence
-    loads, damping, apart, growth = plane(study, "N", "c_p")
-    newly = (apart & ~apart[:, :1]).any(axis=1)
-    growing = (growth[:, 0] > 0) & np.isfinite(growth[:, -1])
-    lowered = growing & (growth[:, -1] < growth[:, 0])
-    [rates], words = stiffened(cases[0].parameters.replace(N=300), 50)
-    load = [(case.separates, case.growth_rate > 0) for case in cases] == [
-        (False, False),
-        (True, True),
-        (False, False),
-    ]
-    both_ways = all([load, newly.any(), lowered.any(), {-1, 1} <= {*np.sign(np.diff(rates))}])
-    fates, most, counts = [case.fate for case in cases], damping[-1], (lowered.sum(), growing.sum())
+    load = [(case.separates, case.growth_rate > 0) for case in cases]
+    load_acts_both_ways = load == [(False, False), (True, True), (False, False)]
+
+    over_damping = plane(study, "N", "c_p")
+    newly = over_damping.newly_separating()
+    undamped = over_damping.growth[:, 0]
+    damped = over_damping.growth[:, -1]
+    growing = (undamped > 0) & np.isfinite(damped)
+    lowered = growing & (damped < undamped)
+    damping_acts_both_ways = newly.any() and lowered.any()
+
+    [over_stiffness], words = stiffened(cases[0].parameters.replace(N=300), 50)
+    signs = {*np.sign(np.diff(over_stiffness))}
+    stiffness_acts_both_ways = signs >= {-1, 1}
     return Answer(
-        both_ways, fates=fates, most=most, newly=[*loads[newly]], counts=counts, stiffened=words
+        load_acts_both_ways and damping_acts_both_ways and stiffness_acts_both_ways,
+        fates=[case.fate for case in cases],
+        most=over_damping.second[-1],
+        newly=[*over_damping.first[newly]],
+        counts=(lowered.sum(), growing.sum()),
+        stiffened=words,
     )
 
 
 def damping_destabilises(study: xr.Dataset, *, fewest: float) -> Answer:
-    loads, damping, apart, _ = plane(study, "N", "c_p")
-    newly = loads[(apart & ~apart[:, :1]).any(axis=1) & (loads >= fewest)]
-    return Answer(newly.size > 0, most=damping[-1], rows=[*newly])
+    """Judge whether in-plane damping brings separation at large preloads.
 
-
-def stiffer_inplane(case: CaseView) -> Answer:
-    known, words = stiffened(case.parameters, 20, 50)
-    growing = [rates[: np.argmax(np.append(rates, -1) < 0)] for rates in known]
-    rises = [rates.size > 1 and bool((np.diff(rates) > 0).all()) for rates in growing]
-    return Answer(graded(rises), rises=rises, stiffened=words)
+    Parameters
+    ----------
+    study : map of preload and in-plane damping
+    fewest : preload in N from which on it is large
+    """
+    over_damping = plane(study, "N", "c_p")
+    loads = over_damping.first
+    newly = loads[over_damping.newly_separating() & (loads >= fewest)]
+    return Answer(newly.size > 0, most=over_damping.second[-1], rows=[*newly])
 
 
 STIFFENED = (2, 20, 30, 36, 47, 55, 63, 73, 84, 130, 200)
 """In-plane stiffnesses, kN/m: those of the paper, and others between them."""
 
 
+def stiffer_inplane(case: CaseView) -> Answer:
+    """Judge whether growth rises with the in-plane stiffness, as long as the cycle grows."""
+    over_stiffness, words = stiffened(case.parameters, 20, 50)
+    rises = []
+    for rates in over_stiffness:
+        first_decay = np.argmax(np.append(rates, -1) < 0)
+        growing = rates[:first_decay]
+        steps = np.diff(growing)
+        rises.append(steps.size > 0 and bool((steps > 0).all()))
+    return Answer(graded(rises), rises=rises, stiffened=words)
+
+
 def stiffened(p: Parameters, *speeds: float) -> tuple[list[Array], str]:
-    """Growth rates of the cycles that there are with `STIFFENED`, 1/s, for each speed in rad/s; and
-    all in words."""
-    known, words = [], []
+    """Compute growth rates with `STIFFENED`.
+
+    Parameters
+    ----------
+    p : the case
+    speeds : at which it is computed, rad/s
+
+    Returns
+    -------
+    list of arrays
+        For each speed, growth rates of the cycles that there are, 1/s.
+    str
+        All of them in words.
+    """
+    known = []
+    sentences = []
     for speed in speeds:
-        rates = np.array(
-            [measures.growth_of(p.replace(k_p=1e3 * k_p, Omega=speed)) for k_p in STIFFENED]
+        rates = []
+        words = []
+        for k_p in STIFFENED:
+            rate = growth.growth_of(p.replace(k_p=1e3 * k_p, Omega=speed))
+            words.append(f"{measures.rate_text(rate)} at {k_p}")
+            if math.isfinite(rate):
+                rates.append(rate)
+        sentences.append(
+            f"At {measures.place(p.N, speed)}, growth (1/s) at each k_p (kN/m) is as follows: "
+            f"{'; '.join(words)}."
         )
-        told = "; ".join(
-            f"{rate_text(rate)} at {k_p}" for k_p, rate in zip(STIFFENED, rates, strict=True)
-        )
-        words.append(
-            f"At {measures.place(p.N, speed)}, growth (1/s) at each k_p (kN/m) is as follows: {told}."
-        )
-        known.append(rates[np.isfinite(rates)])
-    return known, " ".join(words)
+        known.append(np.array(rates))
+    return known, " ".join(sentences)
 
 
 def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
-    E, Omega, apart, _ = plane(study, "E", "Omega")
-    E, some, at_slow = E / 1e9, apart.any(axis=1), apart[:, Omega == slow]
-    quiet = [*E[~some]]
-    softer = [*E[some & (max(quiet, default=0.0) > E)]]
-    soft = at_slow[E <= BASE.E / 1e9]
-    calm = slow if soft.size and not soft.any() else ""
-    verdict = FALSE if not (quiet and some.any()) else AMBIGUOUS if softer else TRUE
-    return Answer(verdict, quiet=quiet, softer=softer, slow=calm, base=BASE.E)
+    """Judge whether a soft disc keeps contact and a stiff one loses it.
+
+    Parameters
+    ----------
+    study : map of elastic modulus and speed
+    slow : speed of the paper's example, rad/s
+    """
+    modulus, Omega, separates, _ = plane(study, "E", "Omega")
+    modulus = modulus / 1e9
+    some = separates.any(axis=1)
+    quiet = [*modulus[~some]]
+    stiffest_quiet = max(quiet, default=0.0)
+    softer = [*modulus[some & (modulus < stiffest_quiet)]]
+    if not quiet or not some.any():
+        verdict = FALSE
+    elif softer:
+        verdict = AMBIGUOUS
+    else:
+        verdict = TRUE
+
+    example: float | str = ""
+    no_stiffer = modulus <= BASE.E / 1e9
+    at_slow = separates[no_stiffer][:, Omega == slow]
+    if at_slow.size and not at_slow.any():
+        example = slow
+    return Answer(verdict, quiet=quiet, softer=softer, slow=example, base=BASE.E)
 
 
 def vertical_branch(*cases: CaseView, within: float) -> Answer:
-    rows, follows, alone = [], [], []
-    free = float(np.sqrt(cases[0]["k"] / cases[0]["m"])) / (2 * np.pi)
-    for pair in zip(cases[::2], cases[1::2], strict=True):
-        rates = [1 / float(case.intervals("separation").mean()) for case in pair]
-        modes = [natural_frequencies(case)[0] for case in pair]
-        rise, of_mode = rates[1] / rates[0] - 1, modes[1] / modes[0] - 1
-        follows.append(rise / of_mode)
-        alone.append(rise / (math.sqrt(pair[1]["k"] / pair[0]["k"]) - 1))
-        rows.append((pair[0].place, rates[0]))
-    by_mode, by_spring = (
-        all(abs(each - 1) <= within for each in rises) for rises in (follows, alone)
+    """Judge whether the rate of separations follows a frequency of the slider normal to the disc.
+
+    Parameters
+    ----------
+    cases : in pairs, the second with a stiffer spring k
+    within : relative difference up to which two rises count as equal
+    """
+    rows = []
+    over_mode = []
+    over_spring = []
+    coupled = math.nan
+    for soft, stiff in zip(cases[::2], cases[1::2], strict=True):
+        rate = 1 / float(soft.intervals("separation").mean())
+        stiff_rate = 1 / float(stiff.intervals("separation").mean())
+        rise = stiff_rate / rate - 1
+
+        coupled = natural_frequencies(soft)[0]
+        mode_rise = natural_frequencies(stiff)[0] / coupled - 1
+        spring_rise = math.sqrt(stiff["k"] / soft["k"]) - 1
+        over_mode.append(rise / mode_rise)
+        over_spring.append(rise / spring_rise)
+        rows.append((soft.place, rate))
+    by_mode = all(abs(each - 1) <= within for each in over_mode)
+    by_spring = all(abs(each - 1) <= within for each in over_spring)
+    verdict = AMBIGUOUS if by_mode or by_spring else FALSE
+    return Answer(
+        verdict,
+        rows=rows,
+        coupled=coupled,
+        free=_own_frequency(cases[0]["k"], cases[0]["m"]),
+        follows=over_mode,
     )
-    told = {"coupled": modes[0], "free": free, "follows": follows}
-    return Answer(AMBIGUOUS if by_mode or by_spring else False, rows=rows, **told)

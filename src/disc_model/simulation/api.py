@@ -3,15 +3,16 @@ dataset."""
 
 from __future__ import annotations
 
+import dataclasses
 import logging
 import math
 import os
 import time as clock
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated, Any
+from functools import lru_cache, partial
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -37,25 +38,19 @@ from disc_model.simulation.case import (
     CaseSpec,
     Poincare,
     Ramp,
+    SampleTimes,
     Start,
+    Window,
     Windows,
+    angle_of_drive,
     pieces,
     ramp_faults,
     resolved_windows,
 )
-from disc_model.simulation.result import Result
+from disc_model.simulation.result import BIN_ROW, FOLDED, SAMPLE_ROW, Result
 from disc_model.simulation.states import Array, State
 from disc_model.sources import git_commit, source_hash, versions
-from disc_model.units import (
-    TOLERANCES,
-    Count,
-    Strict,
-    content_key,
-    in_si,
-    is_number,
-    limits_faults,
-    number,
-)
+from disc_model.units import TOLERANCES, Count, Strict, content_key, in_si, limits_faults, number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -151,66 +146,103 @@ def simulate(  # noqa: PLR0913
     >>> run["late"]["P"].sizes, run["late"]["P"].attrs["units"]
     (Frozen({'time': 2001}), 'N')
     """
-    if (t_end is None) == (duration is None):
-        rule = (
-            "is required, or duration instead of it"
-            if t_end is None
-            else f"must be left out beside {duration=!s}"
-        )
-        raise ParameterError(Fault(("t_end",), "" if t_end is None else as_text(t_end), rule))
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    time: Any = initial_state.time if isinstance(initial_state, State) else 0.0
-    end: Any = t_end if duration is None else duration
-    if isinstance(end, str):
-        with suppress(ValueError):
-            end = number(in_si(end, "s", [], ()))
-    if duration is not None and initial_state is not None and is_number(end):
-        end = time + end
-    begin = time if states.is_finite(time) else 0.0
-    later = is_number(end) and begin < end < math.inf
-    rule = (
-        ""
-        if later
-        else f"must be finite, in s or as '2 min', and > {as_text(begin)}, the time of the initial state"
+    span = _span_of(t_end, duration, initial_state)
+    raise_faults(
+        [
+            *foreign_case(p),
+            *limits_faults("tol", tol, TOLERANCES),
+            *span.faults,
+            *_option_faults(events, initial_state, stop_at, execution),
+        ]
     )
-    stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
-    rules = violations(
-        (isinstance(events, bool), "events", events, "must be True or False"),
-        (
-            initial_state is None or isinstance(initial_state, State),
-            "initial_state",
-            initial_state,
-            "must be a State",
-        ),
+    sampled = dict(resolved_windows({} if windows is None else windows, span.start, span.end))
+    sections = any(isinstance(window, Poincare) for window in sampled.values())
+    raise_faults([*ramp_faults(p, ramps, poincare=sections)])
+    run = partial(
+        _Run,
+        p=p,
+        t_end=span.end,
+        tol=float(tol),
+        initial_state=initial_state,
+        stop_at=stop_at,
+        ramps=ramps,
+        execution=execution,
+    )
+    if stop_at is not None and windows is not None:
+        sampled |= _windows_to_the_stop(windows, span.start, run)
+    return run(windows=sampled, events=events).complete()
+
+
+class _Span(NamedTuple):
+    """The times of a run, s, and what is wrong with them."""
+
+    start: float
+    end: float
+    faults: list[str]
+
+
+def _span_of(t_end: Any, duration: Any, initial_state: Any) -> _Span:
+    """The times of a run from an end or a duration, one of which must be given. They are plain
+    floats: others would make the engine compile again, and would round differently."""
+    if t_end is None and duration is None:
+        raise ParameterError(Fault(("t_end",), "", "is required, or duration instead of it"))
+    if t_end is not None and duration is not None:
+        rule = f"must be left out beside {duration=!s}"
+        raise ParameterError(Fault.of(("t_end",), t_end, rule))
+    name, value = ("t_end", t_end) if duration is None else ("duration", duration)
+    time = initial_state.time if isinstance(initial_state, State) else 0.0
+    start = float(time) if states.is_finite(time) else 0.0
+    end = math.nan
+    with suppress(ValueError):  # of what is no number
+        end = number(in_si(value, "s", [], ()))
+    if duration is not None:
+        end += start
+    rule = (
+        f"must be finite, in s or as '2 min', and > {as_text(start)}, the time of the initial state"
+    )
+    faults = violations(
         (states.is_finite(time), "initial_state.time", time, "must be finite"),
-        (later, "t_end" if duration is None else "duration", end, rule),
+        (start < end < math.inf, name, value, rule),
+    )
+    return _Span(start, end, faults)
+
+
+def _option_faults(
+    events: object, initial_state: object, stop_at: object, execution: object
+) -> list[str]:
+    """Faults of the options of `simulate` by themselves."""
+    stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
+    starts = initial_state is None or isinstance(initial_state, State)
+    return violations(
+        (isinstance(events, bool), "events", events, "must be True or False"),
+        (starts, "initial_state", initial_state, "must be a State"),
         (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
         (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
     )
-    raise_faults([*foreign_case(p), *limits_faults("tol", tol, TOLERANCES), *rules])
-    # numbers of other types would make the engine compile again, and would round differently
-    start, end = float(time), float(end)
-    windows = {} if windows is None else resolved_windows(windows, start, end)
-    if not isinstance(ramps, tuple) or ramps:
-        raise_faults(
-            [
-                *ramp_faults(
-                    p, ramps, poincare=any(isinstance(x, Poincare) for x in windows.values())
-                )
-            ]
-        )
-    run = _Run(p, end, float(tol), initial_state, windows, events, stop_at, ramps, execution)
-    code = run.advance()
-    tell = execution.progress or (lambda _: None)
-    while code == transitions.PAUSED:
-        tell(run.time)
-        code = run.advance()
-    tell(run.time)
-    return run.result(_STATUS[code])
+
+
+def _windows_to_the_stop(windows: Windows, start: float, run: Callable[..., _Run]) -> Windows:
+    """The windows that count back from the end of a run, with absolute times, if it stops before
+    its end: it is computed once more than else."""
+    from_the_end = {
+        name: window
+        for name, window in windows.items()
+        if isinstance(window, Window) and window.last is not None
+    }
+    if not from_the_end:
+        return {}
+    stopped = run(windows={}, events=False).complete().final_state.time
+    return resolved_windows(from_the_end, start, stopped) if stopped > start else {}
 
 
 def snapshots(
-    p: Parameters, times: ArrayLike, *, tol: float = 1e-10, initial_state: State | None = None
+    p: Parameters,
+    times: ArrayLike,
+    *,
+    tol: float = 1e-10,
+    initial_state: State | None = None,
+    ramps: Ramp | tuple[Ramp, ...] = (),
 ) -> tuple[State, ...]:
     """States of the system at given times, with its modal coordinates.
 
@@ -218,7 +250,7 @@ def snapshots(
     ----------
     p : the case
     times : s, ascending, shape (n,); none before the initial state's
-    tol, initial_state : as in `disc_model.simulate`
+    tol, initial_state, ramps : as in `disc_model.simulate`
 
     Returns
     -------
@@ -238,7 +270,8 @@ def snapshots(
     >>> [state.phase for state in dm.snapshots(dm.Parameters(N=385, Omega=15.1), [0.0, 0.006])]
     ['stick', 'slip']
     """
-    numbers = states.finite_numbers(times)
+    ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
+    numbers = states.finite_numbers(in_si(times, "s", [], ()))
     ascend = numbers is not None and not np.any(np.diff(numbers) < 0)
     starts = initial_state is None or isinstance(initial_state, State)
     wrong = violations(
@@ -246,6 +279,7 @@ def snapshots(
         (ascend, "times", times, "must be finite and ascend"),
     )
     raise_faults(foreign_case(p) + wrong)
+    raise_faults([*ramp_faults(p, ramps, poincare=False)])
     wanted: list[float] = [] if numbers is None else numbers.tolist()
     state, reached = (
         states.static_start(p) if initial_state is None else initial_state,
@@ -256,7 +290,7 @@ def snapshots(
     for time in wanted:
         if time > state.time:
             state = (
-                simulate(p, time, tol=tol, events=False, initial_state=state)
+                simulate(p, time, tol=tol, events=False, initial_state=state, ramps=ramps)
                 .raise_for_status()
                 .final_state
             )
@@ -288,12 +322,22 @@ class _Run:
         at_switch = state is not None and states.write_state(case, state, self.state, self.key)
         most: float | None = self.execution.max_steps
         start, every_step = self.time, self.execution.audit_every_step
+        self.pieces = pieces(self.p, self.ramps)
+        # of the drive over its angle by this run's Omega and ramps alone, after another history
+        self.lead = 0.0
+        if state is not None and state.drive_angle is not None:
+            self.lead = float(state.drive_angle) - angle_of_drive(self.pieces, start)
         if (
             most is None
         ):  # twenty for each radian of the highest mode, far more than any of the published cases takes
             most = 10_000 + 20 * (self.t_end - start) / model.unit
         longest = event_loop.LONGEST_STICK * model.unit
-        self.collector = Collector(self.p, self.windows, self.events, start, self.t_end, longest)
+        grids = {
+            name: window.grid(self.p, start, self.t_end) for name, window in self.windows.items()
+        }
+        # the engine knows the angle without the lead
+        grids = {name: grid._replace(theta=grid.theta - self.lead) for name, grid in grids.items()}
+        self.collector = Collector(grids, self.windows, self.events, self.t_end, longest)
         self.wall_time = 0.0
         self.limits = event_loop.Limits(
             order,
@@ -310,7 +354,6 @@ class _Run:
             if every_step
             else 256,  # a compliant contact takes about four times as many steps per second
         )
-        self.pieces = pieces(self.p, self.ramps)
         # in reverse order, so that the first piece is current at the end; compiling here keeps it
         # out of the wall time
         for index, piece in reversed(tuple(enumerate(self.pieces))):
@@ -350,6 +393,16 @@ class _Run:
         for sums in (buffers.counters, buffers.phase_times, buffers.audit):
             sums.fill(0)
 
+    def complete(self) -> Result:
+        """Compute to the end, and tell the progress."""
+        tell = self.execution.progress or (lambda _: None)
+        code = self.advance()
+        while code == transitions.PAUSED:
+            tell(self.time)
+            code = self.advance()
+        tell(self.time)
+        return self.result(_STATUS[code])
+
     @property
     def time(self) -> float:
         """The time reached, s."""
@@ -387,7 +440,10 @@ class _Run:
             message=message,
             event_rows=np.concatenate(self.collector.events),
             first_separation=self.collector.first_separation,
-            final_state=states.read_state(self.case, self.state, self.key),
+            final_state=dataclasses.replace(
+                states.read_state(self.case, self.state, self.key),
+                drive_angle=angle_of_drive(self.pieces, self.time) + self.lead,
+            ),
             u_0=self.model.u_0,
             statistics=self._statistics(),
             samples={name: samples.arrays() for name, samples in self.collector.samples.items()},
@@ -444,8 +500,6 @@ BUFFER = (
 EVENT_BUFFER = (
     1 << 10
 )  # events between two pauses: a larger buffer takes longer to make than a short simulation
-_FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
-_FOLDED_ROW = ("time", *(f"{name}_{end}" for name in _FOLDED for end in ("min", "max")))
 
 
 class Collector:
@@ -454,26 +508,24 @@ class Collector:
 
     def __init__(
         self,
-        p: Parameters,
+        grids: Mapping[str, SampleTimes],
         windows: Windows,
         events: bool,
-        start: float,
         t_end: float,
         longest_step: float,
     ) -> None:
-        grids = {name: window.grid(p, start, t_end) for name, window in windows.items()}
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
         longest = longest_step + dense_output.SAME_INSTANT * t_end
         per_step, folds, rows = 0, dict[str, int](), dict[str, float]()
-        for name, (_, interval, count, *_) in grids.items():
-            per_step += 1 + math.ceil(min(longest / interval, count))
+        for name, grid in grids.items():
+            per_step += 1 + math.ceil(min(longest / grid.interval, grid.number))
             folds[name] = getattr(windows[name], "envelope", None) or 1
-            rows[name] = float(count) / folds[name]
+            rows[name] = float(grid.number) / folds[name]
         size = 8.0 * len(dense_output.ROW) * (sum(rows.values()) + per_step)
         if rows and size > (room := _memory()):
             rule = f"must fit into memory: {size / 1e9:.3g} GB of samples in all, and there are {room / 1e9:.3g} GB"
             raise ParameterError(Fault(("windows", max(rows, key=rows.__getitem__)), "", rule))
-        self.samples = {name: _Samples(int(grid[2]), folds[name]) for name, grid in grids.items()}
+        self.samples = {name: _Samples(grid.number, folds[name]) for name, grid in grids.items()}
         self.first_separation = math.nan  # s
         self.keeps_events, self.events = events, list[Array]()
         capacity = BUFFER if grids else 0
@@ -507,7 +559,7 @@ class _Samples:
     some are filled."""
 
     def __init__(self, count: int, fold: int) -> None:
-        names = dense_output.ROW[1:] if fold == 1 else _FOLDED_ROW
+        names = SAMPLE_ROW if fold == 1 else BIN_ROW
         self.columns = {name: np.empty(count // fold) for name in names}
         self.fold, self.filled = fold, 0
         self.rest = np.empty((0, len(dense_output.ROW)))  # rows of the bin that is not full
@@ -530,7 +582,7 @@ class _Samples:
 def _fold(cells: Array) -> Array:
     """Rows of mean time and (min, max) of each folded column, from cells of shape (n, samples,
     columns)."""
-    columns = [cells[:, :, dense_output.ROW.index(name)] for name in ("time", *_FOLDED)]
+    columns = [cells[:, :, dense_output.ROW.index(name)] for name in ("time", *FOLDED)]
     ranges = [bound for column in columns[1:] for bound in (column.min(axis=1), column.max(axis=1))]
     return np.stack([columns[0].mean(axis=1), *ranges], axis=1)
 

@@ -32,6 +32,16 @@ Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
 Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]
 
 
+class SampleTimes(NamedTuple):
+    """When samples are taken in a run, and at which point of the disc."""
+
+    first: float  # s
+    interval: float  # s
+    number: int
+    theta: float  # rad, angle of the point fixed to the disc
+    end: float  # s, of the run
+
+
 class Interval(Strict):
     """An interval of time, from a `start` to a later `stop` or `end`."""
 
@@ -98,7 +108,8 @@ class Window(Span):
     Parameters
     ----------
     start, stop : s, absolute times; from the start of the run to its end if not given
-    last : s, counted back from the end of the run, instead of start and stop
+    last : s, counted back from the end of the run, instead of start and stop. A run with ``stop_at`` ends where it
+        stops, and is computed twice for this
     rate : Hz
     theta : rad, angle of the point fixed to the disc at radius r_0 where ``w_point`` is taken
     envelope : if given, the least and the greatest of each ``envelope`` successive samples are kept instead of them;
@@ -134,22 +145,16 @@ class Window(Span):
         floats."""
         return (self.stop - self.start) * self.rate * (1 + 1e-15) + 1e-9
 
-    def grid(self, p: Parameters, start: float, t_end: float) -> tuple[float, ...]:
-        """Samples in a run: time of the first, interval and number of all, angle, and the run's
-        end."""
+    def grid(self, p: Parameters, start: float, t_end: float) -> SampleTimes:
+        """When samples are taken in a run of the case from ``start`` to ``t_end``, s."""
         interval = min(1 / self.rate, sys.float_info.max)
         skipped = max(0.0, (start - self.start) * self.rate - 1e-9)
         reached = min(self.last_sample, (t_end - self.start) * self.rate + 1e-9)
         if not skipped <= reached < math.inf:
-            return start, interval, 0, self.theta, t_end
+            return SampleTimes(start, interval, 0, self.theta, t_end)
         index = math.ceil(skipped)
-        return (
-            self.start + index * interval,
-            interval,
-            math.floor(reached) - index + 1,
-            self.theta,
-            t_end,
-        )
+        count = math.floor(reached) - index + 1
+        return SampleTimes(self.start + index * interval, interval, count, self.theta, t_end)
 
 
 class Poincare(Interval):
@@ -168,14 +173,15 @@ class Poincare(Interval):
     stop: Annotated[Real, Field(gt=0), Unit("s")] = math.inf
     theta: Angle = 1.0
 
-    def grid(self, p: Parameters, start: float, t_end: float) -> tuple[float, ...]:
-        """Samples in a run, as of a `Window`; none if the drive rests."""
+    def grid(self, p: Parameters, start: float, t_end: float) -> SampleTimes:
+        """When samples are taken, as of a `Window`; never if the drive rests."""
         if p.Omega == 0:
-            return 0.0, 1.0, 0, self.theta, t_end
+            return SampleTimes(0.0, 1.0, 0, self.theta, t_end)
         interval = min(2 * math.pi / p.Omega, sys.float_info.max)
         index = math.ceil(max(self.start, start) / interval - 1e-9)
         last = math.floor(min(self.stop, t_end) / interval + 1e-9)
-        return index * interval, interval, max(0, last - index + 1), self.theta, t_end
+        count = max(0, last - index + 1)
+        return SampleTimes(index * interval, interval, count, self.theta, t_end)
 
 
 Windows = Mapping[str, Window | Poincare]  # samples to keep, by their names
@@ -277,6 +283,13 @@ class Piece(NamedTuple):
     N: float
     N_rate: float
 
+    def angle_at(self, time: float) -> float:
+        """Angle by which the drive point has turned at a time of the interval, rad."""
+        if self.begin == -math.inf:
+            return self.Omega * time
+        since = time - self.begin
+        return self.angle + (self.Omega + 0.5 * self.Omega_rate * since) * since
+
 
 def ramp_faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]:
     """Faults of the ramps of a case; ``poincare``: whether samples at the drive's period are
@@ -312,10 +325,15 @@ def pieces(p: Parameters, ramps: Sequence[Ramp]) -> tuple[Piece, ...]:
     for begin, end in pairwise(knots):
         (Omega, Omega_rate), (N, N_rate) = (_at(lines[name], begin) for name in RAMPED)
         parts.append(Piece(begin, end, angle, Omega, Omega_rate, N, N_rate))
-        angle += (
-            (Omega + 0.5 * Omega_rate * (end - begin)) * (end - begin) if end < math.inf else 0.0
-        )
+        if end < math.inf:
+            angle = parts[-1].angle_at(end)
     return tuple(parts)
+
+
+def angle_of_drive(intervals: Sequence[Piece], time: float) -> float:
+    """Angle by which the drive point has turned since the time 0, rad, from `pieces`."""
+    now = next(piece for piece in reversed(intervals) if piece.begin <= time)
+    return now.angle_at(time)
 
 
 def line(p: Parameters, ramps: Iterable[Ramp], name: str) -> list[tuple[float, float, float]]:

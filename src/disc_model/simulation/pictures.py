@@ -215,12 +215,19 @@ class Pictures:
         >>> film = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1).animate("cycle.gif", frames=2)
         """
         require((is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1"))
+        draw(
+            "film_writer", path, fps
+        )  # refuses what cannot be written, before anything is computed
         result: Any = self
         samples = draw("window_of", *self._of(window, "end"))
         times = np.linspace(float(samples["time"][0]), float(samples["time"][-1]), frames)
         api = import_module("disc_model.simulation.api")
         states = api.snapshots(
-            result.parameters, times, tol=result.tol, initial_state=result.initial_state
+            result.parameters,
+            times,
+            tol=result.tol,
+            initial_state=result.initial_state,
+            ramps=result.ramps,
         )
         return draw("animate", result.parameters, states, samples, path, fps)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -16,12 +16,14 @@ from numpy.typing import ArrayLike
 from disc_model import errors
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, values_text
 from disc_model.display import Summarised, counted, number_text
+from disc_model.engine import dense_output
 from disc_model.engine.event_loop import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status, require, suggestion
-from disc_model.parameters import Parameters, in_words
+from disc_model.parameters import Parameters
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, line
 from disc_model.simulation.pictures import Pictures
-from disc_model.simulation.states import Array, State, is_finite_array
+from disc_model.simulation.states import Array, State, StateValues, is_finite_array, stored_state
+from disc_model.units import Count, Finite, Real, Strict, in_si
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -35,6 +37,13 @@ _ERRORS: dict[Status, type[errors.SimulationError]] = {
     Status.NON_FINITE: errors.NonFinite,
 }
 STATUS_OF = {error: status for status, error in _ERRORS.items()}
+SAMPLE_ROW = dense_output.ROW[1:]
+"""Columns of a window."""
+FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
+BIN_ROW = ("time", *(f"{name}_{end}" for name in FOLDED for end in ("min", "max")))
+"""Columns of a window with an envelope."""
+_PLAIN = ("t_end", "tol", "status", "message", "first_separation", "u_0")
+"""Values of a `Result` that its files hold as they are."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -113,6 +122,7 @@ class Result(Summarised, Pictures):
         ParameterError
             If the name is another one, or a time is not a finite number.
         """
+        seconds = in_si(times, "s", [], ())
         require(
             (
                 isinstance(name, str) and name in RAMPED,
@@ -120,10 +130,10 @@ class Result(Summarised, Pictures):
                 name,
                 f"must be one of {', '.join(RAMPED)}",
             ),
-            (is_finite_array(times, flat=False), "times", times, "must be finite numbers"),
+            (is_finite_array(seconds, flat=False), "times", times, "must be finite numbers"),
         )
         knots, values, _ = zip(*line(self.parameters, self.ramps, name), strict=True)
-        return np.asarray(np.interp(np.asarray(times, dtype=float), knots, values))
+        return np.asarray(np.interp(np.asarray(seconds, dtype=float), knots, values))
 
     def __getitem__(self, name: str) -> xr.Dataset:
         """The samples of a window along `time`, with units, by the window's name; raises
@@ -134,9 +144,8 @@ class Result(Summarised, Pictures):
             raise ParameterError(
                 Fault.of(("name",), name, f"no such window{suggestion(name, self.samples)}")
             )
-        return series_dataset(self.samples[name], "time").assign_attrs(
-            theta=self.windows[name].theta
-        )
+        samples = series_dataset(self.samples[name], "time")
+        return samples.assign_attrs(theta=self.windows[name].theta, theta_units="rad")
 
     def to_tree(self) -> xr.DataTree:
         """Return the result in the layout of files, with CF attributes; see
@@ -170,8 +179,9 @@ class Result(Summarised, Pictures):
         Parameters
         ----------
         path : its suffix says how. ".nc": netCDF, the tree of `to_tree`, which `disc_model.load` reads as well. ".mat":
-            a structure of columns for each window, the events and the final state, and the text ``result``: JSON of
-            the case, what was found, and the words of numbers
+            a structure of columns for each window, the events and the final state; ``units``; ``meanings``, the words
+            of the numbers 0, 1, ...; and the text ``result``: JSON of the case and of what was found. Both hold a
+            checksum, by which `load` notices any damage
 
         Raises
         ------
@@ -188,34 +198,31 @@ class Result(Summarised, Pictures):
         >>> dm.Result.load("run.mat")["late"].equals(run["late"])
         True
         """
-        from disc_model.data import dataset
+        from disc_model.data import tables
 
         states = {"final_state": self.final_state.parts}
         if self.initial_state is not None:
             states["initial_state"] = self.initial_state.parts
-        described = {
-            "parameters": in_words(self.parameters.canonical),
-            **{which: values for which, (values, _) in states.items()},
-            "windows": {
-                name: [type(window).__name__, window.model_dump()]
-                for name, window in self.windows.items()
-            },
-            "ramps": [ramp.model_dump() for ramp in self.ramps],
-            "statistics": {
-                name: value for name, value in self.statistics.items() if name != "wall_time"
-            },
-            **{
-                name: getattr(self, name)
-                for name in ("t_end", "tol", "status", "message", "first_separation", "u_0")
-            },
-        }
-        events = dict(zip(EVENT_ROW, self.event_rows.T, strict=True))
-        tables = {
-            "events": events,
-            **{which: arrays for which, (_, arrays) in states.items()},
-            **self.samples,
-        }
-        dataset.save_tables(tables, json.dumps(described, default=float), path, self.to_tree())
+        columns = {"events": dict(zip(EVENT_ROW, self.event_rows.T, strict=True))}
+        columns |= {which: arrays for which, (_, arrays) in states.items()}
+        columns |= self.samples
+        tables.save_tables(columns, self._header(states).model_dump_json(), path, self.to_tree())
+
+    def _header(self, states: Mapping[str, tuple[dict[str, Any], Any]]) -> Header:
+        """What a file holds beside the arrays; states : the `State.parts` by name."""
+        kinds: dict[type, dict[str, Any]] = {Window: {}, Poincare: {}}
+        for name, window in self.windows.items():
+            kinds[type(window)][name] = window
+        statistics = {name: x for name, x in self.statistics.items() if name != "wall_time"}
+        return Header(
+            parameters=self.parameters,
+            windows=kinds[Window],
+            sections=kinds[Poincare],
+            ramps=self.ramps,
+            statistics=Statistics(**statistics),
+            **{which: StateValues(**values) for which, (values, _) in states.items()},
+            **{name: getattr(self, name) for name in _PLAIN},
+        )
 
     @classmethod
     def load(cls, path: str | Path) -> Result:
@@ -227,32 +234,20 @@ class Result(Summarised, Pictures):
         ParameterError
             If the file holds no result.
         disc_model.data.dataset.UnreadableFile
-            If the file is damaged, or no such file.
+            If the file is damaged, or holds a result that cannot be.
+        disc_model.data.dataset.MissingFile
+            If there is no such file.
         """
-        from disc_model.data import dataset
+        from disc_model.data import tables
+        from disc_model.data.files import unreadable
 
-        text, tables = dataset.load_tables(path)
-        whole = text and {"events", "final_state"} <= tables.keys()
+        text, columns = tables.load_tables(path)
+        whole = text and {"events", "final_state"} <= columns.keys()
         require((whole, "path", str(path), "must be a file written by Result.save"))
-        values, events, kinds = (
-            json.loads(text),
-            tables.pop("events"),
-            {"Window": Window, "Poincare": Poincare},
-        )
-        for which in values.keys() & {"final_state", "initial_state"}:
-            values[which] = State(**values[which], **tables.pop(which))
-        values["parameters"] = Parameters(**values["parameters"])
-        values["status"] = Status(values["status"])
-        values["windows"] = {
-            name: kinds[kind](**window) for name, (kind, window) in values["windows"].items()
-        }
-        values["ramps"] = tuple(Ramp(**ramp) for ramp in values["ramps"])
-        values["statistics"]["wall_time"] = math.nan
-        return cls(
-            **values,
-            event_rows=np.stack([events[name] for name in EVENT_ROW], axis=1),
-            samples=tables,
-        )
+        try:
+            return _stored_result(Header.model_validate_json(text), columns)
+        except ParameterError as error:
+            raise unreadable(path, error) from None
 
     def __repr__(self) -> str:
         p, first = self.parameters, self.first_separation
@@ -297,3 +292,82 @@ class Result(Summarised, Pictures):
         if not self.status.complete:
             raise _ERRORS[self.status](f"{self.message}. {self.status.advice}")
         return self
+
+
+# ---- What files hold of a result
+
+
+class Statistics(Strict):
+    """The `Result.statistics` in a file, which are those of the motion alone."""
+
+    steps: Count
+    events: Count
+    separations: Count
+    time_stick: Real
+    time_slip: Real
+    time_separation: Real
+    energy_residual: Real
+    energy_residual_transverse: Real
+    energy_residual_inplane: Real
+    audited_steps: Count
+    couple_work: Real
+    surface_speed: Real
+
+
+class Header(Strict):
+    """What a file holds of a `Result` beside its arrays, checked."""
+
+    parameters: Parameters
+    windows: dict[str, Window]
+    sections: dict[str, Poincare]
+    ramps: tuple[Ramp, ...]
+    statistics: Statistics
+    final_state: StateValues
+    initial_state: StateValues | None = None
+    t_end: Finite
+    tol: Finite
+    status: Status
+    message: str
+    first_separation: Real
+    u_0: Real
+
+
+def _stored_result(header: Header, columns: dict[str, dict[str, Array]]) -> Result:
+    """The result of a file, from what it holds; raises `ParameterError` unless its parts fit
+    together."""
+    tables = dict(columns)
+    final_state = stored_state(header.final_state, tables.pop("final_state"))
+    initial_state = None
+    if header.initial_state is not None:
+        initial_state = stored_state(header.initial_state, tables.pop("initial_state", {}))
+    events = tables.pop("events")
+    windows: Windows = {**header.windows, **header.sections}
+    rule = f"must be {', '.join(windows) or 'none'}"
+    require((tables.keys() == windows.keys(), "windows", ", ".join(tables), rule))
+    _check_columns("events", events, EVENT_ROW)
+    for name, samples in tables.items():
+        folded = getattr(windows[name], "envelope", None)
+        _check_columns(name, samples, BIN_ROW if folded else SAMPLE_ROW)
+    for name, words in (("kind", EVENT_KINDS), ("phase", PHASES)):
+        known = np.isin(events[name], range(len(words))).all()
+        require((known, f"events.{name}", events[name], "must be numbers of their words"))
+    statistics = dict(header.statistics) | {"wall_time": math.nan}
+    return Result(
+        parameters=header.parameters,
+        windows={name: windows[name] for name in tables},
+        event_rows=np.stack([events[name] for name in EVENT_ROW], axis=1),
+        final_state=final_state,
+        statistics=statistics,
+        samples=tables,
+        ramps=header.ramps,
+        initial_state=initial_state,
+        **{name: getattr(header, name) for name in _PLAIN},
+    )
+
+
+def _check_columns(name: str, columns: Mapping[str, Array], row: Sequence[str]) -> None:
+    """Raise `ParameterError` unless a table has the columns of a row, all of one length."""
+    fits = sorted(columns) == sorted(row)
+    require((fits, name, ", ".join(columns), f"must be {', '.join(row)}"))
+    lengths = {len(column) for column in columns.values()}
+    require((len(lengths) == 1, name, sorted(lengths), "must have columns of one length"))

@@ -4,17 +4,17 @@ states written and read, order and tolerance of series."""
 from __future__ import annotations
 
 import dataclasses
-import json
 import math
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from pydantic import Field
 
 from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
@@ -30,7 +30,7 @@ from disc_model.engine import layout
 from disc_model.engine.series import Series, build_series
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.units import is_number
+from disc_model.units import Count, Real, Strict, in_si, is_number, is_quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -56,6 +56,7 @@ _PLACES = dict(
 SAME_HEIGHT = (
     1e-9  # relative to the disc's deflection: far above rounding, far below any intended difference
 )
+SAME_SPEED = 1e-9  # relative to the drive's: a slip by less against its direction is rounding too
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -73,6 +74,7 @@ class State:
         initial state with another u is refused, and its u_velocity is ignored
     a, b, alpha, beta : shape (n_modes,), in the order of `plate_modes`: modal displacements (m sqrt(kg)) and velocities
         along and across the slider's direction; b = beta = 0 for modes without nodal diameter
+    drive_angle : rad, by which the drive point has turned since the time 0, ramps included. None stands for Omega time
     case_key : the case in which it was computed; in any other case, the phase after an event is determined anew
     mode_amplitudes : kg^-1/2, shape (n_modes,), psi of the `plate_modes` to which a, b, alpha and beta belong. A case
         with other amplitudes refuses the state. None if the state was made by hand
@@ -103,6 +105,7 @@ class State:
     alpha: Array
     beta: Array
     time_low: float = 0.0
+    drive_angle: float | None = None
     case_key: str = ""
     mode_amplitudes: Array | None = None
     _roots: tuple[int, int] = (
@@ -114,11 +117,15 @@ class State:
         """Return a copy with some values changed; raises `ParameterError` for names and numbers
         that no state has.
 
-        A new time is exact and sets `time_low` to 0.  Any other change separates the state from the
-        case in which it was computed, and empties `case_key`.
+        A new time is exact: it sets `time_low` to 0 and `drive_angle` to None.  Any change but of
+        these three separates the state from the case in which it was computed, and empties
+        `case_key`.
         """
-        implied: dict[str, Any] = {"time_low": 0.0} if "time" in changes else {}
-        implied |= {} if changes.keys() <= {"time", "time_low"} else {"case_key": ""}
+        implied: dict[str, Any] = {}
+        if "time" in changes:
+            implied |= {"time_low": 0.0, "drive_angle": None}
+        if not changes.keys() <= {"time", "time_low", "drive_angle"}:
+            implied["case_key"] = ""
         known = [each.name for each in dataclasses.fields(self)]
         require(
             *(
@@ -131,9 +138,11 @@ class State:
                 (is_finite(x), name, x, "must be finite")
                 for name, x in changes.items()
                 if name in PLAIN
-            )
+            ),
+            angle_rule(changes.get("drive_angle"), ""),
         )
-        return dataclasses.replace(self, **implied | changes)
+        plain = {name: float(x) for name, x in changes.items() if name in PLAIN}
+        return dataclasses.replace(self, **implied | changes | plain)
 
     def __repr__(self) -> str:
         return (
@@ -141,11 +150,20 @@ class State:
             f"u={self.u:.6g} m, u_velocity={self.u_velocity:.6g} m/s, {len(self.a)} modes)"
         )
 
+    def slider_angle(self, p: Parameters) -> float:
+        """Angle of the slider on the disc, rad, from the place where it was at the time 0: that of
+        the drive point, less psi. Raises `ParameterError` unless `p` is the case."""
+        raise_faults(foreign_case(p))
+        drive = p.Omega * self.time if self.drive_angle is None else self.drive_angle
+        return drive - self.psi
+
     @property
     def parts(self) -> tuple[dict[str, Any], dict[str, Array]]:
-        """What files hold of it: values for JSON text, and arrays with one value a mode."""
+        """What files hold of it: values for JSON text, as `StateValues` reads them, and arrays with
+        one value a mode."""
         values = {each.name: getattr(self, each.name) for each in dataclasses.fields(self)}
         modal = {name: values.pop(name) for name in (*MODAL, "mode_amplitudes")}
+        values["roots"] = values.pop("_roots")
         return values, {
             name: np.asarray(array, float) for name, array in modal.items() if array is not None
         }
@@ -157,14 +175,15 @@ class State:
         Raises
         ------
         ParameterError
-            If the file has another suffix than .nc or .mat.
+            If the file has another suffix than .nc or .mat, or the state numbers that are not finite.
         disc_model.data.dataset.WriteError
             If the folder does not exist, or the disk is full.
         """
-        from disc_model.data import dataset
+        from disc_model.data import tables
 
+        require_finite(self)
         values, arrays = self.parts
-        dataset.save_tables({"state": arrays}, json.dumps(values, default=float), path)
+        tables.save_tables({"state": arrays}, StateValues(**values).model_dump_json(), path)
 
     @classmethod
     def load(cls, path: str | Path) -> State:
@@ -175,20 +194,57 @@ class State:
         ParameterError
             If the file holds no state.
         disc_model.data.dataset.UnreadableFile
-            If the file is damaged, or no such file.
+            If the file is damaged, or holds a state that cannot be.
+        disc_model.data.dataset.MissingFile
+            If there is no such file.
         """
-        from disc_model.data import dataset
+        from disc_model.data import tables
+        from disc_model.data.files import unreadable
 
-        text, tables = dataset.load_tables(path)
-        require(
-            (
-                text and [*tables] == ["state"],
-                "path",
-                str(path),
-                "must be a file written by State.save",
-            )
-        )
-        return cls(**json.loads(text), **tables["state"])
+        text, found = tables.load_tables(path)
+        holds_state = text and [*found] == ["state"]
+        require((holds_state, "path", str(path), "must be a file written by State.save"))
+        try:
+            state = stored_state(StateValues.model_validate_json(text), found["state"])
+            require_finite(state)
+        except ParameterError as error:
+            raise unreadable(path, error) from None
+        return state
+
+
+class StateValues(Strict):
+    """What a file holds of a `State` beside its arrays, checked but for what is finite."""
+
+    time: Real
+    time_low: Real
+    phase: Literal["stick", "slip", "separation"]
+    direction: Annotated[Count, Field(ge=-1, le=1)]
+    psi: Real
+    f: Real
+    u: Real
+    u_velocity: Real
+    drive_angle: Real | None
+    case_key: str
+    roots: tuple[Annotated[Count, Field(ge=0, le=3)], Annotated[Count, Field(ge=0, le=3)]]
+
+
+def stored_state(values: StateValues, arrays: Mapping[str, Array]) -> State:
+    """The state of a file, from what it holds. Raises `ParameterError` unless there is an array for
+    each modal variable, all of one length."""
+    names = [*MODAL, *["mode_amplitudes"] * ("mode_amplitudes" in arrays)]
+    rule = f"must be {', '.join(names)}"
+    require((sorted(arrays) == sorted(names), "arrays", ", ".join(sorted(arrays)), rule))
+    count = len(arrays["a"])
+    rule = f"must be {count} numbers, as many as of a"
+    require(*((len(x) == count, name, f"{len(x)} numbers", rule) for name, x in arrays.items()))
+    fields: dict[str, Any] = {**dict(values), **arrays}
+    return State(_roots=fields.pop("roots"), **fields)
+
+
+def require_finite(state: State) -> None:
+    """Raise `ParameterError` if a number of a state is not finite: nothing starts from there."""
+    numbers = {name: getattr(state, name) for name in (*PLAIN, *MODAL)}
+    require(*((np.all(np.isfinite(x)), name, x, "must be finite") for name, x in numbers.items()))
 
 
 def static_start(p: Parameters) -> State:
@@ -273,12 +329,10 @@ def deflection(
     import xarray as xr
 
     raise_faults(foreign_case(p))
-    modes, (low, high), radii, angles = (
-        mode_arrays(p),
-        radial_range(p),
-        finite_numbers(r),
-        finite_numbers(theta),
-    )
+    modes = mode_arrays(p)
+    low, high = radial_range(p)
+    radii = finite_numbers(in_si(r, "m", [], ()))
+    angles = finite_numbers(in_si(theta, "rad", [], ()))
     states_in_order: list[Any] = list(states) if np.iterable(states) else [states]
     within = radii is not None and radii.size and np.all((radii >= low) & (radii <= high))
     fits = [
@@ -303,8 +357,8 @@ def deflection(
     shapes = mode_shapes(p, radii)
     w = np.empty((len(states_in_order), len(radii), len(angles)))
     for i, state in enumerate(states_in_order):
-        # modal coordinates are relative to the slider, whose angle is Omega t - psi
-        turn = np.multiply.outer(modes.diameters, angles - (p.Omega * state.time - state.psi))
+        # modal coordinates are relative to the slider
+        turn = np.multiply.outer(modes.diameters, angles - state.slider_angle(p))
         w[i] = shapes.T @ (state.a[:, None] * np.cos(turn) + state.b[:, None] * np.sin(turn))
     coords = {
         "time": (
@@ -406,6 +460,8 @@ def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> St
     x = state.x.tolist()
     phase = int(x[layout.PHASE])
     values: dict[str, Any] = {name: x[place] for name, place in _PLACES.items()}
+    if phase == layout.SLIP and values["f"] * x[layout.DIRECTION] < 0:
+        values["f"] = 0.0  # slip that has just begun or is about to end, and f is rounding
     if phase != layout.SEPARATION and not case.model.compliant:
         values["u"], velocity, slope = case.point.dot(state.disc).tolist()
         values["u_velocity"] = velocity + values["f"] * slope
@@ -447,6 +503,8 @@ def write_state(case: EngineCase, source: State, state: layout.EngineState, key:
     x[[*_PLACES.values()]] = [getattr(source, name) for name in _PLACES]
     x[layout.PHASE] = PHASES.index(source.phase)
     x[layout.DIRECTION] = source.direction if source.phase == "slip" else 0.0
+    if x[layout.F] * x[layout.DIRECTION] < 0:  # by rounding, as `_check` has found
+        x[layout.F] = 0.0
     x[layout.KNOWN], x[layout.KNOWN_FORCE] = source._roots
     return (
         any(source._roots) and source.case_key != (key or case.key) and _forget_switch(case, state)
@@ -492,9 +550,11 @@ def _check(state: State, case: EngineCase) -> None:
         ),
         (known, path + "phase", state.phase, f"must be one of {', '.join(PHASES)}"),
         (signed, path + "direction", state.direction, "must be -1 or 1 in slip"),
+        angle_rule(state.drive_angle, path),
     )
     # the clock's compensation is at most a unit in the last place of the time
-    small, against = abs(state.time_low) <= math.ulp(state.time), state.f * state.direction < 0
+    small = abs(state.time_low) <= math.ulp(state.time)
+    against = state.f * state.direction < -SAME_SPEED * case.model.Omega
     require(
         (small, path + "time_low", state.time_low, "must be less than the last digit of the time"),
         (state.phase != "stick" or state.f == 0, path + "f", state.f, "must be 0 in stick"),
@@ -506,6 +566,12 @@ def _check(state: State, case: EngineCase) -> None:
         ),
         amplitude_rule(state, case.amplitudes, path),
     )
+
+
+def angle_rule(drive_angle: object, path: str) -> tuple[bool, str, object, str]:
+    """The rule, for `require`, of a state's `drive_angle`."""
+    known = drive_angle is None or is_finite(drive_angle)
+    return known, path + "drive_angle", drive_angle, "must be a finite number, or None"
 
 
 def amplitude_rule(state: State, amplitudes: Array, path: str) -> tuple[bool, str, object, str]:
@@ -533,6 +599,8 @@ def is_finite(value: object) -> bool:
 def is_finite_array(values: object, size: int | None = None, *, flat: bool = True) -> bool:
     """Whether values are finite real numbers, `size` of them if it is given, and one-dimensional if
     `flat`."""
+    if is_quantity(values):  # numpy would leave its unit out
+        return False
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):

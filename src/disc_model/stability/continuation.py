@@ -480,6 +480,7 @@ def continue_cycle(
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases)
     raise_faults(foreign_case(p) or wrong + free_faults(p, [name]))
+    tol = float(tol)
     start, slack = p.numbers[name], 1e-9 * (span[1] - span[0])  # ratios are rounded
     within = span[0] - slack <= start <= span[1] + slack
     require(

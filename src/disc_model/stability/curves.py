@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from disc_model.analysis.spectra import Resonance, nearest_resonance
 from disc_model.data.variables import STABLE_CYCLES
-from disc_model.display import Drawn, counted
+from disc_model.display import Drawn, counted, html_table
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
@@ -154,6 +154,7 @@ def neutral_curves(
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
     raise_faults(wrong + (free_faults(p, [*bounds]) if free else []))
+    tol = float(tol)
     names = x, y = tuple(plane)
     curves, notes = list[StabilityCurve](), list[str]()
     span = np.array([high - low for low, high in plane.values()])
@@ -310,6 +311,23 @@ class Critical(Drawn):
         seen = f"{len(self.values)} cycles, tongues down to {self.resolution:.2g} seen"
         return f"Critical({self.name}: {first}, {crossings}, {seen})"
 
+    def _repr_html_(self) -> str:
+        """The intervals of one stability in a notebook, and what may have been overlooked."""
+        unit = self.parameters.unit(self.name).removeprefix("1")
+        edges = [float(self.values[0]), *self.crossings.tolist(), float(self.values[-1])]
+        unstable = {float(low) for low, _ in self.unstable}
+        rows = [
+            (f"{low:.9g}", f"{high:.9g}", "unstable" if low in unstable else "stable")
+            for low, high in pairwise(edges)
+        ]
+        rows.append(("tongues overlooked", f"below {self.resolution:.2g} {unit}".strip(), ""))
+        head = (
+            f"{self.name} from",
+            f"to ({unit})" if unit else "to",
+            "motion near the static start",
+        )
+        return html_table(head, rows)
+
     @property
     def unstable(self) -> Array:
         """The intervals in which that motion is unstable, shape (n_intervals, 2). Another one may
@@ -379,6 +397,7 @@ def critical(
         (good, "precision", precision, "must be a number > 0"),
     )
     raise_faults(case_faults(p, "critical") or wrong + free_faults(p, [name]))
+    tol = float(tol)
     values = np.linspace(ends[0], ends[1], points).tolist()
     for x in values:
         p.replace(**{name: x})

@@ -183,7 +183,7 @@ def floquet(
     """
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases)
     raise_faults(case_faults(p, "floquet") + wrong)
-    return find_cycle(p, tol, guess, releases)
+    return find_cycle(p, float(tol), guess, releases)
 
 
 def guess_faults(guess: object, releases: object) -> list[str]:

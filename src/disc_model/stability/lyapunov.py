@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.display import Drawn
+from disc_model.display import Drawn, counted, html_table, number_text
 from disc_model.engine import event_loop, layout, tangent, transitions
 from disc_model.engine.jit.cache import compiling
 from disc_model.engine.series import build_series
@@ -80,6 +80,21 @@ class Lyapunov(Drawn):
     def __repr__(self) -> str:
         exponents = " and ".join(f"{exponent:.3g}" for exponent in self.exponents)
         return f"Lyapunov({self.status}, over {self.duration:g} s: {exponents} 1/s)"
+
+    def _repr_html_(self) -> str:
+        """The exponents in a notebook, with their errors, and what they are of."""
+        rows = [
+            (f"{exponent:.4g}", number_text(float(error), digits=2), "yes" if settled else "no")
+            for exponent, error, settled in zip(
+                self.exponents, self.errors, self.converged, strict=True
+            )
+        ]
+        trivial = number_text(self.trivial_exponent, digits=2)
+        if trivial:
+            rows.append((trivial, "", "left out: along the motion"))
+        lost = counted(self.separations, "separation")
+        rows.append((str(self.status), f"over {self.duration:g} s", lost))
+        return html_table(("exponent (1/s)", "standard error (1/s)", "converged"), rows)
 
 
 @compiling()

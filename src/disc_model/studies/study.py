@@ -5,6 +5,8 @@ right.
 """
 
 import json
+import math
+import re
 from collections import ChainMap
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, partial, reduce
@@ -24,8 +26,9 @@ from pydantic import (
 )
 from yaml.composer import ComposerError
 
+from disc_model.data.files import MissingFile, UnreadableFile
 from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, values_text
-from disc_model.disc.given import read_disc
+from disc_model.disc.files.table import read_disc
 from disc_model.disc.plausibility import doubts
 from disc_model.display import counted
 from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
@@ -77,11 +80,19 @@ class StudyError(DiscModelError, ValueError):
 
 
 def read_file(path: Path) -> Any:
-    """A YAML file's content; raises `StudyError` if it cannot be read or gives a key twice."""
+    """A YAML file's content. Raises `StudyError` if it is no YAML, gives a key twice, or writes a
+    number in another base than it seems; `MissingFile` or `UnreadableFile` if there is no text."""
     try:
-        return yaml.load(path.read_text(encoding="utf-8"), _Loader)
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise MissingFile(f"{path}: there is no such file") from None
+    except OSError as error:
+        raise UnreadableFile(f"{path}: cannot be read: {error.strerror}") from None
+    except ValueError as error:
+        raise UnreadableFile(f"{path}: cannot be read: {error}") from None
+    try:
+        return yaml.load(text, _Loader)
     except (
-        OSError,
         yaml.YAMLError,
         ValueError,
         RecursionError,
@@ -96,8 +107,35 @@ def read_file(path: Path) -> Any:
         ) from None
 
 
+MOST_VALUES = 1_000_000  # of a file, each as often as aliases repeat it
+_OCTAL = re.compile(r"[-+]?0[0-7_]+")
+_SEXAGESIMAL = re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?")
+
+
 class _Loader(yaml.SafeLoader):
-    """Refuses a key that is given twice, of which YAML itself would take the last value."""
+    """Refuses a key that is given twice, of which YAML itself would take the last value; numbers
+    that YAML 1.1 takes in base 8 or 60, such as 010 and 1:30; and aliases that repeat more than a
+    computer can hold."""
+
+    def get_single_node(self) -> Any:
+        node = super().get_single_node()
+        if node is not None and _size_of(node, {}) > MOST_VALUES:
+            rule = f"its aliases repeat more than {MOST_VALUES} values, or a part within itself"
+            raise ComposerError(None, None, rule, node.start_mark)
+        return node
+
+    def compose_scalar_node(self, anchor: Any) -> yaml.ScalarNode:
+        node = super().compose_scalar_node(anchor)
+        if not node.tag.endswith((":int", ":float")):
+            return node
+        for pattern, base, remedy in (
+            (_OCTAL, 8, "leave the zero at its start out"),
+            (_SEXAGESIMAL, 60, "write a number without a colon, perhaps with a unit"),
+        ):
+            if pattern.fullmatch(node.value):
+                rule = f"YAML takes {node.value} for a number in base {base}: {remedy}"
+                raise ComposerError(None, None, rule, node.start_mark)
+        return node
 
     def compose_mapping_node(self, anchor: Any) -> yaml.MappingNode:
         node = super().compose_mapping_node(anchor)
@@ -107,6 +145,20 @@ class _Loader(yaml.SafeLoader):
                 raise ComposerError(None, None, f"{key.value} is given twice", key.start_mark)
             known.add(key.value)
         return node
+
+
+def _size_of(node: yaml.Node, known: dict[int, float]) -> float:
+    """Number of values of a part of a file, each as often as aliases repeat it; infinite for a part
+    within itself. `known` has the sizes of parts that were counted before."""
+    if isinstance(node, yaml.ScalarNode):
+        return 1
+    if id(node) not in known:
+        known[id(node)] = math.inf
+        parts = node.value
+        if isinstance(node, yaml.MappingNode):
+            parts = [part for pair in node.value for part in pair]
+        known[id(node)] = 1 + sum(_size_of(part, known) for part in parts)
+    return known[id(node)]
 
 
 def mapping(value: Any) -> Mapping[Any, Any]:

@@ -1,7 +1,7 @@
-"""The table of methods, from ``rivals.toml``: the package's engine and its rivals, which share only
-physics, `kernels`.
+"""The table of methods, from ``rivals.toml``: the package's engine and its rivals.
 
-This module imports nothing heavy: the workflow reads it at every start.
+They share only physics, `kernels`. This module imports nothing heavy, because the workflow reads it
+at every start.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ import math
 import tomllib
 from importlib.util import find_spec
 from pathlib import Path
-from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict
@@ -19,13 +18,27 @@ if TYPE_CHECKING:
     from disc_model.benchmarks.methods.integrators import MethodResult, Problem
 
 Scene = Literal["stick_slip", "separating", "many_modes", "rigid"]
-SCENES: tuple[str, ...] = get_args(
-    Scene
-)  # names of the benchmark's scenes, see `disc_model.benchmarks.scenes`
+SCENES: tuple[str, ...] = get_args(Scene)
+"""Names of the benchmark's scenes, see `disc_model.benchmarks.scenes`."""
+DECADES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
 
 
 class Method(BaseModel):
-    """A method that integrates a problem, as the file declares it; the file explains the keys."""
+    """A method that integrates a problem, as the file declares it.
+
+    Attributes
+    ----------
+    name, label : its name, and in words
+    function : key of `solvers.SOLVERS`
+    arguments : further arguments of the function
+    setting : what its one number is
+    settings : its values by scene, from coarse to fine
+    map_values : its values in maps of failures
+    map_budget : seconds for a point of a map
+    map_arguments : arguments of the function in maps, if they are others
+    maps : scenes of its maps
+    requires : packages that it needs
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     name: str
@@ -34,34 +47,42 @@ class Method(BaseModel):
     arguments: tuple[str, ...] = ()
     setting: Literal["tol", "step", "epsilon"] = "tol"
     settings: dict[Scene, tuple[float, ...]]
-    map_values: tuple[float, ...] = tuple(float(f"1e-{digits}") for digits in range(2, 12))
+    map_values: tuple[float, ...] = DECADES
     map_budget: float = 1.0
     map_arguments: tuple[str, ...] | None = None
     maps: tuple[Scene, ...] = ()
     requires: tuple[str, ...] = ()
 
     def absent(self) -> list[str]:
-        """Packages that it needs and that are not installed."""
+        """Return the packages that it needs and that are not installed."""
         return [name for name in self.requires if find_spec(name) is None]
 
     def economical(self) -> Method:
-        """The variant of the method for maps, where every run has other modes and another
-        setting."""
-        return (
-            self
-            if self.map_arguments is None
-            else self.model_copy(update={"arguments": self.map_arguments})
-        )
+        """Return the variant for maps, where every run has other modes and another setting."""
+        if self.map_arguments is None:
+            return self
+        return self.model_copy(update={"arguments": self.map_arguments})
 
     def solve(self, problem: Problem, value: float, budget: float = math.inf) -> MethodResult:
-        """Advance ``problem`` with the setting equal to ``value`` for at most about ``budget``
-        seconds."""
-        function = resolve_name(f"{__name__}.integrators:{self.function}")
-        result: MethodResult = function(problem, value, budget, *self.arguments)
-        return result
+        """Advance a problem.
+
+        Parameters
+        ----------
+        problem : what is integrated
+        value : of the setting
+        budget : seconds after which it should give up
+        """
+        from disc_model.benchmarks.methods.solvers import SOLVERS  # heavy
+
+        return SOLVERS[self.function](problem, value, budget, *self.arguments)
 
 
-_DECLARED = tomllib.loads(Path(__file__).with_name("rivals.toml").read_text(encoding="utf-8"))
-METHODS = {
-    name: Method(name=name, **fields) for name, fields in _DECLARED.items()
-}  # all of them by name
+def _declared() -> dict[str, Method]:
+    """Return the methods that the file declares, by name."""
+    path = Path(__file__).with_name("rivals.toml")
+    table = tomllib.loads(path.read_text(encoding="utf-8"))
+    return {name: Method(name=name, **fields) for name, fields in table.items()}
+
+
+METHODS = _declared()
+"""All methods by name."""

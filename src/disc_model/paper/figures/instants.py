@@ -1,5 +1,6 @@
 """The whole disc at four instants, made from windows at nine angles."""
 
+import json
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,7 @@ from disc_model.figures.selection import stretches
 from disc_model.figures.sizes import PAGE
 from disc_model.paper.figures.kinds import Instants
 from disc_model.parameters import Parameters
+from disc_model.simulation.case import Ramp, angle_of_drive, pieces
 
 LEVELS = (-0.75, -0.5, -0.25, -0.1, 0.0, 0.1, 0.25, 0.5, 0.75)
 """Of contour lines, over the largest deflection."""
@@ -88,7 +90,10 @@ def motion_of(case: xr.DataTree) -> Motion:
     values = np.array([window["w_point"].values for window in windows])
     solution = _harmonics(angles, harmonics, values)
     amplitudes = solution / mode_arrays(p).psi[:, None]
-    slider = p.Omega * time - psi
+    ramps = [Ramp(**ramp) for ramp in json.loads(case.attrs.get("ramps", "[]"))]
+    intervals = pieces(p, ramps)
+    drive = np.array([angle_of_drive(intervals, t) for t in time])
+    slider = drive - psi
     return Motion(p, time, amplitudes, slider, u, flag_names(windows[0]["phase"]))
 
 

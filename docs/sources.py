@@ -1,0 +1,426 @@
+"""What the numbers of pages are made of: results below a folder, pages from results, the package."""
+
+import re
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from docs.drawings.brake_energy import powers
+from docs.sentences import NUMBER, ROOT, Value, numbers_of
+
+import disc_model as dm
+from disc_model.data.dataset import Missing, MissingFile, load
+from disc_model.data.variables import flag_names
+from disc_model.figures.selection import common_points
+from disc_model.figures.sensitivity import probabilities
+from disc_model.figures.sliding_outcome import agreement
+from disc_model.paper import ledger, measures, survival
+from docs import plate_stiffening
+
+THICKNESS = 0.012
+"""Thickness of the ring of the brake-like disc, m."""
+
+
+class Sources:
+    """What expressions of statements are made of.
+
+    Attributes
+    ----------
+    results : folder of the results
+    """
+
+    def __init__(self, results: Path) -> None:
+        self.results = results
+
+    def value(self, expression: str) -> Value:
+        """Return the value of an expression; raises `MissingFile` if its results are not there."""
+        known: dict[str, Any] = {"np": np, "dm": dm}
+        for name in dir(self):
+            if not name.startswith("_"):
+                known[name] = getattr(self, name)
+        value = eval(expression, known)
+        return value if isinstance(value, str) else float(f"{float(value):.9g}")
+
+    # ---- cases and verdicts
+
+    def case(self, name: str) -> xr.DataTree:
+        """Return a case of the paper."""
+        return _load(self.results / "paper" / "cases" / f"{name}.nc")
+
+    def first_separation(self, name: str) -> float:
+        """Return the time of the first separation of a case, s."""
+        return float(self.case(name)["first_separation"])
+
+    def verdicts(self, verdict: str) -> int:
+        """Return the number of the paper's statements with a verdict, without errors in print."""
+        table = _table(self.results / "paper" / "claims.csv")
+        counts = table["counts"] != "error in print"
+        return int((counts & (table["verdict"] == verdict)).sum())
+
+    def claims(self, print_error: bool) -> int:
+        """Return the number of the paper's statements in the ledger, or of errors in print."""
+        return sum(row.print_error == print_error for row in ledger.ROWS)
+
+    def evidence(self, claim: str, unit: str = "") -> list[float]:
+        """Return the numbers in the evidence on a statement, in the order of the text.
+
+        Parameters
+        ----------
+        claim : row of the ledger
+        unit : that follows the numbers; with one, those of the notes are included
+        """
+        row = _table(self.results / "paper" / "claims.csv").set_index("id").loc[claim]
+        if not unit:
+            return numbers_of(str(row["here"]))
+        found = re.findall(rf"{NUMBER}(?= {unit})", f"{row['here']} {row['notes']}")
+        return [numbers_of(number)[0] for number in found]
+
+    def energy(self) -> np.ndarray:
+        """Return energies in mJ per period, shape (cases, 4).
+
+        They are supplied with separation and without it, and taken by damping and by impacts.
+        """
+        numbers = self.evidence("F10e", "mJ")
+        supplied = np.reshape(numbers[:6], (3, 2))
+        taken = np.reshape(numbers[9:], (3, 2))
+        return np.hstack([supplied, taken])
+
+    def table(self, name: str, column: str, row: int) -> float:
+        """Return a value in a table of the paper's study."""
+        table = _table(self.results / "paper" / "tables" / f"{name}.csv")
+        return float(table[column].iloc[row])
+
+    def pinned(self) -> np.ndarray:
+        """Return late ranges of the slider's height over 2 N/|k - m omega^2|.
+
+        They are of the runs that go on after a separation and in which the slider separates once
+        per vibration of the lowest mode, whose circular frequency is omega.
+        """
+        ratios = []
+        cases = _load(self.results / "paper" / "cases.nc")
+        for case in measures.views({"cases": cases}).values():
+            try:
+                rate = case.rate_of("separation")
+                late = case.late_range("u").width
+            except Missing:
+                continue
+            omega = _lowest_frequency(case.parameters)
+            if abs(2 * np.pi * rate / omega - 1) < 0.01:
+                ratios.append(late / _contact_loss(case.parameters))
+        return np.array(ratios)
+
+    def pinned_range(self, N: float) -> float:
+        """Return 2 N/|k - m omega^2| of the paper's disc, m."""
+        return _contact_loss(_parameters(N=N))
+
+    # ---- grid studies of the paper's disc
+
+    def grid(self, study: str) -> xr.Dataset:
+        """Return the dataset of a study, without axes of one value."""
+        return _load(self.results / study / f"{study}.nc").to_dataset().squeeze()
+
+    def separating_cells(self, normalization: str) -> int:
+        """Return the number of points of the map over speed and preload that separate."""
+        outcome = self.grid("map_N")["outcome"].sel(normalization=normalization)
+        return int((flag_names(outcome) == "separation").sum())
+
+    def inferred(self, normalization: str) -> float:
+        """Return the percentage of the points of this map that are inferred from neighbours."""
+        method = self.grid("map_N")["method"].sel(normalization=normalization)
+        return float(100 * np.mean(flag_names(method) == "inferred"))
+
+    def map_against_scan(self) -> tuple[int, int, int]:
+        """Return numbers of points that this map shares with the scan of critical speeds.
+
+        They are all, those where only one of the two separates, and of these the inferred ones.
+        """
+        cells = self.grid("map_N").sel(normalization="as_published")
+        scan = self.grid("critical_speed")["scan_first_separation"].rename(scan_Omega="Omega")
+        cells, scan = xr.align(cells, scan, join="inner")
+        mapped = flag_names(cells["outcome"].transpose("N", "Omega")) == "separation"
+        inferred = flag_names(cells["method"].transpose("N", "Omega")) == "inferred"
+        differ = mapped != np.isfinite(scan.transpose("N", "Omega").values)
+        return differ.size, int(differ.sum()), int((differ & inferred).sum())
+
+    def lowest_speeds(self) -> np.ndarray:
+        """Return the lowest speeds of this map with separation, with either scale of the modes.
+
+        They are those of the preloads at which there are some, rad/s.
+        """
+        outcome = self.grid("map_N")["outcome"]
+        separates = outcome.copy(data=flag_names(outcome) == "separation")
+        lowest = outcome["Omega"].where(separates).min("Omega").values
+        return lowest[np.isfinite(lowest)]
+
+    def quiet_cycle(self) -> tuple[float, float, float]:
+        """Return the least speed of the stable quiet cycle at 385 N, its fold, and a frequency.
+
+        Speeds are in rad/s; the frequency is twice that of the cycle at the fold, Hz. The quiet
+        cycle is that of the least range at 14 rad/s.
+        """
+        grid = self.grid("branches")
+        speed = grid["value"].values
+        stable = grid["growth_rate"].values < 0
+        there = stable & (abs(speed - 14) < 0.2)
+        ranges = np.where(there, grid["range"].values, np.inf)
+        branch, point = np.unravel_index(ranges.argmin(), ranges.shape)
+        unstable = np.flatnonzero(~stable[branch])
+        first = unstable[unstable < point].max() + 1
+        last = unstable[unstable > point].min() - 1
+        fold = np.nanargmax(speed[branch])
+        least = min(speed[branch, first], speed[branch, last])
+        return least, speed[branch, fold], 2 / grid["period"].values[branch, fold]
+
+    def least_separating_speed(self) -> float:
+        """Return the least speed with a stable cycle that separates at 385 N, rad/s."""
+        grid = self.grid("branches")
+        wanted = (grid["growth_rate"] < 0) & (grid["separations"] > 0)
+        return float(grid["value"].where(wanted).min())
+
+    def compared(self, normalization: str, word: str = "") -> int:
+        """Return the number of points where steady sliding and the motion are compared.
+
+        Parameters
+        ----------
+        normalization : of the modes
+        word : how they agree, a key of `AGREEMENTS`; all points if empty
+        """
+        moved = self.grid("map_c_p").sel(normalization=normalization)
+        slid = self.grid("sliding").rename(value="c_p").sel(normalization=normalization)
+        axes = ("N", "c_p")
+        plane, linear = common_points(moved.transpose(*axes, ...), slid.transpose(*axes, ...), axes)
+        words = agreement(linear["largest_growth_rate"].values, flag_names(plane["outcome"]))
+        return int((words == word).sum()) if word else words.size
+
+    def critical_speed(self, N: float, horizon: float = 1000) -> float:
+        """Return the lowest speed with separation at a preload, within a horizon in s, rad/s."""
+        return float(self.grid("critical_speed")["critical_speed"].sel(N=N, horizon=horizon))
+
+    def couple_speed(self, N: float) -> float:
+        """Return the critical speed with friction on the surface, rad/s.
+
+        It is within 500 s, with orthonormal modes.
+        """
+        return float(self.grid("critical_speed_couple")["critical_speed"].sel(N=N))
+
+    def orthonormal_speed(self, N: float) -> float:
+        """Return the critical speed with friction in the middle plane, rad/s.
+
+        It is within 500 s, with orthonormal modes.
+        """
+        study = self.grid("critical_speed_orthonormal")
+        return float(study["critical_speed"].sel(N=N, horizon=500))
+
+    def critical_energy(self, Omega: float) -> float:
+        """Return the critical energy of separation at 385 N, J."""
+        return float(self.grid("basins")["critical_energy"].sel(Omega=Omega))
+
+    def attractor(self, Omega: float, name: str) -> float:
+        """Return a value of the separating attractor of most starts at 385 N."""
+        point = self.grid("basins").sel(Omega=Omega)
+        kinds = flag_names(point["attractor_kind"]).tolist()
+        return float(point[name][kinds.index("separating")])
+
+    # ---- uncertain parameters
+
+    def uncertain(self, study: str, N: float) -> xr.Dataset:
+        """Return the point at a preload of a study of sensitivity."""
+        grid = self.grid(study)
+        return grid.isel(N_Omega=list(grid["N"].values).index(N))
+
+    def chance(self, study: str, N: float, event: str) -> str:
+        """Return a probability with its interval, as text."""
+        point = self.uncertain(study, N)
+        value = float(point[f"probability_{event}"])
+        low = float(point[f"probability_{event}_low"])
+        high = float(point[f"probability_{event}_high"])
+        return f"{value:.2f} ({low:.2f} to {high:.2f})"
+
+    def thirds(self, study: str, N: float, parameter: str) -> np.ndarray:
+        """Return the probability of instability in thirds of a parameter's range."""
+        return probabilities(self.uncertain(study, N), parameter)[:, 0]
+
+    def most_changing(self, study: str, N: float) -> str:
+        """Return the largest changes of the probability of instability, as text.
+
+        They are from the lowest third to the highest, three at most, and only if resolved.
+        """
+        changes = {}
+        for name in self.uncertain(study, N)["parameter"].values:
+            lowest, *_, highest = self.thirds(study, N, str(name))
+            changes[str(name)] = float(highest - lowest)
+        largest = sorted(changes, key=lambda name: -abs(changes[name]))[:3]
+        words = [f"{name} {changes[name]:+.2f}" for name in largest if abs(changes[name]) >= 0.15]
+        return ", ".join(words) or "none"
+
+    # ---- the brake-like disc
+
+    def brake(self, disc: str, N: float, Omega: float, contact: str = "unilateral") -> float:
+        """Return the range of the slider late in the motion, in thicknesses of the ring."""
+        point = self.grid("brake_outcome").sel(disc=disc, N=N, Omega=Omega, contact=contact)
+        return float(point["u_max"] - point["u_min"]) / THICKNESS
+
+    def brake_separation(self, disc: str, N: float, Omega: float) -> float:
+        """Return the time of the first separation, s."""
+        study = self.grid("brake_outcome")
+        point = study.sel(disc=disc, N=N, Omega=Omega, contact="unilateral")
+        return float(point["first_separation"])
+
+    def brake_energy(self, contact: str, part: str) -> float:
+        """Return the mean power of a part at 8 kN and 80 rad/s late in the motion, kW."""
+        return abs(powers(80, contact)[part]) / 1e3
+
+    def brake_mode(self, Omega: float) -> float:
+        """Return the frequency of the mode of steady sliding that grows fastest at 8 kN, Hz."""
+        rows = self.grid("brake_convergence").sel(disc="11 modes", contact_compliance=0)
+        row = rows.isel(value=int(np.abs(rows["value"].values - Omega).argmin()))
+        fastest = np.nanargmax(row["mode_growth_rate"].values)
+        return float(row["frequency"].values[fastest])
+
+    def brake_growth(self, disc: str, compliance: float) -> xr.DataArray:
+        """Return the largest growth rate of steady sliding at 8 kN over the speed, 1/s."""
+        study = self.grid("brake_convergence").sel(disc=disc, contact_compliance=compliance)
+        return study["largest_growth_rate"]
+
+    def brake_growth_at(self, disc: str, compliance: float, Omega: float) -> float:
+        """Return this growth rate at a speed of the study, 1/s."""
+        rates = self.brake_growth(disc, compliance)
+        return float(rates[rates["value"].values.tolist().index(Omega)])
+
+    def brake_onset(self, disc: str, compliance: float) -> float:
+        """Return the least speed of the study at which sliding grows, rad/s."""
+        rates = self.brake_growth(disc, compliance)
+        return float(rates["value"].where(rates > 0.01).min())
+
+    # ---- results of `make survival` and of `make orthonormal`
+
+    def _found(self, conclusion: str, model: str, column: str = "here") -> str:
+        """Return a text on a conclusion under a model."""
+        table = _table(self.results / "paper" / "survival.csv").set_index(["id", "model"])
+        return str(table[column][conclusion, model])
+
+    def survival(self, conclusion: str, model: str) -> list[float]:
+        """Return the numbers that were found on a conclusion under a model."""
+        return numbers_of(self._found(conclusion, model))
+
+    def all_survival(self, conclusion: str, i: int) -> list[float]:
+        """Return the i-th number that was found under each model."""
+        return [self.survival(conclusion, model)[i] for model in survival.MODELS]
+
+    def others(self) -> list[float]:
+        """Return numbers of points without a stable cycle that do not separate, by model."""
+        counts = []
+        for model in survival.MODELS:
+            separate, points, *_, stable = self.survival("Onset", model)[:6]
+            counts.append(points - separate - stable)
+        return counts
+
+    def models(self, conclusion: str, verdict: str) -> int:
+        """Return the number of models under which a conclusion has a verdict."""
+        table = _table(self.results / "paper" / "survival.csv")
+        return int(((table["id"] == conclusion) & (table["verdict"] == verdict)).sum())
+
+    def ranges(self, model: str, paradox: bool = True) -> np.ndarray:
+        """Return ranges of the disc with separation and in bilateral contact, mm, (cases, 2).
+
+        Parameters
+        ----------
+        model : its name
+        paradox : whether to count cases in which bilateral contact ends in Painlevé's paradox
+        """
+        pairs = self._found("Smaller vibration", model)
+        notes = self._found("Smaller vibration", model, "notes")
+        found = []
+        row = r"([\d.]+) against ([\d.]+) mm at (\d+ N, [\d.]+ rad/s)"
+        for separating, bilateral, place in re.findall(row, pairs):
+            if paradox or f"{place} after" not in notes:
+                found.append((float(separating), float(bilateral)))
+        return np.array(found)
+
+    def ratios(self) -> np.ndarray:
+        """Return how many times smaller the ranges are with separation, under all models.
+
+        Cases are left out in which bilateral contact ends in a paradox.
+        """
+        ranges = np.concatenate([self.ranges(model, False) for model in survival.MODELS])
+        return ranges[:, 1] / ranges[:, 0]
+
+    # ---- pages
+
+    def accuracy(self) -> np.ndarray:
+        """Return errors of event times divided by the default tolerance, by case."""
+        page = (ROOT / "docs" / "accuracy.md").read_text(encoding="utf-8")
+        section = page.partition("\n## Event times\n")[2].partition("\n## ")[0]
+        rows = [line.split("|") for line in section.splitlines() if line.startswith("|")]
+        return np.array([float(row[4]) for row in rows[2:]])
+
+    # ---- the package
+
+    def coupled_frequency(self, **changed: float) -> float:
+        """Return the lowest natural frequency of the disc with the slider attached, Hz."""
+        return _lowest_frequency(_parameters(**changed)) / np.pi / 2
+
+    def frequencies(self, **changed: float) -> np.ndarray:
+        """Return natural frequencies of the disc alone by nodal diameters, rad/s."""
+        return dm.plate_modes(_parameters(**changed))["omega"].to_numpy()
+
+    def moving_load(self) -> float:
+        """Return the critical speed of a load that moves round the disc, rad/s."""
+        return float(min(self.frequencies()[1:] / np.arange(1, 5)))
+
+    def amplitude(self, normalization: str) -> float:
+        """Return the modal amplitude under the slider with one nodal diameter, 1/sqrt(kg)."""
+        return float(dm.plate_modes(_parameters(normalization=normalization))["psi"][1])
+
+    def growth(self, **changed: float) -> float:
+        """Return the growth rate of the stick-slip cycle, 1/s."""
+        return dm.floquet(_parameters(**changed)).growth_rate
+
+    def stick_slip_frequency(self) -> float:
+        """Return the frequency of the cycle at 385 N, 15 rad/s, Hz."""
+        return 1 / dm.floquet(_parameters(N=385, Omega=15)).period
+
+    def sliding(self, **changed: Any) -> float:
+        """Return the growth rate of steady sliding at 385 N with orthonormal modes, 1/s."""
+        case = {"N": 385, "normalization": "orthonormal", **changed}
+        return dm.steady_sliding(_parameters(**case)).growth_rate
+
+    def stiffening(self, thicknesses: float) -> float:
+        """Return the static stiffness of the disc at a deflection over that of linear theory."""
+        p = _parameters(N=385, normalization="orthonormal")
+        return plate_stiffening.stiffness_ratio(p, thicknesses)
+
+
+def _parameters(**changed: Any) -> dm.Parameters:
+    """Return the paper's case at 200 N, 20 rad/s with published modes, changed."""
+    values: dict[str, Any] = {"N": 200, "Omega": 20, "normalization": "as_published"}
+    values.update(changed)
+    return dm.Parameters(**values)
+
+
+def _lowest_frequency(p: dm.Parameters) -> float:
+    """Return the lowest natural frequency of the disc with the slider attached, rad/s."""
+    return float(dm.coupled_natural_frequencies(p)[0])
+
+
+def _contact_loss(p: dm.Parameters) -> float:
+    """Return the range of the slider's height at which its lowest mode loses contact, m."""
+    omega = _lowest_frequency(p)
+    return 2 * p.N / abs(p.k - p.m * omega**2)
+
+
+@cache
+def _load(path: Path) -> xr.DataTree:
+    """Return a dataset."""
+    return load(path)
+
+
+@cache
+def _table(path: Path) -> pd.DataFrame:
+    """Return a table; raises `MissingFile` if it is not there."""
+    if not path.exists():
+        raise MissingFile(f"{path}: there is no such file")
+    return pd.read_csv(path, keep_default_na=False)

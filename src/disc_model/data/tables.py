@@ -1,0 +1,136 @@
+"""Tables of numbers, with a text that describes them, as netCDF or in the format of MATLAB."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from disc_model.data.dataset import read_tree, save
+from disc_model.data.files import (
+    SUFFIXES,
+    MissingFile,
+    check_mat,
+    regular_file,
+    seal_mat,
+    unreadable,
+    write_atomically,
+)
+from disc_model.data.variables import SERIES
+from disc_model.errors import Fault, ParameterError, raise_faults
+
+# columns of numbers, shape (n,), by the names of tables and their own
+Tables = dict[str, dict[str, NDArray[Any]]]
+BESIDE = ("result", "units", "meanings")
+"""What a .mat file holds beside the tables."""
+_MATLAB_NAME = re.compile(r"[A-Za-z]\w{0,62}", re.ASCII)
+
+
+def check_suffix(path: Path) -> Path:
+    """A path, unless there is no form of files for its suffix; raises `ParameterError`."""
+    if path.suffix not in SUFFIXES:
+        rule = f"must end in {' or '.join(SUFFIXES)}"
+        raise ParameterError(Fault.of(("path",), str(path), rule))
+    return path
+
+
+def save_tables(
+    tables: Tables, described: str, path: str | Path, tree: xr.DataTree | None = None
+) -> None:
+    """Write tables and a text that describes them in the form of which `Result.save` tells; as
+    netCDF, the groups of a tree, with columns and tables that it lacks."""
+    file = check_suffix(regular_file(path))
+    if file.suffix == ".nc":
+        tree = xr.DataTree() if tree is None else tree
+        for name, table in tables.items():
+            known = tree[name].to_dataset() if name in tree.children else xr.Dataset()
+            along = next(iter(known.dims), "mode")
+            new = {key: (along, x) for key, x in table.items() if key not in known}
+            tree[name] = known.assign(new)
+        tree.attrs["result"] = described
+        save(tree, file)
+    else:
+        _save_mat(tables, described, file)
+
+
+def _save_mat(tables: Tables, described: str, file: Path) -> None:
+    """Write a structure of columns for each table, the text, units, and the words of numbers."""
+    from scipy.io import savemat
+
+    rule = f"must be a name that MATLAB allows, but not one of {', '.join(BESIDE)}"
+    raise_faults(
+        [
+            Fault(("windows", name), "", rule)
+            for name in tables
+            if name in BESIDE or not _MATLAB_NAME.fullmatch(name)
+        ]
+    )
+    columns = sorted({name for table in tables.values() for name in table} & SERIES.keys())
+    units = {name: SERIES[name].units for name in columns}
+    # words of the numbers 0, 1, ...: meanings.kind{events.kind + 1}
+    meanings = {
+        name: np.array(SERIES[name].flags, dtype=object) for name in columns if SERIES[name].flags
+    }
+    content = {"result": described, "units": units, "meanings": meanings, **tables}
+
+    def write(name: str) -> None:
+        savemat(name, content, appendmat=False, long_field_names=True, oned_as="column")
+        seal_mat(name)
+
+    write_atomically(file, write)
+
+
+def load_tables(path: str | Path) -> tuple[str, Tables]:
+    """The text and the tables that `save_tables` has written; of netCDF the attribute `result` and
+    groups.
+
+    Raises
+    ------
+    ParameterError
+        If the file holds no such text.
+    UnreadableFile
+        If the file is damaged, or holds other things than columns of numbers.
+    MissingFile
+        If there is no such file.
+    """
+    file = regular_file(path)
+    if not file.exists():
+        raise MissingFile(f"{path}: there is no such file")
+    text, tables = _load_mat(file) if file.suffix == ".mat" else _load_netcdf(file)
+    try:
+        numbers = {
+            name: {key: np.asarray(x, float).ravel() for key, x in table.items()}
+            for name, table in tables.items()
+        }
+    except (TypeError, ValueError, RecursionError) as error:
+        raise unreadable(path, f"a column must hold numbers: {error}") from error
+    return text if isinstance(text, str) else "", numbers
+
+
+def _load_netcdf(file: Path) -> tuple[object, dict[str, dict[str, Any]]]:
+    tree, tables = read_tree(file, sealed=True), {}
+    for name, node in tree.children.items():
+        group = node.to_dataset(inherit=False).variables
+        # the time first, as in the windows of a run
+        tables[name] = {str(key): group[key].values for key in sorted(group, key="time".__ne__)}
+    return tree.attrs.get("result", ""), tables
+
+
+def _load_mat(file: Path) -> tuple[object, dict[str, dict[str, Any]]]:
+    from scipy.io import loadmat
+
+    check_mat(file)
+    try:
+        content = loadmat(file, appendmat=False, simplify_cells=True)
+    except Exception as error:  # whatever a file that another program has sealed leads scipy to
+        raise unreadable(file, error) from error
+    tables = {
+        name: table
+        for name, table in content.items()
+        if name not in BESIDE and isinstance(table, dict)
+    }
+    return content.get("result", ""), tables

@@ -1,0 +1,186 @@
+"""Heads of the columns of a table of modes: the quantity that each names, and its unit.
+
+A head is a name of this package, such as ``frequency_Hz``, or a name with its unit as laboratories
+write it: "Natural frequency (kHz)", "omega [rad/s]", "damping in %".
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import NamedTuple
+
+from disc_model.errors import Fault, ParameterError, suggestion
+from disc_model.units import in_si
+
+COLUMNS = {
+    "diameters": ("diameters", 1.0),
+    "frequency_Hz": ("omega", math.tau),
+    "omega_rad_per_s": ("omega", 1.0),
+    "amplitude_per_sqrt_kg": ("amplitude", 1.0),
+    "damping_ratio": ("damping_ratio", 1.0),
+    "circles": ("circles", 1.0),
+    "tangential_per_sqrt_kg": ("tangential", 1.0),
+}
+"""Field of a `Disc` that each column of this package's tables gives, and the factor on its values;
+shapes have further columns."""
+
+NAMES = {
+    "diameters": "diameters nodal_diameters n_diameters nodal_diameter nd l",
+    "circles": "circles nodal_circles n_circles nodal_circle nc",
+    "omega": (
+        "frequency natural_frequency eigenfrequency freq f f_n fn omega omega_n angular_frequency"
+    ),
+    "amplitude": "amplitude normal_amplitude axial_amplitude",
+    "tangential": "tangential tangential_amplitude",
+    "damping_ratio": "damping_ratio damping modal_damping zeta xi loss_factor eta",
+    "pole": "pole poles eigenvalue",
+    "pole_real": "pole_real real_pole re_pole pole_re real_part eigenvalue_real",
+    "pole_imag": "pole_imag imag_pole im_pole pole_im imaginary_part imag_part eigenvalue_imag",
+}
+"""Words for each quantity, in lower case with "_" between words."""
+QUANTITIES: dict[str, str] = {}
+for _name, _words in NAMES.items():
+    QUANTITIES.update(dict.fromkeys(_words.split(), _name))
+LOSS_FACTORS = ("loss_factor", "eta")  # twice the damping ratio
+
+UNIT_NEEDED = {
+    "omega": ("Hz, kHz or rad/s", "frequency_Hz or frequency (Hz)"),
+    "pole": ("rad/s or Hz", "pole (rad/s)"),
+    "pole_real": ("1/s, rad/s or Hz", "pole real (1/s)"),
+    "pole_imag": ("rad/s or Hz", "pole imag (rad/s)"),
+    "amplitude": ("kg^-1/2", "amplitude_per_sqrt_kg or amplitude (kg^-1/2)"),
+    "tangential": ("kg^-1/2", "tangential_per_sqrt_kg or tangential (kg^-1/2)"),
+}
+"""Quantities whose heads must state a unit: which, and examples."""
+
+_SHAPE_AT = re.compile(r"shape[ _]+at[ _]+(\d*\.?\d+(?:e-?\d+)?)[ _]*([a-zµμ]*m)", re.IGNORECASE)
+_BRACKETS = re.compile(r"(.*?)\s*(?:\((.*)\)|\[(.*)\])")
+_WORD_IN = re.compile(r"(.*?)\s+in\s+(\S.*)")
+_ROOT = re.compile(r"(?:1/|/|m/)sqrt\(?([A-Za-z]+)\)?|([A-Za-z]+)\^\(?-(?:1/2|0?\.5)\)?")
+_PER_METRE = {"m": 1.0, "mm": 1e3, "cm": 1e2}
+
+
+class Head(NamedTuple):
+    """A column: its head as it is written, its quantity, the factor to SI units (rad/s, kg^-1/2,
+    1), and the radius in m if it is a shape."""
+
+    text: str
+    quantity: str
+    factor: float
+    radius: float = math.nan
+
+
+def read_head(text: str) -> Head:
+    """Read the head of a column; raises `ParameterError` if its name or unit is not known."""
+    if text in COLUMNS:
+        quantity, factor = COLUMNS[text]
+        return Head(text, quantity, factor)
+    name, unit = _name_and_unit(text)
+    if match := _SHAPE_AT.fullmatch(name):
+        return _shape(text, match, unit)
+    word, unit = _word(name, unit)
+    if not word:
+        rule = f"unknown column{suggestion(text, [*COLUMNS])}"
+        raise ParameterError(Fault.of(("columns",), text, rule))
+    factor = _factor(text, QUANTITIES[word], unit)
+    if word in LOSS_FACTORS:
+        factor /= 2
+    return Head(text, QUANTITIES[word], factor)
+
+
+def _name_and_unit(text: str) -> tuple[str, str]:
+    """The name in a head, and its unit in brackets or after the word in."""
+    if match := _BRACKETS.fullmatch(text):
+        name, round_brackets, square_brackets = match.groups()
+        return name, (round_brackets or square_brackets or "").strip()
+    if match := _WORD_IN.fullmatch(text):
+        return match[1], match[2].strip()
+    return text, ""
+
+
+def _shape(text: str, match: re.Match[str], unit: str) -> Head:
+    """A column with the displacement of the shapes at a radius."""
+    length = match[2].lower()
+    if length not in _PER_METRE:
+        raise ParameterError(Fault.of(("columns",), text, "must give the radius in m, cm or mm"))
+    factor = _factor(text, "amplitude", unit or "kg^-1/2")
+    radius = float(match[1]) / _PER_METRE[length]
+    return Head(text, "shape", factor, radius)
+
+
+def _word(name: str, unit: str) -> tuple[str, str]:
+    """The word of `QUANTITIES` in a name, "" if there is none, and the unit, which may end the
+    name: frequency_kHz."""
+    words = re.sub(r"[\s_-]+", "_", name.strip())
+    if words.lower() in QUANTITIES:
+        return words.lower(), unit
+    parts = words.split("_")
+    for count in range(len(parts) - 1, 0, -1):
+        word = "_".join(parts[:count]).lower()
+        if word in QUANTITIES and not unit:
+            return word, "_".join(parts[count:])
+    return "", unit
+
+
+def _factor(text: str, quantity: str, unit: str) -> float:
+    """Factor from the unit of a head to the SI unit of its quantity."""
+    units, examples = UNIT_NEEDED.get(quantity, ("none or %", ""))
+    if not unit and examples:
+        rule = f"must give its unit, {units}, as in {examples}"
+        raise ParameterError(Fault.of(("columns",), text, rule))
+    plain = unit.replace("_per_", "/").replace("per_", "1/").replace("sqrt_", "sqrt ")
+    if quantity in ("omega", "pole", "pole_real", "pole_imag"):
+        factor = _rate(plain, quantity)
+    elif quantity in ("amplitude", "tangential"):
+        factor = _per_root_mass(plain)
+    else:
+        factor = _share(plain, quantity)
+    if math.isnan(factor):
+        rule = f"the unit of {quantity} must be {units}, not {unit}"
+        raise ParameterError(Fault.of(("columns",), text, rule))
+    return factor
+
+
+def _rate(unit: str, quantity: str) -> float:
+    """Factor to rad/s; nan for other units. The real part of a pole in 1/s is in rad/s."""
+    known = {"hz": math.tau, "khz": 1e3 * math.tau, "rad/s": 1.0}
+    if quantity == "pole_real":
+        known["1/s"] = 1.0
+    if unit.lower() in known:
+        return known[unit.lower()]
+    if "hz" in unit.lower():
+        return _converted(unit, "Hz") * math.tau
+    return _converted(unit, "rad/s")
+
+
+def _per_root_mass(unit: str) -> float:
+    """Factor to kg^-1/2 from texts such as kg^-0.5, 1/sqrt(kg) and t^-1/2; nan for other units."""
+    text = unit.replace(" ", "").replace("**", "^").replace("√", "sqrt")
+    match = _ROOT.fullmatch(text)
+    if match is None:
+        return math.nan
+    mass = match[1] or match[2]
+    if mass == "kg":
+        return 1.0
+    return _converted(mass, "kg") ** -0.5
+
+
+def _share(unit: str, quantity: str) -> float:
+    """Factor to a ratio or a count without unit; nan for other units."""
+    if unit in ("", "-", "1"):
+        share = 1.0
+    elif unit in ("%", "percent", "per cent") and quantity == "damping_ratio":
+        share = 0.01
+    else:
+        share = math.nan
+    return share
+
+
+def _converted(unit: str, target: str) -> float:
+    """One of a unit in another one; nan if it is not of its kind."""
+    faults: list[Fault] = []
+    value = in_si(f"1 {unit}", target, faults, ())
+    if faults or not isinstance(value, float):
+        return math.nan
+    return value

@@ -1,0 +1,424 @@
+"""Discs from tables of their modes, CSV files as this package and as laboratories write them."""
+
+from __future__ import annotations
+
+import csv
+import difflib
+import itertools
+import math
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args
+
+import numpy as np
+
+from disc_model.disc.files.heads import COLUMNS, Head, read_head
+from disc_model.disc.given import SAME_PAIR, DiscReport, ModeOrigin
+from disc_model.disc.plate import modes_of_table
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
+from disc_model.parameters import Disc
+from disc_model.units import in_si
+
+if TYPE_CHECKING:
+    import os
+
+Pairs = Literal["given", "mean"]
+
+STATIC_COMPLIANCE = "static_compliance_m_per_N"  # value that a comment line may give
+WRITTEN = (
+    "diameters",
+    "circles",
+    "omega_rad_per_s",
+    "amplitude_per_sqrt_kg",
+    "damping_ratio",
+    "tangential_per_sqrt_kg",
+)
+"""Columns of `table_text`, in this order, before those of shapes."""
+ROUNDING = 1e-9  # relative: both may be the same sum with different rounding
+POLES = ("pole", "pole_real", "pole_imag")  # quantities that stand for frequency and damping
+LIKE = 0.8  # likeness of names above which a typing error is suspected
+_COMPLIANCE_NAMES = (STATIC_COMPLIANCE.lower(), "static_compliance")
+_STATEMENT = re.compile(
+    r"\s*#\s*(?P<name>[^:=(\[]+?)\s*(?:[(\[](?P<unit>.*?)[)\]])?\s*[:=]\s*(?P<value>.*?)\s*"
+)
+_SEPARATOR = re.compile(r"sep=(.)\s*", re.IGNORECASE)
+
+
+class Column(NamedTuple):
+    """A column of a table: its head and the texts of its cells."""
+
+    head: Head
+    cells: tuple[str, ...]
+
+    @property
+    def numbers(self) -> list[float | str]:
+        """The numbers in SI units; a cell without a number stays a text, which `Disc` refuses."""
+        return [_number(cell, self.head.factor) for cell in self.cells]
+
+
+def read_disc(path: str | os.PathLike[str], pairs: Pairs = "given") -> Disc:
+    """Read a disc from a table of its modes, see `disc_model.Disc.from_csv`."""
+    is_choice = isinstance(pairs, str) and pairs in get_args(Pairs)
+    require((is_choice, "pairs", pairs, "must be 'given' or 'mean'"))
+    name = Path(path).name
+    try:
+        text = Path(path).read_text(encoding="utf-8-sig")
+    except (OSError, ValueError) as error:
+        fault = Fault((as_text(str(path)),), "", f"must be a text file that can be read ({error})")
+        raise ParameterError(fault) from None
+    try:
+        return _disc(text.splitlines(), pairs, name)
+    except ParameterError as error:
+        raise ParameterError(*(fault.inside((name,)) for fault in error.faults)) from None
+
+
+def table_text(disc: Disc) -> str:
+    """Write a disc as a table of this package."""
+    columns: dict[str, Sequence[Any]] = {}
+    for name in WRITTEN:
+        values = getattr(disc, COLUMNS[name][0])
+        if values:
+            columns[name] = values
+    for i, radius in enumerate(disc.radii):
+        columns[f"shape_at_{radius}_m"] = [shape[i] for shape in disc.shapes]
+    lines = [",".join(columns)]
+    for row in zip(*columns.values(), strict=True):
+        lines.append(",".join(map(str, row)))
+    if disc.static_compliance is not None:
+        lines.insert(0, f"# {STATIC_COMPLIANCE}: {disc.static_compliance}")
+    return "".join(f"{line}\n" for line in lines)
+
+
+# ---- Lines
+
+
+def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
+    """The disc of the lines of a table."""
+    static = _static_compliance(lines)
+    columns = _columns(_rows([line for line in lines if not line.lstrip().startswith("#")]))
+    values = _values(columns)
+    values["static_compliance"] = static
+    report = None
+    if pairs == "mean" and _all_numbers(values):
+        values, origins = _mean_of_pairs(values)
+        report = DiscReport(source, tuple(origins))
+    try:
+        disc = Disc(**values)
+    except ParameterError as error:
+        raise ParameterError(*(_of_table(fault, columns) for fault in error.faults)) from None
+    _check_compliance(disc)
+    return disc if report is None else disc.with_report(report)
+
+
+def _static_compliance(lines: list[str]) -> str | float | None:
+    """The static compliance that a comment states, m/N; a comment that seems to mean it and cannot
+    be read is refused."""
+    found = []
+    for line in lines:
+        statement = _STATEMENT.fullmatch(line)
+        if statement is None or not _is_on_compliance(statement["name"], statement["value"]):
+            continue
+        found.append(_compliance(*statement.group("name", "unit", "value")))
+    rule = f"must be given once, and not {len(found)} times"
+    require((len(found) <= 1, STATIC_COMPLIANCE, found, rule))
+    return found[0] if found else None
+
+
+def _is_on_compliance(name: str, value: str) -> bool:
+    """Whether a comment seems to state the static compliance, perhaps with a typing error."""
+    words = _joined(name)
+    likeness = max(
+        difflib.SequenceMatcher(None, words, known).ratio() for known in _COMPLIANCE_NAMES
+    )
+    return likeness >= LIKE or ("complian" in words and _begins_a_number(value))
+
+
+def _compliance(name: str, unit: str | None, value: str) -> str | float:
+    """The value of a comment in m/N; its unit stands beside it or beside the name."""
+    words = _joined(name)
+    rule = f"must be named {STATIC_COMPLIANCE}, or static_compliance with a unit of m/N"
+    require((words in _COMPLIANCE_NAMES, "comment", name, rule))
+    text = f"{value} {unit}" if unit else value
+    has_unit = words == STATIC_COMPLIANCE.lower() or isinstance(_number(text), str)
+    require((has_unit, name, value, "must have a unit, such as 42 nm/N"))
+    faults: list[Fault] = []
+    compliance = in_si(text, "m/N", faults, (STATIC_COMPLIANCE,))
+    raise_faults(faults)
+    rule = "must be a number in m/N, or with a unit of its kind"
+    require((isinstance(_number(str(compliance)), float), STATIC_COMPLIANCE, text, rule))
+    return compliance
+
+
+def _joined(name: str) -> str:
+    """The words of a name in lower case, with "_" between them."""
+    return re.sub(r"[\s_-]+", "_", name.strip().lower())
+
+
+def _check_compliance(disc: Disc) -> None:
+    """Refuse a static compliance that is less than that of the modes."""
+    static = disc.static_compliance
+    modal = modes_of_table(disc).flexibility
+    rule = f"must not be less than what the modes give at the slider, {modal:.6g} m/N"
+    is_enough = static is None or static >= modal * (1 - ROUNDING)
+    require((is_enough, STATIC_COMPLIANCE, static, rule))
+
+
+def _rows(lines: list[str]) -> list[list[str]]:
+    """The cells of a table, without empty rows and columns, which spreadsheets append."""
+    separator = ""
+    if lines and (stated := _SEPARATOR.fullmatch(lines[0])):
+        separator = stated[1]
+        lines = lines[1:]
+    if not separator:
+        separator = _separator_in(next((line for line in lines if line.strip()), ""))
+
+    rows = []
+    used: set[int] = set()
+    for row in csv.reader(lines, delimiter=separator, skipinitialspace=True):
+        cells = [cell.strip() for cell in row]
+        filled = [i for i, cell in enumerate(cells) if cell]
+        used.update(filled)
+        if filled:
+            rows.append(cells)
+    rows = [_chosen(row, used) for row in rows]
+    if separator != ",":
+        rows[1:] = _with_points(rows[1:])
+    return rows
+
+
+def _separator_in(head: str) -> str:
+    """What separates columns, by the line of their heads."""
+    for mark in ";\t":
+        if mark in head:
+            return mark
+    return ","
+
+
+def _chosen(row: list[str], used: set[int]) -> list[str]:
+    """The cells of a row in columns that are used."""
+    return [cell for i, cell in enumerate(row) if i in used]
+
+
+def _with_points(rows: list[list[str]]) -> list[list[str]]:
+    """Cells with decimal points in place of decimal commas; both in one table are refused, because
+    one of them may separate thousands."""
+    cells = [*itertools.chain.from_iterable(rows)]
+    with_comma = [cell for cell in cells if re.search(r",\d", cell)]
+    with_point = [cell for cell in cells if re.search(r"\.\d", cell)]
+    if with_comma and with_point:
+        rule = "all numbers must have commas, or all must have points, for decimals: not "
+        raise ParameterError(Fault((), "", f"{rule}{with_comma[0]} and {with_point[0]}"))
+    return [[*map(_with_point, row)] for row in rows]
+
+
+def _with_point(cell: str) -> str:
+    return cell.replace(",", ".")
+
+
+# ---- Columns
+
+
+def _columns(rows: list[list[str]]) -> list[Column]:
+    """The columns of a table, checked as a whole."""
+    names, *body = rows or [[]]
+    if body and len(body[0]) == len(names) and not any(map(_begins_a_number, body[0])):
+        names = _with_units(names, body.pop(0))
+    heads, faults = _heads(names)
+    raise_faults(faults or _faults_together(heads))
+    rule = f"values: must be as many as columns, {len(names)}"
+    uneven = [
+        f"mode {i} has {len(row)} {rule}" for i, row in enumerate(body, 1) if len(row) != len(names)
+    ]
+    raise_faults(uneven[:3])
+    cells = zip(*body, strict=True) if body else [()] * len(heads)
+    return [Column(head, column) for head, column in zip(heads, cells, strict=True)]
+
+
+def _with_units(names: list[str], units: list[str]) -> list[str]:
+    """Heads with the units of a row of their own, in brackets where a head has none."""
+    named = []
+    for name, unit in zip(names, units, strict=True):
+        has_unit = name in COLUMNS or "(" in name or "[" in name or unit in ("", "-")
+        named.append(name if has_unit else f"{name} ({unit})")
+    return named
+
+
+def _heads(names: list[str]) -> tuple[list[Head], list[Fault]]:
+    """Heads that are known, and the faults of all."""
+    heads: list[Head] = []
+    faults: list[Fault] = []
+    for name in names:
+        try:
+            heads.append(read_head(name))
+        except ParameterError as error:
+            faults += error.faults
+    if faults and len(names) == 1 and len(names[0].split()) > 1:
+        rule = "must be separated by commas, semicolons or tabs"
+        faults = [Fault.of(("columns",), names[0], rule)]
+    return heads, faults
+
+
+def _faults_together(heads: list[Head]) -> list[Fault]:
+    """Faults of heads that are right by themselves: one that is missing, or says again what another
+    one says."""
+    quantities = [head.quantity for head in heads if head.quantity != "shape"]
+    needed = ["diameters", "amplitude"]
+    if not ("pole" in quantities or {"pole_real", "pole_imag"} <= {*quantities}):
+        needed.append("omega")
+    faults = []
+    for quantity in dict.fromkeys([*needed, *quantities]):
+        count = quantities.count(quantity)
+        if count != 1:
+            faults.append(_wrong_count(quantity, count))
+    for one, other in itertools.product(POLES, ("omega", "damping_ratio")):
+        if one in quantities and other in quantities:
+            rule = f"must not have both {one} and {other}, which say the same"
+            faults.append(Fault(("columns",), "", rule))
+    return faults
+
+
+def _wrong_count(quantity: str, count: int) -> Fault:
+    """The fault that a quantity has no column, or several."""
+    names = [name for name, (which, _) in COLUMNS.items() if which == quantity]
+    rule = f"must have one column {' or '.join(names) or quantity}"
+    if count > 0:
+        rule += f", and not {count}"
+    return Fault(("columns",), "", rule)
+
+
+def _values(columns: list[Column]) -> dict[str, Any]:
+    """The fields of a `Disc` from the columns of a table."""
+    values: dict[str, Any] = {
+        column.head.quantity: column.numbers
+        for column in columns
+        if column.head.quantity != "shape"
+    }
+    shapes = [column for column in columns if column.head.quantity == "shape"]
+    if shapes:
+        shapes.sort(key=lambda column: column.head.radius)
+        values["radii"] = [column.head.radius for column in shapes]
+        values["shapes"] = [*zip(*(column.numbers for column in shapes), strict=True)]
+    if any(name in values for name in POLES):
+        _replace_poles(values, columns)
+    return values
+
+
+def _replace_poles(values: dict[str, Any], columns: list[Column]) -> None:
+    """Put natural frequencies and damping ratios in the place of poles."""
+    stated = {column.head.quantity: column for column in columns}
+    if "pole" in stated:
+        factor = stated["pole"].head.factor
+        texts = list(stated["pole"].cells)
+        poles = [_complex(cell) * factor for cell in texts]
+    else:
+        parts = zip(stated["pole_real"].cells, stated["pole_imag"].cells, strict=True)
+        texts = [f"{real}, {imag}" for real, imag in parts]
+        poles = [*map(_pole, values["pole_real"], values["pole_imag"])]
+    for i, (text, pole) in enumerate(zip(texts, poles, strict=True)):
+        is_pole = pole.real <= 0 and pole.imag != 0 and abs(pole) < math.inf
+        rule = "must be a complex number with a real part of at most 0 and an imaginary part "
+        require((is_pole, "pole", text, f"{rule}(mode {i + 1})"))
+
+    for name in POLES:
+        values.pop(name, None)
+    values["omega"] = [abs(pole) for pole in poles]
+    values["damping_ratio"] = [max(0.0, -pole.real / abs(pole)) for pole in poles]
+
+
+def _pole(real: float | str, imag: float | str) -> complex:
+    """A pole from its two cells; nan where one of them is no number."""
+    if isinstance(real, str) or isinstance(imag, str):
+        return complex(math.nan, math.nan)
+    return complex(real, imag)
+
+
+def _complex(cell: str) -> complex:
+    """A complex number such as -5.8+5837i; nan of other text."""
+    text = cell.replace(" ", "").replace("i", "j").replace("*", "")
+    text = text.replace("±", "+").replace("+/-", "+").replace("+-", "+")
+    try:
+        return complex(text)
+    except ValueError:
+        return complex(math.nan, math.nan)
+
+
+# ---- Pairs
+
+
+def _mean_of_pairs(values: dict[str, Any]) -> tuple[dict[str, Any], list[ModeOrigin]]:
+    """The fields of a disc with both halves of each pair in one mode, and what each was made of."""
+    groups = _groups(values)
+    sign = np.where(np.array(values["amplitude"]) < 0, -1.0, 1.0)
+    means = dict(values)
+    for name in ("diameters", "circles", "omega", "damping_ratio"):
+        if name in values:
+            column = np.array(values[name])
+            means[name] = [float(column[group].mean()) for group in groups]
+    for name in ("amplitude", "tangential", "shapes"):
+        if name in values:
+            turned = (np.array(values[name]).T * sign).T
+            means[name] = [turned[group].mean(axis=0).tolist() for group in groups]
+    origins = []
+    for group in groups:
+        frequencies = [values["omega"][i] for i in group]
+        diameters = int(values["diameters"][group[0]])
+        origins.append(ModeOrigin(diameters, min(frequencies), max(frequencies), len(group)))
+    return means, origins
+
+
+def _groups(values: dict[str, Any]) -> list[list[int]]:
+    """Numbers of the modes that are one mode of the disc: two of equal diameters, and circles if
+    these are given, whose frequencies are close."""
+    circles = values.get("circles", [0.0] * len(values["omega"]))
+    kinds = [*zip(values["diameters"], circles, strict=True)]
+    omega = values["omega"]
+    groups: list[list[int]] = []
+    for i in sorted(range(len(omega)), key=omega.__getitem__):
+        halves = [group for group in groups if len(group) == 1 and kinds[group[0]] == kinds[i]]
+        close = [group for group in halves if omega[i] - omega[group[0]] < SAME_PAIR * omega[i]]
+        if close and kinds[i][0] > 0:
+            close[0].append(i)
+        else:
+            groups.append([i])
+    return sorted(groups, key=min)
+
+
+# ---- Cells
+
+
+def _number(cell: str, factor: float = 1.0) -> float | str:
+    """The number in a cell; other text as it is."""
+    try:
+        return float(cell) * factor
+    except ValueError:
+        return cell
+
+
+def _begins_a_number(cell: str) -> bool:
+    """Whether a cell begins as a number does, so that its row is no row of units."""
+    return bool(re.match(r"[-+]?[.,]?\d(?!/)", cell)) or cell.lower().startswith(("nan", "inf"))
+
+
+def _all_numbers(values: Mapping[str, Any]) -> bool:
+    """Whether all that averages need is there, as numbers."""
+    if not {"diameters", "omega", "amplitude"} <= {*values}:
+        return False
+    for name, column in values.items():
+        cells = column if isinstance(column, list) else []
+        if name == "shapes":
+            cells = [*itertools.chain.from_iterable(column)]
+        if not all(isinstance(cell, float) and math.isfinite(cell) for cell in cells):
+            return False
+    return True
+
+
+def _of_table(fault: Fault, columns: list[Column]) -> Fault:
+    """A fault in a number of a `Disc` with the column, cell and mode of the table."""
+    column = next((one for one in columns if one.head.quantity == fault.path[0]), None)
+    if column is None or len(fault.path) != 2:
+        return fault
+    i = int(fault.path[1])
+    converted = column.head.factor != 1.0
+    unit = " rad/s" if converted and "within" in fault.rule else ""
+    return Fault.of((column.head.text,), column.cells[i], f"{fault.rule}{unit} (mode {i + 1})")

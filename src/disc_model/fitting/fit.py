@@ -1,0 +1,580 @@
+"""`fit`: parameters of a case from measurements, by weighted least squares.
+
+With the measured values y_i, their standard deviations s_i and the predictions f_i(q), the fit
+minimises the sum of ((f_i(q) - y_i) / s_i)^2 over the parameters q. Near the minimum the estimates
+scatter with the covariance (J^T J)^-1, where J is the Jacobian of the weighted deviations: as far
+as f is linear in q over this scatter, errors are normal and independent, and s_i are right.
+
+Derivatives are central differences: predictions of modes and cycles are accurate to 1e-12 or
+better, so that a relative step of 1e-4 leaves errors of some 1e-8 of a derivative.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.disc.plausibility import ImplausibleValue
+from disc_model.display import Drawn, Summarised, html_table, number_text
+from disc_model.errors import (
+    DiscModelError,
+    Fault,
+    ParameterError,
+    raise_faults,
+    suggestion,
+    violations,
+)
+from disc_model.fitting.prediction import Prediction, Unpredicted, unit_of, unknown_quantity
+from disc_model.parameters import Parameters, foreign_case
+from disc_model.units import in_si, is_number
+
+Array = NDArray[np.float64]
+Interval = tuple[float, float]
+
+STEP = 1e-4
+"""Step of central differences, relative to a parameter's scale."""
+TOLERANCE = 1e-10
+"""Relative change of parameters, cost and gradient at which the search ends."""
+SINGULAR = 1e-7
+"""Least ratio of singular values of the Jacobian; below it, differences no longer tell parameters
+apart."""
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """A measured value of a quantity, with its uncertainty, and what was set when it was measured.
+
+    Parameters
+    ----------
+    quantity : name of a quantity of a case: ``period``, ``growth_rate``, ``stick_fraction``, ``stick_time``,
+        ``slip_time``, ``slip_length``, ``sliding_growth_rate``, ``sliding_frequency``; of the disc's mode with two
+        nodal diameters and no circle ``frequency_2_0`` (Hz) and ``damping_ratio_2_0``; of disc and attached slider
+        ``coupled_frequency_1`` (Hz), the lowest; or a function of a case that returns a number
+    value : what was measured, in SI units (frequencies in Hz), or a text with a unit
+    uncertainty : its standard deviation, > 0
+    at : values of parameters that differ from those of the fitted case, such as ``{"Omega": 12}``
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> dm.Measurement("period", "14.8 ms", 1e-5, at={"Omega": 15}).value
+    0.0148
+    """
+
+    quantity: str | Callable[[Parameters], float]
+    value: float
+    uncertainty: float
+    at: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        faults: list[str] = []
+        if not callable(self.quantity) and not self.unit:
+            faults.append(Fault.of(("quantity",), self.quantity, unknown_quantity(self.quantity)))
+        value = _number(self.value, self.unit, "value", faults)
+        uncertainty = _number(self.uncertainty, self.unit, "uncertainty", faults)
+        named = isinstance(self.at, Mapping) and all(isinstance(name, str) for name in self.at)
+        faults += violations(
+            (not uncertainty <= 0, "uncertainty", uncertainty, "must be a standard deviation > 0"),
+            (named, "at", self.at, "must give values by names of parameters"),
+        )
+        raise_faults(faults)
+        # the class is frozen, and texts become numbers
+        object.__setattr__(self, "value", value)
+        object.__setattr__(self, "uncertainty", uncertainty)
+
+    @property
+    def name(self) -> str:
+        """The quantity's name, and what was set."""
+        quantity = self.quantity
+        name = quantity if isinstance(quantity, str) else getattr(quantity, "__name__", "quantity")
+        settings = ", ".join(f"{key}={_short(value)}" for key, value in self.at.items())
+        return f"{name} ({settings})" if settings else name
+
+    @property
+    def unit(self) -> str:
+        """Unit of the value; "" for a quantity of one's own."""
+        return unit_of(self.quantity) if isinstance(self.quantity, str) else ""
+
+
+def _number(value: object, unit: str, name: str, faults: list[str]) -> float:
+    """Return a finite number in a unit; nan for anything else, which becomes a fault."""
+    wrong: list[Fault] = []
+    number = in_si(value, unit, wrong, (name,))
+    if not wrong and not _is_finite(number):
+        wrong.append(Fault.of((name,), value, "must be a finite number"))
+    faults += wrong
+    return math.nan if wrong else float(number)
+
+
+def _is_finite(value: object) -> bool:
+    """Return whether a value is a finite number."""
+    return is_number(value) and math.isfinite(value)  # type: ignore[arg-type]
+
+
+def _short(value: object) -> str:
+    """Return a value for a name: a number with six digits."""
+    return f"{value:.6g}" if is_number(value) else str(value)
+
+
+class Fitted(NamedTuple):
+    """A fitted parameter: its value, standard deviation and confidence interval, in its unit."""
+
+    value: float
+    deviation: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Fit(Summarised, Drawn):
+    """Parameters fitted to measurements; `plot` draws the deviations of computed values.
+
+    Attributes
+    ----------
+    case : the given case with the fitted values
+    parameters : `Fitted` by name: value, deviation (standard), low and high end of the confidence interval
+    covariance : of the fitted values, in the order of `parameters`, (n, n)
+    confidence : probability of the intervals
+    measurements : the measurements
+    computed : what the fitted case predicts of each, (m,)
+    deviations : computed minus measured values, in standard deviations, (m,)
+    chi_squared : sum of the squared deviations
+    converged, message : whether and why the search ended at a minimum
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> p = dm.Parameters(N=385, Omega=15, normalization="orthonormal")
+    >>> found = dm.fit(p, ["E"], {"frequency_2_0": (295, 1)})
+    >>> found.parameters["E"].value / 1e9, found.predict("frequency_0_0")
+    (154.9..., (241.3..., 0.81...))
+    >>> found.plot()[1].get_xlabel()
+    'Deviation (standard deviations)'
+    """
+
+    _picture = "plot_fit"
+    case: Parameters
+    parameters: Mapping[str, Fitted]
+    covariance: Array
+    confidence: float
+    measurements: tuple[Measurement, ...]
+    computed: Array
+    deviations: Array
+    chi_squared: float
+    converged: bool
+    message: str
+
+    def __repr__(self) -> str:
+        values = ", ".join(
+            f"{name}={fitted.value:.6g} ± {fitted.deviation:.2g}"
+            for name, fitted in self.parameters.items()
+        )
+        cost = f"chi squared {self.chi_squared:.3g} with {self.freedom} degrees of freedom"
+        return f"Fit({values}; {cost}{'' if self.converged else '; not converged'})"
+
+    @property
+    def freedom(self) -> int:
+        """Degrees of freedom: measurements without as many as there are parameters."""
+        return len(self.measurements) - len(self.parameters)
+
+    @property
+    def consistent(self) -> bool:
+        """Whether chi squared is as small as it is in 95 % of fits if the model and the
+        uncertainties are right; True without degrees of freedom."""
+        from scipy.stats import chi2
+
+        return not self.freedom or bool(self.chi_squared <= chi2.ppf(0.95, self.freedom))
+
+    @property
+    def correlation(self) -> Array:
+        """Correlations of the fitted values, (n, n)."""
+        deviation = np.sqrt(np.diag(self.covariance))
+        return np.asarray(self.covariance / np.outer(deviation, deviation))
+
+    def predict(
+        self, quantity: str | Callable[[Parameters], float], at: Mapping[str, Any] | None = None
+    ) -> tuple[float, float]:
+        """Return a quantity of the fitted case, and its standard deviation from that of the
+        parameters.
+
+        Parameters
+        ----------
+        quantity : name, or function of a case, as in `Measurement`
+        at : values of parameters that differ from those of the fitted case
+
+        Raises
+        ------
+        ParameterError
+            If an argument breaks a rule, or the fitted case has no such quantity.
+        """
+        wanted = Measurement(quantity, 0.0, 1.0, at or {})
+        names = tuple(self.parameters)
+        problem = _Problem(self.case, names, (wanted,), {})
+        start = np.array([self.parameters[name].value for name in names])
+        value = problem.predictions(start)[0]
+        gradient = problem.jacobian(start)[0]
+        return float(value), math.sqrt(float(gradient @ self.covariance @ gradient))
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        for name, fitted in self.parameters.items():
+            unit = _unit_of_parameter(name)
+            interval = f"{fitted.low:.6g} to {fitted.high:.6g}"
+            yield name, f"{number_text(fitted.value, unit)} ({interval})"
+        yield "intervals", f"{self.confidence:.0%}, if the model and the uncertainties are right"
+        yield "chi squared", f"{self.chi_squared:.4g} with {self.freedom} degrees of freedom"
+        yield "consistent", "yes" if self.consistent else "no: model or uncertainties are wrong"
+        yield "search", self.message
+
+    def _repr_html_(self) -> str:
+        """The parameters, and the measurements beside what is computed, in a notebook."""
+        head = ("measurement", "measured", "uncertainty", "computed", "deviation", "unit")
+        rows = (
+            (
+                each.name,
+                f"{each.value:.6g}",
+                f"{each.uncertainty:.2g}",
+                f"{computed:.6g}",
+                f"{deviation:+.2f}",
+                "" if each.unit == "1" else each.unit,
+            )
+            for each, computed, deviation in zip(
+                self.measurements, self.computed, self.deviations, strict=True
+            )
+        )
+        return html_table(("fit", ""), self.summary()) + html_table(head, rows)
+
+
+def _unit_of_parameter(name: str) -> str:
+    """Return the unit of a parameter or of a number of a disc's table; "" without one."""
+    table = {"omega": "rad/s", "amplitude": "kg^-1/2", "damping_ratio": ""}
+    unit = Parameters.unit(name) or table.get(name.rsplit("_", 2)[0], "")
+    return "" if unit == "1" else unit
+
+
+class _Problem:
+    """Predictions and their derivatives over the values of the varied parameters.
+
+    Parameters
+    ----------
+    case : the case, whose other values are kept
+    names : names of the varied parameters
+    measurements : whose quantities are predicted
+    scales : by name, sizes of parameters whose value is 0
+    """
+
+    def __init__(
+        self,
+        case: Parameters,
+        names: Sequence[str],
+        measurements: Sequence[Measurement],
+        scales: Mapping[str, float],
+    ) -> None:
+        self.case = case
+        self.names = tuple(names)
+        self.measurements = tuple(measurements)
+        start = [case.numbers[name] for name in names]
+        self.scale = np.array(
+            [scales.get(name, abs(value)) or 1.0 for name, value in zip(names, start, strict=True)]
+        )
+
+    def predictions(self, values: Array) -> Array:
+        """Return the predicted quantities, (m,).
+
+        Raises
+        ------
+        ParameterError
+            If a case breaks a rule, or has no such quantity; the message names it.
+        """
+        fitted = dict(zip(self.names, map(float, values), strict=True))
+        known: dict[str, Prediction] = {}
+        found = np.empty(len(self.measurements))
+        for i, each in enumerate(self.measurements):
+            case = self.case.replace(**fitted, **each.at)
+            prediction = known.setdefault(case.canonical_json, Prediction(case))
+            try:
+                if callable(each.quantity):
+                    found[i] = float(each.quantity(case))
+                else:
+                    found[i] = prediction.of(each.quantity)
+            except (Unpredicted, DiscModelError, ArithmeticError) as reason:
+                text = f"cannot be computed: {reason}"
+                raise ParameterError(Fault.of(("measured", each.name), "", text)) from None
+        if not np.isfinite(found).all():
+            wrong = self.measurements[int(np.argmin(np.isfinite(found)))]
+            raise ParameterError(Fault.of(("measured", wrong.name), "", "is not finite"))
+        return found
+
+    def trial(self, values: Array) -> Array:
+        """Return the predictions, nan where there are none: the search then makes a shorter
+        step."""
+        try:
+            return self.predictions(values)
+        except ParameterError:
+            return np.full(len(self.measurements), math.nan)
+
+    def jacobian(self, values: Array) -> Array:
+        """Return derivatives of the predictions, (m, n): central differences, or one-sided ones
+        where the case on one side breaks a rule."""
+        columns = []
+        for i, name in enumerate(self.names):
+            step = np.zeros(len(values))
+            step[i] = STEP * self.scale[i]
+            above, below = self.trial(values + step), self.trial(values - step)
+            if np.isnan(above).any() and np.isnan(below).any():
+                rule = "cannot be varied here: the measured quantities are missing on both sides"
+                raise ParameterError(Fault.of(("vary", name), float(values[i]), rule))
+            if np.isnan(above).any():
+                columns.append((self.predictions(values) - below) / step[i])
+            elif np.isnan(below).any():
+                columns.append((above - self.predictions(values)) / step[i])
+            else:
+                columns.append((above - below) / (2 * step[i]))
+        return np.stack(columns, axis=1)
+
+
+def fit(
+    p: Parameters,
+    vary: Sequence[str],
+    measured: Mapping[str, tuple[Any, Any]] | Sequence[Measurement],
+    *,
+    bounds: Mapping[str, tuple[Any, Any]] | None = None,
+    confidence: float = 0.95,
+) -> Fit:
+    """Fit parameters of a case to measurements by weighted least squares.
+
+    Parameters
+    ----------
+    p : the case; its values of the varied parameters are the start of the search
+    vary : names of the parameters that are fitted, each one of `Parameters.numbers`, such as ``mu_s``, the ratio
+        ``mu_k_over_mu_s``, or ``omega_2_0`` of a disc given by its modes
+    measured : values with their standard deviations by the names of their quantities, all for the case `p`; or
+        `Measurement` objects, which may differ in what was set, such as the speed
+    bounds : least and greatest value of varied parameters, by name; needed where the start is 0
+    confidence : probability of the confidence intervals
+
+    Returns
+    -------
+    Fit
+        Its intervals hold as far as the predictions are linear in the parameters over their uncertainties, and the
+        model and the stated uncertainties are right; `Fit.consistent` tests the latter.
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule, the case has no such quantity at the start of the search, or the measurements do
+        not determine the parameters.
+
+    Notes
+    -----
+    Derivatives are central differences of relative step 1e-4. A trial case that breaks a rule, such as mu_k <= mu_s,
+    or has no such quantity, makes the next step shorter.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> p = dm.Parameters(N=385, Omega=15, normalization="orthonormal")
+    >>> measured = {"frequency_0_0": (239.0, 0.5), "frequency_2_0": (292.5, 0.5)}
+    >>> found = dm.fit(p, vary=["E", "nu"], measured=measured)
+    >>> found
+    Fit(E=1.52256e+11 ± 4.5e+08, nu=0.208709 ± 0.0056; chi squared ... with 0 degrees of freedom)
+    """
+    from scipy.optimize import least_squares
+
+    measurements = _checked(p, vary, measured, bounds, confidence)
+    limits = _limits(p, vary, bounds or {})
+    scales = {name: high - low for name, (low, high) in limits.items() if p.numbers[name] == 0}
+    problem = _Problem(p, vary, measurements, scales)
+    values = np.array([each.value for each in measurements])
+    weights = 1 / np.array([each.uncertainty for each in measurements])
+    start = np.array([p.numbers[name] for name in vary])
+    problem.predictions(start)
+
+    def deviations(x: Array) -> Array:
+        return (problem.trial(x * problem.scale) - values) * weights
+
+    def slopes(x: Array) -> Array:
+        return problem.jacobian(x * problem.scale) * weights[:, None] * problem.scale
+
+    ends = np.array([limits.get(name, (-math.inf, math.inf)) for name in vary]).T
+    with warnings.catch_warnings():
+        # the start and the result are doubted, not what is tried on the way
+        warnings.simplefilter("ignore", ImplausibleValue)
+        search = least_squares(
+            deviations,
+            start / problem.scale,
+            jac=slopes,
+            bounds=ends / problem.scale,
+            xtol=TOLERANCE,
+            ftol=TOLERANCE,
+            gtol=TOLERANCE,
+        )
+    return _result(problem, search, confidence)
+
+
+def _result(problem: _Problem, search: Any, confidence: float) -> Fit:
+    """Return the fit at the end of a search. Raises `ParameterError` if the Jacobian is
+    singular."""
+    from scipy.stats import norm
+
+    names, scale = problem.names, problem.scale
+    _, sizes, directions = np.linalg.svd(search.jac, full_matrices=False)
+    if sizes[-1] <= SINGULAR * sizes[0]:
+        weak = [name for name, part in zip(names, directions[-1], strict=True) if abs(part) > 0.1]
+        rule = "cannot be determined by these measurements: fewer parameters, or others"
+        raise ParameterError(Fault.of(("vary",), weak, rule))
+    inverse = directions.T / sizes
+    covariance = inverse @ inverse.T * np.outer(scale, scale)
+
+    fitted = search.x * scale
+    deviation = np.sqrt(np.diag(covariance))
+    reach = float(norm.ppf((1 + confidence) / 2)) * deviation
+    parameters = {
+        name: Fitted(*map(float, row))
+        for name, row in zip(
+            names,
+            np.stack([fitted, deviation, fitted - reach, fitted + reach], axis=1),
+            strict=True,
+        )
+    }
+    case = problem.case.replace(**{name: each.value for name, each in parameters.items()})
+    computed = problem.predictions(fitted)
+    return Fit(
+        case=case,
+        parameters=parameters,
+        covariance=covariance,
+        confidence=confidence,
+        measurements=problem.measurements,
+        computed=computed,
+        deviations=np.asarray(search.fun),
+        chi_squared=float(search.fun @ search.fun),
+        converged=bool(search.success),
+        message=str(search.message).strip("`. ").replace("`", "") + ".",
+    )
+
+
+# ---- Checks of the arguments
+
+
+def _checked(
+    p: object, vary: object, measured: object, bounds: object, confidence: object
+) -> tuple[Measurement, ...]:
+    """Return the measurements, after all checks that need no computation."""
+    raise_faults(foreign_case(p))
+    assert isinstance(p, Parameters)
+    faults = _vary_faults(p, vary)
+    good = is_number(confidence) and 0 < confidence < 1  # type: ignore[operator]
+    faults += violations((good, "confidence", confidence, "must lie between 0 and 1"))
+    measurements = _measurements(measured, faults)
+    if not faults:
+        assert isinstance(vary, Sequence)
+        faults += _settings_faults(p, vary, measurements)
+        faults += _bounds_faults(p, vary, bounds)
+        enough = len(measurements) >= len(vary)
+        rule = f"must be at least as many as the varied parameters, {len(vary)}"
+        faults += violations((enough, "measured", f"{len(measurements)} values", rule))
+    raise_faults(faults)
+    return measurements
+
+
+def _vary_faults(p: Parameters, vary: object) -> list[str]:
+    """Return faults of the names of varied parameters."""
+    if isinstance(vary, str) or not isinstance(vary, Sequence) or not vary:
+        rule = "must be a list of names of parameters"
+        return [Fault.of(("vary",), vary, rule)]
+    faults: list[str] = []
+    for i, name in enumerate(vary):
+        if not isinstance(name, str) or name not in p.numbers:
+            rule = "is no number of this case" + suggestion(name, list(p.numbers))
+            faults.append(Fault.of(("vary", str(i)), name, rule))
+        elif name in vary[:i]:
+            faults.append(Fault.of(("vary", str(i)), name, "must not be given twice"))
+    return faults
+
+
+def _measurements(measured: object, faults: list[str]) -> tuple[Measurement, ...]:
+    """Return what was measured as objects; wrong input becomes a fault."""
+    if isinstance(measured, Mapping):
+        found = []
+        for name, pair in measured.items():
+            if not (isinstance(pair, tuple | list) and len(pair) == 2):
+                rule = "must be a value and its standard deviation"
+                faults.append(Fault.of(("measured", str(name)), pair, rule))
+                continue
+            try:
+                found.append(Measurement(name, *pair))
+            except ParameterError as error:
+                faults += [
+                    fault.inside(("measured", str(name)))
+                    for fault in error.faults
+                    if isinstance(fault, Fault)
+                ]
+        return tuple(found)
+    good = isinstance(measured, Sequence) and not isinstance(measured, str)
+    if good and all(isinstance(each, Measurement) for each in measured):  # type: ignore[attr-defined]
+        return tuple(measured)  # type: ignore[arg-type]
+    rule = "must be values with standard deviations by quantity, or a list of Measurement"
+    faults.append(Fault.of(("measured",), measured, rule))
+    return ()
+
+
+def _settings_faults(
+    p: Parameters, vary: Sequence[str], measurements: Sequence[Measurement]
+) -> list[str]:
+    """Return faults of what was set at measurements: values of varied parameters, and wrong
+    ones."""
+    faults: list[str] = []
+    for i, each in enumerate(measurements):
+        path = ("measured", str(i), "at")
+        both = [name for name in each.at if name in vary]
+        if both:
+            value = {name: each.at[name] for name in both}
+            faults.append(Fault.of(path, value, "must not set what is varied"))
+            continue
+        try:
+            p.replace(**each.at)
+        except ParameterError as error:
+            faults += [fault.inside(path) for fault in error.faults if isinstance(fault, Fault)]
+    return faults
+
+
+def _bounds_faults(p: Parameters, vary: Sequence[str], bounds: object) -> list[str]:
+    """Return faults of bounds: of unknown names, in a wrong order, or without the start."""
+    if bounds is None:
+        bounds = {}
+    if not isinstance(bounds, Mapping):
+        return [Fault.of(("bounds",), bounds, "must give two values by parameter")]
+    faults: list[str] = []
+    for name, pair in bounds.items():
+        path = ("bounds", str(name))
+        if name not in vary:
+            faults.append(Fault.of(path, pair, "must be of a parameter that is varied"))
+            continue
+        value = p.numbers[name]
+        ends = in_si(pair, _unit_of_parameter(name), [], path)
+        good = isinstance(ends, tuple | list) and len(ends) == 2 and all(map(_is_finite, ends))
+        if not (good and ends[0] < ends[1] and ends[0] <= value <= ends[1]):
+            rule = f"must be two ascending values around the start, {value:.6g}"
+            faults.append(Fault.of(path, pair, rule))
+    for name in vary:
+        if p.numbers[name] == 0 and name not in bounds:
+            rule = "must have bounds, because its start is 0, which gives it no scale"
+            faults.append(Fault.of(("vary", name), 0.0, rule))
+    return faults
+
+
+def _limits(
+    p: Parameters, vary: Sequence[str], bounds: Mapping[str, tuple[Any, Any]]
+) -> dict[str, Interval]:
+    """Return the bounds in SI units."""
+    found = {}
+    for name in vary:
+        if name in bounds:
+            low, high = in_si(bounds[name], _unit_of_parameter(name), [], ("bounds", name))
+            found[name] = (float(low), float(high))
+    return found

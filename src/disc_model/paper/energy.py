@@ -1,0 +1,165 @@
+"""The energy of the transverse motion: what the slope supplies, and what damping and impacts take."""
+
+import math
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from disc_model.disc.plate import modal_damping, mode_arrays
+from disc_model.paper.measures import Absent, Array
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Window
+
+STAGES = 60
+"""Stages of a run at the ends of which powers are averaged."""
+LENGTH = 5.0
+"""Greatest time at the end of each over which they are averaged, s."""
+RATE = 400.0
+"""Samples per second."""
+
+
+class Powers(NamedTuple):
+    """Mean powers over a time, W."""
+
+    width: float
+    """Range of the slider's height, m."""
+    pushes: float
+    """Supplied by the contact force on the slope, P f B, while the force is positive."""
+    pulls: float
+    """Supplied by it while it is negative."""
+    damped: float
+    """Taken by the damping of the disc and of the slider."""
+    gained: float
+    """Rise of the energy of the disc and of the slider's vertical motion."""
+
+    @property
+    def supplied(self) -> float:
+        return self.pushes + self.pulls
+
+    @property
+    def impacts(self) -> float:
+        """Taken by impacts: the rest of the balance."""
+        return self.supplied - self.damped - self.gained
+
+
+def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[Any, Any]]) -> Powers:
+    """Return mean powers from samples of the disc at as many angles as it has modes.
+
+    These give its whole motion. The power of the contact force is that on the velocity of the
+    contact point less that of the disc's material under it, f B.
+
+    Parameters
+    ----------
+    p : the case
+    u_0 : height of the slider at the start, m
+    theta : angles at which the disc was sampled, rad
+    samples : variables over time by name, at each of these angles
+    """
+    first = samples[0]
+    time, force, drive, u, velocity = (
+        np.asarray(first[name]) for name in ("time", "P", "psi", "u", "u_velocity")
+    )
+    omega = _by_mode(p, mode_arrays(p).omega)
+    psi = _by_mode(p, mode_arrays(p).psi)
+    damping = _by_mode(p, modal_damping(p))
+
+    # coefficients of 1, cosines and sines of the angle, and their rates
+    waves = _waves(theta, p.n_diameters).T
+    displacement = np.linalg.solve(waves, _stacked(samples, "w_point"))
+    rate = np.linalg.solve(waves, _stacked(samples, "w_point_velocity"))
+
+    under_slider = _waves(p.Omega * time - drive, p.n_diameters)
+    material = np.sum(rate * under_slider, axis=0)
+    power = force * (velocity - material)
+
+    # twice the energy: modes of unit modal mass, the slider, its spring and preload
+    modal_speed = rate / psi
+    modal_force = omega * displacement / psi
+    height = u - u_0
+    energy = np.sum(modal_speed**2 + modal_force**2, axis=0)
+    energy += p.m * velocity**2 + p.k * height**2 + 2 * p.N * height
+
+    damped = np.sum(damping * modal_speed**2, axis=0) + p.c * velocity**2
+    duration = float(time[-1] - time[0])
+    return Powers(
+        width=float(np.ptp(u)),
+        pushes=float(np.mean(power * (force > 0))),
+        pulls=float(np.mean(power * (force < 0))),
+        damped=float(np.mean(damped)),
+        gained=float(energy[-1] - energy[0]) / 2 / duration,
+    )
+
+
+def _by_mode(p: Parameters, values: Array) -> Array:
+    """Return values of modes by diameters, then once more those of the second mode of each pair.
+
+    The result has shape (2 n_diameters + 1, 1), in the order of `_waves`.
+    """
+    order = np.argsort(mode_arrays(p).diameters)
+    ordered = values[order]
+    both = np.concatenate([ordered, ordered[1:]])
+    return both[:, None]
+
+
+def _stacked(samples: Sequence[Mapping[Any, Any]], name: str) -> Array:
+    """Return a variable at all angles, shape (angles, times)."""
+    return np.stack([np.asarray(each[name]) for each in samples])
+
+
+def _waves(angle: Array, most: int) -> Array:
+    """Return 1, then cosines and sines of multiples of angles, shape (2 most + 1, angles)."""
+    orders = np.arange(1, most + 1)[:, None]
+    multiples = orders * angle
+    ones = np.ones((1, angle.size))
+    return np.concatenate([ones, np.cos(multiples), np.sin(multiples)])
+
+
+def power_history(p: Parameters, until: float, widest: float = math.inf) -> list[Powers]:
+    """Return powers at `STAGES` times of the motion from the static start.
+
+    Parameters
+    ----------
+    p : the case
+    until : the last time, s
+    widest : range of the slider's height in m beyond which the motion is not followed
+    """
+    angles = 2 * p.n_diameters + 1
+    theta = 2 * np.pi * np.arange(angles) / angles
+    state = None
+    history: list[Powers] = []
+    times = np.linspace(0.0, until, STAGES + 1).tolist()
+    for begin, end in pairwise(times):
+        start = max(begin, end - LENGTH)
+        windows = {
+            f"at {angle:g}": Window(start=start, stop=end, rate=RATE, theta=angle)
+            for angle in theta.tolist()
+        }
+        run = simulate(p, end, windows, initial_state=state).raise_for_status()
+        state = run.final_state
+        samples = list(run.samples.values())
+        history.append(powers(p, run.u_0, theta, samples))
+        if len(history) > 1 and history[-1].width > widest:
+            break
+    return history
+
+
+def in_the_end(history: Sequence[Powers]) -> Powers:
+    """Return means over the last quarter of the stages, for the steady state."""
+    late = history[-len(history) // 4 :]
+    return Powers(*np.mean(late, axis=0).tolist())
+
+
+def at_width(history: Sequence[Powers], width: float) -> Powers:
+    """Return the powers of a growing motion where its range first has a width in m.
+
+    They are interpolated in the square of the width. Raises `Absent` if the motion stays smaller.
+    """
+    for low, high in pairwise(history):
+        if high.width > width:
+            share = (width**2 - low.width**2) / (high.width**2 - low.width**2)
+            interpolated = (1 - share) * np.array(low) + share * np.array(high)
+            return Powers(*interpolated.tolist())
+    raise Absent(f"maintained contact comes to {1e3 * history[-1].width:.3g} mm only")

@@ -1,0 +1,303 @@
+"""Split pairs of modes in steady sliding: whether the difference of their frequencies matters.
+
+A disc that is not quite axisymmetric holds both halves of a pair in place and gives them two
+frequencies, omega (1 -+ s/2) with the split s. Seen by the slider, which moves over the disc, the
+pair then has besides its mean stiffness
+
+    omega^2 s [-cos 2 l Omega t, sin 2 l Omega t; sin 2 l Omega t, cos 2 l Omega t],
+
+and the equations of steady sliding are periodic: half a turn brings the same disc back. Their
+growth rates are logarithms of Floquet multipliers. The split couples the waves that travel with
+and against the slider, of which friction feeds one and damps the other. If it is small they stay
+apart, as in an axisymmetric disc. If it is large, each half moves by itself, by turns at each place
+of the slider, and grows by the mean of both rates.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.disc.flexibility import contact_compliance
+from disc_model.disc.plate import Modes, mode_arrays
+from disc_model.display import Summarised, number_text
+from disc_model.errors import Fault, ParameterError, raise_faults, require
+from disc_model.parameters import Parameters
+from disc_model.stability.return_map import Array, case_faults
+from disc_model.stability.sliding import SlidingStatus, split_rows, steady_sliding
+from disc_model.units import is_number
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+WIDEST = 0.2  # greatest split; halves that are further apart are modes of their own
+STEPS = 10  # of a period of the fastest solution
+ORDER = 10  # of the series of exponentials: their error is 1e-9 per step
+MOST_STEPS = 100_000  # of half a turn
+LARGE = 1e100  # size of a propagator that is scaled down
+NOTICED = 0.1  # relative change of the growth rate that matters
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SplitGrowth(Summarised):
+    """Growth rates of steady sliding of a disc with split pairs, and of both limits.
+
+    Attributes
+    ----------
+    together : 1/s, largest growth rate with the mean frequency of each pair, as `steady_sliding`
+        has it
+    growth_rate : 1/s, with the splits
+    apart : 1/s, with each half by itself, which large splits approach
+    pairs : DataFrame with a row for each pair: diameters, circles, frequency_Hz, split, and growth
+        rates together and apart of the modes of steady sliding in which this pair moves most
+    """
+
+    together: float
+    growth_rate: float
+    apart: float
+    pairs: pd.DataFrame
+
+    def __repr__(self) -> str:
+        rates = (
+            f"{name}={getattr(self, name):.4g}" for name in ("together", "growth_rate", "apart")
+        )
+        return f"SplitGrowth({', '.join(rates)})"
+
+    @property
+    def matters(self) -> bool:
+        """Whether the splits change the growth rate by more than a tenth, or its sign."""
+        changes_sign = (self.together > 0) != (self.growth_rate > 0)
+        change = abs(self.growth_rate - self.together)
+        return changes_sign or change > NOTICED * abs(self.together)
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        yield "pairs together", number_text(self.together, "1/s")
+        yield "with the splits", number_text(self.growth_rate, "1/s")
+        yield "halves apart", number_text(self.apart, "1/s")
+        yield "the split matters", "yes" if self.matters else "no"
+
+
+class Pair(NamedTuple):
+    """A pair in the rows of steady sliding's Jacobian: its mode, and the places of its
+    displacements and velocities."""
+
+    mode: int
+    a: int
+    alpha: int
+    b: int
+    beta: int
+
+
+def split_growth(p: Parameters, split: float | Iterable[float] | None = None) -> SplitGrowth:
+    """Find whether the split of pairs of modes matters to steady sliding: growth rates with equal
+    frequencies, with the split, and of each half by itself.
+
+    Antinodes of all pairs lie at the same place of the disc. The growth rates are those of small
+    motions; the forced vibration that a split disc has besides is left out.
+
+    Parameters
+    ----------
+    p : the case
+    split : relative difference of the two frequencies of each pair, 0 to 0.2: one number, or one
+        for each mode in the order of `plate_modes`; if left out, those that `disc.report` has of a
+        file
+
+    Returns
+    -------
+    SplitGrowth
+
+    Raises
+    ------
+    ParameterError
+        If a number is not allowed, no split is known, the case has no steady sliding, or the drive
+        is so slow that half a turn takes more than 100,000 steps.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> modes = {"diameters": [2], "omega": [3000], "amplitude": [0.54], "tangential": [-0.13]}
+    >>> disc = dm.Disc(**modes, damping_ratio=[1e-3])
+    >>> pad = {"r_0": 0.1, "k": 1e6, "k_p": 1e6, "c_p": 50, "m": 0.5, "mu_s": 0.45, "mu_k": 0.35}
+    >>> case = dm.Parameters(N=8000, Omega=80, disc=disc, friction_offset="surface", **pad)
+    >>> dm.split_growth(case, 0.001)
+    SplitGrowth(together=3.316, growth_rate=3.249, apart=-3.672)
+    >>> dm.split_growth(case, 0.02).matters
+    True
+    """
+    raise_faults(case_faults(p, "the split of pairs"))
+    modes = mode_arrays(p)
+    splits = _splits(p, split, modes)
+    sliding = steady_sliding(p)
+    if sliding.status is not SlidingStatus.OK:
+        raise ParameterError(Fault((), "", f"there is no steady sliding: {sliding.message}"))
+
+    pairs = _pairs(modes, len(sliding.jacobian))
+    table, others = _waves(p, modes, pairs, splits, sliding.jacobian)
+    growth_rate = sliding.growth_rate
+    if any(splits[pair.mode] > 0 for pair in pairs):
+        growth_rate = _floquet_growth(p, modes, pairs, splits, sliding.jacobian)
+    apart = max([*table["apart"], *others], default=sliding.growth_rate)
+    return SplitGrowth(sliding.growth_rate, growth_rate, float(apart), table)
+
+
+def _splits(p: Parameters, split: Any, modes: Modes) -> list[float]:
+    """The split of each mode, checked."""
+    count = len(modes.omega)
+    if split is None:
+        report = None if p.disc is None else p.disc.report
+        rule = "must be given: the disc does not come from a file with both halves of pairs"
+        require((report is not None, "split", split, rule))
+        split = report.split if report is not None else ()
+    numbers = [split] * count if is_number(split) else split
+    rule = f"must be one number from 0 to {WIDEST:g}, or one for each of {count} modes"
+    is_list = isinstance(numbers, list | tuple | np.ndarray) and np.ndim(numbers) == 1
+    require((is_list and len(numbers) == count, "split", split, rule))
+    allowed = all(is_number(number) and 0 <= number <= WIDEST for number in numbers)
+    require((allowed, "split", split, rule))
+    return [float(number) for number in numbers]
+
+
+def _pairs(modes: Modes, size: int) -> list[Pair]:
+    """The pairs in a Jacobian of this size."""
+    parts, _, _ = split_rows(modes, np.arange(size))
+    a, alpha, b, beta = (part.astype(int).tolist() for part in parts)
+    return [
+        Pair(i, a[i], alpha[i], b[i], beta[i]) for i in np.flatnonzero(modes.diameters > 0).tolist()
+    ]
+
+
+# ---- Both limits
+
+
+def _waves(
+    p: Parameters, modes: Modes, pairs: list[Pair], splits: list[float], jacobian: Array
+) -> tuple[pd.DataFrame, list[float]]:
+    """Growth rates of the two modes of steady sliding in which each pair moves most, and of all
+    other modes."""
+    import pandas as pd
+
+    values, vectors = np.linalg.eig(jacobian)
+    upper = values.imag > 0
+    values, energy = values[upper], np.abs(vectors[:, upper].T) ** 2 * _weights(p, modes, pairs)
+    share = energy / energy.sum(axis=1, keepdims=True)
+    used: set[int] = set()
+    rows: list[dict[str, Any]] = []
+    for pair in pairs:
+        of_pair = share[:, [pair.a, pair.alpha, pair.b, pair.beta]].sum(axis=1)
+        both = np.argsort(of_pair)[::-1][:2]
+        used |= set(both.tolist())
+        rates = values.real[both]
+        rows.append(
+            {
+                "diameters": int(modes.diameters[pair.mode]),
+                "circles": int(modes.circles[pair.mode]),
+                "frequency_Hz": float(modes.omega[pair.mode]) / math.tau,
+                "split": splits[pair.mode],
+                "together": float(rates.max()),
+                "apart": float(rates.mean()),
+            }
+        )
+    others = [float(value.real) for i, value in enumerate(values) if i not in used]
+    columns = ["diameters", "circles", "frequency_Hz", "split", "together", "apart"]
+    return pd.DataFrame(rows, columns=columns), others
+
+
+def _weights(p: Parameters, modes: Modes, pairs: list[Pair]) -> Array:
+    """Weights by which squares of the Jacobian's rows are energies of disc and slider."""
+    square = modes.omega**2
+    of_pairs = [pair.mode for pair in pairs]
+    in_pairs = square[of_pairs]
+    slider = [p.k_p * p.r_0**2, p.m * p.r_0**2]
+    height = [p.k, p.m] if contact_compliance(p) > 0 else []
+    return np.concatenate(
+        [square, np.ones_like(square), in_pairs, np.ones_like(in_pairs), slider, height]
+    )
+
+
+# ---- The periodic equations
+
+
+class Coupling(NamedTuple):
+    """What splits add to the Jacobian of steady sliding, of n pairs.
+
+    rows, columns : (4, n), places of the entries: a and b in the equations of alpha, then of beta
+    stiffness : (n,), omega^2 s, 1/s^2
+    rate : (n,), 2 l Omega, rad/s
+    """
+
+    rows: NDArray[np.intp]
+    columns: NDArray[np.intp]
+    stiffness: Array
+    rate: Array
+
+    @classmethod
+    def of(cls, p: Parameters, modes: Modes, pairs: list[Pair], splits: list[float]) -> Coupling:
+        """The coupling of the pairs that have a split."""
+        split = [pair for pair in pairs if splits[pair.mode] > 0]
+        _, a, alpha, b, beta = np.array(split).T
+        of_pairs = [pair.mode for pair in split]
+        return cls(
+            rows=np.stack([alpha, alpha, beta, beta]),
+            columns=np.stack([a, b, a, b]),
+            stiffness=modes.omega[of_pairs] ** 2 * np.array(splits)[of_pairs],
+            rate=np.asarray(2 * modes.diameters[of_pairs] * p.Omega, dtype=float),
+        )
+
+    def added_to(self, jacobian: Array, t: float) -> Array:
+        """The Jacobian with what the splits add at a time, s."""
+        cosine = self.stiffness * np.cos(self.rate * t)
+        sine = self.stiffness * np.sin(self.rate * t)
+        sum_ = jacobian.copy()
+        sum_[self.rows, self.columns] += np.stack([-cosine, sine, sine, cosine])
+        return sum_
+
+
+def _floquet_growth(
+    p: Parameters, modes: Modes, pairs: list[Pair], splits: list[float], jacobian: Array
+) -> float:
+    """The largest growth rate of the equations with the splits, 1/s: half a turn by Magnus's method
+    of the fourth order, which does not damp fast modes."""
+    half_turn = math.pi / p.Omega
+    fastest = float(np.abs(np.linalg.eigvals(jacobian)).max())  # also a damper of the slider
+    steps = math.ceil(STEPS * half_turn * fastest / math.tau)
+    rule = f"must be faster: half a turn takes {steps} steps, and at most {MOST_STEPS} are computed"
+    require((steps <= MOST_STEPS, "Omega", p.Omega, rule))
+
+    # the mean of the squares of both frequencies is above the square of their mean
+    mean = jacobian.copy()
+    for pair in pairs:
+        excess = (modes.omega[pair.mode] * splits[pair.mode] / 2) ** 2
+        mean[[pair.alpha, pair.beta], [pair.a, pair.b]] -= excess
+
+    coupling = Coupling.of(p, modes, pairs, splits)
+    h = half_turn / steps
+    gauss = math.sqrt(3) / 6
+    propagator = np.eye(len(jacobian))
+    logarithm = 0.0  # of what was taken out of the propagator
+    for i in range(steps):
+        first = coupling.added_to(mean, (i + 0.5 - gauss) * h)
+        second = coupling.added_to(mean, (i + 0.5 + gauss) * h)
+        commutator = second @ first - first @ second
+        exponent = h / 2 * (first + second) + gauss / 2 * h**2 * commutator
+        propagator = _exponential_times(exponent, propagator)
+        size = float(np.abs(propagator).max())
+        if size > LARGE:
+            propagator /= size
+            logarithm += math.log(size)
+    largest = float(np.abs(np.linalg.eigvals(propagator)).max())
+    return (math.log(largest) + logarithm) / half_turn
+
+
+def _exponential_times(exponent: Array, matrix: Array) -> Array:
+    """The exponential of a small matrix times another one, by its series."""
+    term = matrix
+    total = matrix.copy()
+    for k in range(1, ORDER + 1):
+        term = exponent @ term / k
+        total += term
+    return total

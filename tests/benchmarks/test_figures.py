@@ -1,0 +1,42 @@
+"""The figures of the benchmark say what its datasets hold."""
+
+import numpy as np
+import xarray as xr
+
+from disc_model.benchmarks import figures
+from disc_model.benchmarks.methods import METHODS
+from disc_model.benchmarks.scenes import Verdict
+from tests.figures.reading import labels
+
+
+def test_cost_against_accuracy_names_the_methods_that_have_points(dataset: xr.Dataset) -> None:
+    figure = figures.overview(dataset)
+    expected = {METHODS[name].label for name in ("series", "RK4", "Radau")}
+    assert set(labels(figure)) == {*expected, f"{METHODS['RK4'].label}, without Python"}
+    assert [text.get_text() for text in figure.axes[0].texts] == ["wrong\nevents"]
+
+
+def test_cost_against_accuracy_draws_both_in_seconds(dataset: xr.Dataset) -> None:
+    ax, *_ = figures.overview(dataset).axes
+    assert ax.get_ylabel() == "Time per simulated second (s)"
+    assert ax.get_xlabel() == "Event-time error (s)"
+    series = dataset.sel(scene="stick_slip", solver="series")
+    right = series["verdict"].values == Verdict.CONVERGED
+    line = next(line for line in ax.lines if line.get_zorder() == 3)
+    np.testing.assert_array_equal(line.get_xdata(), series["event_error"].values[right])
+    np.testing.assert_array_equal(line.get_ydata(), series["cost"].values[right])
+
+
+def test_a_cell_of_prices_names_its_setting(priced: xr.Dataset) -> None:
+    texts = [text.get_text() for text in figures.prices(priced).axes[0].texts]
+    assert texts == ["2 s", "tol 1e-2", "wrong at 2", "0.4 ms", "tol 1e-6", "wrong"]
+
+
+def test_costs_of_answers_name_lines_and_numbers_of_modes(priced: xr.Dataset) -> None:
+    figure = figures.draw("answers", [priced])
+    assert labels(figure) == [
+        "late",
+        "series, modes, rigid contact",
+        "series, from the cycle itself",
+    ]
+    assert [text.get_text() for text in figure.axes[0].texts] == ["8", "4"]

@@ -1,0 +1,309 @@
+"""Parameters found from synthetic measurements, and what wrong input is told."""
+
+import math
+import re
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib import pyplot
+from scipy.stats import binom
+
+import disc_model as dm
+from disc_model.fitting.fit import _Problem
+from disc_model.fitting.prediction import Prediction
+
+DISC = dm.Parameters(N=385, Omega=15, n_diameters=2)
+BLOCK = dm.Parameters(N=30, Omega=0.5, n_diameters=-1, m=0.2, k=0, k_p=2e3, mu_s=0.5, mu_k=0.3)
+
+
+def synthetic(
+    truth: dm.Parameters,
+    names: Sequence[str],
+    settings: Sequence[dict[str, float]],
+    error: float,
+    rng: np.random.Generator,
+) -> list[dm.Measurement]:
+    """Return measurements of a case in several settings, with normal errors of a relative size."""
+    found = []
+    for at in settings:
+        prediction = Prediction(truth.replace(**at))
+        for name in names:
+            value = prediction.of(name)
+            size = error * abs(value)
+            found.append(dm.Measurement(name, value + size * rng.normal(), size, at=at))
+    return found
+
+
+def disc_friction(rng: np.random.Generator) -> tuple[dm.Parameters, dm.Parameters, list]:
+    """Friction and stiffness from cycles of the paper's disc at three speeds."""
+    truth = DISC.replace(mu_s=0.42, k_p=1.9e4)
+    settings = [{"Omega": speed} for speed in (12.0, 13.0, 14.0)]
+    names = ("period", "slip_time")
+    return truth, DISC, synthetic(truth, names, settings, 1e-3, rng)
+
+
+def plate(rng: np.random.Generator) -> tuple[dm.Parameters, dm.Parameters, list]:
+    """Stiffness and Poisson's ratio of a plate from its natural frequencies."""
+    truth = DISC.replace(E=160e9, nu=0.25)
+    names = ("frequency_0_0", "frequency_1_0", "frequency_2_0", "coupled_frequency_1")
+    return truth, DISC, synthetic(truth, names, [{}], 1e-3, rng)
+
+
+def block(rng: np.random.Generator) -> tuple[dm.Parameters, dm.Parameters, list]:
+    """Friction of a block from slips at several stiffnesses and speeds."""
+    truth = BLOCK.replace(mu_s=0.45, mu_k=0.25)
+    settings = [{"Omega": 0.5}, {"Omega": 1.0}, {"k_p": 4e3}]
+    names = ("slip_length", "slip_time")
+    start = BLOCK.replace(mu_s=0.5, mu_k=0.3, m=0.25)
+    return truth, start, synthetic(truth, names, settings, 1e-2, rng)
+
+
+VARIED: dict[Callable[..., Any], list[str]] = {
+    disc_friction: ["mu_s", "k_p"],
+    plate: ["E", "nu"],
+    block: ["mu_s", "m"],
+}
+
+
+def holds(fit: dm.Fit, truth: dm.Parameters) -> list[bool]:
+    """Return for each parameter whether its interval holds the true value."""
+    return [each.low <= truth.numbers[name] <= each.high for name, each in fit.parameters.items()]
+
+
+def one_draw(draw: Callable[..., Any], seed: int) -> tuple[dm.Fit, dm.Parameters]:
+    truth, start, measurements = draw(np.random.default_rng(seed))
+    if draw is block:  # the kinetic coefficient is known
+        start = start.replace(mu_k=truth.mu_k)
+    return dm.fit(start, VARIED[draw], measurements), truth
+
+
+def check_coverage(draw: Callable[..., Any], draws: int) -> None:
+    """The number of intervals of 95 % that hold the truth is binomial: it falls below the bound
+    used here once in ten thousand tests."""
+    counts = np.zeros(2, int)
+    for seed in range(draws):
+        fit, truth = one_draw(draw, seed)
+        assert fit.converged
+        counts += holds(fit, truth)
+    assert counts.min() >= binom.ppf(1e-4, draws, 0.95)
+    if draws >= 100:
+        # and intervals are not wider than they need be
+        assert counts.max() < draws
+
+
+@pytest.mark.parametrize("draw", [disc_friction, plate, block], ids=lambda draw: draw.__name__)
+def test_known_parameters_lie_within_the_intervals_of_a_few_draws(draw: Callable[..., Any]) -> None:
+    check_coverage(draw, 4)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("draw", [disc_friction, plate, block], ids=lambda draw: draw.__name__)
+def test_known_parameters_lie_within_their_intervals_in_95_of_100_draws(
+    draw: Callable[..., Any],
+) -> None:
+    check_coverage(draw, 100)
+
+
+def test_exact_measurements_give_back_the_parameters() -> None:
+    truth = DISC.replace(mu_s=0.42, k_p=1.9e4)
+    measurements = []
+    for at in ({}, {"Omega": 12.0}):
+        prediction = Prediction(truth.replace(**at))
+        for name in ("period", "slip_time"):
+            measurements.append(dm.Measurement(name, prediction.of(name), 1e-6, at=at))
+    fit = dm.fit(DISC, ["mu_s", "k_p"], measurements)
+    # the search ends at relative changes of 1e-10, cycles are accurate to 1e-12
+    assert fit.parameters["mu_s"].value == pytest.approx(0.42, rel=1e-8)
+    assert fit.parameters["k_p"].value == pytest.approx(1.9e4, rel=1e-8)
+    assert fit.case.mu_s == fit.parameters["mu_s"].value
+    assert fit.chi_squared < 1e-6
+
+
+def test_derivatives_are_those_of_the_closed_form() -> None:
+    """Frequencies are proportional to sqrt(E / rho), and a block's stick lasts 2 d N / (k V)."""
+    measurements = [dm.Measurement("frequency_2_0", 1.0, 1.0)]
+    problem = _Problem(DISC, ["E", "rho"], measurements, {})
+    start = np.array([DISC.E, DISC.rho])
+    value = problem.predictions(start)[0]
+    expected = [value / (2 * DISC.E), -value / (2 * DISC.rho)]
+    # a central difference errs by the third derivative, 3 / 8 times the squared step here
+    assert problem.jacobian(start)[0] == pytest.approx(expected, rel=1e-8)
+
+    problem = _Problem(BLOCK, ["mu_s"], [dm.Measurement("stick_time", 1.0, 1.0)], {})
+    slope = 2 * BLOCK.N / (BLOCK.k_p * BLOCK.r_0 * BLOCK.Omega)
+    # times of events err by 1e-10 s, over a step of 5e-5
+    assert problem.jacobian(np.array([BLOCK.mu_s]))[0] == pytest.approx([slope], rel=1e-4)
+
+
+def test_the_covariance_of_a_linear_problem_is_that_of_weighted_least_squares() -> None:
+    """Two functions of one's own that are linear in E and rho."""
+
+    def first(p: dm.Parameters) -> float:
+        return p.E / 1e9 + p.rho / 1e3
+
+    def second(p: dm.Parameters) -> float:
+        return p.E / 1e9 - p.rho / 1e3
+
+    measurements = [dm.Measurement(first, 157.2, 0.3), dm.Measurement(second, 142.8, 0.4)]
+    fit = dm.fit(DISC, ["E", "rho"], measurements)
+    # E / 1e9 = (first + second) / 2, rho / 1e3 = (first - second) / 2
+    variance = (0.3**2 + 0.4**2) / 4
+    mixed = (0.3**2 - 0.4**2) / 4
+    expected = np.array([[1e18 * variance, 1e12 * mixed], [1e12 * mixed, 1e6 * variance]])
+    assert fit.covariance == pytest.approx(expected, rel=1e-6)
+    assert fit.parameters["E"].value == pytest.approx(150e9, rel=1e-9)
+    width = fit.parameters["E"].high - fit.parameters["E"].low
+    assert width == pytest.approx(2 * 1.959964 * 1e9 * math.sqrt(variance), rel=1e-6)
+    assert fit.correlation[0, 1] == pytest.approx(mixed / variance, rel=1e-6)
+
+
+def test_a_prediction_has_the_uncertainty_of_the_parameters() -> None:
+    """The frequency with two nodal diameters sets E, and others have its relative uncertainty."""
+    fit = dm.fit(DISC, ["E"], {"frequency_2_0": (290.0, 2.9)})
+    value, deviation = fit.predict("frequency_0_0")
+    assert deviation / value == pytest.approx(0.01, rel=1e-6)
+    slower, _ = fit.predict("frequency_0_0", at={"rho": 4 * DISC.rho})
+    assert slower == pytest.approx(value / 2, rel=1e-12)
+
+
+def test_intervals_of_less_confidence_are_narrower() -> None:
+    measured = {"frequency_2_0": (290.0, 2.9)}
+    wide = dm.fit(DISC, ["E"], measured).parameters["E"]
+    narrow = dm.fit(DISC, ["E"], measured, confidence=0.6827).parameters["E"]
+    assert narrow.high - narrow.value == pytest.approx(narrow.deviation, rel=1e-3)
+    assert wide.high - wide.value == pytest.approx(1.96 * wide.deviation, rel=1e-3)
+
+
+def test_measurements_that_contradict_the_model_are_inconsistent() -> None:
+    measured = {"frequency_0_0": (239.0, 0.5), "frequency_2_0": (310.0, 0.5)}
+    fit = dm.fit(DISC, ["E"], measured)
+    assert fit.freedom == 1
+    assert not fit.consistent
+    assert dict(fit.summary())["consistent"].startswith("no")
+
+
+def test_bounds_hold_the_parameters() -> None:
+    measured = {"frequency_2_0": (300.0, 1.0)}
+    fit = dm.fit(DISC, ["E"], measured, bounds={"E": ("120 GPa", "152 GPa")})
+    assert fit.parameters["E"].value == pytest.approx(152e9, rel=1e-6)
+
+
+def test_a_parameter_that_starts_at_zero_is_found_within_bounds() -> None:
+    truth = DISC.replace(c=3.0)
+    measured = {"growth_rate": (Prediction(truth).of("growth_rate"), 1e-3)}
+    fit = dm.fit(DISC.replace(c=0.0), ["c"], measured, bounds={"c": (0, 20)})
+    assert fit.parameters["c"].value == pytest.approx(3.0, rel=1e-6)
+
+
+def test_a_ratio_can_be_fitted_and_stays_in_the_case() -> None:
+    truth = DISC.replace(mu_k_over_mu_s=0.5)
+    measured = {"slip_time": (Prediction(truth).of("slip_time"), 1e-5)}
+    start = DISC.replace(mu_k_over_mu_s=0.6)
+    fit = dm.fit(start, ["mu_k_over_mu_s"], measured)
+    assert fit.parameters["mu_k_over_mu_s"].value == pytest.approx(0.5, rel=1e-6)
+    assert fit.case.mu_k == pytest.approx(0.5 * fit.case.mu_s, rel=1e-12)
+
+
+def test_a_number_of_a_table_of_modes_can_be_fitted() -> None:
+    disc = dm.Disc(diameters=[0, 2], omega=[1500.0, 1800.0], amplitude=[1.5, 2.0])
+    p = dm.Parameters(N=385, Omega=15, disc=disc, r_0=0.1)
+    truth = p.replace(amplitude_2_0=2.5)
+    measured = {"coupled_frequency_1": (Prediction(truth).of("coupled_frequency_1"), 0.1)}
+    fit = dm.fit(p, ["amplitude_2_0"], measured)
+    assert abs(fit.parameters["amplitude_2_0"].value) == pytest.approx(2.5, rel=1e-6)
+
+
+def test_texts_with_units_are_read() -> None:
+    measurement = dm.Measurement("frequency_2_0", "0.29 kHz", "3 Hz", at={"h": "2 mm"})
+    assert (measurement.value, measurement.uncertainty) == (290.0, 3.0)
+    assert measurement.name == "frequency_2_0 (h=2 mm)"
+
+
+# ---- What a reader sees
+
+
+def test_a_fit_shows_values_intervals_and_deviations() -> None:
+    measured = {"frequency_0_0": (239.0, 0.5), "frequency_2_0": (292.0, 0.5)}
+    fit = dm.fit(DISC, ["E"], measured)
+    assert re.fullmatch(r"Fit\(E=1\.5\d*e\+11 ± [\d.e+]+; chi squared .*freedom\)", repr(fit))
+    page = fit._repr_html_()
+    for word in ("E", "Pa", "frequency_0_0", "239", "Hz", "consistent"):
+        assert word in page
+    left, right = fit.plot()
+    assert [text.get_text() for text in left.get_yticklabels()] == list(measured)
+    shown = np.concatenate([line.get_xdata() for line in right.lines if len(line.get_xdata()) == 2])
+    assert set(np.round(fit.deviations, 9)) <= set(np.round(shown, 9))
+    pyplot.close("all")
+
+
+# ---- Wrong input
+
+GOOD: dict[str, Any] = {"p": DISC, "vary": ["E"], "measured": {"frequency_2_0": (290.0, 1.0)}}
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"p": 3}, "p=3: must be Parameters"),
+        ({"vary": "E"}, "vary='E': must be a list of names"),
+        ({"vary": []}, "must be a list of names"),
+        ({"vary": ["Ee"]}, "vary.0='Ee': is no number of this case"),
+        ({"vary": ["n_diameters"]}, "is no number of this case"),
+        ({"vary": ["E", "E"]}, "vary.1='E': must not be given twice"),
+        ({"measured": 3}, "measured=3: must be values"),
+        ({"measured": {"perod": (1, 1)}}, "is no quantity of a case, did you mean period"),
+        ({"measured": {"period": 0.01}}, "must be a value and its standard deviation"),
+        ({"measured": {"period": (0.01, 0)}}, "uncertainty=0: must be a standard deviation > 0"),
+        ({"measured": {"period": (math.nan, 1)}}, "value=nan: must be a finite number"),
+        ({"measured": {"period": ("3 kg", 1)}}, "must be a number in s"),
+        ({"vary": ["E", "nu"]}, "measured='1 values': must be at least as many"),
+        ({"bounds": {"nu": (0, 1)}}, "bounds.nu=(0, 1): must be of a parameter that is varied"),
+        ({"bounds": {"E": (2e11, 1e11)}}, "must be two ascending values around the start"),
+        ({"bounds": {"E": (2e11, 3e11)}}, "must be two ascending values around the start"),
+        ({"bounds": 3}, "bounds=3: must give two values by parameter"),
+        ({"confidence": 1}, "confidence=1: must lie between 0 and 1"),
+        ({"vary": ["c"]}, "vary.c=0: must have bounds"),
+        ({"measured": {"frequency_9_0": (1, 1)}}, "has no mode of 9 nodal diameters"),
+    ],
+)
+def test_wrong_input_is_named(changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(dm.ParameterError, match=re.escape(message)):
+        dm.fit(**(GOOD | changes))
+
+
+@pytest.mark.parametrize(
+    ("at", "message"),
+    [
+        ({"E": 1e11}, "must not set what is varied"),
+        ({"Omga": 3}, "measured.0.at.Omga=3: unknown parameter"),
+        ({"rho": -1}, "measured.0.at.rho=-1: must be > 0"),
+    ],
+)
+def test_wrong_settings_are_named(at: dict[str, Any], message: str) -> None:
+    measured = [dm.Measurement("frequency_2_0", 290.0, 1.0, at=at)]
+    with pytest.raises(dm.ParameterError, match=re.escape(message)):
+        dm.fit(DISC, ["E"], measured)
+
+
+def test_parameters_that_act_alike_are_told_apart_from_others() -> None:
+    """Frequencies depend on E / rho alone."""
+    measured = {"frequency_0_0": (239.0, 0.5), "frequency_2_0": (292.0, 0.5)}
+    with pytest.raises(dm.ParameterError, match="cannot be determined") as error:
+        dm.fit(DISC, ["E", "rho"], measured)
+    assert "'E', 'rho'" in str(error.value)
+
+
+def test_a_parameter_without_effect_is_named() -> None:
+    measured = {"frequency_0_0": (239.0, 0.5), "frequency_2_0": (292.0, 0.5)}
+    with pytest.raises(dm.ParameterError, match=r"\['mu_s'\]: cannot be determined"):
+        dm.fit(DISC, ["E", "mu_s"], measured)
+
+
+def test_a_case_that_breaks_a_rule_on_the_way_shortens_the_step() -> None:
+    """Equal coefficients of friction have no cycle; the search must not stop there."""
+    truth = BLOCK.replace(mu_k=0.4999)
+    measured = {"slip_length": (Prediction(truth).of("slip_length"), 1e-6)}
+    fit = dm.fit(BLOCK, ["mu_k"], measured)
+    assert fit.parameters["mu_k"].value == pytest.approx(0.4999, rel=1e-6)

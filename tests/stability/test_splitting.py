@@ -1,0 +1,123 @@
+"""Split pairs in steady sliding: the periodic equations, and both of their limits."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import disc_model as dm
+from disc_model.stability.splitting import SplitGrowth
+
+PAD: dict[str, Any] = {
+    "r_0": 0.1,
+    "k": 1e6,
+    "k_p": 1e6,
+    "c_p": 50,
+    "m": 0.5,
+    "mu_s": 0.45,
+    "mu_k": 0.35,
+}
+LIGHT: dict[str, Any] = PAD | {"k": 5e4, "m": 0.02, "k_p": 1e6, "c_p": 20, "N": 2e4}
+
+
+def case(pad: dict[str, Any], damping: float = 1e-3, **changes: Any) -> dm.Parameters:
+    """A brake-like disc of one pair under a pad."""
+    modes: dict[str, Any] = {
+        "diameters": [2], "omega": [3000.0], "amplitude": [0.54], "tangential": [-0.13], "damping_ratio": [damping]
+    }  # fmt: skip
+    base = {"N": 8000, "Omega": 80, "disc": dm.Disc(**modes), "friction_offset": "surface"}
+    return dm.Parameters(**base | pad | changes)
+
+
+def by_integration(p: dm.Parameters, split: float) -> float:
+    """Growth rate by an integrator of scipy, with the stiffness of the disc turned by a matrix into
+    the slider's frame."""
+    jacobian, omega = dm.steady_sliding(p).jacobian, 3000.0
+    size = len(jacobian)  # a, alpha, b, beta, psi, f
+    halves = np.diag([(omega * (1 + split / 2)) ** 2, (omega * (1 - split / 2)) ** 2])
+
+    def rate(t: float, x: Any) -> Any:
+        angle = 2 * p.Omega * t
+        turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+        changed = jacobian.copy()
+        changed[np.ix_([1, 3], [0, 2])] -= turn @ halves @ turn.T - omega**2 * np.eye(2)
+        return (changed @ x.reshape(size, size)).ravel()
+
+    end = np.pi / (2 * p.Omega)  # a quarter of a turn brings two diameters back
+    run = solve_ivp(rate, (0, end), np.eye(size).ravel(), method="DOP853", rtol=1e-10, atol=1e-12)
+    multipliers = np.linalg.eigvals(run.y[:, -1].reshape(size, size))
+    return float(np.log(np.abs(multipliers).max()) / end)
+
+
+@pytest.mark.parametrize("split", [1e-3, 0.01, 0.05])
+def test_growth_rates_are_those_of_an_integrator(split: float) -> None:
+    """Ten steps in a period of the mode, of the fourth order, are good to 1e-3 of the splitting."""
+    p = case(PAD)
+    found = dm.split_growth(p, split).growth_rate
+    assert found == pytest.approx(by_integration(p, split), abs=2e-2 * split**0.5)
+
+
+@pytest.mark.parametrize("split", [5e-5, 2e-4, 5e-4, 2e-3])
+def test_a_light_pad_couples_both_waves_as_averaging_has_it(split: float) -> None:
+    """Where slider and split are weak beside the drive's 2 l Omega, the waves obey two equations of
+    the first order, whose eigenvalues have a closed form; its error is of the second order."""
+    p = case(LIGHT, damping=5e-5)
+    values = dm.steady_sliding(p).eigenvalues
+    waves = sorted(values[(values.imag > 2000) & (values.imag < 4000)], key=lambda x: x.imag)
+    with_slider, against = waves[0] + 2j * p.Omega, waves[1] - 2j * p.Omega
+    root = np.sqrt(((with_slider - against) / 2) ** 2 - (3000 * split / 2) ** 2)
+    expected = ((with_slider + against) / 2).real + abs(root.real)
+    found = dm.split_growth(p, split)
+    assert found.growth_rate == pytest.approx(expected, abs=0.02 * (found.together - found.apart))
+
+
+def test_both_limits_are_reached() -> None:
+    p = case(LIGHT, damping=5e-5)
+    none, large = dm.split_growth(p, 0.0), dm.split_growth(p, 0.03)
+    assert none.growth_rate == none.together == dm.steady_sliding(p).growth_rate
+    assert not none.matters
+    assert large.apart < 0 < large.together
+    scale = large.together - large.apart
+    assert large.growth_rate == pytest.approx(large.apart, abs=0.03 * scale)
+    assert large.matters
+
+
+def test_splits_are_those_of_the_file(tmp_path: Any) -> None:
+    """Of a table with both halves; one number counts for all pairs."""
+    text = "diameters,frequency_Hz,amplitude_per_sqrt_kg,damping_ratio,tangential_per_sqrt_kg\n"
+    rows = "2,1200,0.54,0.001,-0.13\n0,929,0.43,0.001,0\n2,1206,0.54,0.001,-0.13\n"
+    (tmp_path / "disc.csv").write_text(text + rows)
+    p = case(PAD, disc=dm.Disc.from_csv(tmp_path / "disc.csv", pairs="mean"))
+    found = dm.split_growth(p)
+    assert found.pairs["split"].tolist() == pytest.approx([6 / 1203])
+    assert found.growth_rate == pytest.approx(dm.split_growth(p, 6 / 1203).growth_rate)
+    assert found.pairs["diameters"].tolist() == [2]
+    assert ("the split matters", "yes" if found.matters else "no") in found.summary()
+
+
+@pytest.mark.parametrize(
+    ("changes", "split", "phrase"),
+    [
+        ({}, None, "split='None': must be given: the disc does not come from a file"),
+        ({}, -0.1, "split=-0.1: must be one number from 0 to 0.2"),
+        (
+            {},
+            [0.1, 0.1],
+            "split=[0.1, 0.1]: must be one number from 0 to 0.2, or one for each of 1",
+        ),
+        ({"Omega": 1e-3}, 0.01, "Omega=0.001: must be faster: half a turn takes"),
+        ({"Omega": 0}, 0.01, "there is no steady sliding: The disc is not driven"),
+    ],
+)
+def test_what_cannot_be_computed_is_said(changes: Any, split: Any, phrase: str) -> None:
+    with pytest.raises(dm.ParameterError) as error:
+        dm.split_growth(case(PAD, **changes), split)
+    assert phrase.replace("'None'", "None") in str(error.value)
+
+
+def test_a_disc_without_pairs_has_nothing_to_split() -> None:
+    disc = dm.Disc(diameters=[0], omega=[3000], amplitude=[0.5])
+    found: SplitGrowth = dm.split_growth(case(PAD, disc=disc, friction_offset=0.0), 0.01)
+    assert found.growth_rate == found.together == found.apart
+    assert len(found.pairs) == 0

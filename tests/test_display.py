@@ -1,0 +1,88 @@
+"""Tables that notebooks show of results whose line of text is long."""
+
+import math
+import re
+
+import numpy as np
+
+from disc_model import Parameters, simulate
+from disc_model.display import html_table
+from disc_model.errors import Status
+from disc_model.mode_choice import ModeChoice
+from disc_model.stability.curves import Critical
+from disc_model.stability.lyapunov import Lyapunov
+
+P = Parameters(N=385, Omega=15)
+
+
+def cells(html: str) -> list[list[str]]:
+    """The texts of a table, row by row."""
+    rows = re.findall("<tr>(.*?)</tr>", html)
+    return [re.findall("<t[hd]>(.*?)</t[hd]>", row) for row in rows]
+
+
+def test_a_table_escapes_what_it_shows() -> None:
+    assert cells(html_table(("a", "<b>"), [(1, "&")])) == [["a", "&lt;b&gt;"], ["1", "&amp;"]]
+
+
+def test_critical_shows_the_intervals_of_one_stability() -> None:
+    found = Critical(
+        parameters=P,
+        name="Omega",
+        value=12.0,
+        crossings=np.array([12.0, 15.5]),
+        unstable_above=np.array([True, False]),
+        values=np.array([10.0, 12.0, 15.5, 20.0]),
+        growth_rate=np.zeros(4),
+        resolution=0.025,
+    )
+    assert cells(found._repr_html_()) == [
+        ["Omega from", "to (rad/s)", "motion near the static start"],
+        ["10", "12", "stable"],
+        ["12", "15.5", "unstable"],
+        ["15.5", "20", "stable"],
+        ["tongues overlooked", "below 0.025 rad/s", ""],
+    ]
+
+
+def test_exponents_are_shown_with_their_errors() -> None:
+    found = Lyapunov(
+        status=Status.OK,
+        exponents=np.array([1.25, -math.inf]),
+        errors=np.array([0.031, math.nan]),
+        duration=20.0,
+        separations=1,
+        converged=np.array([True, False]),
+        final_state=simulate(P, 1e-3).final_state,
+    )
+    assert cells(found._repr_html_()) == [
+        ["exponent (1/s)", "standard error (1/s)", "converged"],
+        ["1.25", "0.031", "yes"],
+        ["-inf", "", "no"],
+        ["ok", "over 20 s", "1 separation"],
+    ]
+
+
+def test_a_choice_of_modes_is_shown_with_what_it_was_compared_with() -> None:
+    found = ModeChoice(
+        parameters=P.replace(n_diameters=6, n_circles=1),
+        tolerance=1e-2,
+        error=0.004,
+        modes=26,
+        rich=(8, 1),
+        quantity="growth",
+        values={(4, 0): -0.1, (8, 1): -0.125},
+    )
+    shown = cells(found._repr_html_())
+    assert shown[0] == ["ModeChoice", ""]
+    assert shown[1:] == [[*row] for row in found.summary()]
+    assert dict(found.summary()) == {
+        "n_diameters": "6",
+        "n_circles": "1",
+        "modes": "26, a pair counts as two",
+        "chosen by": "growth",
+        "error": "0.004, relative; 0.01 was asked for",
+        "largest model compared": "8 diameters, 1 circle",
+        "growth with 4 diameters, 0 circles": "-0.1",
+        "growth with 8 diameters, 1 circle": "-0.125",
+    }
