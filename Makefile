@@ -83,9 +83,10 @@ linkcheck: $(VENV)/.docs
 drawings: env
 	for script in docs/drawings/*.py; do $(BIN)/python $$script || exit 1; done
 
-# What editors check study files by, from the models that check them.
+# What editors check study files by, and the page of all options, from the models that check them.
 schema: env
 	$(BIN)/python workflow/schemas/write_schema.py > workflow/schemas/study.schema.json
+	$(BIN)/python -m docs.write_options > docs/study_options.md
 
 # All quick tests; each part says what it found when it is done.
 test: env

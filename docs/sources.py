@@ -170,7 +170,9 @@ class Sources:
         unstable = np.flatnonzero(~stable[branch])
         first = unstable[unstable < point].max() + 1
         last = unstable[unstable > point].min() - 1
-        fold = np.nanargmax(speed[branch])
+        # the fold itself is a point of the branch, and stable or unstable by rounding
+        around = np.arange(first - 1, last + 2)
+        fold = around[np.nanargmax(speed[branch, around])]
         least = min(speed[branch, first], speed[branch, last])
         return least, speed[branch, fold], 2 / grid["period"].values[branch, fold]
 

@@ -1,5 +1,6 @@
 """The command line: options, summary, plot."""
 
+import os
 import re
 import sys
 from pathlib import Path
@@ -235,9 +236,9 @@ def test_a_folder_is_laid_out_and_its_study_is_right(command: Command, tmp_path:
 
 @pytest.fixture
 def called(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """What is to be called in place of this process."""
+    """What Snakemake is called with, instead of calling it."""
     told: list[str] = []
-    monkeypatch.setattr("os.execv", lambda _, command: told.extend(command))
+    monkeypatch.setattr("snakemake.cli.main", told.extend)
     return told
 
 
@@ -245,10 +246,58 @@ def test_a_study_is_handed_to_snakemake(command: Command, called: list[str], min
     folder = str(mine.parent)
     options = ("--cores", "2", "--unlock", "--directory", folder, "--target", "bench")
     command.out("study", str(mine), *options, "-n")
-    assert called[:3] == [sys.executable, "-m", "snakemake"]
     assert Path(called[called.index("-s") + 1]).is_file()
     assert called[-2:] == ["--configfile", str(mine)]
     assert {"-j2", "--unlock", "bench", "--dry-run", "--directory", folder} <= {*called}
+
+
+def test_a_dry_run_says_what_there_is_to_compute_and_by_which_options(
+    command: Command, called: list[str], mine: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "160")
+    options = ("--directory", str(mine.parent), "-j2", "-n")
+    out = command.out("study", str(mine), *options)
+    assert re.search(r"│ mine +│ floquet +│ 4 +│ 1 +│ less than 1 s │", out)
+    assert re.search(r"│ mine +│ simulation +│ 1 +│ 1 +│ less than 1 s │", out)
+    assert re.search(r"│ tol +│ 1e-12 +│ +│ tolerance of cycles", out)
+    assert "Estimated time: less than 1 s on 2 cores, to a factor of three" in out
+    folder = mine.parent / "results" / "mine" / "batches"
+    folder.mkdir(parents=True)
+    (folder / f"{next(iter(load_study(mine).grid.batches))}.nc").touch()  # type: ignore[union-attr]
+    out = command.out("study", str(mine), *options)
+    assert re.search(r"│ mine +│ floquet +│ 4 +│ 1, 1 there", out)
+    assert len(called) > 0
+    assert "plan of" not in command.out("study", str(mine), "--directory", str(mine.parent))
+
+
+def test_a_folder_that_cannot_hold_results_is_refused(
+    command: Command, called: list[str], mine: Path
+) -> None:
+    """Each ended in a traceback of Snakemake."""
+    folders = {
+        mine: "must be a folder, and is a file",
+        mine / "below": "cannot be written (Not a directory)",
+        mine.parent / ("x" * 300): "cannot be written (File name too long)",
+    }
+    for folder, rule in folders.items():
+        err = command.error("study", str(mine), "--directory", str(folder))
+        assert err == f"error: directory={str(folder)!r}: {rule}\n"
+    assert called == []
+
+
+def test_a_cache_is_found_where_there_is_no_home(
+    command: Command, called: list[str], mine: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Snakemake ended in a traceback about its cache."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "own"))
+    command.out("study", str(mine), "--directory", str(tmp_path))
+    assert os.environ["XDG_CACHE_HOME"] == str(tmp_path / "own")
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_: tmp_path / "file" / "cache")
+    err = command.error("study", str(mine), "--directory", str(tmp_path))
+    assert "must be a folder that can be written, because Snakemake keeps its cache there" in err
+    assert len(called) > 0
 
 
 def test_a_wrong_study_is_told_before_snakemake_starts(
@@ -263,10 +312,25 @@ def test_a_wrong_study_is_told_before_snakemake_starts(
     assert called == []
 
 
-def test_what_snakemake_says_is_passed_on(monkeypatch: pytest.MonkeyPatch, mine: Path) -> None:
-    """By a program in the place of Snakemake: one of its name in the folder where commands are
-    given."""
-    monkeypatch.chdir(mine.parent)
-    (mine.parent / "snakemake.py").write_text("import sys; sys.exit('no plan')")
-    done = run(sys.executable, "-m", "disc_model", "study", mine, cwd=mine.parent, fails=True)
-    assert done.stderr == "no plan\n"
+def test_the_exit_code_of_snakemake_is_passed_on(
+    command: Command, monkeypatch: pytest.MonkeyPatch, mine: Path
+) -> None:
+    def fails(arguments: list[str]) -> None:
+        sys.exit(1)
+
+    def interrupted(arguments: list[str]) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("snakemake.cli.main", fails)
+    assert command.run("study", str(mine), "-d", str(mine.parent)) == (1, "", "")
+    monkeypatch.setattr("snakemake.cli.main", interrupted)
+    code, _, err = command.run("study", str(mine), "-d", str(mine.parent))
+    assert (code, err.split()[-1]) == (130, "interrupted")
+
+
+def test_pictures_are_files_whatever_a_notebook_has_chosen(tmp_path: Path) -> None:
+    """A kernel in another environment chooses a module that is not here."""
+    picture = tmp_path / "run.png"
+    notebook = {"MPLBACKEND": "module://no_such_module.backend"}
+    run(sys.executable, "-m", "disc_model", *SHORT, "--plot", picture, **notebook)
+    assert picture.read_bytes().startswith(b"\x89PNG")

@@ -126,7 +126,11 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (dm.snapshots, {"p": P, "times": 1e-4}, {"initial_state": "None", "times": "nothing"}),
     (dm.deflection, SHAPES, {"theta": "negative nothing", "states": "nothing"}),
     (dm.floquet, {"p": P}, {"guess": "None"}),
-    (dm.continue_cycle, {"p": P, "name": "Omega", "bounds": (10.0, 30.0)}, {"guess": "None"}),
+    (
+        dm.continue_cycle,
+        {"p": P, "name": "Omega", "bounds": (10.0, 30.0)},
+        {"guess": "None", "values": "nothing", "stop_at": "None"},
+    ),
     (
         StepControl,
         {},

@@ -14,10 +14,13 @@ import sys
 import time
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NoReturn, get_args, get_origin
 
+import platformdirs
 import typer
 from pydantic import AfterValidator, Field
 from rich.console import Console
@@ -355,6 +358,8 @@ DRY = (
     "host",
     "reason",
 )  # how many jobs of each kind, without their files
+# those that this process may use, which a cluster or a container may limit
+CORES = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 Files = Annotated[list[Path], typer.Argument(help="study files, later ones laid over earlier ones")]
 
 
@@ -362,7 +367,7 @@ def study(
     files: Files,
     cores: Annotated[
         int, typer.Option("--cores", "-j", min=1, help="jobs at the same time")
-    ] = os.cpu_count() or 1,
+    ] = CORES,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", "-n", help="only check, and list the jobs")
     ] = False,
@@ -378,9 +383,13 @@ def study(
     ] = False,
 ) -> None:
     """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
-    _read(files)
+    chosen, grids, requested = _read(files)
     if find_spec("snakemake") is None:
         raise ModuleNotFoundError(name="snakemake")
+    _make_folder(directory)
+    _find_cache(directory)
+    if dry_run and not unlock:
+        _show_plan(chosen, [grids[name] for name in requested], directory / "results", cores)
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
     options = [
         *(target or []),
@@ -390,10 +399,80 @@ def study(
         str(directory),
     ]
     options += [*["--unlock"] * unlock, "--configfile", *(str(file.resolve()) for file in files)]
-    command = [sys.executable, "-m", "snakemake", "-s", str(snakefile), *options]
-    os.execv(
-        command[0], command
-    )  # Snakemake takes the place of this process: Ctrl-C and exit codes are its own
+    snakemake = import_module("snakemake.cli")
+    snakemake.main(["-s", str(snakefile), *options])  # ends with an exit code
+
+
+def _show_plan(chosen: Study, grids: Sequence[GridStudy], results: Path, cores: int) -> None:
+    """Print what there is to compute, how long it may take, and the options of a single grid."""
+    from disc_model.studies import plan
+    from disc_model.studies.costs import machine_factor
+    from disc_model.studies.options import options_of, value_text
+
+    plans = [plan.plan_of(grid, results) for grid in grids]
+    if chosen.specs:
+        plans.append(plan.plan_of_cases(chosen.name, chosen.specs, results))
+    factor = machine_factor()
+    works = [factor * sum(each.seconds) for each in plans]
+    columns: dict[str, Iterable[str]] = {
+        "study": [each.name for each in plans],
+        "quantity": [each.quantity for each in plans],
+        "points": [str(each.points) for each in plans],
+        "batches": [
+            f"{each.batches}{f', {each.computed} there' * (each.computed > 0)}" for each in plans
+        ],
+        "work": map(plan.duration_text, works),
+    }
+    table(f"plan of {chosen.name}", columns, overflow="fold")
+    if len(grids) == 1:
+        values = grids[0].options
+        options = options_of(type(values))
+        columns = {
+            "option": [option.name for option in options],
+            "value": [value_text(getattr(values, option.name)) for option in options],
+            "unit": [option.unit.replace("`", "") for option in options],
+            "meaning": [option.meaning for option in options],
+        }
+        table(f"options of the quantity {grids[0].quantity}", columns, overflow="fold")
+    seconds = [factor * x for each in plans for x in each.seconds]
+    if seconds:
+        text = plan.duration_text(plan.time_on(cores, seconds))
+        typer.echo(
+            f"Estimated time: {text} on {cores} cores, to a factor of three; kernels that are not"
+            " compiled yet take 10 to 20 s each."
+        )
+
+
+def _make_folder(directory: Path) -> None:
+    """Make the folder of results; raises `ParameterError` if that is impossible."""
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=directory):
+            pass
+    except FileExistsError:
+        raise ParameterError(
+            Fault(("directory",), repr(str(directory)), "must be a folder, and is a file")
+        ) from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise ParameterError(
+            Fault(("directory",), repr(str(directory)), f"cannot be written ({reason})")
+        ) from None
+
+
+def _find_cache(directory: Path) -> None:
+    """Let Snakemake keep its cache under the folder of results where the user's own cannot be
+    written, as without a home."""
+    own = platformdirs.user_cache_path("snakemake", "snakemake")
+    try:
+        own.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=own):
+            return
+    except OSError:
+        os.environ["XDG_CACHE_HOME"] = str(directory.resolve() / ".snakemake" / "cache")
+    if platformdirs.user_cache_path("snakemake", "snakemake") == own:  # not everywhere obeyed
+        rule = "must be a folder that can be written, because Snakemake keeps its cache there"
+        raise ParameterError(Fault((), "", f"{own}: {rule}"))
 
 
 def list_(

@@ -140,6 +140,8 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
             yield from (fault.inside(path) for fault in reason.faults)
         elif kind == "missing":
             yield Fault(path, "", "is required")
+        elif kind == "too_short" and len(value) >= context["min_length"]:
+            continue  # only valid items were counted, and the others are faults by themselves
         elif kind == "extra_forbidden":
             word, rule = (getattr(model, name, "") for name in ("_word", "_unknown"))
             more = suggestion(path[-1], [*model.model_fields], all_of_them=not (word or rule))
@@ -156,6 +158,7 @@ _RULES = {  # by pydantic's kind of fault, whose context fills the braces; other
     "greater_than": "must be > {gt:g}",
     "less_than": "must be < {lt:g}",
     "less_than_equal": "must be <= {le:g}",
+    "too_short": "must not be empty",
     **dict.fromkeys(
         ("dict_type", "mapping_type", "model_type", "model_attributes_type"), "must be a mapping"
     ),

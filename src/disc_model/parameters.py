@@ -817,9 +817,9 @@ def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:
 
 def case_of(values: Mapping[str, Any], discs: Mapping[str, Any]) -> dict[str, Any]:
     """The values of a point that belong to its case, without starts and samples; a disc's name
-    becomes its table."""
-    known = (*Parameters.model_fields, *CHOOSING)
-    case = {name: value for name, value in with_ratios(values).items() if name in known}
+    becomes its table. Ratios stay ratios, so that they are kept where the case is varied further."""
+    known = (*Parameters.model_fields, *CHOOSING, *RATIOS)
+    case = {name: value for name, value in values.items() if name in known}
     return case | ({"disc": discs[case["disc"]]} if isinstance(case.get("disc"), str) else {})
 
 

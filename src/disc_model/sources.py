@@ -27,6 +27,7 @@ PACKAGE = Path(__file__).resolve().parent
 ASIDE = {  # modules that are not followed where they are imported, since they decide no result, with the reason
     "mode_choice": "is an entry point, where modes are chosen by the motion",
     "disc.plausibility": "warns",
+    "studies.costs": "estimates",
     "display": "shows to a reader",
     "simulation.pictures": "draws for a reader",
 }

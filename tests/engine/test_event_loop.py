@@ -72,7 +72,7 @@ def test_flights_say_how_they_end() -> None:
     start = simulate(P, 1e-6).final_state
     with np.errstate(all="ignore"):
         assert (
-            map_.next_release(start.replace(phase="slip", direction=1, f=1e308))[0]
+            map_.next_release(start.replace(phase="slip", direction=1, f=1e308)).outcome
             == transitions.NON_FINITE
         )
 
@@ -108,7 +108,7 @@ def test_a_flight_into_a_paradox_has_no_solution() -> None:
     x[1] = start.b[1] * map_.scale[1]
     assert outcome(map_, x) == transitions.NO_SOLUTION
     slipping = start.replace(phase="slip", direction=1, f=10.0)
-    assert map_.next_release(slipping)[0] == transitions.NO_SOLUTION
+    assert map_.next_release(slipping).outcome == transitions.NO_SOLUTION
 
 
 @pytest.mark.parametrize(("gap", "known"), [(1e-16, 1), (1e-13, 0)])

@@ -172,6 +172,20 @@ def test_numbers_flags_and_messages_come_through() -> None:
     assert known.keys() & labels.keys(), "axes are called as in figures"
 
 
+def test_an_axis_that_ends_at_infinity_is_told_in_words() -> None:
+    """JSON has no infinity, and the page could not be made."""
+    names = {"N": "friction_decay"}
+    study = plane().rename(names).assign_coords(friction_decay=[0.5, 2.0, np.inf])
+    seen = motions().rename(names)
+    seen = seen.assign_coords(friction_decay=("point", [0.5, np.inf, 0.5]))
+    told = contents_of("plane", study, seen)
+    assert json.loads(json.dumps(told, allow_nan=False)) == told
+    dims = {dim["name"]: dim["values"] for dim in told["dims"]}
+    assert dims["friction_decay"] == ["0.5", "2", "inf"]
+    place = told["motions"]["names"].index("friction_decay")
+    assert [point["at"][place] for point in told["motions"]["points"]] == ["0.5", "inf"]
+
+
 class Reader(HTMLParser):
     """Tags, and what stands in scripts and styles."""
 

@@ -1,5 +1,5 @@
 """Made-up studies for the figures of grids."""
 
-from tests.studies.conftest import fake_motions, plane, speeds, sweep, toy
+from tests.studies.conftest import fake_motions, fold_map, plane, speeds, sweep
 
-__all__ = ["fake_motions", "plane", "speeds", "sweep", "toy"]
+__all__ = ["fake_motions", "fold_map", "plane", "speeds", "sweep"]

@@ -88,7 +88,7 @@ def branch() -> Any:
     [
         ("growth_rate", "Growth rate of the cycle", "1/s"),
         ("period", "Period", "s"),
-        ("stick_fraction", "Stick", ""),
+        ("stick_fraction", "Share of the period spent sticking", ""),
     ],
 )
 def test_a_branch_has_the_variable_that_is_asked_for(y: str, words: str, unit: str) -> None:

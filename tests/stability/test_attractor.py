@@ -2,6 +2,7 @@
 
 import math
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -9,12 +10,15 @@ import pytest
 import yaml
 from scipy.stats import qmc
 
+from disc_model.analysis.classify import Settled, Settling
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State, static_start
-from disc_model.stability.attractors import Basins, random_perturbation
+from disc_model.stability import attractors
+from disc_model.stability.attractors import Arrival, Basins, random_perturbation
 from disc_model.stability.outcome import (
     OutcomeResult,
     Segment,
@@ -50,7 +54,7 @@ def test_each_outcome_is_told(which: str) -> None:
     ends = {
         "separation": {Stage.SEPARATED},
         "undecided": {Stage.HORIZON},
-        "growing": {Stage.HORIZON, Stage.STEADY},
+        "growing": {Stage.HORIZON},
     }
     assert found.stage in ends.get(outcome, {Stage.SETTLED})
 
@@ -168,3 +172,37 @@ def stretch(**changes: float) -> Segment:
         "separation_rate": 135.0,
     }
     return Segment(**{"P_min": 0.0, "P_max": 1.0, "u_min": -0.01, "u_max": 0.01} | shares | changes)
+
+
+# ------------------------------------------------------------------------ Sweeps
+def test_a_stay_is_doubled_until_it_has_settled_and_no_further(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """2, 2, 4, 8 s, and never beyond the longest; the late segment comes after that."""
+    simulated, described = list[tuple[float, float]](), list[tuple[float, float]]()
+
+    def simulate_to(p: Parameters, end: float, *, tol: float, initial_state: Any) -> Any:
+        begin = 0.0 if initial_state is None else initial_state.time
+        simulated.append((p.Omega, end - begin))
+        return SimpleNamespace(status=Status.OK, final_state=SimpleNamespace(time=end))
+
+    def settles(p: Parameters, legs: Any) -> Arrival:
+        done = len(legs) >= {10.0: 1, 11.0: 3, 12.0: 99}[p.Omega]
+        return Arrival(Settling(Settled.SETTLED if done else Settled.UNDECIDED))
+
+    def last(p: Parameters, state: Any, duration: float, late: float, tol: float) -> Any:
+        described.append((p.Omega, late))
+        end = SimpleNamespace(status=Status.OK, final_state=SimpleNamespace(time=state.time + late))
+        return end, stretch()
+
+    monkeypatch.setattr(attractors, "simulate", simulate_to)
+    monkeypatch.setattr(attractors, "arrival", settles)
+    monkeypatch.setattr(attractors, "final_segment", last)
+    p = Parameters(N=1, Omega=1)
+    steps = [step for step, *_ in attractors.sweep(p, "Omega", [10, 11, 12], 2.0, 20.0, 0.5, 1e-8)]
+    assert steps == [(0, 0), (0, 1), (0, 2), (1, 2), (1, 1), (1, 0)]
+    stays = {10.0: [2.0], 11.0: [2.0, 2.0, 4.0], 12.0: [2.0, 2.0, 4.0, 8.0]}
+    wanted = [(speed, stay) for speed in (10.0, 11.0, 12.0) for stay in stays[speed]]
+    down = [(speed, stay) for speed in (12.0, 11.0, 10.0) for stay in stays[speed]]
+    assert simulated == wanted + down
+    assert [speed for speed, _ in described] == [10.0, 11.0, 12.0, 12.0, 11.0, 10.0]

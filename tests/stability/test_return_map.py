@@ -1,16 +1,21 @@
 """The return map: its section, its derivatives, Newton on it."""
 
 import math
+import signal
+import time
 from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from disc_model import Parameters, simulate
+from disc_model import Parameters, floquet, simulate
+from disc_model.engine import event_loop, transitions
+from disc_model.stability import return_map
 from disc_model.stability.cycle import bifurcation_type, cycle_of
+from disc_model.stability.linear_motion import first_release
 from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Flight, ReturnMap, newton
-from tests.contact_laws import COMPILES, LAWS
+from tests.contact_laws import ALL_LAWS, COMPILES, COUPLE, LAWS
 from tests.engine.test_variational import differences
 from tests.references.printed import Printed
 
@@ -35,10 +40,10 @@ def central_differences(
 def after_separation(p: Parameters, t_end: float) -> tuple[ReturnMap, np.ndarray]:
     """A point of the section on the motion after contact was first lost."""
     late = simulate(p, t_end).final_state
-    map_ = ReturnMap(p)
-    outcome, x = map_.next_release(late)
-    assert outcome == RETURNED
-    return map_, x
+    map_ = ReturnMap(p, patient=True)
+    release = map_.next_release(late)
+    assert release.reached
+    return map_, release.x
 
 
 class Affine:
@@ -101,6 +106,124 @@ def test_the_section_is_where_stick_is_released():
     assert p.r_0 * (p.k_p * state.psi + p.c_p * p.Omega) == pytest.approx(p.mu_s * force, rel=1e-12)
     events = simulate(p, 1e-6, initial_state=state.replace(psi=state.psi * (1 - 1e-9))).events
     assert events["kind"][0] == "stick_to_slip"
+
+
+# kernels of the first three are compiled by other quick tests
+FIRST_STICKS = {
+    "vertical": pytest.param({}, id="vertical"),
+    "vertical_coupled": pytest.param(COUPLE, id="vertical_coupled"),
+    "bilateral_coupled": pytest.param(COUPLE | {"contact": "bilateral"}, id="bilateral_coupled"),
+} | {
+    name: pytest.param(law, id=name, marks=COMPILES)
+    for name, law in ALL_LAWS.items()
+    if name != "vertical_coupled"
+}
+
+
+@pytest.mark.parametrize("law", FIRST_STICKS.values())
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"c_p": 1.5, "Omega": 40.0},
+        {"c": 0.3, "k_p": 3e3},
+        # the first stick is longer than any later return
+        {"mu_k": 0.4, "Omega": 1.0},
+    ],
+)
+def test_a_search_begins_where_the_simulated_static_start_is_first_released(law, changes) -> None:
+    """It began at static equilibrium: friction on the surface bends the disc during the first
+    stick."""
+    p = P.replace(N=400.0, n_diameters=2, **changes, **law)
+    map_ = ReturnMap(p)
+    release = map_.first_release
+    # an independent path to the event: the closed form of stick, and a search for the root
+    run = simulate(p, 2 * release.time, tol=1e-14)
+    kind, time = run.events["kind"].iloc[0], run.events["time"].iloc[0]
+    assert (kind, release.reached) == ("stick_to_slip", True)
+    assert release.time == pytest.approx(time, rel=1e-11)
+    before = simulate(p, time * (1 - 1e-12), tol=1e-14).final_state
+    # a picosecond of motion before the event, and rounding
+    apart = np.linalg.norm(release.x - map_.point(before))
+    assert apart < 1e-9 * map_.deflection
+    bent = np.linalg.norm(release.x - map_.static) > 1e-6 * map_.deflection
+    assert bent == ("friction_offset" in law)
+    assert first_release(p) == release.time
+
+
+def test_a_slider_that_is_pulled_loose_at_once_is_not_on_the_section() -> None:
+    """The damper pulls more than friction holds. A point of the section has a spring that pulls
+    backwards instead, from which a search went on."""
+    p = P.replace(c_p=1.0, Omega=9.0, N=2.0, mu_s=0.4, mu_k=0.1)
+    assert p.r_0 * p.c_p * p.Omega > p.mu_s * p.N
+    run = simulate(p, 1.0, tol=1e-13)
+    assert run.events["kind"].tolist() == ["stick_to_slip"]
+    assert run.events["time"].tolist() == [0.0]
+    assert not ReturnMap(p).first_release.reached
+    assert math.isnan(first_release(p))
+    assert floquet(p).status == "no_stick_slip"
+    # a damper that pulls a thousandth less leaves that to the spring
+    limit = p.mu_s * p.N / p.r_0
+    barely = p.replace(c_p=0.999 * limit / p.Omega)
+    assert first_release(barely) == pytest.approx(0.001 * limit / (p.k_p * p.Omega), rel=1e-9)
+
+
+def test_a_flight_in_pieces_is_the_same_flight(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Between pieces Ctrl-C is answered: kernels cannot be interrupted, and a mass of 1e12 kg kept
+    them busy for minutes."""
+    calls = []
+    integrate = event_loop.integrate
+    monkeypatch.setattr(
+        event_loop, "integrate", lambda *arguments: calls.append(1) or integrate(*arguments)
+    )
+    map_ = ReturnMap(P.replace(c=0.2))
+    how = {"releases": 3}
+    whole = map_.evaluate(map_.static, **how)
+    bare = map_.evaluate(map_.static, tangent=False, **how)
+    release = map_.next_release(simulate(map_.parameters, 0.003).final_state)
+    assert len(calls) == 3
+    monkeypatch.setattr(return_map, "WORK_PER_PIECE", 3)
+    again = map_.evaluate(map_.static, **how)
+    assert len(calls) > 10
+    bare_again = map_.evaluate(map_.static, tangent=False, **how)
+    release_again = map_.next_release(simulate(map_.parameters, 0.003).final_state)
+    assert again.counts == whole.counts
+    assert again.period == pytest.approx(whole.period, rel=1e-13)
+    assert again.stick_time == pytest.approx(whole.stick_time, rel=1e-11)
+    # shorter steps; the map is accurate to 1e-12
+    size = map_.deflection
+    np.testing.assert_allclose(again.end, whole.end, rtol=0, atol=1e-11 * size)
+    np.testing.assert_allclose(bare_again.end, bare.end, rtol=0, atol=1e-11 * size)
+    np.testing.assert_allclose(again.jacobian, whole.jacobian, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(release_again.x, release.x, rtol=0, atol=1e-11 * size)
+    assert release_again.time == pytest.approx(release.time, rel=1e-12)
+    # the limit of time is that of the whole flight
+    slides = ReturnMap(P.replace(c_p=1.0, Omega=9.0, N=2.0))
+    assert slides.first_release.outcome == transitions.TIME_OVER
+    assert slides.first_release.time == pytest.approx(slides.longest, rel=1e-9)
+
+
+@pytest.mark.compiled
+def test_a_very_heavy_slider_leaves_floquet_open_to_interruption() -> None:
+    """A kernel of minutes answered Ctrl-C only when it was done."""
+
+    class Interrupted(Exception):
+        """Raised by the alarm."""
+
+    def interrupt(*_: object) -> None:
+        raise Interrupted
+
+    floquet(P)  # compiles
+    before = signal.signal(signal.SIGALRM, interrupt)
+    signal.setitimer(signal.ITIMER_REAL, 0.2)
+    begin = time.monotonic()
+    try:
+        with pytest.raises(Interrupted):
+            floquet(P.replace(m=1e12))
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert time.monotonic() - begin < 20  # a piece takes 0.2 s, or seconds on a busy machine
 
 
 @pytest.mark.compiled

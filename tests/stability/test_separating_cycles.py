@@ -96,8 +96,9 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
     branch = continue_cycle(p, "Omega", (14.0, 18.0), **how)
     end = float(branch.values[-1, 0])
     assert end == pytest.approx(15.97174, abs=1e-4)
-    assert branch.ended.startswith("the order of events changes: separations 2 to ")
+    assert branch.ended == "stick vanishes: the cycle touches zero slip speed"
     assert np.all(branch.growth_rate < 0)
+    assert np.all(branch.separations == 2)
     # started a little beside the branch, motions come to it; a jump of the speed can lead elsewhere
     middle = int(np.argmin(np.abs(branch.values[:, 0] - 15.6)))
     for point, shift, found in ((middle, 0.0, True), (-1, -0.01, True), (-1, 0.01, False)):
@@ -112,3 +113,18 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
         assert repeats == found
         if shift == 0:
             assert times[2] - times[0] == pytest.approx(branch.period[point], rel=0, abs=1e-9)
+
+
+def test_a_branch_passes_a_grazing_at_which_the_map_is_continuous() -> None:
+    """N = 385 N, one release: below 9.757 rad/s the cycle no longer separates."""
+    p = Parameters(N=385, Omega=12)
+    late = settled(p, 300.0, settled(p.replace(Omega=15.3), 100.0))
+    branch = continue_cycle(p, "Omega", (9.0, 12.5), guess=late, direction=-1)
+    assert branch.ended == "the bound Omega = 9 rad/s was reached"
+    [grazing] = [each for each in branch.special if each.kind == "grazing"]
+    assert np.all(branch.separations[: grazing.after + 1] == 1)
+    assert not branch.separations[grazing.after + 1 :].any()
+    # simulated some steps beside it, one cycle loses contact, and the other keeps it
+    for i, separates in ((grazing.after - 3, True), (grazing.after + 4, False)):
+        run = simulate(branch.case_at(i), branch.period[i], initial_state=branch.state(i))
+        assert (run.statistics["separations"] > 0) == separates

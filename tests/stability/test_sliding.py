@@ -18,6 +18,7 @@ from disc_model.stability.sliding import (
 )
 from tests.contact_laws import ALL_LAWS, COMPILES
 from tests.engine.full_system import Full
+from tests.references import taylor
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
 
@@ -95,6 +96,34 @@ def test_without_friction_sliding_is_stable_up_to_the_critical_speed_of_the_movi
         assert (sliding.growth_rate > 1e-6) == grows == sliding.growing.size, share
 
 
+EQUILIBRIA = {"base": {}, "surface": {"friction_offset": "surface"}} | ALL_LAWS
+
+
+@pytest.mark.parametrize("law", EQUILIBRIA.values(), ids=EQUILIBRIA)
+@pytest.mark.parametrize("changes", [{"Omega": 7.0}, {"Omega": 120.0, "k": 2e5}, {"N": 900.0}])
+def test_all_rates_of_the_model_s_equations_vanish_in_steady_sliding(law, changes):
+    """By the equations of slip of an independent program, of which every rate of size counts."""
+    p = Parameters(
+        **{"N": 300, "Omega": 40, "c": 0.3, "c_p": 0.7, "D_star": 5e-4, **changes, **law}
+    )
+    state = state_of(p, steady_sliding(p))
+    modes = plate_modes(p)
+    sign = np.sign(modes["psi"].to_numpy())
+    flipped = {name: sign * getattr(state, name) for name in ("a", "b", "alpha", "beta")}
+    step = taylor.Step(taylor.problem_of(p), "slip", 1, state.replace(**flipped), order=1)
+    # the size of a rate is that of its largest term
+    static, omega = p.N * np.abs(modes["psi"] / modes["omega"]).max(), modes["omega"].max()
+    for name in ("alpha", "beta"):
+        assert np.abs(getattr(step, name)[1]).max() < 1e-12 * omega * static
+    for name in ("a", "b"):
+        assert np.abs(getattr(step, name)[1]).max() < 1e-12 * static
+    assert abs(step.psi[1]) < 1e-13 * p.Omega
+    assert abs(step.f[1]) < 1e-12 * p.N / (p.m * p.r_0)
+    if p.contact_compliance:
+        assert abs(step.u[1]) < 1e-14
+        assert abs(step.v[1]) < 1e-11 * p.N / p.m
+
+
 BONDED = {"Omega": 1520.0, "contact": "bilateral"}
 LOOSE = {"k_p": 0, "mu_k": 0}
 
@@ -117,6 +146,14 @@ LOOSE = {"k_p": 0, "mu_k": 0}
         (LOOSE, SlidingStatus.OK),
         ({**LOOSE, "contact_force": "normal"}, SlidingStatus.NO_SPRING),
         ({**LOOSE, "contact_force": "normal", "D_star": 0}, SlidingStatus.OK),
+        # the damping that counts is that of the modes, whatever gives it
+        ({**LOOSE, "contact_force": "normal", "damping_ratio": 0.0}, SlidingStatus.OK),
+        ({**LOOSE, "contact_force": "normal", "damping_ratio": 1e-3}, SlidingStatus.NO_SPRING),
+        # nor does it slope where no mode has a nodal diameter
+        ({**LOOSE, "contact_force": "normal", "n_diameters": 0}, SlidingStatus.OK),
+        # friction that falls with the speed has not fallen to mu_k = 0 at any
+        ({**LOOSE, "friction_decay": 5.0}, SlidingStatus.NO_SPRING),
+        ({**LOOSE, "friction_decay": 5.0, "mu_s": 0.0}, SlidingStatus.OK),
     ],
 )
 def test_steady_sliding_says_why_there_is_none(changes, status):

@@ -18,10 +18,10 @@ from disc_model.studies import run
 from disc_model.studies.merge import merge_batches
 from disc_model.studies.quantity import STATUSES, tried
 from disc_model.studies.run import run_batch
-from tests.stability.toy_map import fold_at, outside, toy
+from tests.stability.continuation.toy_maps import fold_at, fold_map, outside
 from tests.studies.refused import parse_grid
 
-__all__ = ["toy"]
+__all__ = ["fold_map"]
 SMALL = {"n_diameters": 1}
 
 
@@ -75,7 +75,7 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         first_separation = first if first <= horizon else math.nan
         return OutcomeResult(None, simulated=min(first, horizon), first_separation=first_separation)
 
-    def arrival(p, legs, tol):
+    def arrival(p, legs):
         """All have settled."""
         return attractors.Arrival(Settling(Settled.SETTLED))
 
@@ -132,7 +132,7 @@ def sweep(fake_motions: None) -> xr.Dataset:
 
 
 @pytest.fixture
-def plane(toy: None) -> xr.Dataset:
+def plane(fold_map: None) -> xr.Dataset:
     options = {
         "x_range": [3, 18],
         "y_lines": {"start": 180, "stop": 420, "count": 3},

@@ -1,7 +1,9 @@
 """Grid studies: what files may say, how grids become batches, and what of a grid is left out."""
 
 import json
+import math
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -10,11 +12,16 @@ import xarray as xr
 
 from disc_model import floquet
 from disc_model.data.variables import flag_names
+from disc_model.errors import DiscModelError
 from disc_model.figures import selection
 from disc_model.figures.render import render
-from disc_model.mode_choice import choose_modes
+from disc_model.mode_choice import ModeRequest, choose_modes
+from disc_model.parameters import Parameters
+from disc_model.simulation.case import Start
+from disc_model.studies import run
 from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import failures, merge_batches
+from disc_model.studies.quantity import Point
 from disc_model.studies.run import run_batch
 from tests.studies.conftest import computed, study
 from tests.studies.refused import parse_grid
@@ -48,6 +55,25 @@ def test_changes_change_only_the_batches_they_touch() -> None:
     assert len(set(parse_grid(study(axes={**axes, "Omega": longer})).batches) - before) == 3
 
 
+def test_an_axis_may_end_at_infinity() -> None:
+    """JSON has no infinity: the batches had a word in its place, and could not be merged."""
+    axes = {"friction_decay": [0.5, "inf", 2], "c_p": [0.0, 0.1]}
+    base = {"N": 300, "Omega": 14, "n_diameters": 1}
+    done = computed(quantity="floquet", base=base, axes=axes)
+    assert done["friction_decay"].values.tolist() == [0.5, 2, np.inf]
+    for decay in done["friction_decay"].values:
+        for c_p in done["c_p"].values:
+            own = floquet(Parameters(**base, friction_decay=decay, c_p=c_p))
+            found = done["growth_rate"].sel(friction_decay=decay, c_p=c_p)
+            np.testing.assert_equal(found.item(), own.growth_rate)
+    plane = computed(
+        quantity="regions", options={"horizon": 1}, base=base | {"c_p": 0.1}, axes={
+            "friction_decay": [0.5, math.inf], "mu_s": [0.3, 0.4],
+        }
+    )  # fmt: skip
+    assert plane["friction_decay"].values.tolist() == [0.5, np.inf]
+
+
 AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}
 
 
@@ -66,6 +92,33 @@ def test_the_modes_are_chosen_for_each_point() -> None:
     assert done["n_diameters"][0] < done["n_diameters"][1]
     assert done["n_diameters"].dims == ("normalization",)
     assert json.loads(done.attrs["base"])["n_diameters"] == "auto"
+
+
+def test_a_point_for_which_no_modes_can_be_chosen_fails_alone(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def chosen_modes(p: Parameters, request: ModeRequest) -> SimpleNamespace:
+        if p.N > 150:
+            raise DiscModelError("undecided")
+        return SimpleNamespace(parameters=p.replace(n_diameters=1))
+
+    monkeypatch.setattr(run, "chosen_modes", chosen_modes)
+    base = {"Omega": 20, "k_p": 0, **AUTOMATIC}
+    done = computed(quantity="floquet", base=base, axes={"N": [100, 200]})
+    assert flag_names(done["status"]).tolist() == ["at_rest", "failed"]
+    assert done["n_diameters"].values.tolist() == [1, -1]
+    assert done["n_circles"].values.tolist() == [0, -1]
+    assert done["message"].values[1] == "DiscModelError: undecided"
+
+
+def test_a_perturbation_along_an_axis_is_added_to_that_of_the_start() -> None:
+    p = Parameters(N=200, Omega=20)
+    starts = {"kicked": Start(perturbation={"u": 2e-3, "f": 1.0}), None: Start()}
+    varied = {"perturbation_u": 1e-3, "start": "kicked", "N": 200}
+    point = run._point(p, varied, starts)
+    assert isinstance(point, Point)
+    assert point.start.perturbation == pytest.approx({"u": 3e-3, "f": 1.0})
+    assert run._point(p, {"sample": 7}, starts) == Point(p, Start(), 7)
 
 
 OUTCOME = "studies.quantities.outcome"

@@ -234,6 +234,13 @@ def test_a_run_says_in_the_end_what_has_no_result(
     grids = parse_study(GRID).grids()[0]
     (folder := tmp_path / "results" / "s").mkdir(parents=True)
     (folder / "s.failed.txt").write_text("Omega = 10: paradox\nOmega = 20: paradox\n")
+    file = Path("results/s/s.failed.txt")
+    assert list(closing_lines(grids)) == [f"s: 2 of 4 points have no result, see {file}"]
+    # a motion that has not settled has its samples all the same
+    (folder / "s.failed.txt").write_text(
+        "Omega = 10: paradox\nOmega = 20: ok: not settled after 80 s: changing at 0.1/s\n"
+    )
     assert list(closing_lines(grids)) == [
-        f"s: 2 of 4 points have no result, see {Path('results/s/s.failed.txt')}"
+        f"s: 1 of 4 points have no result, see {file}",
+        f"s: 1 of 4 points have a remark, see {file}",
     ]

@@ -2,6 +2,7 @@
 workflow's batches."""
 
 import json
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -95,6 +96,57 @@ def test_a_wrong_argument_of_the_function_ends_a_sweep_at_once(workers: int) -> 
     assert len(called) <= 2 * workers  # those that other workers had begun
     with pytest.raises(dm.ParameterError, match=r"^t_end: is required"):
         sweep(dm.simulate, P, N=[200], workers=workers)
+
+
+def test_an_argument_that_is_refused_later_on_fails_its_own_point() -> None:
+    def function(case: dm.Parameters, length: float) -> float:
+        if case.N > 150:
+            raise dm.ParameterError(f"length={length}: must be short at such a load")
+        return case.N * length
+
+    swept = sweep(function, P, N=[100, 200], length=2.0)
+    assert swept["status"].values.tolist() == ["ok", "failed"]
+    assert swept["message"].values[1].startswith("ParameterError: length=2.0: must be short")
+    np.testing.assert_array_equal(swept["value"], [200.0, np.nan])
+    with pytest.raises(dm.ParameterError, match="must be short"):
+        sweep(function, P, N=[200, 100], length=2.0)
+
+
+def test_an_argument_of_the_function_is_no_axis_though_a_parameter_has_its_name() -> None:
+    swept = sweep(lambda case, k: k + case.k, P, N=[1, 2], k=3.0)
+    assert swept["value"].dims == ("N",)
+    assert swept["value"].values.tolist() == [3.0 + P.k] * 2
+
+
+def test_what_a_sweep_gathers_keeps_its_kind() -> None:
+    def function(case: dm.Parameters) -> xr.Dataset:
+        values = {"light": case.N < 150, "heavy": case.N > 150}
+        if case.N > 150:
+            del values["light"]
+        return xr.Dataset(values, attrs={"message": f"of {case.N:g} N"})
+
+    swept = sweep(function, P, N=[100, 200])
+    assert swept["heavy"].dtype == bool
+    assert swept["heavy"].values.tolist() == [False, True]
+    np.testing.assert_array_equal(swept["light"], [1.0, np.nan])
+    assert swept["message"].values.tolist() == ["of 100 N", "of 200 N"]
+
+
+@pytest.mark.parametrize(
+    ("call", "name"),
+    [
+        (lambda: dm.critical_speed(P, (14, 15), [5, "x"]), "horizon.1='x'"),
+        (lambda: dm.critical_speed(P, (14, 15), step=-1), "scan.step=-1"),
+        (lambda: dm.outcome(P, 10, start={"u": "x"}), "start.u='x'"),
+        (lambda: dm.basins(P, n_starts=0), "n_starts=0"),
+    ],
+)
+def test_a_wrong_argument_is_named_as_the_function_has_it(
+    call: Callable[[], object], name: str
+) -> None:
+    with pytest.raises(dm.ParameterError) as error:
+        call()
+    assert any(fault.startswith(name) for fault in error.value.faults), error.value.faults
 
 
 def test_a_study_of_cases_is_a_tree() -> None:

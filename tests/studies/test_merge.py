@@ -3,11 +3,13 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.studies.merge import MergeError, failures, merge_batches
+from disc_model.studies.merge import MergeError, failures, merge_batches, merge_cases
 from disc_model.studies.run import run_batch
+from tests.studies.conftest import computed
 from tests.studies.refused import parse_grid
 
 #: The slider stays where it is on the disc: nothing has to be computed.
@@ -37,6 +39,74 @@ def test_merged_points_are_in_the_order_of_the_grid(
     lines = list(failures(merged))
     assert len(lines) == 4
     assert lines[0].startswith("N = 100, Omega = 10: permanent stick: Nothing ever slips")
+
+
+def test_a_point_with_a_result_and_a_message_is_listed() -> None:
+    """Such as one whose motion had not settled."""
+    flags = {"flag_meanings": "ok failed excluded"}
+    study = xr.Dataset(
+        {
+            "status": ("N", np.array([0, 0, 1, 2], np.int8), flags),
+            "message": ("N", ["", "not settled", "ParameterError: x", ""]),
+        },
+        {"N": [1.0, 2.0, 3.0, 4.0]},
+    )
+    assert list(failures(study)) == ["N = 2: ok: not settled", "N = 3: failed: ParameterError: x"]
+
+
+def test_a_study_states_the_starts_of_all_batches_and_its_rules() -> None:
+    starts = {name: {"perturbation": {"u": u}} for name, u in (("a", 1e-4), ("b", 2e-4))}
+    raw = {
+        "quantity": "floquet",
+        "base": {"k_p": 0, "Omega": 10},
+        "axes": {"N": [100, 200], "c": [0.0, 1.0]},
+        "where": ["N > 50", "c < 2 or N < 150"],
+    }
+    done = computed(**raw)
+    assert done.attrs["where"] == "(N > 50) and (c < 2 or N < 150)"
+    raw = {"study": "s", "quantity": "outcome", "options": {"horizon": 5}, "starts": starts}
+    raw |= {"base": {"N": 200, "Omega": 20}, "axes": {"start": ["a", "b"]}, "batch": {"size": 1}}
+    grid = parse_grid(raw)
+    texts = [json.loads(text) for text in grid.batches.values()]
+    assert [[*text["starts"]] for text in texts] == [["a"], ["b"]]
+    point = {"status": ("point", np.array([0], np.int8), {"flag_meanings": "ok failed"})}
+    batches = [
+        xr.Dataset(point, {"start": ("point", [name])}, {"specification": text})
+        for name, text in zip("ab", grid.batches.values(), strict=True)
+    ]
+    assert json.loads(merge_batches(batches, grid.grid, {}).attrs["starts"]).keys() == {"a", "b"}
+
+
+def test_the_table_of_cases_has_their_messages_and_labels() -> None:
+    cases = {
+        name: xr.DataTree(xr.Dataset({"N": N}, attrs={"message": message, "source_hash": "1"}))
+        for name, N, message in (("A", 1.0, ""), ("B", 2.0, "a paradox"))
+    }
+    merged = merge_cases(cases, {"A": {"title": "first", "reference": "Fig. 1"}}).to_dataset()
+    assert merged["case"].values.tolist() == ["A", "B"]
+    for name, texts in {
+        "message": ["", "a paradox"],
+        "title": ["first", ""],
+        "reference": ["Fig. 1", ""],
+    }.items():
+        assert merged[name].values.tolist() == texts
+    assert merged.attrs["source_hash"] == "1"
+
+
+def test_what_a_quantity_varies_is_no_value_of_the_base(fake_motions: None) -> None:
+    """A study of critical speeds stated a speed of 0, and one along mu_s the default."""
+    scan = {"start": 12, "stop": 13, "count": 2}
+    options = {"horizons": [900], "scan": scan, "precision": 1}
+    done = computed(quantity="critical_speed", options=options, axes={"N": [200], "c": [0.0]})
+    base = json.loads(done.attrs["base"])
+    assert not {"N", "c", "Omega"} & base.keys()
+    assert base["mu_s"] == 0.4
+    still = {"N": 200, "Omega": 20, "k_p": 0}
+    options = {"parameter": "mu_k_over_mu_s", "scan": {"start": 0.4, "stop": 0.5, "count": 2}}
+    done = computed(quantity="sliding", options=options, base=still, axes={"c": [0.0]})
+    base = json.loads(done.attrs["base"])
+    assert "mu_k" not in base
+    assert base["mu_s"] == 0.4
 
 
 def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:

@@ -9,6 +9,7 @@ from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
+from disc_model.studies.grid import Dimension
 from disc_model.studies.motions import SAMPLES, run_motions
 from disc_model.studies.quantity import quantity_of
 from tests.studies.refused import parse_grid
@@ -35,6 +36,15 @@ def test_points_of_a_study_and_the_name_of_their_file():
     assert texts("floquet") == {name: text}
     assert name not in texts("floquet", options={"tol": 1e-11})
     assert name not in parse_grid({"study": "small", "quantity": "floquet", "axes": AXES}).batches
+
+
+def test_motions_are_kept_at_evenly_spaced_values_and_at_every_word():
+    eight = Dimension(["c"], [[(float(i),) for i in range(8)]])
+    assert eight.thinned(4).values == ((0.0,), (2.0,), (5.0,), (7.0,))
+    assert eight.thinned(1).values == ((0.0,),)
+    assert eight.thinned(9).values == eight.values
+    words = Dimension(["start"], [[(word,) for word in "abc"]])
+    assert words.thinned(2).values == words.values
 
 
 def test_samples_are_those_of_the_motion():

@@ -11,6 +11,7 @@ import pytest
 
 from disc_model.data.variables import Variable, flag_names
 from disc_model.parameters import Parameters
+from disc_model.studies.costs import PAPER
 from disc_model.studies.quantity import (
     STATUS,
     STATUSES,
@@ -95,7 +96,7 @@ def test_a_batch_of_a_grid_has_the_results_of_its_points(name: str) -> None:
 def test_a_quantity_says_what_it_costs_and_what_its_motions_show(name: str) -> None:
     quantity = quantity_of(name)
     assert "status" in quantity.COLUMNS
-    assert 0 < quantity.model_validate(OPTIONS[name]).cost() < 600
+    assert 0 < quantity.model_validate(OPTIONS[name]).cost(PAPER) < 600
     assert (
         bool(quantity.motions)
         == bool(quantity.motion)

@@ -12,13 +12,8 @@ import yaml
 from disc_model import Parameters
 from disc_model.data.files import MissingFile, UnreadableFile
 from disc_model.simulation.case import Window
-from disc_model.studies.study import (
-    StudyError,
-    load_study,
-    parse_study,
-    read_file,
-    study_from_config,
-)
+from disc_model.studies.reading import StudyError
+from disc_model.studies.study import inherit, load_study, parse_study, study_from_config
 from tests.studies.refused import faults_of
 
 CASE = {"title": "", "parameters": {"N": 1, "Omega": 1}, "t_end": 1}
@@ -31,6 +26,7 @@ GRID: dict[str, Any] = {
         "growth": {"kind": "heat_map", "variable": "growth_rate", "x": "mu_s", "y": "mu_k"}
     },
 }
+OTHER_S = GRID | {"study": "six", "figures": {"f": GRID["figures"]["growth"] | {"study": "mine"}}}
 CASES: dict[str, Any] = {
     "study": "small",
     "base": {"N": 385, "c": 0.1},
@@ -67,6 +63,8 @@ def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:
     entries = study.entries(grids)
     assert entries[CASES["study"], "f"].inputs == {"study": "other"}
     assert list(entries) == [(CASES["study"], "f"), ("other", "growth")]
+    # a figure of a section is one of the report's, any other a map or curve
+    assert [entry.category for entry in entries.values()] == ["Figures", "Maps and curves"]
     with pytest.raises(StudyError, match=r"figures\.f\.study='elsewhere': no such study"):
         parse_study(CASES | {"figures": {"f": growth | {"study": "elsewhere"}}}).grids([tmp_path])
     with pytest.raises(StudyError, match=r"figures\.growth\.study='small': no such study"):
@@ -86,6 +84,30 @@ def test_cases_inherit_and_override() -> None:
     assert a.windows == (("history", Window(start=0, stop=10, rate=100)),)
 
 
+def test_a_value_of_null_drops_what_is_inherited() -> None:
+    below = {"windows": {"late": {"rate": 1}, "whole": {"rate": 2}}, "title": "t"}
+    changes = {"windows": {"late": None}, "title": None, "new": None, "more": 3}
+    expected = {"windows": {"whole": {"rate": 2}}, "new": None, "more": 3}
+    assert inherit(below, changes) == expected
+    assert below["title"] == "t"
+
+
+def test_a_tolerance_is_that_of_all_cases_but_those_with_their_own() -> None:
+    a, b = parse_study(CASES | {"tol": 1e-7}).specs.values()
+    assert (a.tol, b.tol) == (1e-7, 1e-8)
+
+
+def test_a_case_may_have_a_disc_of_its_own(tmp_path: Path) -> None:
+    table = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n0,240,1.5\n1,250,2.1\n"
+    (tmp_path / "disc.csv").write_text(table)
+    own = {"A": CASE | {"parameters": {"N": 1, "Omega": 1, "disc": "disc.csv", "r_0": 0.11}}}
+    p = parse_study({"study": "s", "cases": own | {"B": CASE}}, tmp_path).specs["A"].parameters
+    assert p.disc is not None
+    assert p.disc.diameters == (0, 1)
+    [fault] = faults_of(parse_study, {"study": "s", "cases": own}, tmp_path / "elsewhere")
+    assert fault.startswith("cases.A.parameters.disc: ")
+
+
 # ---- files
 
 
@@ -97,41 +119,6 @@ def test_keys_given_twice(tmp_path: Path) -> None:
         lambda file: study_from_config({"study": "x", "cases": {"A": CASE}}, [file]),
     ):
         assert re.search(r"N is given twice\n.* line 3, column 56", faults_of(load, path)[0])
-
-
-@pytest.mark.parametrize(
-    ("text", "shown"),
-    [
-        ("010000", "010000 for a number in base 8: leave the zero"),
-        ("-017", "-017 for a number in base 8: leave the zero"),
-        ("1:30", "1:30 for a number in base 60: write a number without a colon"),
-        ("1:30:15.5", "1:30:15.5 for a number in base 60: write a number without a colon"),
-    ],
-)
-def test_numbers_that_yaml_takes_in_another_base_are_refused(
-    text: str, shown: str, tmp_path: Path
-) -> None:
-    """k: 010000 was 4096 N/m, and N: 1:30 was 90 N."""
-    (path := tmp_path / "base.yaml").write_text(f"study: x\nbase: {{N: {text}, Omega: 2}}\n")
-    (fault,) = faults_of(load_study, path)
-    assert f"YAML takes {shown}" in fault
-    assert "line 2, column 11" in fault
-    for right in ("0", "10000", "1e6", "0x10", "'010000'", "0.5", "010.5", "100_000", "12 rpm"):
-        path.write_text(f"N: {right}\n")
-        assert read_file(path) == yaml.safe_load(path.read_text())
-
-
-def test_aliases_that_repeat_too_much_are_refused_at_once(tmp_path: Path) -> None:
-    """300 bytes took minutes and gigabytes in a message."""
-    lines = ["a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]"]
-    for i in range(1, 12):
-        lines.append(f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]")
-    (path := tmp_path / "deep.yaml").write_text("\n".join([*lines, "study: *a11"]))
-    assert "repeat more than 1000000 values" in faults_of(load_study, path)[0]
-    path.write_text("study: &a [*a]\n")
-    assert "or a part within itself" in faults_of(load_study, path)[0]
-    path.write_text("\n".join(lines[:3]))
-    assert len(read_file(path)["a2"]) == 10
 
 
 @pytest.mark.parametrize("read", [load_study, lambda path: study_from_config({}, [path])])
@@ -170,9 +157,14 @@ def test_faults_between_studies_are_reported_together(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "content", "fault"),
     [
-        ("one", {"study": "one", "quantity": "outcome"}, "options.horizon: is required"),
+        (
+            "one",
+            {"study": "one", "quantity": "outcome"},
+            "options.horizon: is required: number > 0 (s), longest simulated time",
+        ),
         ("all", GRID | {"study": "all"}, "study = 'all': is the name of another folder of results"),
         ("five", {"study": "five", "cases": {"A": CASE}}, "study = 'five': must be a grid alone"),
+        ("six", OTHER_S, "study = 'six': must have no figures of other studies"),
     ],
 )
 def test_a_fault_of_another_file_is_named(

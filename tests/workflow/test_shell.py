@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from disc_model.studies.messages import INTERRUPTED
 from tests import processes
 from tests.workflow.conftest import TEXTS
 
@@ -36,4 +37,29 @@ def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
             os.killpg(study.pid, signal.SIGINT)  # as a terminal does
             code = study.wait(300)
             log.seek(0)
-            assert (code != 0, list(locks.glob("*"))) == (True, []), log.read()
+            said = log.read()
+            assert (code != 0, list(locks.glob("*"))) == (True, []), said
+            # a broken pipe's traceback and the points of the batches followed
+            assert "Traceback" not in said
+            assert '"points"' not in said
+            assert said.splitlines()[-1] in (INTERRUPTED, "error: interrupted")
+
+
+def test_what_was_finished_before_an_interrupt_is_not_computed_again(tmp_path: Path) -> None:
+    text = (TEXTS / "long.yaml").read_text().replace("241", "4").replace("201", "3")
+    (tmp_path / "mine.yaml").write_text(f"{text}batch: {{size: 1}}\n")
+    command = [PROGRAM, "study", "mine.yaml", "-j1"]
+    with (tmp_path / "log").open("w+") as log:
+        study = subprocess.Popen(
+            command, cwd=tmp_path, stdout=log, stderr=log, start_new_session=True
+        )
+        # one job at a time: what is there when the next one has begun to write is finished
+        while len(made := list(tmp_path.glob("results/*/batches/[!.]*.nc"))) < 2:
+            assert study.poll() is None
+            time.sleep(0.05)
+        os.killpg(study.pid, signal.SIGINT)
+        assert study.wait(300) != 0
+    first = min(made, key=lambda path: path.stat().st_mtime_ns)
+    finished = first.stat().st_mtime_ns
+    processes.run(*command, cwd=tmp_path, timeout=600)
+    assert first.stat().st_mtime_ns == finished

@@ -20,7 +20,7 @@ rule simulate_case:
 
 rule merge_cases:
     input:
-        sorted(map(case_file, STUDY.specs)),
+        lambda w: need(sorted(map(case_file, STUDY.specs))),
     output:
         nc=f"{RESULTS}/cases.nc",
         html=report(

@@ -34,7 +34,7 @@ rule check_claims:
 rule make_table:
     # Tables 1 and 2 of the paper, and two of what results rest on: each from its own cases, if the study has them.
     input:
-        lambda w: [*map(case_file, TABLE_CASES[w.table])],
+        lambda w: need([*map(case_file, TABLE_CASES[w.table])]),
     output:
         csv=f"{RESULTS}/tables/{{table}}.csv",
         md=f"{RESULTS}/tables/{{table}}.md",

@@ -8,14 +8,16 @@ import sys
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
+from signal import SIGINT, signal
 from subprocess import DEVNULL, PIPE, Popen
 from tempfile import TemporaryDirectory
+from threading import current_thread, main_thread
 from weakref import finalize
 
 from snakemake.exceptions import WorkflowError
 from snakemake.io import IOFile
 from snakemake.logging import logger
-from snakemake.settings.types import DeploymentMethod
+from snakemake.settings.types import DeploymentMethod, RerunTrigger
 from snakemake.shell import shell
 
 CONDA = DeploymentMethod.CONDA in workflow.deployment_settings.deployment_method
@@ -27,23 +29,19 @@ if find_spec("disc_model") is None and (SOURCES / "disc_model").is_dir():
     sys.path.insert(0, str(SOURCES))
 
 
-def put_first(variable, folder):
-    """Let jobs search a folder before the others of a variable of the environment."""
-    folders = filter(None, [str(folder), os.environ.get(variable)])
-    os.environ[variable] = os.pathsep.join(folders)
-
-
-# Jobs use the interpreter of Snakemake, whether or not its environment is active, or that of conda.
-if not CONDA:
-    put_first("PATH", Path(sys.executable).parent)
+# Jobs use the interpreter of Snakemake, whatever its name and whether or not its environment is active, or that of conda.
+INTERPRETER = "python" if CONDA else sys.executable
 if CONDA or str(SOURCES) in sys.path:
-    put_first("PYTHONPATH", SOURCES)
-os.environ.update(PYTHONUTF8="1")  # in any locale
+    folders = filter(None, [str(SOURCES), os.environ.get("PYTHONPATH")])
+    os.environ.update(PYTHONPATH=os.pathsep.join(folders))
+# In any locale; and jobs only write files, whatever a notebook from which they are started has chosen.
+os.environ.update(PYTHONUTF8="1", MPLBACKEND="Agg")
 # Commands leave out the folder of the scripts: Snakemake runs a job again if its command changes.
 SCRIPTS = str(WORKFLOW / "scripts")
 SOCKETS = TemporaryDirectory(prefix="disc_model", ignore_cleanup_errors=True)
 WARM = [f"{SCRIPTS}/warm.py", f"{SOCKETS.name}/warm"]
-PREFIX = f'set -euo pipefail; job() {{ python -IS {shlex.join(WARM)} {shlex.quote(SCRIPTS)}/"$1.py" "${{@:2}}"; }}; '
+START = shlex.join([INTERPRETER, "-IS", *WARM])
+PREFIX = f'set -euo pipefail; job() {{ {START} {shlex.quote(SCRIPTS)}/"$1.py" "${{@:2}}"; }}; '
 shell.prefix(PREFIX.replace("{", "{{").replace("}", "}}"))
 
 # Copies of this process run jobs, with one thread as they have. It starts early, to be ready when the first job is,
@@ -61,6 +59,7 @@ try:
     from disc_model.figures.kinds import Plot
     from disc_model.errors import DiscModelError
     from disc_model.sources import source_hash
+    from disc_model.studies.messages import RunMessages
     from disc_model.studies.study import (
         closing_lines,
         mapping,
@@ -78,6 +77,20 @@ except ModuleNotFoundError as error:
         f"There is no module {error.name}: `pip install 'disc_model[workflow]'`, or `make env` in a clone of the"
         " repository, brings all that is needed; use that environment's snakemake."
     ) from None
+
+# Another workflow that uses this one decides by itself what it shows.
+if MAIN and not workflow.modifier.parent_modifier:
+    SHOWN = workflow.output_settings
+    MESSAGES = RunMessages(
+        lambda: [rule.name for rule in workflow.rules if not rule.has_wildcards()]
+        + PRODUCTS,
+        brief=not (SHOWN.verbose or SHOWN.printshellcmds or SHOWN.dryrun),
+    )
+    for handler in logger.handlers:
+        if handler.name == "DefaultStreamHandler":
+            handler.addFilter(MESSAGES)
+    if current_thread() is main_thread():
+        signal(SIGINT, MESSAGES.interrupt)
 
 # A study named with --configfile replaces the paper's instead of being mixed with it.
 PAPER = Path("config/paper.yaml")

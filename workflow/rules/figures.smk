@@ -3,7 +3,7 @@
 
 rule draw_figure:
     input:
-        lambda w: list(files_of(w).values()),
+        lambda w: need([*files_of(w).values()]),
     output:
         pdf="results/{study}/figures/{figure}.pdf",
         png=report(

@@ -45,6 +45,21 @@ def figure_of(wildcards):
     return FIGURES[wildcards.study, wildcards.figure]
 
 
+# By these Snakemake sees that a result is out of date; a user's settings may leave it with the times of files alone.
+SEEN_BY = {RerunTrigger.INPUT, RerunTrigger.MTIME, RerunTrigger.PARAMS}
+
+
+def need(files):
+    """Input of a rule, for an input function: only when that is called are the settings in force known."""
+    if MAIN and not SEEN_BY <= {*workflow.rerun_triggers}:
+        given = " ".join(sorted(x.name.lower() for x in workflow.rerun_triggers))
+        raise WorkflowError(
+            f"rerun-triggers={given}: must include input, mtime and params, because results that a change has made"
+            " out of date would stay otherwise; leave it out of your command and of the profile of this folder"
+        )
+    return files
+
+
 def files_of(wildcards):
     """Files from which a figure is drawn, by the names of its cases, or by the roles of its grids."""
     figure = figure_of(wildcards)
@@ -95,14 +110,6 @@ def check_owner(files, owner):
         )
 
 
-def concerns_the_study(record):
-    """Whether a message of Snakemake is no routine of single jobs, and no exception beside a failed job's log."""
-    of_jobs = {"job_info", "shellcmd", "job_started", "job_finished", "group_info"}
-    routine = ("Select jobs", "Execute ", "RuleException:\nCalledProcessError")
-    event, text = str(getattr(record, "event", "")), str(record.msg)
-    return event not in of_jobs and not text.startswith(routine)
-
-
 @cache
 def unrecorded():
     """Results without a record of Snakemake, which would take them for up to date."""
@@ -122,4 +129,4 @@ def refuse_unrecorded(wildcards):
             " If results/ was copied from another folder, copy that folder's .snakemake beside it as well."
             " Else `snakemake -j1 check` removes them (or `disc-model study --target check`); then run again."
         )
-    return []
+    return need([])

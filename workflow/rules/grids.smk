@@ -21,7 +21,7 @@ rule compute_batch:
 
 rule merge_batches:
     input:
-        lambda w: [batch_file(w.study, batch) for batch in GRIDS[w.study].batches],
+        lambda w: need([batch_file(w.study, x) for x in GRIDS[w.study].batches]),
     output:
         nc="results/{study}/{study}.nc",
         failed="results/{study}/{study}.failed.txt",

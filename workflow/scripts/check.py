@@ -2,40 +2,50 @@
 
 Removed are netCDF files that cannot be read, remains of killed jobs, and files without a record of
 Snakemake, a JSON list on standard input. Times in the future become the present: Snakemake refuses
-results older than their inputs.
+results older than their inputs. Where a symbolic link leads, nothing is removed or changed.
 """
 
 import json
 import os
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
-from disc_model.data.dataset import UnreadableFile, load
+from disc_model.data.dataset import MissingFile, UnreadableFile, load
 from disc_model.errors import script
+
+
+def put_right(results: Path, now: float) -> Iterator[Path]:
+    """Files of which the time of change, in the future, has become `now` (s); of a symbolic link
+    its own."""
+    changeable = os.utime in os.supports_follow_symlinks
+    for path in results.rglob("*"):
+        is_link = path.is_symlink()
+        if path.lstat().st_mtime > now and (changeable or not is_link):
+            os.utime(path, (now, now), follow_symlinks=not is_link)
+            yield path
 
 
 @script
 def main(folder: str = "results") -> None:
     results = Path(folder)
     unrecorded = [Path(name) for name in json.load(sys.stdin)]
-    datasets = sorted(results.rglob("*.nc"))
+    datasets = [path for path in sorted(results.rglob("*.nc")) if not path.is_dir()]
     damaged = []
     for path in datasets:
         try:
             load(path)
-        except UnreadableFile as error:
+        except (MissingFile, UnreadableFile) as error:
             print(f"{error}; removed")
             damaged.append(path)
     for path in unrecorded:
         print(f"{path}: not known how it was made, removed")
-    leftovers = sorted(results.rglob(".*.tmp"))
+    leftovers = [path for path in sorted(results.rglob(".*.tmp")) if not path.is_dir()]
     for path in [*leftovers, *damaged, *unrecorded]:
         path.unlink(missing_ok=True)
     now = time.time()
-    early = [path for path in results.rglob("*") if path.stat().st_mtime > now]
-    for path in early:
-        os.utime(path, (now, now))
+    early = [*put_right(results, now)]
     print(
         f"{len(datasets)} datasets, {len(damaged)} damaged; {len(leftovers)} left-overs of killed jobs removed"
     )

@@ -6,6 +6,7 @@ ends. ``warm.py SOCKET SCRIPT ARGUMENT...`` has a copy of it run a script, or ru
 where there is none.
 """
 
+import contextlib
 import json
 import os
 import signal
@@ -96,7 +97,8 @@ def run(connection):
     atexit._run_exitfuncs()
     sys.stdout.flush()
     sys.stderr.flush()
-    connection.sendall(b"%d" % code)
+    with contextlib.suppress(OSError):  # Ctrl-C has ended who asked
+        connection.sendall(b"%d" % code)
     os._exit(code)  # taking all modules down would take a quarter of a second
 
 

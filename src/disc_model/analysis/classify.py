@@ -325,6 +325,8 @@ class Settling(NamedTuple):
     since: float = np.nan
 
     def __str__(self) -> str:
+        if not np.isfinite(self.least):
+            return f"{self.answer}, since the record has too few events to show a change"
         seen = f"the record shows {self.least:.2g}/s or more"
         if np.isnan(self.rate):
             return f"{self.answer}, {seen}"

@@ -83,19 +83,34 @@ def residual_flexibility(p: Parameters) -> Flexibility:
     '3.17e-07 m/N'
     """
     raise_faults(foreign_case(p))
+    found = _flexibility(p)
+    if not is_modal_sum(p):
+        return found
+    diameters, circles = MODAL_SUM
+    half = _modal_sum(p.replace(n_diameters=diameters // 2, n_circles=circles // 2))
+    return Flexibility(found.total, found.kept, (found.total - half) / 3)
+
+
+def is_modal_sum(p: Parameters) -> bool:
+    """Whether the flexibility of all modes is a sum over a thousand of them, which takes seconds
+    for each shape of the plate."""
+    return p.disc is None and p.normalization != "orthonormal"
+
+
+def _flexibility(p: Parameters) -> Flexibility:
+    """As `residual_flexibility`, but without the remainder of a modal sum."""
     kept = _modal_sum(p)
     if p.disc is not None:
         if p.disc.static_compliance is None:
             rule = "must be given for the compliance of the modes left out"
             raise ParameterError(Fault(("disc", "static_compliance"), "None", rule))
         return Flexibility(p.disc.static_compliance, kept, 0.0)
-    if p.normalization == "orthonormal":
-        value, bound = _point_load(p.a / p.b, p.r_0 / p.b, p.nu)
-        return Flexibility(value * p.b**2 / p.D, kept, bound * p.b**2 / p.D)
-    diameters, circles = MODAL_SUM
-    whole = _modal_sum(p.replace(n_diameters=diameters, n_circles=circles))
-    half = _modal_sum(p.replace(n_diameters=diameters // 2, n_circles=circles // 2))
-    return Flexibility(whole, kept, (whole - half) / 3)
+    if is_modal_sum(p):
+        diameters, circles = MODAL_SUM
+        whole = p.replace(n_diameters=diameters, n_circles=circles)
+        return Flexibility(_modal_sum(whole), kept, np.nan)
+    value, bound = _point_load(p.a / p.b, p.r_0 / p.b, p.nu)
+    return Flexibility(value * p.b**2 / p.D, kept, bound * p.b**2 / p.D)
 
 
 def contact_compliance(p: Parameters) -> float:
@@ -103,7 +118,7 @@ def contact_compliance(p: Parameters) -> float:
     no mode left out."""
     if p.contact_compliance != RESIDUAL:
         return float(p.contact_compliance)
-    found = residual_flexibility(p)
+    found = _flexibility(p)
     rule = f"must be a number: of the static compliance {found.total:.6g} m/N the modes give {found.kept:.6g} m/N"
     require((found.residual > 0, "contact_compliance", RESIDUAL, rule))
     return found.residual

@@ -39,7 +39,10 @@ def study_contents(
 ) -> dict[str, Any]:
     """Contents of a merged study: fixed parameters, dimensions, variables, messages; motions, and a
     text on these."""
-    study = study.transpose(*study.sizes)
+    numbers = {str(name): x for name, x in study.coords.items() if x.dtype.kind == "f"}
+    endless = [name for name, x in numbers.items() if np.isinf(x.values).any()]
+    study = _in_words(study.transpose(*study.sizes), endless)
+    motions = None if motions is None else _in_words(motions, endless)
     base = json.loads(study.attrs.get("base", "{}"))
     drawn = [x for x in study.data_vars.values() if x.ndim and x.dtype.kind in "biuf"]
     return {
@@ -65,6 +68,16 @@ def _messages(study: xr.Dataset) -> dict[str, Any] | None:
     messages = study["message"]
     words, indices = np.unique(messages.values.astype(str), return_inverse=True)
     return {"dims": [*messages.dims], "words": words.tolist(), "data": packed(indices, "<u4")}
+
+
+def _in_words(dataset: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
+    """A dataset with some of its coordinates as texts, because JSON has no infinity."""
+    texts = {}
+    for name in names:
+        coordinate = dataset[name]
+        words = [f"{value:.12g}" for value in coordinate.values]
+        texts[name] = (coordinate.dims, words, coordinate.attrs)
+    return dataset.assign_coords(texts)
 
 
 def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:

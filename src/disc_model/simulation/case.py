@@ -403,11 +403,13 @@ class Start(Strict):
         ``f`` (rad/s), the slider's angular velocity
     """
 
-    prerun: Prerun | None = None
+    prerun: Prerun | None = Field(
+        None, description="another case that is simulated first, with parameters and time"
+    )
     perturbation: Annotated[
         dict[Literal["u", "u_velocity", "f"], Finite],
         Unit({"u": "m", "u_velocity": "m/s", "f": "rad/s"}),
-    ] = Field({})
+    ] = Field({}, description="what is added to coordinates of the start, u, u_velocity or f")
 
 
 # ---- One case ready to be run, and its content address

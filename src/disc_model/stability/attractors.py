@@ -48,7 +48,7 @@ from disc_model.stability.outcome import (
     segment_of,
     switch_angles,
 )
-from disc_model.stability.return_map import RETURNED, Array, ReturnMap
+from disc_model.stability.return_map import Array, ReturnMap
 
 
 class Arrival(NamedTuple):
@@ -64,12 +64,12 @@ class Arrival(NamedTuple):
         return self.settling.answer is Settled.SETTLED
 
 
-def arrival(p: Parameters, legs: Sequence[Result], tol: float, most: int = sys.maxsize) -> Arrival:
+def arrival(p: Parameters, legs: Sequence[Result], most: int = sys.maxsize) -> Arrival:
     """What a motion has come to at the end of its legs: what rest, eigenvalues of steady sliding or
     multipliers of a cycle of up to `most` releases prove; otherwise what the record of angles at
     releases and separations shows."""
     leg = legs[-1]
-    if (calm := find_calm(p, leg, tol)) is not None:
+    if (calm := find_calm(p, leg)) is not None:
         return Arrival(Settling(Settled.SETTLED, least=0.0, since=leg.final_state.time), calm)
     near = cycle_reached(p, leg, most)
     if near is not None and near.follows_cycle:  # of stable cycles only
@@ -90,10 +90,11 @@ def cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
     if not releases or not may_stick_and_slip(p) or p.n_diameters < 0:
         return None
     map_ = ReturnMap(p, patient=True)
-    code, x = map_.next_release(leg.final_state)
-    if code != RETURNED:
+    release = map_.next_release(leg.final_state)
+    if not release.reached:
         return None
-    return find_cycle_near(map_, x, find_near_return(map_, x, max(1, min(most, releases // 2))))
+    longest_period = max(1, min(most, releases // 2))
+    return find_cycle_near(map_, release, find_near_return(map_, release.x, longest_period))
 
 
 def sweep(
@@ -126,7 +127,7 @@ def sweep(
             if not result.status.complete:
                 yield step, result, None, Arrival(Settling())
                 return
-            state, reached = result.final_state, arrival(case, legs, tol)
+            state, reached = result.final_state, arrival(case, legs)
             if reached.settled or 2 * stay > longest:
                 break
             stay *= 2
@@ -258,9 +259,10 @@ class Basins:
         unless it is near."""
         last, near = segments[-1], self.cycle
         if near is not None and last.separation_rate == 0 and last.range <= segments[0].range:
-            code, x = self.map.next_release(state)
-            if code == RETURNED:
-                for point in chain([x], self.map.returns(x, near.cycle.releases - 1)):
+            release = self.map.next_release(state)
+            if release.reached:
+                others = self.map.returns(release.x, near.cycle.releases - 1)
+                for point in chain([release.x], others):
                     distance = float(np.linalg.norm(point - near.x))
                     if distance <= thresholds.NEAR * self.map.deflection:
                         return point, distance
@@ -302,7 +304,7 @@ class Basins:
     ) -> Attractor | None:
         """The attractor on which a motion is, if that is proven, the whole record has settled, or
         the last legs are as steady as those on a known attractor; None near an unstable cycle."""
-        reached = arrival(self.p, legs, self.tol, thresholds.LARGEST_PERIOD)
+        reached = arrival(self.p, legs, thresholds.LARGEST_PERIOD)
         if not reached.settled and reached.settling.least == 0:  # by multipliers
             return None
         attractor = Attractor(reached.calm or Outcome.UNDECIDED, segment)

@@ -29,9 +29,16 @@ from disc_model.stability.continuation import (
     interval_in_si,
 )
 from disc_model.stability.cycle import FloquetResult, find_cycle
-from disc_model.stability.return_map import Array, ReturnMap, case_faults
+from disc_model.stability.return_map import Array, ComplexArray, case_faults
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
+MOST_ON_LINE = 500  # points of a branch between two points of a line
+BORDER_KINDS: Mapping[str, Kind] = {
+    "fold": "fold",
+    "neimark_sacker": "neutral",
+    "period_doubling": "neutral",
+}
+"""Special points of a branch, and the borders on which they lie."""
 MOST_POINTS = 100_000  # largest number of points along a line: an hour of work
 
 
@@ -89,9 +96,13 @@ class NeutralCurves(Drawn):
 
 
 class _Seed(NamedTuple):
+    """A special point of a branch from which a curve is followed: its kind, its case, its point of
+    the section, its critical multiplier, and its period, s."""
+
     kind: Kind
     case: Parameters
     point: Array
+    mu: complex
     period: float
 
 
@@ -138,7 +149,7 @@ def neutral_curves(
     """
     raise_faults(foreign_case(p))
     # a curve ends where a shorter step would be needed, as where an event grazes
-    steps = BORDER.replace(longest=longest, shortest=1e-4, max_points=max_points)
+    steps = BORDER.replace(longest=longest, shortest=1e-5, max_points=max_points)
     free = isinstance(bounds, Mapping) and len(bounds) == 2
     plane: Any = {name: interval_in_si(name, ends) for name, ends in bounds.items()} if free else {}
     within = free and all(ends is not None for ends in plane.values())
@@ -169,7 +180,14 @@ def neutral_curves(
             )
             try:
                 branch = continue_border(
-                    seed.kind, seed.case, names, plane, guess=seed.point, tol=tol, steps=steps
+                    seed.kind,
+                    seed.case,
+                    names,
+                    plane,
+                    guess=seed.point,
+                    mu=seed.mu,
+                    tol=tol,
+                    steps=steps,
                 )
             except ParameterError as error:
                 notes.append(f"{seed.kind} near {where}: {error}")
@@ -192,47 +210,32 @@ def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str])
         for begin, end in ((i, i + 1), (i + 1, i)):
             if np.isnan(growth[begin]):
                 continue
-            if seed := _first_event(cases[begin], name, cases[end].numbers[name], tol, notes):
+            seed = _border(cases[begin], name, cases[end].numbers[name], tol, notes)
+            if seed is not None:
                 yield seed
-                if seed.kind == "neutral":
-                    break
 
 
-def _first_event(
-    case: Parameters, name: str, end: float, tol: float, notes: list[str]
-) -> _Seed | None:
-    """The first fold or crossing of the unit circle between a case and another value of a
-    parameter."""
+def _border(case: Parameters, name: str, end: float, tol: float, notes: list[str]) -> _Seed | None:
+    """The special point of a branch from a case to another value of a parameter at which a stable
+    cycle first gains or loses stability, or ends; without a stable one, the first special point."""
     begin = case.numbers[name]
-    bounds, direction = (min(begin, end), max(begin, end)), 1 if begin < end else -1
+    bounds = (min(begin, end), max(begin, end))
+    direction = 1 if begin < end else -1
     try:
-        steps = StepControl(scale=abs(end - begin), max_points=40, beyond=True)
+        steps = StepControl(scale=abs(end - begin), max_points=MOST_ON_LINE)
         branch = continue_cycle(case, name, bounds, direction=direction, tol=tol, steps=steps)
     except ParameterError as error:
         notes.append(f"{name}={begin:.6g}: {error}")
         return None
-    values, growth = branch.values[:, 0], branch.growth_rate
-    turns = np.flatnonzero(np.diff(values)[:-1] * np.diff(values)[1:] < 0) + 1
-    crossings = np.flatnonzero(growth[:-1] * growth[1:] < 0)
-    fold = int(turns[0]) if len(turns) else len(values)
-    if len(crossings) and crossings[0] + 1 < fold:
-        kind: Kind = "neutral"
-        i = int(crossings[0])
-        j = i if abs(growth[i]) < abs(growth[i + 1]) else i + 1
-    elif len(turns):
-        kind, j = "fold", fold
-    else:
-        if branch.ended.startswith(UNLOCATED):
-            notes.append(branch.ended)
-        return None
-    moved = case.replace(**{name: float(values[j])})
-    point = branch.points[j]
-    scale, new = (ReturnMap(each, tol).scale for each in (case, moved))
-    if not np.array_equal(
-        scale, new
-    ):  # frequencies scale the coordinates, and the branch uses those of its first case
-        point = point / scale * new
-    return _Seed(kind, moved, point, float(branch.period[j]))
+    if branch.ended.startswith(UNLOCATED):
+        notes.append(branch.ended)
+    borders = [special for special in branch.special if special.kind in BORDER_KINDS]
+    stable = branch.growth_rate < 0
+    beside = [each for each in borders if stable[each.after : each.after + 2].any()]
+    for special in [*beside, *borders][:1]:
+        kind = BORDER_KINDS[special.kind]
+        return _Seed(kind, special.case, special.point, special.multiplier, special.period)
+    return None
 
 
 def _known(
@@ -272,10 +275,22 @@ def _curve(seed: _Seed, branch: Branch) -> StabilityCurve:
 
 # ---- One parameter
 
-ROUNDS = 5  # number of times that places of resonance are predicted anew, from the multipliers beside them
-STRONGLY_DAMPED = (
-    0.5  # modulus below which a multiplier takes part in no resonance that could make it one
+ROUNDS = (
+    8  # times that places of suspected instability are predicted anew, from the cycles beside them
 )
+NARROWEST = 1e-5  # of the range: between values closer than that no further ones are computed
+# modulus below which a multiplier takes part in no resonance that could make it one
+STRONGLY_DAMPED = 0.5
+# rad, by which a multiplier may turn from one value to the next; beyond, multipliers cannot be told
+# apart by their distances
+LONGEST_TURN = 0.3
+# the angles of a pair at two values, from the real axis, over the longest turn of any multiplier:
+# up to this, the pair may have met the axis in between, and have left it again on the same side
+MAY_HAVE_MET = 1.5
+# exponents of distances by which multipliers are matched. One that passes another moves as far, in
+# sum, as two that follow each other: the first exponent does not tell them apart, the second one
+# takes them to have passed
+MATCHES = (1.0, 0.5)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -288,11 +303,14 @@ class Critical(Drawn):
     Attributes
     ----------
     parameters, name : the case, and the parameter
-    value : the least value at which the motion near the static start is unstable; nan if none is within the bounds
-    crossings : shape (n,), all values at which stability changes, ascending
+    value : the least value computed at which the motion near the static start is unstable; nan if
+        there is none
+    crossings : shape (n,), all values at which stability was seen to change, ascending
     unstable_above : bool, (n,), whether that motion is unstable just above each
     values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle (1/s; nan without)
-    resolution : a tongue of instability narrower than this may have been stepped over
+    resolution : the largest step between neighbouring values computed. No stretch of stability or
+        of instability that is wider has been overlooked. Most narrower ones are seen, because they
+        are looked for where multipliers meet
     """
 
     _picture = "plot_critical"
@@ -308,7 +326,7 @@ class Critical(Drawn):
     def __repr__(self) -> str:
         first = f"unstable from {self.value:.6g}" if math.isfinite(self.value) else "stable"
         crossings = counted(len(self.crossings), "crossing")
-        seen = f"{len(self.values)} cycles, tongues down to {self.resolution:.2g} seen"
+        seen = f"{len(self.values)} values, steps of at most {self.resolution:.2g}"
         return f"Critical({self.name}: {first}, {crossings}, {seen})"
 
     def _repr_html_(self) -> str:
@@ -346,31 +364,32 @@ def critical(
     name: str,
     bounds: tuple[Quantity, Quantity],
     *,
-    points: int = 41,
+    points: int = 201,
     precision: float | None = None,
     tol: float = 1e-12,
 ) -> Critical:
     """The least parameter value with unstable motion near the static start, and all stability
     changes above it.
 
-    That motion is the stick-slip cycle, or steady sliding or rest if there is no cycle. Instability
-    often lies in narrow tongues, where multipliers meet on the unit circle. Their angles change
-    smoothly, so that these places are predicted from the multipliers of neighbouring values, and
-    computed, until the predictions no longer move.
+    That motion is the stick-slip cycle, or steady sliding or rest if there is no cycle. It is
+    computed at equal steps, which alone limit what can be overlooked. Instability often lies in
+    much narrower tongues, where multipliers meet on the unit circle. Their angles change smoothly,
+    so that these places are predicted from neighbouring values, and computed as well.
 
     Parameters
     ----------
     p : the case; its value of the parameter is not used
     name : one of `Parameters.numbers`, such as "mu_s"
     bounds : lowest and highest value; SI units, or texts with units
-    points : number of values from which the search starts
+    points : number of evenly spaced values, which determines the `resolution`. With nine modes,
+        the scan takes one or two seconds by default
     precision : to which crossings are bisected; a millionth of the range if not given
     tol : as in `floquet`
 
     Returns
     -------
     Critical
-        `value`, `crossings`, and `resolution`, the width of the narrowest tongue that cannot be overlooked.
+        `value`, `crossings`, and `resolution`, beyond which nothing can have been overlooked.
 
     Raises
     ------
@@ -382,7 +401,7 @@ def critical(
     >>> import disc_model as dm
     >>> case = dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6)
     >>> dm.critical(case, "mu_s", (0.3, 0.42), points=7)
-    Critical(mu_s: unstable from 0.3, 1 crossing, ... cycles, tongues down to ... seen)
+    Critical(mu_s: unstable from 0.3, 1 crossing, ... values, steps of at most ...)
     """
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
     good = precision is None or (is_number(precision) and precision > 0)
@@ -401,74 +420,107 @@ def critical(
     values = np.linspace(ends[0], ends[1], points).tolist()
     for x in values:
         p.replace(**{name: x})
-    shortest = 1e-6 * (ends[1] - ends[0]) if precision is None else float(precision)
-    cycles: dict[float, FloquetResult] = {}
-
-    def stable(x: float) -> bool:
-        if x not in cycles:
-            cycles[x] = find_cycle(p.replace(**{name: x}), tol)
-        return cycles[x].motion in STABLE_CYCLES
-
-    def located(interval: tuple[float, float]) -> float:
-        """The upper end of a short interval within which stability changes."""
-        (a, b), before = interval, stable(interval[0])
-        while b - a > shortest and a < (middle := 0.5 * (a + b)) < b:
-            a, b = (middle, b) if stable(middle) == before else (a, middle)
-        return b
-
+    span = ends[1] - ends[0]
+    shortest = 1e-6 * span if precision is None else float(precision)
+    scan = _Scan(p, name, tol)
     for x in values:
-        stable(x)
-    resolution = math.inf
-    for _ in range(ROUNDS):
-        gaps = [(a, b, _resonances(cycles[a], cycles[b])) for a, b in pairwise(sorted(cycles))]
-        new = {
-            a + share * (b - a): min(share, 1 - share) * (b - a)
-            for a, b, shares in gaps
-            for share in shares
-        }
-        resolution = max(
-            [shortest, *new.values(), *(b - a for a, b, shares in gaps if shares is NO_CYCLES)]
-        )
-        far = sorted(x for x, distance in new.items() if distance > shortest)
-        if not far:
-            break
-        for x in far:
-            stable(x)
-    changes = [(a, b) for a, b in pairwise(sorted(cycles)) if stable(a) != stable(b)]
-    crossings = [located(interval) for interval in changes]
-    unstable_above = [stable(a) for a, _ in changes]
-    first = [] if stable(values[0]) else [float(ends[0])]
-    first += [x for x, grows in zip(crossings, unstable_above, strict=True) if grows]
-    values = sorted(cycles)
+        scan.stable(x)
+    scan.refine(max(shortest, NARROWEST * span))
+    changes = [(a, b) for a, b in pairwise(sorted(scan.cycles)) if scan.stable(a) != scan.stable(b)]
+    crossings = [scan.located(a, b, shortest) for a, b in changes]
+    unstable_above = [scan.stable(a) for a, _ in changes]
+    computed = sorted(scan.cycles)
     return Critical(
         parameters=p,
         name=name,
-        value=first[0] if first else math.nan,
+        value=next((x for x in computed if not scan.stable(x)), math.nan),
         crossings=np.array(crossings),
         unstable_above=np.array(unstable_above, dtype=bool),
-        values=np.array(values),
-        growth_rate=np.array([cycles[x].growth_rate for x in values]),
-        resolution=resolution,
+        values=np.array(computed),
+        growth_rate=np.array([scan.cycles[x].growth_rate for x in computed]),
+        resolution=max(b - a for a, b in pairwise(computed)),
     )
 
 
-NO_CYCLES: tuple[float, ...] = (
-    0.5,
-)  # of an interval one of whose ends has no cycle the middle is computed
+class _Scan:
+    """Cycles of a case by the value of one parameter, each computed once."""
+
+    def __init__(self, p: Parameters, name: str, tol: float) -> None:
+        self.p, self.name, self.tol = p, name, tol
+        self.cycles: dict[float, FloquetResult] = {}
+
+    def stable(self, x: float) -> bool:
+        if x not in self.cycles:
+            self.cycles[x] = find_cycle(self.p.replace(**{self.name: x}), self.tol)
+        return self.cycles[x].motion in STABLE_CYCLES
+
+    def refine(self, narrowest: float) -> None:
+        """Compute further values where the cycles beside them leave a change of stability in doubt,
+        none closer than `narrowest` to another one."""
+        looked_at = set[tuple[float, float]]()
+        for _ in range(ROUNDS):
+            gaps = {gap for gap in pairwise(sorted(self.cycles)) if gap not in looked_at}
+            looked_at |= gaps
+            for a, b in sorted(gaps):
+                for share in _doubtful_shares(self.cycles[a], self.cycles[b]):
+                    if min(share, 1 - share) * (b - a) > narrowest:
+                        self.stable(a + share * (b - a))
+
+    def located(self, a: float, b: float, shortest: float) -> float:
+        """The upper end of a short interval within a longer one, from a to b, at whose ends
+        stability differs."""
+        before = self.stable(a)
+        while b - a > shortest:
+            middle = 0.5 * (a + b)
+            if not a < middle < b:
+                break
+            if self.stable(middle) == before:
+                a = middle
+            else:
+                b = middle
+        return b
 
 
-def _resonances(first: FloquetResult, second: FloquetResult) -> Sequence[float]:
-    """Shares of the way from one cycle to another at which multipliers are predicted to meet on the
-    unit circle."""
+def _doubtful_shares(first: FloquetResult, second: FloquetResult) -> list[float]:
+    """Shares of the way from one cycle to another at which stability may change, or the cycle
+    end."""
     if not (len(first.multipliers) and len(second.multipliers)):
-        return NO_CYCLES if len(first.multipliers) != len(second.multipliers) else ()
-    distance = np.abs(first.multipliers[:, None] - second.multipliers[None, :])
+        return [0.5] if len(first.multipliers) != len(second.multipliers) else []
+    shares = set[float]()
+    for exponent in MATCHES:
+        before, after = _matched(first.multipliers, second.multipliers, exponent)
+        shares |= _shares_of_change(before, after)
+    return sorted(shares)
+
+
+def _matched(
+    first: ComplexArray, second: ComplexArray, exponent: float
+) -> tuple[ComplexArray, ComplexArray]:
+    """Multipliers of two cycles, each beside the one that it becomes: the sum of distances, to the
+    power `exponent`, is least."""
     from scipy.optimize import linear_sum_assignment
 
-    rows, columns = linear_sum_assignment(distance)
-    before, after = first.multipliers[rows], second.multipliers[columns]
-    chosen = (before.imag > 0) & (np.minimum(abs(before), abs(after)) > STRONGLY_DAMPED)
-    angle, turn = np.angle(before[chosen]), np.angle(after[chosen] / before[chosen])
+    distance = np.abs(first[:, None] - second[None, :])
+    rows, columns = linear_sum_assignment(distance**exponent)
+    return first[rows], second[columns]
+
+
+def _shares_of_change(before: ComplexArray, after: ComplexArray) -> set[float]:
+    """As `_doubtful_shares`, from multipliers that are matched."""
+    weak = np.minimum(abs(before), abs(after)) > STRONGLY_DAMPED
+    on_axis = [int(np.sum(weak & (values.imag == 0))) for values in (before, after)]
+    upper = weak & (before.imag > 0)
+    angle, turn = np.angle(before[upper]), np.angle(after[upper] / before[upper])
+    longest = float(np.abs(turn).max(initial=0))
+    shares = {*_meetings(angle, turn), *_returns_from_axis(angle, angle + turn, longest)}
+    if longest > LONGEST_TURN or on_axis[0] != on_axis[1]:
+        shares.add(0.5)
+    return shares
+
+
+def _meetings(angle: Array, turn: Array) -> list[float]:
+    """Shares of the way at which multipliers meet on the unit circle, from their angles (rad) and
+    by how much they turn: those of the upper half, with each other and with the conjugate ones."""
     i, j = np.triu_indices(len(angle))
     # a multiplier that comes to the real axis meets its conjugate, as the sum of an angle with
     # itself comes to 2 pi
@@ -476,6 +528,16 @@ def _resonances(first: FloquetResult, second: FloquetResult) -> Sequence[float]:
     end = begin + np.concatenate([turn[i] + turn[j], (turn[i] - turn[j])[i != j]]) / math.tau
     meets = np.floor(begin) != np.floor(end)
     level = np.maximum(np.floor(begin), np.floor(end))
-    return [
-        float(share) for share in ((level - begin)[meets] / (end - begin)[meets]) if 0 < share < 1
-    ]
+    shares = (level - begin)[meets] / (end - begin)[meets]
+    return [float(share) for share in shares if 0 < share < 1]
+
+
+def _returns_from_axis(before: Array, after: Array, longest: float) -> list[float]:
+    """Shares of the way at which multipliers may have met the real axis, from their angles at both
+    ends (rad): a pair that passes through the axis looks like one that has turned back."""
+    shares = list[float]()
+    for first, second in ((before, after), (math.pi - before, math.pi - after)):
+        way = first + second
+        near = (first > 0) & (second > 0) & (way <= MAY_HAVE_MET * longest)
+        shares += (first[near] / way[near]).tolist()
+    return shares

@@ -23,7 +23,6 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from disc_model.stability.return_map import (
     ENDS,
-    RETURNED,
     Array,
     ComplexArray,
     Flight,
@@ -202,9 +201,9 @@ def guess_faults(guess: object, releases: object) -> list[str]:
 def find_cycle(
     p: Parameters, tol: float = 1e-12, guess: State | Array | None = None, releases: int = 1
 ) -> FloquetResult:
-    """The cycle that Newton's method finds from `guess`, a point of the section; the static
-    equilibrium by default. Near the next release after a state the cycle has `releases` releases,
-    and may lose contact."""
+    """The cycle that Newton's method finds from `guess`, a point of the section; the first release
+    after the static start by default. Near the next release after a state the cycle has `releases`
+    releases, and may lose contact."""
     if not may_stick_and_slip(p):
         if never_pulls(p):
             return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
@@ -214,14 +213,12 @@ def find_cycle(
     near_state = isinstance(guess, State)
     map_ = ReturnMap(p, tol, patient=near_state)
     if isinstance(guess, State):
-        outcome, x = map_.next_release(guess)
-        if outcome != RETURNED:
-            status = (
-                CycleStatus.NO_STICK_SLIP if ENDS[outcome] == "time_over" else CycleStatus.NO_CYCLE
-            )
-            return _none(
-                p, tol, status, f"the motion from the given state does not return: {ENDS[outcome]}"
-            )
+        release = map_.next_release(guess)
+        if not release.reached:
+            end = ENDS[release.outcome]
+            status = CycleStatus.NO_STICK_SLIP if end == "time_over" else CycleStatus.NO_CYCLE
+            return _none(p, tol, status, f"the motion from the given state does not return: {end}")
+        x = release.x
     else:
         x = guess
     solution = newton(map_, x, releases=releases, may_separate=near_state)
@@ -234,17 +231,19 @@ def find_cycle(
 
 
 def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
-    """The cycle that Newton's method finds from the static equilibrium, or else after some returns
-    of the motion from there; without one, the status is the kind of that motion."""
-    p, tol, x = map_.parameters, map_.tol, map_.static
+    """The cycle that Newton's method finds from the first release after the static start, or else
+    after some returns of that motion; without one, the status is the kind of that motion."""
+    p, tol, start = map_.parameters, map_.tol, map_.first_release
+    x = start.x if start.reached else map_.static
     solution = newton(map_, x)
     if solution is not None:
         return cycle_of(map_, solution)
+    if not start.reached:
+        return _without_return(map_, start.outcome, start.time)
     for _ in range(TRANSIENT):
         flight = map_.evaluate(x, tangent=False)
         if not flight.returned:
-            status, why = _WITHOUT_RETURN[ENDS[flight.outcome]]
-            return _none(p, tol, status, why.format(flight.period))
+            return _without_return(map_, flight.outcome, flight.period)
         x = flight.end
     for releases in RETURNS_TRIED:
         solution = newton(map_, x, releases=releases)
@@ -267,6 +266,12 @@ _WITHOUT_RETURN = {
     ),
 }
 """Status and message for a transient's flight that ends in these ways; braces stand for its duration."""
+
+
+def _without_return(map_: ReturnMap, outcome: int, duration: float) -> FloquetResult:
+    """The result for a motion whose flight of that duration (s) does not end on the section."""
+    status, why = _WITHOUT_RETURN[ENDS[outcome]]
+    return _none(map_.parameters, map_.tol, status, why.format(duration))
 
 
 def run_through_once(map_: ReturnMap, flight: Flight) -> Flight:

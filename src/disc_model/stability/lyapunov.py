@@ -33,6 +33,7 @@ from disc_model.stability.return_map import (
     case_faults,
     coordinate_rows,
     energy_scale,
+    integrate_in_pieces,
     longest_step,
 )
 from disc_model.units import TOLERANCES, is_number, is_whole, limits_faults
@@ -197,7 +198,7 @@ def lyapunov_exponents(
     for i in range(-steps, steps):
         if i == 0:
             t.log[:] = 0.0
-        code = event_loop.integrate(model, series, state, t, course)
+        code = integrate_in_pieces(model, series, state, t, course)
         if code != transitions.TIME_OVER or not np.all(np.isfinite(columns)):
             status = Status.NON_FINITE if code == transitions.TIME_OVER else Status(ENDS[code])
             break

@@ -13,7 +13,6 @@ from enum import Enum
 
 import numpy as np
 
-from disc_model.analysis.classify import Settled, settling
 from disc_model.data.variables import Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
@@ -29,9 +28,8 @@ from disc_model.stability.linear_motion import (
     cycle_of_static_start,
     find_cycle_near,
     find_near_return,
-    first_release,
 )
-from disc_model.stability.return_map import RETURNED, Array, ReturnMap
+from disc_model.stability.return_map import Array, Passage, ReturnMap
 
 
 @dataclass(frozen=True)
@@ -72,10 +70,8 @@ class Stage(Enum):
 
     START = "at its initial state"
     NEAR_CYCLE = "follows the linear map near a cycle"
-    DEPARTING = "departs from an unstable cycle"
     ON_ITS_WAY = "follows no cycle as far as is known"
     SETTLED = "approaches a stable cycle or steady sliding, or is at rest"
-    STEADY = "has settled in contact after growth, by its record"
     SEPARATED = "has lost contact"
     HORIZON = "has come to the horizon"
     FAILED = "its simulation failed"
@@ -88,7 +84,6 @@ class OutcomeResult:
     outcome : None if the simulation failed
     simulated, time : s, simulated time, 0 if multipliers decide; time at which the outcome was known
     near : the stable cycle that the motion approaches, or else the first unstable cycle from which it departs
-    extrapolated : the unstable cycle of slowest growth from which a departure was computed by multipliers
     failed : the simulation that ended early
     changes, times : changes from one period to the next, over the static deflection, and times of these (s)
     distance : from the cycle, over the static deflection, at the end of the search
@@ -98,7 +93,6 @@ class OutcomeResult:
     simulated: float = 0.0
     near: NearCycle | None = None
     attractor: Attractor | None = None
-    extrapolated: NearCycle | None = None
     first_separation: float = math.nan
     time: float = 0.0
     state: State | None = None
@@ -134,7 +128,6 @@ def find_outcome(
     *,
     tol: float = 1e-10,
     near: NearCycle | FloquetResult | None = None,
-    furthest: float = thresholds.AMPLITUDES[0],
     start: State | None = None,
     early: bool = True,
     late: float = 0.0,
@@ -142,10 +135,13 @@ def find_outcome(
     """Find the outcome of a motion within a horizon (s), or its separation if that comes first.
 
     near : result of `cycle_of_static_start`, if it is known
-    furthest : distance from a cycle, over the static deflection, up to which multipliers may represent a departure. A
-        shorter one makes the time of the first separation more accurate; with 0 all of the departure is simulated
+    start : initial state; None is the static start
     early : whether the search ends once the outcome is shown; otherwise the motion is followed to the horizon
     late : s, length of the segment before the horizon that is described
+
+    Multipliers alone prove that a motion approaches a stable cycle. Any other motion is simulated
+    from its start, in the same legs whatever the horizon, so that searches with the same `tol` find
+    the same first separation.
     """
     if isinstance(near, NearCycle):
         map_: ReturnMap | None = (
@@ -158,7 +154,7 @@ def find_outcome(
     elif near is None:
         near = cycle_of_static_start(p)
     start_cycle = near if isinstance(near, NearCycle) else None
-    return _OutcomeSearch(p, horizon, tol, start, early, late, map_, start_cycle, furthest).run()
+    return _OutcomeSearch(p, horizon, tol, start, early, late, map_, start_cycle).run()
 
 
 @dataclass
@@ -174,21 +170,17 @@ class _OutcomeSearch:
     late: float
     map: ReturnMap | None
     start_cycle: NearCycle | None
-    furthest: float
-    simulated_before: float = 0.0
 
     def run(self) -> OutcomeResult:
         stages = {
             Stage.START: self._begin,
             Stage.NEAR_CYCLE: self._judge_cycle,
-            Stage.DEPARTING: self._depart,
             Stage.ON_ITS_WAY: self._simulate_on,
         }
         stage = Stage.START
         while stage in stages:
             stage = stages[stage]()
         self.result.stage = stage
-        self.result.simulated = self.simulated_before + self.result.simulated
         return self.result
 
     def _begin(self) -> Stage:
@@ -198,45 +190,25 @@ class _OutcomeSearch:
         self.cycle_to_come: NearCycle | None = (
             None  # an unstable one near the start, until the motion follows it
         )
-        self.angles: list[Array] = []
         if self.start_cycle is None:
             return Stage.ON_ITS_WAY
         if not self.start_cycle.follows_cycle:
             self.cycle_to_come = None if self.start_cycle.cycle.stable else self.start_cycle
             return Stage.ON_ITS_WAY
-        self.cycle, self.result.time = self.start_cycle, first_release(self.p)
+        self.cycle = self.start_cycle
         return Stage.NEAR_CYCLE
 
     def _judge_cycle(self) -> Stage:
+        """Settle on a stable cycle, or go on from an unstable one."""
         near, result = self.cycle, self.result
         result.near = result.near or near
         if not near.cycle.stable:
-            return Stage.DEPARTING
-        if result.extrapolated is not None and self.furthest > thresholds.CERTAIN:
-            self.furthest, self.simulated_before = thresholds.CERTAIN, result.simulated
-            return Stage.START
+            self.departed_from = near
+            return Stage.ON_ITS_WAY
         result.near, result.outcome = near, near.kind
-        result.time += near.waited
+        result.time = near.time
         result.distance = float(np.linalg.norm(near.distance)) / near.map.deflection
         return Stage.SETTLED
-
-    def _depart(self) -> Stage:
-        """Follow the linear map away from an unstable cycle, as far as it is valid."""
-        near, result = self.cycle, self.result
-        self.departed_from = near
-        if result.time >= self.horizon:
-            return Stage.ON_ITS_WAY
-        departure = near.extrapolate_departure(
-            near.periods_left(result.time, self.horizon), self.furthest
-        )
-        time, distance = departure or (0.0, near.distance)
-        slowest = result.extrapolated
-        if departure and (slowest is None or near.cycle.growth_rate < slowest.cycle.growth_rate):
-            result.extrapolated = near
-        if departure or result.state is None:
-            result.time = result.time + near.waited + time
-            result.state = near.map.state(near.x + distance).replace(time=result.time)
-        return Stage.ON_ITS_WAY
 
     def _simulate_on(self) -> Stage:
         """Simulate a leg, and examine the motion at its end."""
@@ -252,23 +224,15 @@ class _OutcomeSearch:
             result.failed = leg
             return Stage.FAILED
         examined = self.early or result.time >= self.horizon
-        if examined and (calm := find_calm(self.p, leg, self.tol)) is not None:
+        if examined and (calm := find_calm(self.p, leg)) is not None:
             result.outcome, result.near = calm, None
             return Stage.SETTLED
-        x = self._next_section_point(leg.final_state)
-        if x is not None and examined and (near := self._find_followed_cycle(x)) is not None:
-            self.cycle = near
-            return Stage.NEAR_CYCLE
-        if (
-            self.early and result.time < self.horizon and self._grows
-        ):  # has growth ended in contact, by the record?
-            settled = settling(*np.hstack(self.angles))
-            if (
-                settled.answer is Settled.SETTLED
-                and result.time - settled.since >= thresholds.STEADY_FOR
-            ):
-                result.outcome = Outcome.GROWING
-                return Stage.STEADY
+        release = self._next_release(leg.final_state)
+        if release is not None and examined:
+            near = self._find_followed_cycle(release)
+            if near is not None:
+                self.cycle = near
+                return Stage.NEAR_CYCLE
         return Stage.ON_ITS_WAY
 
     def _simulate_leg(self) -> Result:
@@ -289,28 +253,29 @@ class _OutcomeSearch:
             initial_state=result.state,
             stop_at="first_separation",
         )
-        self.angles.append(switch_angles(leg))
         if windows and leg.status.complete:
             result.segment = segment_of(leg)
         result.simulated += leg.final_state.time - result.time
         result.state, result.time = leg.final_state, leg.final_state.time
         return leg
 
-    def _next_section_point(self, state: State) -> Array | None:
-        """Where the motion comes to the section again, if it does; its nearest return to there is
-        then measured."""
-        code, x = self.map.next_release(state) if self.map is not None else (None, None)
-        if self.map is None or x is None or code != RETURNED:
+    def _next_release(self, state: State) -> Passage | None:
+        """The next release of the motion, if it comes to the section again in contact; its nearest
+        return to there is then measured."""
+        if self.map is None:
             return None
-        self.near_return = find_near_return(self.map, x)
+        release = self.map.next_release(state)
+        if not release.reached:
+            return None
+        self.near_return = find_near_return(self.map, release.x)
         self.result.times.append(self.result.time)
         self.result.changes.append(math.nan if self.near_return is None else self.near_return[0])
-        return x
+        return release
 
-    def _find_followed_cycle(self, x: Array) -> NearCycle | None:
-        """The cycle that the motion follows linearly: the one near its start, if it comes back to
-        that, or another."""
-        near = self.cycle_to_come
+    def _find_followed_cycle(self, release: Passage) -> NearCycle | None:
+        """The cycle that the motion follows linearly from a release on: the one near its start, if
+        it comes back to that, or another."""
+        near, x = self.cycle_to_come, release.x
         assert self.map is not None
         if self.departed_from is not None:
             size = self.map.deflection
@@ -321,7 +286,7 @@ class _OutcomeSearch:
                 and near.follows_multipliers(x)
             ):
                 self.cycle_to_come = self.result.near = None
-                return replace(near, follows_cycle=True, distance=x - near.x)
+                return replace(near, follows_cycle=True, distance=x - near.x, time=release.time)
             # a motion that comes near a cycle then changes less and less, down to errors of the
             # simulation
             known = [change for change in self.result.changes if not math.isnan(change)]
@@ -330,7 +295,7 @@ class _OutcomeSearch:
             ):
                 return None
         waits = thresholds.WAITS if self.departed_from is None else thresholds.WAITS[:1]
-        near = find_cycle_near(self.map, x, self.near_return, unstable=waits)
+        near = find_cycle_near(self.map, release, self.near_return, unstable=waits)
         return near if near is not None and near.follows_cycle else None
 
     @property
@@ -338,12 +303,12 @@ class _OutcomeSearch:
         return self.departed_from is not None or growing(self.result.changes)
 
 
-def find_calm(p: Parameters, leg: Result, tol: float) -> Outcome | None:
+def find_calm(p: Parameters, leg: Result) -> Outcome | None:
     """At rest if the slider sticks for good, steady sliding if the motion approaches it; None if
     neither is shown."""
     if shares(leg)[0] == 1 and never_pulls(p):
         return Outcome.AT_REST
-    return Outcome.STEADY_SLIDING if approaches_sliding(p, leg.final_state, tol) else None
+    return Outcome.STEADY_SLIDING if approaches_sliding(p, leg.final_state) else None
 
 
 def growing(changes: Sequence[float]) -> bool:

@@ -10,7 +10,7 @@ import math
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from disc_model.engine import event_loop, layout, transitions
 from disc_model.engine import tangent as columns
-from disc_model.engine.series import build_series
+from disc_model.engine.series import Series, build_series
 from disc_model.errors import raise_faults, violations
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.simulation.states import (
@@ -45,6 +45,8 @@ PARAMETERS = (
     "m",
 )  # by which the map can be differentiated
 RETURNED = transitions.RETURNED
+# steps times blocks of lanes and of columns: some 0.2 s, after which Ctrl-C is answered
+WORK_PER_PIECE = 100_000
 ENDS = {
     transitions.RETURNED: "returned",
     transitions.TIME_OVER: "time_over",
@@ -79,6 +81,38 @@ def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
     rate = fastest * model.unit
     # all published cases are below 1.25, where steps are not shortened
     return columns.longest_step(order, tolerance) / (rate if rate > 1.25 else 1.0)
+
+
+def integrate_in_pieces(
+    model: layout.Model,
+    series: Series,
+    state: layout.EngineState,
+    tangent: columns.Tangent,
+    course: event_loop.IntegrationLimits,
+    section: event_loop.Section | None = None,
+    start: Array | None = None,
+) -> int:
+    """`event_loop.integrate`, with a return to Python after every `WORK_PER_PIECE`: a kernel cannot
+    be interrupted, and an integration under extreme stiffness or mass takes minutes."""
+    blocks = max(1, len(model.shift) // layout.WIDTH)
+    if course.tangent:
+        blocks *= 1 + tangent.columns // layout.WIDTH
+    step = min(course.longest, event_loop.TYPICAL_STEP) * model.unit
+    piece = WORK_PER_PIECE / blocks * step
+    left, releases = course.t_max, course.releases
+    where: tuple[Any, ...] = () if section is None else (section,)
+    if start is not None:
+        where = (section, start)
+        tangent.log[columns.RELEASES] = 0.0  # as the engine does there
+    while True:
+        before = float(tangent.log[columns.RELEASES])
+        now = course._replace(t_max=min(left, piece), releases=releases)
+        code: int = event_loop.integrate(model, series, state, tangent, now, *where)
+        if code != transitions.TIME_OVER or left <= piece:
+            return code
+        left -= piece
+        releases -= int(tangent.log[columns.RELEASES] - before)
+        where = where[:1]
 
 
 def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
@@ -168,6 +202,19 @@ class Flight:
         return math.sqrt(change.dot(change))  # as np.linalg.norm, in a quarter of the time
 
 
+class Passage(NamedTuple):
+    """Where a motion comes to the section: exit code, `RETURNED` on success; time (s) and
+    coordinates, (n,), which otherwise are those of its end."""
+
+    outcome: int
+    time: float
+    x: Array
+
+    @property
+    def reached(self) -> bool:
+        return self.outcome == RETURNED
+
+
 class ReturnMap:
     """The return map of one case; it owns the engine's arrays, so that one object serves one
     thread.
@@ -176,7 +223,8 @@ class ReturnMap:
         contact two for the slider's u, u'
     scale : (n,), factor from modal displacements and velocities to coordinates: omega, or 1; u and u' likewise
     diameters : nodal diameters of the mode of each coordinate, without the slider's coordinates, which come last
-    static : (n,), static equilibrium under the preload: the static start, and the first guess of Newton's method
+    static : (n,), static equilibrium under the preload. The motion from there need not come to this
+        point: friction on the surface bends the disc during the first stick, see `first_release`
     deflection : norm of `static`, the unit of distances on the section; `tol` is the residual of cycles over it
     patient : whether motions that separate are followed; their returns may take 60 times as long, about 5 s
     """
@@ -266,7 +314,7 @@ class ReturnMap:
             bool(may_separate),
             bool(tangent),
         )
-        code = event_loop.integrate(
+        code = integrate_in_pieces(
             self.model, self._series, self._state, t, course, self._section, start
         )
         whole, stick = t.log[[columns.DURATION, columns.STICK_TIME]].tolist()
@@ -275,16 +323,45 @@ class ReturnMap:
         by_start, by = jacobian[:, : self.size].copy(), jacobian[:, self._first : last].copy()
         return Flight(code, whole, stick, counts, start, self._section.end.copy(), by_start, by)
 
-    def next_release(self, start: State) -> tuple[int, Array]:
-        """Exit code (`RETURNED` on success) and the first point of the section that the motion from
-        `start` reaches."""
+    def next_release(self, start: State) -> Passage:
+        """The first passage of the motion from `start` through the section; a motion that loses
+        contact before ends there, unless the map is patient."""
         write_state(self._case, start, self._state)
-        limits = self.order, self.tolerance, math.inf, self.longest, 1
-        course = event_loop.IntegrationLimits(*limits, may_separate=True, tangent=False)
-        code: int = event_loop.integrate(
-            self.model, self._series, self._state, self._tangent, course
+        return self._follow_to_release(self.longest, may_separate=self.patient)
+
+    @cached_property
+    def first_release(self) -> Passage:
+        """The first passage of the motion from the static start, in contact, through the section:
+        the first release from a stick that has lasted.
+
+        A damper that pulls more than friction can hold releases the slider at once, beyond the
+        section. The passage is then the one after.
+        """
+        p, case = self.parameters, self._case
+        self._state.disc[:], self._state.x[:] = case.start.disc, case.start.x
+        # four times the first stick of a rigid disc: surface friction and slopes change the loads
+        stick = max(p.mu_s * p.N / p.r_0 - p.c_p * p.Omega, 0.0) / (p.k_p * p.Omega)
+        first = self._follow_to_release(4 * stick + self.longest, may_separate=False)
+        if not first.reached or first.time > 0.0:
+            return first
+        return self._follow_to_release(self.longest, may_separate=False, releases=2)
+
+    def _follow_to_release(
+        self, duration: float, *, may_separate: bool, releases: int = 1
+    ) -> Passage:
+        """Follow the motion from the present state for at most a duration (s) to a release."""
+        course = event_loop.IntegrationLimits(
+            self.order,
+            self.tolerance,
+            math.inf,
+            duration,
+            releases,
+            may_separate=may_separate,
+            tangent=False,
         )
-        return code, self._coordinates()
+        code = integrate_in_pieces(self.model, self._series, self._state, self._tangent, course)
+        x = self._state.x
+        return Passage(code, float(x[layout.TIME] + x[layout.TIME_LOW]), self._coordinates())
 
     def point(self, state: State) -> Array:
         """The point of the section of a state that lies on it."""

@@ -56,7 +56,7 @@ class SlidingStatus(StatusBase):
     AT_REST = "at_rest", "The disc is not driven (Omega = 0): nothing slides."
     NO_SPRING = (
         "no_spring",
-        "Without the spring in the plane (k_p = 0) nothing balances friction on a slider at rest.",
+        "Without the spring in the plane (k_p = 0) nothing balances friction or the disc's slope.",
     )
     PARADOX = (
         "paradox",
@@ -158,8 +158,6 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     raise_faults(case_faults(p, "steady_sliding"))
     if p.Omega == 0:
         return _absent(SlidingStatus.AT_REST)
-    if p.k_p == 0 and (p.mu_k > 0 or (p.contact_force == "normal" and p.D_star > 0)):
-        return _absent(SlidingStatus.NO_SPRING)
     modes, model, compliance = mode_arrays(p), engine_case(p).model, contact_compliance(p)
     a, b, vertical = _equilibrium(p, modes, compliance)
     if not (math.isfinite(vertical) and vertical > 0) and p.contact != "bilateral":
@@ -177,8 +175,14 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     # V and f' of a unit force, without F
     share, slowing = (float(part[0]) for part in _LAWS.slip_rates(model, i, friction, np.ones(1)))
     force = vertical / share
-    psi = -p.m * slowing * force / p.k_p if p.k_p > 0 else math.nan
-    rows = rows_at(psi if p.k_p > 0 else 0.0)
+    if p.k_p > 0:
+        psi = -p.m * slowing * force / p.k_p
+        rows = rows_at(psi)
+    elif slowing == 0:  # no friction at this speed, and no slope: both are exactly zero then
+        psi = math.nan
+        rows = rows_at(0.0)
+    else:
+        return _absent(SlidingStatus.NO_SPRING)
     _, rates = _slip(p, rows[:, None] + 1j * laws.TINY * np.eye(len(rows)))
     jacobian = rates.imag / laws.TINY
     eigenvalues = np.linalg.eigvals(jacobian).astype(complex)

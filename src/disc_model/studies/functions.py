@@ -424,10 +424,13 @@ def _row(
             "status": xr.Variable((), "failed"),
             "message": xr.Variable((), f"{type(error).__name__}: {error}"),
         }
-    words = {
-        "status": str(getattr(result, "status", "ok")),
-        "message": getattr(result, "message", ""),
-    }
+    if isinstance(result, xr.Dataset):  # whose attributes are also those of the object
+        words = {"status": "ok", "message": result.attrs.get("message", "")}
+    else:
+        words = {
+            "status": str(getattr(result, "status", "ok")),
+            "message": getattr(result, "message", ""),
+        }
     return {name: xr.Variable((), word) for name, word in words.items()} | _variables(result)
 
 
@@ -497,12 +500,7 @@ def _attributes_of(result: Any, name: str) -> dict[str, Any]:
 def _variables(result: Any) -> dict[str, xr.Variable]:
     """Numbers, words and one-dimensional arrays of a result."""
     if isinstance(result, xr.Dataset):
-        message = (
-            {"message": xr.Variable((), result.attrs["message"])}
-            if "message" in result.attrs
-            else {}
-        )
-        return {str(name): variable for name, variable in result.variables.items()} | message
+        return {str(name): variable for name, variable in result.variables.items()}
     if isinstance(result, Result):
         values: Mapping[str, Any] = result.scalars()
     elif is_dataclass(result):

@@ -31,6 +31,7 @@ from disc_model.parameters import (
     case_of,
 )
 from disc_model.simulation.case import SomeParameters, Start
+from disc_model.studies.costs import unit_costs
 from disc_model.studies.quantity import WORK, Blocks, Quantity, Range, Value, compiled_rule, holds
 from disc_model.units import (
     Count,
@@ -50,7 +51,10 @@ GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "
 REQUIRED = ("N", "Omega")  # parameters without a base value
 STATIC = "static"  # name of the default start
 MOST_POINTS = 1_000_000  # Snakemake takes hours over so many jobs; many more do not fit into memory
-TILE = 32  # approximate intervals along the side of a tile of a plane
+FEW_PARTS = 3  # of a block; so many are equal
+# intervals along the side of a tile of a plane, whose cells are refined together
+SMALLEST_TILE = 8
+LARGEST_TILE = 32
 
 # ---- Values along an axis: lists, linear and logarithmic ranges, and blocks of them
 NumberOrUnit = Annotated[Any, WithJsonSchema({"type": ["number", "string"]})]
@@ -120,7 +124,7 @@ class BatchSpec(Strict):
 
     # dimensions that are cut, where each value of the others has batches of its own; if not given,
     # the first ones are, as far as `size` requires. For a plane at once: its two, by default the
-    # only ones that are numbers, then those whose values share a batch, by default all others
+    # only ones that are numbers, then those whose values share a batch, by default none
     over: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
     size: Annotated[Count, Field(ge=1)] | None = (
         None  # most points in a batch; if not given, about 20 s of work
@@ -171,6 +175,30 @@ class FigureEntry(NamedTuple):
     caption: str
 
 
+class Part(NamedTuple):
+    """Some points of a grid that are computed together.
+
+    Attributes
+    ----------
+    points : for each, the values along the dimensions in their order
+    cost : estimated processor time of a point, s
+    tile : of a plane: names of its dimensions, values along its sides, and places that are marked
+    """
+
+    points: Iterable[Any]
+    cost: float
+    tile: dict[str, Any] | None = None
+
+
+class Batch(NamedTuple):
+    """A batch: its name, its text, how many points it has, and its estimated processor time, s."""
+
+    name: str
+    text: str
+    points: int
+    seconds: float
+
+
 class GridStudy:
     """A grid study; raises `ParameterError` with the faults between the parts of its file."""
 
@@ -203,70 +231,130 @@ class GridStudy:
         raise_faults(faults)
         self.base = whole_base
 
-    @cached_property
+    @property
     def batches(self) -> dict[str, str]:
         """JSON text of each batch by its name, 12 hexadecimal digits."""
-        batch = self.file.batch
-        if self.options.tiled:
-            maps = [plot for plot in self.plots.values() if isinstance(plot, RegionMap)]
-            marked = [
-                {plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()
-            ]
-            return self._texts(_tiles(self.dims, batch, marked))
-        size, cut = (
-            batch.size or max(1, round(WORK / self.options.cost())),
-            batch.over or self.values,
-        )
-        # a dimension that is not cut is taken as blocks of one value each
-        blocks = [
-            dim.blocks if dim.name in cut else [(value,) for value in dim.values]
-            for dim in self.dims
-        ]
-        return self._texts(
-            {"points": part} for chosen in product(*blocks) for part in _parts(chosen, size)
-        )
+        return {name: batch.text for name, batch in self._batches.items()}
+
+    @property
+    def work(self) -> dict[str, float]:
+        """Estimated processor time of each batch by its name, s, on the machine of
+        `disc_model.studies.costs`."""
+        return {name: batch.seconds for name, batch in self._batches.items()}
+
+    @cached_property
+    def _batches(self) -> dict[str, "Batch"]:
+        """The batches by name."""
+        parts = self._tiles() if self.options.tiled else self._pieces()
+        return {batch.name: batch for batch in map(self._batch, parts) if batch.points}
 
     @cached_property
     def motions(self) -> dict[str, str]:
         """JSON text, by its name, of the batch of points whose motions are stored; empty for some
         quantities."""
+        if not self.options.motions:
+            return {}
         few = [dim.thinned(self.options.motions) for dim in self.dims]
-        return (
-            self._texts([{"points": product(*(dim.values for dim in few))}])
-            if self.options.motions
-            else {}
-        )
+        batch = self._batch(Part(product(*(dim.values for dim in few)), 0.0))
+        return {batch.name: batch.text} if batch.points else {}
 
-    def _texts(self, parts: Iterable[dict[str, Any]]) -> dict[str, str]:
-        """Parts of the grid that have points left, each as a text with everything that its result
-        depends on."""
-        shared = {
+    def _pieces(self) -> Iterator["Part"]:
+        """Parts of blocks of the grid, of about equal cost or of the size that the file says."""
+        spec = self.file.batch
+        cut = spec.over or self.values
+        # a dimension that is not cut is taken as blocks of one value each
+        blocks = [
+            dim.blocks if dim.name in cut else [(value,) for value in dim.values]
+            for dim in self.dims
+        ]
+        for chosen in product(*blocks):
+            cost = self._cost_of(product(*chosen))
+            size = spec.size or max(1, round(WORK / cost))
+            for points in _parts(chosen, size):
+                yield Part(points, cost)
+
+    def _tiles(self) -> Iterator["Part"]:
+        """Tiles of a plane, for each combination of the other dimensions' values, or for those
+        together that the file names."""
+        over = self.file.batch.over
+        plane = _plane(self.dims, over)
+        others = [dim for dim in self.dims if dim not in plane]
+        shares = [
+            [dim.values] if over and dim.name in over else [(value,) for value in dim.values]
+            for dim in others
+        ]
+        for chosen in product(*shares):
+            values = dict(zip([dim.name for dim in others], chosen, strict=True))
+            first = [values.get(dim.name, dim.values) for dim in self.dims]
+            cost = self._cost_of(product(*first))
+            together = math.prod(map(len, chosen))
+            side = math.sqrt(WORK / (cost * together))
+            size = round(min(max(side, SMALLEST_TILE), LARGEST_TILE))
+            for tile in product(*(_cuts(dim.values, size) for dim in plane)):
+                yield self._tile(plane, tile, values, cost)
+
+    def _tile(
+        self,
+        plane: Sequence[Dimension],
+        cuts: Sequence[Any],
+        others: Mapping[str, Any],
+        cost: float,
+    ) -> "Part":
+        """A tile: its points, and the values along its sides, with those of the next tiles that
+        bound its last cells; `cuts` are those of both sides by `_cuts`."""
+        along, within = zip(*cuts, strict=True)
+        names = [dim.name for dim in plane]
+        values = {**others, **dict(zip(names, within, strict=True))}
+        sampled = []
+        for mark in self._marked():
+            place = [_index_of(mark[name], side) for name, side in zip(names, along, strict=True)]
+            if None not in place:
+                sampled.append(place)
+        points = product(*(values[dim.name] for dim in self.dims))
+        return Part(points, cost, {"names": names, "along": along, "sampled": sorted(sampled)})
+
+    def _marked(self) -> list[dict[str, float]]:
+        """Points of the plane that figures mark, by the names of its dimensions."""
+        maps = [plot for plot in self.plots.values() if isinstance(plot, RegionMap)]
+        return [{plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()]
+
+    def _cost_of(self, points: Iterable[Any]) -> float:
+        """Estimated processor time (s) of the first point that keeps the file's rules: the cost of
+        others differs little, and a value that is added elsewhere does not change it."""
+        first = next(self.points_along(self.dims, points), None)
+        if first is None:
+            return WORK
+        return self.options.cost(unit_costs(self._case_at(first)))
+
+    def _case_at(self, point: Mapping[str, Value]) -> Parameters:
+        """The case of a point; where modes are chosen there, with the usual ones."""
+        base = {
+            name: value
+            for name, value in self.base.items()
+            if name not in parameters.CHOOSING and value != AUTO
+        }
+        return Parameters(**case_of(base | dict(point), self.discs))
+
+    def _batch(self, part: "Part") -> "Batch":
+        """A part of the grid as a text with everything that its result depends on."""
+        points = [*self.points_along(self.dims, part.points)]
+        content: dict[str, Any] = {
             "quantity": self.quantity,
             "options": self.options.model_dump(),
             "base": self.base,
+            "names": self.varied,
         }
-        texts = []
-        for part in parts:
-            points = [*self.points_along(self.dims, part["points"])]
-            named: dict[str, Any] = {"names": self.varied}
-            for name, kind, known in (
-                (START, "starts", self.starts),
-                ("disc", "discs", self.discs),
-            ):
-                if name in self.varied:
-                    named[kind] = {
-                        word: known[word].model_dump()
-                        for word in {str(point[name]) for point in points}
-                    }
-            if points:
-                content = part | {
-                    "points": [
-                        [*parameters.in_words(point, parameters.IDENTITIES).values()]
-                        for point in points
-                    ]
-                }
-                texts.append(canonical_json(shared | named | content))
-        return {content_key(text): text for text in texts}
+        if part.tile is not None:
+            content["tile"] = part.tile
+        for name, kind, known in ((START, "starts", self.starts), ("disc", "discs", self.discs)):
+            if name in self.varied:
+                words = sorted({str(point[name]) for point in points})
+                content[kind] = {word: known[word].model_dump() for word in words}
+        content["points"] = [
+            [*parameters.in_words(point, parameters.IDENTITIES).values()] for point in points
+        ]
+        text = canonical_json(content)
+        return Batch(content_key(text), text, len(points), len(points) * part.cost)
 
     def points_along(
         self, dims: Sequence[Dimension], every: Iterable[Any] | None = None
@@ -317,13 +405,8 @@ class GridStudy:
     @property
     def doubts(self) -> Iterator[str]:
         """Warnings about implausible corners of the grid, one by each rule."""
-        base = {
-            name: value
-            for name, value in self.base.items()
-            if name not in parameters.CHOOSING and value != AUTO
-        }
         corners = self.points_along([dim.thinned(2) for dim in self.dims])
-        cases = (Parameters(**case_of(base | point, self.discs)) for point in corners)
+        cases = map(self._case_at, corners)
         yield from ChainMap(*map(doubts, cases)).values()
 
     # ---- what the file says
@@ -404,8 +487,6 @@ class GridStudy:
             upper, lower = RATIOS.get(name, (name, ""))
             if "disc" in given and not {upper, lower}.isdisjoint((*PLATE, "damping_ratio")):
                 yield Fault(("axes", name), "", "must be left out where a disc is given")
-            if lower in scanned:
-                yield Fault(("axes", name), "", f"needs {lower}, which the {quantity} varies")
         for name in sorted({*REQUIRED}.difference(given)):
             yield Fault(("axes", name), "", "is required, here, in a zip or in base")
         if not self.dims:
@@ -445,27 +526,48 @@ class GridStudy:
                     )
 
     def _wrong_extent(self) -> Iterator[Fault]:
-        over, known = (
-            self.file.batch.over,
-            [*dict.fromkeys((*Parameters.model_fields, *self.varied))],
-        )
+        over = self.file.batch.over
         if self.options.tiled and len(_plane(self.dims, over)) != 2:
             rule = f"must name the two dimensions, single numbers, of {self.quantity}'s plane first"
             yield Fault.of(("batch", "over"), over and list(over), rule)
         if (size := math.prod(len(dim.values) for dim in self.dims)) > MOST_POINTS:
             yield Fault(("axes",), "", f"must make at most {MOST_POINTS} points, and not {size}")
-        unknown = [
-            (name, rule)
-            for rule in self.where
-            for name in compiled_rule(rule).co_names
-            if name not in known
-        ]
-        for name, rule in unknown:
-            yield Fault.of(
-                ("where",), rule, f"{name} is no value of a point{suggestion(name, known, False)}"
-            )
-        if self.where and not unknown and next(self.points_of(()), None) is None:
+        wrong_rules = [*self._wrong_rules()]
+        yield from wrong_rules
+        if self.where and not wrong_rules and next(self.points_of(()), None) is None:
             yield Fault(("where",), "", "leaves no point")
+
+    def _wrong_rules(self) -> Iterator[Fault]:
+        """Rules of the file may compare values of points only: what the quantity varies, what a
+        disc makes meaningless, and numbers of modes that are chosen later are none."""
+        unknown = self._unknown_at_points()
+        ratios = self.file.base.model_fields_set & RATIOS.keys()
+        fields = [*Parameters.model_fields, *self.varied, *sorted(ratios)]
+        known = [name for name in dict.fromkeys(fields) if name not in unknown]
+        for rule in self.where:
+            for name in compiled_rule(rule).co_names:
+                if name in unknown:
+                    yield Fault.of(("where",), rule, f"{name} is {unknown[name]}")
+                elif name not in known:
+                    told = suggestion(name, known, all_of_them=False)
+                    yield Fault.of(("where",), rule, f"{name} is no value of a point{told}")
+
+    def _unknown_at_points(self) -> dict[str, str]:
+        """Parameters without a value of their own at a point, and why they have none."""
+        reasons: dict[str, str] = {}
+        if "disc" in {*self.varied, *self.file.base.model_fields_set}:
+            reasons |= dict.fromkeys((*PLATE, "damping_ratio"), "no parameter of a given disc")
+        if self.mode_request is not None:
+            reasons |= dict.fromkeys(("n_diameters", "n_circles"), "chosen at each point")
+        by_quantity = f"varied by the quantity {self.quantity}"
+        for name in self.options.scanned:
+            reasons |= {name: by_quantity, RATIOS.get(name, (name,))[0]: by_quantity}
+        given = {*self.varied, *self.file.base.model_fields_set}
+        for ratio in RATIOS.keys() & given:
+            upper, lower = RATIOS[ratio]
+            if lower in reasons:
+                reasons[upper] = reasons[lower]
+        return reasons
 
     def _base_of_points(self) -> dict[str, Any]:
         """All values that do not vary; raises `ParameterError` with the rules that the first such
@@ -507,6 +609,10 @@ class GridStudy:
             name: [value[0] if len(value) == 1 else value for value in along]
             for name, along in self.values.items()
         }
+        endless = [name for name, along in values.items() if math.inf in along]
+        for field in ("x", "y"):
+            if (name := getattr(plot, field, None)) in endless:
+                return [Fault.of((field,), name, "has the value inf, which no axis can show")]
         if not isinstance(plot, General):
             quantities = plot.quantities or (plot.kind,)
             if self.quantity in quantities:
@@ -539,7 +645,8 @@ class GridStudy:
 def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[Any, ...]]]:
     """The product of blocks in parts of at most `size`; each holds whole values of a block, and all
     of later blocks. Thus a further value of a dimension that is cut into single values adds parts
-    and keeps the others."""
+    and keeps the others. Few parts are made equal, so that no core waits; of many, all but the last
+    have the full size, so that a value that is added at the end changes the last alone."""
     first, *others = blocks
     within = math.prod(map(len, others))
     if within > size:
@@ -548,43 +655,19 @@ def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[An
         )
     else:
         count = size // within
-        yield from ([*product(first[i : i + count], *others)] for i in range(0, len(first), count))
+        parts = math.ceil(len(first) / count)
+        if parts <= FEW_PARTS:
+            count = math.ceil(len(first) / parts)
+        for i in range(0, len(first), count):
+            yield [*product(first[i : i + count], *others)]
 
 
-def _tiles(
-    dims: Sequence[Dimension], batch: BatchSpec, marks: list[dict[str, float]]
-) -> Iterator[dict[str, Any]]:
-    """Points of each tile, and the values along its sides, with those of the next tiles that bound
-    its last cells."""
-
-    def index_of(value: float, side: Sequence[Value]) -> int | None:
-        return next(
-            (i for i, other in enumerate(side) if math.isclose(value, float(other), rel_tol=1e-12)),
-            None,
-        )
-
-    plane = _plane(dims, batch.over)
-    others = [dim for dim in dims if dim not in plane]
-    names = [dim.name for dim in plane]
-    gathered = batch.over or [dim.name for dim in others]
-    shares = [
-        [dim.values] if dim.name in gathered else [(value,) for value in dim.values]
-        for dim in others
-    ]
-    for chosen, tile in product(
-        product(*shares), product(*(_cuts(dim.values, TILE) for dim in plane))
-    ):
-        along, within_tile = zip(*tile, strict=True)
-        values = dict(
-            zip([dim.name for dim in (*others, *plane)], [*chosen, *within_tile], strict=True)
-        )
-        indices = [
-            [index_of(mark[name], side) for name, side in zip(names, along, strict=True)]
-            for mark in marks
-        ]
-        inside = sorted(index for index in indices if None not in index)
-        points = product(*(values[dim.name] for dim in dims))
-        yield {"points": points, "tile": {"names": names, "along": along, "sampled": inside}}
+def _index_of(value: float, side: Sequence[Value]) -> int | None:
+    """Place of a value along the side of a tile, None if it is not there."""
+    for i, other in enumerate(side):
+        if math.isclose(value, float(other), rel_tol=1e-12):
+            return i
+    return None
 
 
 def _plane(dims: Sequence[Dimension], over: Sequence[str] | None) -> list[Dimension]:

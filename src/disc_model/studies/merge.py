@@ -13,10 +13,10 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
-from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names, stated_in
+from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
 from disc_model.errors import DiscModelError, as_text
-from disc_model.parameters import in_words
-from disc_model.studies.quantity import quantity_of
+from disc_model.parameters import RATIOS, in_words
+from disc_model.studies.quantity import Quantity, quantity_of
 from disc_model.studies.run import POINT, coordinates_of, describe, variables_of
 
 JOINED: Any = {
@@ -40,7 +40,8 @@ def merge_batches(
     common = {
         name: value for name, value in every[0].items() if name not in ("points", "names", "tile")
     }
-    common["base"] = in_words(common["base"])
+    quantity = quantity_of(common["quantity"]).model_validate(common["options"])
+    common["base"] = _fixed(in_words(common["base"]), quantity)
     for key in common.keys() & {"starts", "discs"}:
         common[key] = {
             name: definition for each in every for name, definition in sorted(each[key].items())
@@ -77,9 +78,14 @@ def merge_batches(
         coords,
         {"Conventions": CONVENTIONS, **attrs, **base, **common_provenance(batches)},
     )
-    return summarised(
-        merged, quantity_of(merged.attrs["quantity"]).model_validate(stated_in(merged, "options"))
-    )
+    return summarised(merged, quantity)
+
+
+def _fixed(base: Mapping[str, Any], quantity: Quantity) -> dict[str, Any]:
+    """The values of a base that a quantity does not vary by itself: of others it has those with
+    which the file was checked, such as a speed of zero."""
+    varied = {*quantity.scanned, *(RATIOS[name][0] for name in quantity.scanned if name in RATIOS)}
+    return {name: value for name, value in base.items() if name not in varied}
 
 
 def failures(study: xr.Dataset) -> Iterator[str]:

@@ -14,12 +14,13 @@ from types import CodeType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
 from disc_model.data.variables import Variable
 from disc_model.errors import DiscModelError, Fault, ParameterError, Status, suggestion
 from disc_model.parameters import DEFAULTS, RATIOS, Parameters, with_ratios
 from disc_model.simulation.case import Start
+from disc_model.studies.costs import UnitCosts
 from disc_model.units import Count, Finite, Positive, Strict, must, number
 
 if TYPE_CHECKING:
@@ -27,10 +28,11 @@ if TYPE_CHECKING:
 
     from disc_model.simulation.result import Result
     from disc_model.simulation.states import State
+    from disc_model.stability.attractors import Arrival
     from disc_model.stability.cycle import FloquetResult
     from disc_model.stability.outcome import Attractor, OutcomeResult, Segment
 else:  # names for annotations
-    Attractor = Dataset = FloquetResult = OutcomeResult = Result = Segment = State = Any
+    Arrival = Attractor = Dataset = FloquetResult = OutcomeResult = Result = Segment = State = Any
 
 Value = float | int | str
 Blocks = tuple[tuple[Value, ...], ...]
@@ -205,10 +207,6 @@ def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
 
 
 WORK = 20.0  # processor time of a batch, s: its job costs about 1 s in itself. Three times as much does no harm.
-# Measured costs, s. A new value changes the batches of all studies of a quantity without
-# `batch.size`.
-SIMULATED = 7e-4  # cost of a simulated second, s: 3e-4 in contact, two or three times as much with repeated separation
-CYCLE = 2.5e-3  # cost of finding a cycle and its multipliers, s
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, "
     "or at the horizon."
@@ -225,7 +223,9 @@ Free = Annotated[
 
 
 class Quantity(Ruled):
-    """A quantity of grid studies: its fields are its options."""
+    """A quantity of grid studies: its fields are its options, each with its description below."""
+
+    model_config = ConfigDict(use_attribute_docstrings=True)
 
     COLUMNS: ClassVar[Mapping[str, Variable]] = {}
     COORDINATES: ClassVar[
@@ -246,9 +246,6 @@ class Quantity(Ruled):
     # the required dimension over which `summarise`, as of `Campbell`, makes a row of a merged
     # study; a rule of the file may have left out some points, or all
     over: ClassVar[str] = ""
-    cost: ClassVar[
-        Callable[[Any], float]
-    ]  # processor time of a point, s, measured at points of the paper's study
 
     @property
     def scanned(self) -> tuple[str, ...]:
@@ -262,6 +259,11 @@ class Quantity(Ruled):
     def faults(self, grid: Any) -> Iterable[Fault]:
         """Faults of the options in a grid, a `disc_model.studies.grid.GridStudy`."""
         return ()
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Estimated processor time of a point, s. Another estimate changes the batches of all
+        studies of the quantity without `batch.size`."""
+        raise NotImplementedError
 
     def compute_point(self, point: Point) -> tuple[Row, str]:
         """Values at one point by column, flags as words, and a message. Too short lists are padded,

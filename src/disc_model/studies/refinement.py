@@ -2,8 +2,8 @@
 point.
 
 Multipliers give the outcome where the start stays quiet, or grows too slowly for anything else.
-Elsewhere it is simulated at the corners of coarse cells, which are divided as docs/study_method.md,
-Regions, describes, or filled.
+Elsewhere the start is simulated, except within cells all of whose points that were simulated
+separate: only separation is inferred. docs/study_method.md, Regions, describes the cells.
 """
 
 import math
@@ -18,16 +18,13 @@ from disc_model.analysis.spectra import modes_at_rest
 from disc_model.data.variables import STABLE_CYCLES, Outcome
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.linear_motion import NearCycle, cycle_of_static_start
-from disc_model.stability.outcome import OutcomeResult, Stage, find_outcome
+from disc_model.stability.outcome import OutcomeResult, find_outcome
 from disc_model.stability.return_map import newton
-from disc_model.stability.thresholds import AMPLITUDES, SAME_POINT
+from disc_model.stability.thresholds import SAME_POINT
 from disc_model.studies.quantity import NUMERICAL, Made, Row, failed
 
 Array = NDArray[np.float64]
 Index = tuple[int, int]
-
-GROWN = {Outcome.GROWING, Outcome.OTHER_CYCLE}
-CALM = (Outcome.QUIET, Outcome.STEADY_SLIDING, Outcome.AT_REST)
 
 
 class Tile:
@@ -45,73 +42,28 @@ class Tile:
             index: _result_or_error(cycle_of_static_start, p) for index, p in self.points.items()
         }
         self.results: dict[Index, OutcomeResult | Exception] = {}
-        self.filled: dict[Index, str] = {}
-        self.presumed: dict[Index, str] = {}
+        self.inferred: set[Index] = set()  # points that separate like those around them
         self.trends = {index: self._trend(index) for index in self.starts}
         for index in sampled:
             self.outcome(index)
         rows, columns = (_edges(size, options.initial_cell_size) for size in self.shape)
         known = -1
-        while (
-            known < len(self.results) or self._confirm()
-        ):  # a result on its edge may require a cell to be divided
+        while known < len(self.results):  # a point on the edge of a cell may have been computed
             known = len(self.results)
-            self.filled.clear()
-            self.presumed.clear()
+            self.inferred.clear()
             for across, along in product(pairwise(rows), pairwise(columns)):
                 self._refine(across, along)
-        self._check_what_is_filled()
 
     def _own(self, index: Index) -> NearCycle | None:
         """The cycle that the static start follows from its beginning."""
         start = self.starts[index]
         return start if isinstance(start, NearCycle) and start.follows_cycle else None
 
-    def _check_what_is_filled(self) -> None:
-        """Compute points whose start follows a growing cycle but counts as calm, or none though
-        most neighbours do."""
-        for (i, j), outcome in (self.presumed | self.filled).items():
-            beside = [
-                index
-                for index in ((i - 1, j), (i, j - 1), (i, j + 1), (i + 1, j))
-                if index in self.starts
-            ]
-            doubtful = outcome in CALM
-            if self._own((i, j)) is None:
-                # the strip of points without a cycle is thinner than the grid
-                doubtful = sum(self._own(index) is None for index in beside) <= 1
-            if doubtful:
-                self.outcome((i, j))
-
-    def _confirm(self) -> bool:
-        """Whether an outcome changes if its departure, of which multipliers do not keep the phase,
-        is simulated as a whole, where both points beside have another."""
-        changed = False
-        for (i, j), result in list(self.results.items()):
-            if not isinstance(result, OutcomeResult) or result.extrapolated is None:
-                continue
-            sides = [((i - 1, j), (i + 1, j)), ((i, j - 1), (i, j + 1))]
-            beside = {
-                self._shown(before)
-                for before, after in sides
-                if self._shown(before) == self._shown(after)
-            }
-            if any(
-                both != result.word and {both, result.word} - GROWN == {Outcome.SEPARATION}
-                for both in beside
-            ):
-                whole = self._result((i, j), furthest=0.0)
-                if isinstance(whole, OutcomeResult):
-                    whole.simulated += result.simulated
-                self.results[i, j] = whole
-                changed |= self.outcome((i, j)) != result.word
-        return changed
-
-    def _shown(self, index: Index) -> str | None:
-        """The outcome at a point as far as it is known."""
+    def _shown(self, index: Index) -> str:
+        """The outcome at a point, computed or inferred."""
         if index in self.results:
             return self.outcome(index)
-        return self.trends.get(index) or self.filled.get(index, self.presumed.get(index))
+        return Outcome.SEPARATION if index in self.inferred else self.trends[index]
 
     def outcome(self, index: Index) -> str:
         """Outcome of the static start at a point, computed once."""
@@ -120,14 +72,10 @@ class Tile:
         result = self.results[index]
         return result.word if isinstance(result, OutcomeResult) else "failed"
 
-    def _result(self, index: Index, furthest: float = AMPLITUDES[0]) -> OutcomeResult | Exception:
-        p, horizon, how = (
-            self.points[index],
-            self.options.horizon,
-            {"tol": self.options.tol, "furthest": furthest},
-        )
+    def _result(self, index: Index) -> OutcomeResult | Exception:
+        p, horizon, tol = self.points[index], self.options.horizon, self.options.tol
         return _result_or_error(
-            lambda start: find_outcome(p, horizon, near=start, **how), self.starts[index]
+            lambda start: find_outcome(p, horizon, tol=tol, near=start), self.starts[index]
         )
 
     def _trend(self, index: Index) -> str:
@@ -142,58 +90,26 @@ class Tile:
         )
 
     def _refine(self, rows: Index, columns: Index) -> None:
-        """Divide a cell, given by the indices of its edges, or fill it."""
+        """Infer the outcomes within a cell, given by the indices of its edges, or divide it."""
         inside = list(product(range(rows[0], rows[1] + 1), range(columns[0], columns[1] + 1)))
-        undecided = [index for index in inside if not self.trends[index]]
-        if not undecided:
+        if all(self.trends[index] for index in inside):
             return
-        corners = [corner for corner in product(rows, columns) if not self.trends[corner]]
-        for index in corners or (
-            [] if any(index in self.results for index in undecided) else [_middle(undecided)]
-        ):
-            if index not in self.presumed:
-                self.outcome(index)
-        # Between slow growth and separation there may be faster growth, still without separation.
-        # If all corners show only that, stripes of separation may lie between them: these cells are
-        # divided once more.
-        outcomes = {self.outcome(index) for index in undecided if index in self.results}
-        outcomes |= {self.presumed[corner] for corner in corners if corner not in self.results}
-        outcomes |= {
-            self.trends[index] for index in inside if self.trends[index] is Outcome.GROWING
-        }
-        halves = [_halves(*edges) for edges in (rows, columns)]
+        probes = {*product(rows, columns), _middle(inside), *(self.results.keys() & {*inside})}
+        separates = not any(self.trends[index] for index in inside) and all(
+            self.outcome(index) is Outcome.SEPARATION for index in sorted(probes)
+        )
         side = max(rows[1] - rows[0], columns[1] - columns[0])
-        most = max(1, self.options.initial_cell_size // 2)
-        if len(outcomes) == 1 and outcomes <= GROWN and 1 < side <= most:
-            # late separations depend on rounding: all corners may miss them by chance
-            outcomes.add(self.outcome(_middle(undecided)))
-        if len(outcomes) == 1 and (not outcomes <= GROWN or side <= most):
-            self.filled |= {index: next(iter(outcomes)) for index in undecided}
-        elif len(halves[0]) * len(halves[1]) > 1:
-            if side <= 2:
-                self._presume(rows, columns)
+        if separates and side <= max(1, self.options.initial_cell_size // 2):
+            self.inferred |= set(inside) - self.results.keys()
+            return
+        halves = [_halves(*edges) for edges in (rows, columns)]
+        if len(halves[0]) * len(halves[1]) > 1:
             for i, j in product(*halves):
                 self._refine(i, j)
-
-    def _presume(self, rows: Index, columns: Index) -> None:
-        """Presume that an edge of a small cell has the outcome of its equal corners; a cell beside
-        it may differ."""
-
-        def outcome(corner: Index) -> str:
-            return self.trends[corner] or (
-                self.outcome(corner) if corner in self.results else self.presumed[corner]
-            )
-
-        edges = [((row, columns[0]), (row, columns[1])) for row in rows]
-        edges += [((rows[0], column), (rows[1], column)) for column in columns]
-        for first, two in edges:
-            middle = (first[0] + two[0]) // 2, (first[1] + two[1]) // 2
-            if (
-                middle not in (first, two)
-                and not self.trends[middle]
-                and outcome(first) == outcome(two)
-            ):
-                self.presumed.setdefault(middle, outcome(first))
+            return
+        for index in inside:
+            if not self.trends[index]:
+                self.outcome(index)
 
     def rows(self) -> list[list[tuple[Row, str]]]:
         others = self._others()
@@ -239,13 +155,10 @@ class Tile:
         row["branch_continues_first"] = self._joined(index, (i + 1, j))
         row["branch_continues_second"] = self._joined(index, (i, j + 1))
         if result is None:
-            row |= {
-                "outcome": self._shown(index),
-                "method": "multipliers" if self.trends[index] else "inferred",
-            }
+            method = "inferred" if index in self.inferred else "multipliers"
+            row |= {"outcome": self._shown(index), "method": method}
         else:
-            method = "simulation" if result.simulated else "multipliers"
-            row["method"] = "settled" if result.stage is Stage.STEADY else method
+            row["method"] = "simulation" if result.simulated else "multipliers"
             row |= {
                 "status": result.status,
                 "outcome": result.word,

@@ -1,6 +1,7 @@
 """Computation of one batch of a grid study: a quantity at each point, as variables with units."""
 
 import json
+import math
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
@@ -20,6 +21,7 @@ from disc_model.sources import git_commit, source_hash, versions
 from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, quantity_of, tried
 
 POINT = "point"
+WORDS = (*CHOICES, "disc", START)  # what varies by words
 
 
 def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Dataset:
@@ -30,7 +32,7 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
     quantity = quantity_of(data["quantity"]).model_validate(data["options"])
     computed = quantity if of is None else of(quantity)
     names = data["names"]
-    varied = [in_words(dict(zip(names, point, strict=True))) for point in data["points"]]
+    varied = [_varied(names, point) for point in data["points"]]
     chosen, tiled = data["base"].get("n_diameters") == AUTO, "tile" in data
     parameters = (
         [_made(data, values) for values in varied] if chosen or not tiled else []
@@ -69,6 +71,16 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
         "versions": json_attribute(versions()),
     }  # fmt: skip
     return xr.Dataset(variables, coords | coords_of_quantity, attrs)
+
+
+def _varied(names: Sequence[str], point: Sequence[Any]) -> dict[str, Any]:
+    """The varying values of a point by name, in the words of the field. JSON has no infinity, which
+    is a word there."""
+    values = in_words(dict(zip(names, point, strict=True)))
+    for name, value in values.items():
+        if value == "inf" and name not in WORDS:
+            values[name] = math.inf
+    return values
 
 
 def _over_tile(quantity: Any, data: Mapping[str, Any]) -> Iterator[tuple[Row, str]]:

@@ -5,17 +5,14 @@ right.
 """
 
 import json
-import math
-import re
 from collections import ChainMap
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from functools import cached_property, partial, reduce
+from functools import cached_property, reduce
 from glob import glob
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, Union
 
 import pydantic
-import yaml
 from pydantic import (
     AfterValidator,
     BeforeValidator,
@@ -24,14 +21,11 @@ from pydantic import (
     WithJsonSchema,
     create_model,
 )
-from yaml.composer import ComposerError
 
-from disc_model.data.files import MissingFile, UnreadableFile
 from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, values_text
 from disc_model.disc.files.table import read_disc
 from disc_model.disc.plausibility import doubts
-from disc_model.display import counted
-from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
+from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import KINDS, CasePlot, Kind, Plot, kind_of
 from disc_model.figures.selection import NORM
 from disc_model.mode_choice import CHOSEN_BY, TRUSTED, ModeRequest, read_asked
@@ -55,7 +49,9 @@ from disc_model.studies.grid import (
     GridStudy,
     described,
 )
+from disc_model.studies.options import Option, options_of
 from disc_model.studies.quantity import compiled_rule, quantity_names, quantity_of
+from disc_model.studies.reading import StudyError, read_file
 from disc_model.units import Finite, Positive, Seconds, Strict, Tolerance, must
 
 MODES = {
@@ -64,101 +60,6 @@ MODES = {
 }
 
 # ---- Reading
-
-
-class StudyError(DiscModelError, ValueError):
-    """A study file that breaks rules; lists every fault once, as ``path=value: rule``."""
-
-    def __init__(self, *faults: str, source: str = "study") -> None:
-        self.faults, self.source = tuple(dict.fromkeys(map(str, faults))), source
-        super().__init__(
-            "\n  ".join([f"{source}: {counted(len(self.faults), 'fault')}", *self.faults])
-        )
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return (partial(type(self), source=self.source), self.faults)
-
-
-def read_file(path: Path) -> Any:
-    """A YAML file's content. Raises `StudyError` if it is no YAML, gives a key twice, or writes a
-    number in another base than it seems; `MissingFile` or `UnreadableFile` if there is no text."""
-    try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise MissingFile(f"{path}: there is no such file") from None
-    except OSError as error:
-        raise UnreadableFile(f"{path}: cannot be read: {error.strerror}") from None
-    except ValueError as error:
-        raise UnreadableFile(f"{path}: cannot be read: {error}") from None
-    try:
-        return yaml.load(text, _Loader)
-    except (
-        yaml.YAMLError,
-        ValueError,
-        RecursionError,
-        AttributeError,
-        KeyError,
-        TypeError,
-    ) as error:
-        # ValueError and what follows: a value looks like a number or date, or has a tag, that it
-        # does not fit
-        raise StudyError(
-            f"cannot be read as YAML, whose values must fit their tags: {error}", source=str(path)
-        ) from None
-
-
-MOST_VALUES = 1_000_000  # of a file, each as often as aliases repeat it
-_OCTAL = re.compile(r"[-+]?0[0-7_]+")
-_SEXAGESIMAL = re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?")
-
-
-class _Loader(yaml.SafeLoader):
-    """Refuses a key that is given twice, of which YAML itself would take the last value; numbers
-    that YAML 1.1 takes in base 8 or 60, such as 010 and 1:30; and aliases that repeat more than a
-    computer can hold."""
-
-    def get_single_node(self) -> Any:
-        node = super().get_single_node()
-        if node is not None and _size_of(node, {}) > MOST_VALUES:
-            rule = f"its aliases repeat more than {MOST_VALUES} values, or a part within itself"
-            raise ComposerError(None, None, rule, node.start_mark)
-        return node
-
-    def compose_scalar_node(self, anchor: Any) -> yaml.ScalarNode:
-        node = super().compose_scalar_node(anchor)
-        if not node.tag.endswith((":int", ":float")):
-            return node
-        for pattern, base, remedy in (
-            (_OCTAL, 8, "leave the zero at its start out"),
-            (_SEXAGESIMAL, 60, "write a number without a colon, perhaps with a unit"),
-        ):
-            if pattern.fullmatch(node.value):
-                rule = f"YAML takes {node.value} for a number in base {base}: {remedy}"
-                raise ComposerError(None, None, rule, node.start_mark)
-        return node
-
-    def compose_mapping_node(self, anchor: Any) -> yaml.MappingNode:
-        node = super().compose_mapping_node(anchor)
-        known = set[str]()
-        for key, _ in node.value:
-            if key.value in known and key.value != "<<":
-                raise ComposerError(None, None, f"{key.value} is given twice", key.start_mark)
-            known.add(key.value)
-        return node
-
-
-def _size_of(node: yaml.Node, known: dict[int, float]) -> float:
-    """Number of values of a part of a file, each as often as aliases repeat it; infinite for a part
-    within itself. `known` has the sizes of parts that were counted before."""
-    if isinstance(node, yaml.ScalarNode):
-        return 1
-    if id(node) not in known:
-        known[id(node)] = math.inf
-        parts = node.value
-        if isinstance(node, yaml.MappingNode):
-            parts = [part for pair in node.value for part in pair]
-        known[id(node)] = 1 + sum(_size_of(part, known) for part in parts)
-    return known[id(node)]
 
 
 def mapping(value: Any) -> Mapping[Any, Any]:
@@ -283,8 +184,9 @@ class NamedCase(Strict):
         raise_faults(faults)
         events = spans.pop(("events",), None)
         windows = tuple((name, window) for (_, name), window in spans.items())
-        rest = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "start", "ramps")}
+        rest = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "ramps")}
         rest |= {
+            "start": _with_ratios_of(p, self.start),
             "windows": windows,
             "poincare": record.poincare,
             "events": events and (events.start, events.stop),
@@ -298,6 +200,24 @@ class NamedCase(Strict):
         """Check the rules between the values of the case."""
         self.spec  # noqa: B018
         return self
+
+
+def _with_ratios_of(p: Parameters, start: Start) -> Start:
+    """The start with the numbers that follow, in its prerun, from ratios by which the case is
+    given, since the text of a `CaseSpec` has no ratios. Raises `ParameterError` with places in the
+    case."""
+    if start.prerun is None:
+        return start
+    changed = start.prerun.parameters
+    try:
+        before = p.replace(**changed)
+    except ParameterError as error:
+        place = ("start", "prerun", "parameters")
+        raise ParameterError(*(fault.inside(place) for fault in error.faults)) from None
+    followers = {upper for upper, lower in RATIOS.values() if lower in changed}
+    differing = [name for name in followers if getattr(before, name) != getattr(p, name)]
+    values = changed | {name: getattr(before, name) for name in sorted(differing)}
+    return start.replace(prerun=start.prerun.replace(parameters=values))
 
 
 # ---- Figures
@@ -334,8 +254,25 @@ def _several(value: Any) -> Any:
 def _options(raw: Any, info: pydantic.ValidationInfo) -> Any:
     """The quantity with its options; what is given for an unknown one is checked once it is
     known."""
-    quantity = info.data.get("quantity")
-    return raw if quantity is None else quantity_of(quantity).model_validate(_mapping(raw))
+    name = info.data.get("quantity")
+    if name is None:
+        return raw
+    quantity = quantity_of(name)
+    try:
+        return quantity.model_validate(_mapping(raw))
+    except ParameterError as error:
+        known = {option.name: option for option in options_of(quantity)}
+        faults = [_with_form(fault, known) for fault in error.faults]
+        raise ParameterError(*faults) from None
+
+
+def _with_form(fault: Fault, known: Mapping[str, Option]) -> Fault:
+    """A fault of options, which says of a missing one what is to be given."""
+    option = known.get(fault.path[0]) if len(fault.path) == 1 else None
+    if option is None or fault.rule != "is required":
+        return fault
+    unit = f" ({option.unit})" if option.unit else ""
+    return Fault(fault.path, "", f"is required: {option.form}{unit}, {option.meaning}")
 
 
 # ---- The study
@@ -646,8 +583,11 @@ def _misfits(plot: Plot, owner: str, grids: Mapping[str, GridStudy]) -> list[Fau
 
 
 def closing_lines(grids: Mapping[str, GridStudy]) -> Iterator[str]:
-    """Grids with points that have no result, and where these are listed."""
+    """Grids with points that have no result, or a remark on it, and where these are listed."""
     for name, grid in grids.items():
         file = Path(f"results/{name}/{name}.failed.txt")
-        if failed := len(file.read_text(encoding="utf-8").splitlines()):
-            yield f"{name}: {failed} of {grid.n_points} points have no result, see {file}"
+        lines = file.read_text(encoding="utf-8").splitlines()
+        remarks = sum(": ok: " in line for line in lines)
+        for count, have in ((len(lines) - remarks, "no result"), (remarks, "a remark")):
+            if count:
+                yield f"{name}: {count} of {grid.n_points} points have {have}, see {file}"

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 import xarray as xr
 
@@ -31,13 +32,12 @@ RESULTS = Path(__file__).parents[3] / "results"
     not (RESULTS / "map_N" / "map_N.nc").exists(), reason="needs results/map_N, by `make reproduce`"
 )
 @pytest.mark.parametrize(
-    ("study", "least", "share"),
-    [("critical_speed", 30, 0.01), ("critical_speed_orthonormal", 60, 0)],
+    ("study", "least"), [("critical_speed", 30), ("critical_speed_orthonormal", 60)]
 )
-def test_scan_and_map_of_the_results_agree(study: str, least: int, share: float) -> None:
-    """At 450 N and 15 rad/s the map had inferred another outcome for orthonormal modes than the
-    scan. Above 500 N, as published, separation after minutes of irregular motion depends on the
-    processor: on one, 5 of 780 points differ."""
+def test_scan_and_map_of_the_results_agree(study: str, least: int) -> None:
+    """At 510 N and 12 rad/s and four more common points the map had inferred, or extrapolated,
+    another outcome than the scan; where it was simulated, first separations differed by up to a
+    third."""
     scan, mapped = (xr.load_dataset(RESULTS / name / f"{name}.nc") for name in (study, "map_N"))
     scan = scan.squeeze("normalization").rename(scan_Omega="Omega")
     scan, mapped = xr.align(scan, mapped.sel(normalization=scan["normalization"]), join="inner")
@@ -46,4 +46,10 @@ def test_scan_and_map_of_the_results_agree(study: str, least: int, share: float)
         flag_names(mapped["outcome"]) == "separation", dims=mapped["outcome"].dims
     )
     in_scan = scan["scan_first_separation"] <= 1000  # the map's horizon, s
-    assert float((in_scan != in_map).mean()) <= share
+    assert (in_scan == in_map).all()
+    simulated = mapped["first_separation"].values
+    there = np.isfinite(simulated)
+    assert there.any()
+    # both follow the same motion, in the same steps
+    wanted = scan["scan_first_separation"].transpose(*mapped["first_separation"].dims).values
+    assert simulated[there] == pytest.approx(wanted[there], rel=1e-12)

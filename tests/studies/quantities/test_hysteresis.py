@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from disc_model.analysis.classify import Settled, Settling
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
+from disc_model.stability.outcome import Segment
 from disc_model.studies.quantities.hysteresis import Hysteresis
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import Point
@@ -18,7 +20,7 @@ def test_a_stay_is_doubled_until_its_whole_record_has_settled(
 ) -> None:
     stays = []
 
-    def settles_above_13(p, legs, tol):
+    def settles_above_13(p, legs):
         ends = [leg.final_state.time for leg in legs]
         if len(legs) == 1:
             stays.append([ends[0] - 60])  # the begin, since a stay begins with `dwell`
@@ -34,6 +36,44 @@ def test_a_stay_is_doubled_until_its_whole_record_has_settled(
         [60, 60, 120]
     ]
     assert found["sweep_settled"][0].tolist() == 2 * [3 * [0] + 4 * [2]]
+
+
+def test_onset_and_offset_are_speeds_at_which_it_separates(sweep: xr.Dataset) -> None:
+    """It begins at 14 rad/s on the way up, and persists down to 13."""
+    assert sweep["onset_speed"].values.ravel().tolist() == [14.0, 14.0]
+    assert sweep["offset_speed"].values.ravel().tolist() == [13.0, 13.0]
+    rates = sweep["separation_rate"].squeeze("normalization").sel(N=200)
+    apart = rates.sweep_Omega.values[rates.sel(direction="down").values > 0]
+    assert apart.min() == 13.0
+    assert rates.sweep_Omega.values[rates.sel(direction="up").values > 0].min() == 14.0
+
+
+@pytest.mark.parametrize(
+    ("falling", "offset"),
+    [
+        ([0, 0, 0, 0], None),  # it has ended at the top already
+        ([9, 9, 9, 9], 10.0),  # it persists to the lowest speed
+        ([9, 0, 9, 9], 12.0),  # a gap ends it, though it begins again below
+        ([0, 0, 0, 9], 13.0),
+    ],
+)
+def test_the_offset_is_above_the_first_gap_on_the_way_down(
+    falling: list[float], offset: float | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    speeds = [10.0, 11.0, 12.0, 13.0]
+
+    def sweep(p, name, values, *times):
+        assert (name, values) == ("Omega", speeds)
+        for step in [(0, i) for i in range(4)] + [(1, i) for i in (3, 2, 1, 0)]:
+            rate = falling[step[1]] if step[0] else 0
+            segment = Segment(0, 1, 0, 1, 0.5, 0.5, 0.0, rate)
+            yield step, None, segment, attractors.Arrival(Settling(Settled.SETTLED))
+
+    monkeypatch.setattr(attractors, "sweep", sweep)
+    options = Hysteresis(scan={"start": 10, "stop": 13, "step": 1}, dwell=9, evaluation_time=1)
+    values, _ = options.compute_point(Point(Parameters(N=200, Omega=0)))
+    assert values.get("offset_speed") == offset
+    assert "onset_speed" not in values
 
 
 @pytest.mark.compiled

@@ -1,14 +1,17 @@
 """What becomes of a motion."""
 
+import math
 import sys
 
 import numpy as np
 import pytest
 
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import Outcome, flag_names
 from disc_model.parameters import Parameters
+from disc_model.stability.outcome import OutcomeResult
 from disc_model.studies.quantities.outcome import HorizonOutcome
 from disc_model.studies.quantity import STATUSES, Point
+from tests.stability.test_attractor import stretch
 from tests.studies.conftest import SMALL, compute, computed
 
 
@@ -45,3 +48,26 @@ def test_outcomes_of_a_damped_and_of_a_separating_motion() -> None:
     assert apart["time_reached"] == pytest.approx(float(apart["first_separation"]) + 0.05)
     assert np.isnan(apart["settling_time"])
     assert apart["P_min"] == 0
+
+
+def test_the_rate_of_the_residual_is_that_of_its_natural_logarithm(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Over the last four checks of the motion, which come at growing intervals."""
+    times = [5.0, 15.0, 35.0, 75.0, 155.0]
+    changes = [1.0, *(1e-3 * math.exp(0.02 * time) for time in times[1:])]
+
+    def find_outcome(p: Parameters, horizon: float, **_: object) -> OutcomeResult:
+        segment = stretch(separation_rate=0, separation_fraction=0)
+        known = {"changes": changes, "times": times, "segment": segment}
+        return OutcomeResult(Outcome.GROWING, horizon, time=horizon, **known)
+
+    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", find_outcome)
+    arrays, words = outcomes([Parameters(N=300, Omega=20)], horizon=200)
+    assert words == ["growing"]
+    assert arrays["return_map_residual_rate"][0] == pytest.approx(0.02, rel=1e-9)
+    assert arrays["return_map_residual"][0] == changes[-1]
+    # three checks give no rate
+    del times[3:], changes[3:]
+    arrays, _ = outcomes([Parameters(N=300, Omega=20)], horizon=200)
+    assert np.isnan(arrays["return_map_residual_rate"][0])

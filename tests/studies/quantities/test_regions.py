@@ -38,9 +38,12 @@ def wrong(study: xr.Dataset) -> np.ndarray:
 
 @pytest.fixture
 def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
-    """Motions that separate within an ellipse and stay quiet outside, of which multipliers say
-    nothing; those asked."""
+    """Motions that separate within an ellipse and, by their multipliers, stay quiet outside;
+    those asked."""
     asked: list[Parameters] = []
+
+    def trend(tile: refinement.Tile, index: tuple[int, int]) -> str:
+        return "" if separates(tile.points[index]) else Outcome.QUIET
 
     def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
         asked.append(p)
@@ -51,6 +54,7 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
     nothing = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
     monkeypatch.setattr(refinement, "cycle_of_static_start", lambda p: nothing)
     monkeypatch.setattr(refinement, "find_outcome", find_outcome)
+    monkeypatch.setattr(refinement.Tile, "_trend", trend)
     return asked
 
 
@@ -73,14 +77,58 @@ def raw(**changes) -> dict:
 def test_a_region_is_found_as_by_brute_force_with_fewer_points(
     made_up, tile: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(grid, "TILE", tile)
+    for limit in ("SMALLEST_TILE", "LARGEST_TILE"):
+        monkeypatch.setattr(grid, limit, tile)
     study = computed(**raw()).isel(normalization=0)
     assert not wrong(study).any()
     origin = flag_names(study["method"])
-    assert set(np.unique(origin)) == {"simulation", "inferred"}
-    assert (origin == "simulation").sum() < 0.3 * origin.size
+    assert set(np.unique(origin)) == {"simulation", "inferred", "multipliers"}
+    inside = flag_names(study["outcome"]) == "separation"
+    assert (origin[~inside] == "multipliers").all()
+    assert (origin == "simulation").sum() < 0.5 * inside.sum()
     # what was not computed has no time of its own
     assert (np.isfinite(study["first_separation"].values) == (origin == "simulation")).all()
+
+
+def test_only_separation_is_inferred(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Between growing points there was separation that no corner of a cell showed: a single row
+    and a single point of it are found here."""
+
+    def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
+        lost = p.Omega == 29.0 or (p.Omega, p.N) == (12.0, 180.0)
+        return OutcomeResult(Outcome.SEPARATION if lost else Outcome.GROWING, 1.0)
+
+    nothing = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
+    monkeypatch.setattr(refinement, "cycle_of_static_start", lambda p: nothing)
+    monkeypatch.setattr(refinement, "find_outcome", find_outcome)
+    points = [[Parameters(N=10.0 * i, Omega=float(j)) for j in range(33)] for i in range(33)]
+    rows = Regions(horizon=10).compute_tile(points, [])
+    found = np.array([[row["outcome"] for row, _ in line] for line in rows])
+    expected = np.full((33, 33), "growing", dtype=object)
+    expected[:, 29] = expected[18, 12] = "separation"
+    assert (found == expected).all()
+
+
+def test_a_point_on_the_edge_of_a_cell_that_does_not_separate_opens_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It was computed for the cell beside."""
+
+    def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
+        quiet = p.Omega > 4 or (p.Omega, p.N) == (4.0, 10.0)
+        return OutcomeResult(Outcome.GROWING if quiet else Outcome.SEPARATION, 1.0)
+
+    nothing = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
+    monkeypatch.setattr(refinement, "cycle_of_static_start", lambda p: nothing)
+    monkeypatch.setattr(refinement, "find_outcome", find_outcome)
+    points = [[Parameters(N=10.0 * i, Omega=float(j)) for j in range(9)] for i in range(5)]
+    rows = Regions(horizon=10, initial_cell_size=4).compute_tile(points, [])
+    methods = np.array([[row["method"] for row, _ in line] for line in rows])
+    assert rows[1][4][0]["outcome"] == "growing"
+    # the quarters beside that point have none inferred, the others have
+    assert (methods[:3, 2:5] == "simulation").all()
+    assert methods[1, 1] == "simulation"
+    assert (methods[3:, :3] == "inferred").any()
 
 
 def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
@@ -99,6 +147,13 @@ def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
     assert sampled == [[187.5, 12.03125]]
     # only the tile in which the mark lies is another batch
     assert len(study.batches.keys() - parse_grid(raw()).batches.keys()) == 1
+
+
+def test_a_mark_lies_at_its_own_value_and_at_no_value_beside() -> None:
+    close = [1.0, 1.0001, 1.0002]
+    assert [grid._index_of(value, close) for value in close] == [0, 1, 2]
+    assert grid._index_of(0.1 + 0.2, [0.2, 0.3]) == 1
+    assert grid._index_of(1.00005, close) is None
 
 
 @pytest.mark.compiled

@@ -17,6 +17,7 @@ from disc_model.analysis.classify import share
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
 from disc_model.simulation.case import Start
 from disc_model.studies import quantity
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import STATUS, Coordinate, OutcomeResult, Point, Quantity, listed
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
@@ -47,20 +48,25 @@ class AttractorBasins(Start, Quantity):
     """Attractors, basin fractions and critical energy, from many starts."""
 
     tol: Tolerance = 1e-10
-    energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (
-        0.0,
-    )  # of the perturbations; 0 adds nothing
-    n_starts: Annotated[Count, Field(ge=1, le=quantity.MOST)] = 1  # at each energy
+    """tolerance of simulations: error of event times after a second of motion"""
+    energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,)
+    """energies of the perturbations, ascending; 0 adds nothing"""
+    n_starts: Annotated[Count, Field(ge=1, le=quantity.MOST)] = 1
+    """number of starts at each energy, in random directions"""
     seed: Annotated[Count, Field(ge=0)] = 1
+    """whole number that determines the directions"""
     horizon: Seconds = 200.0
-    # a motion ends early if its range agrees with that of a known attractor to this, and approaches
-    # it; 0: none does
+    """longest simulated time of a motion"""
     attractor_tol: Annotated[Real, Field(ge=0, le=0.25)] = 0.1
-    confidence: Annotated[Real, Field(gt=0, lt=1)] = 0.95  # level of the intervals of fractions
-    n_bisection_directions: Annotated[Count, Field(ge=0, le=1000)] = (
-        1  # those of the least energies that separate
-    )
-    precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05  # of the critical energy, relative
+    """relative difference of ranges at which a motion that approaches a known attractor has come
+    to it; 0: all motions are followed to the horizon"""
+    confidence: Annotated[Real, Field(gt=0, lt=1)] = 0.95
+    """level of the confidence intervals of fractions"""
+    n_bisection_directions: Annotated[Count, Field(ge=0, le=1000)] = 1
+    """number of directions, those of the least separating energies, in which the critical energy
+    is bisected"""
+    precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05
+    """relative precision of the critical energy"""
 
     _rules = (
         (lambda o: [*o.energies] == sorted({*o.energies}), "energies must ascend"),
@@ -115,7 +121,12 @@ class AttractorBasins(Start, Quantity):
         # room for twelve, those of most starts; there are seven at 10 rad/s and 385 N
         "attractor": Coordinate("1", "number of the attractor", lambda o: range(1, 13)),
     }
-    cost: ClassVar = lambda o: quantity.SIMULATED * len(o.energies) * o.n_starts * o.horizon / 6
+
+    def cost(self, unit: UnitCosts) -> float:
+        """The first starts find the attractors, in motions that may keep losing contact and go to
+        the horizon; most others come to a known one soon."""
+        starts = len(self.energies) * self.n_starts
+        return 2.0 * unit.second * self.horizon * (0.9 + 0.1 * starts)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Failed starts have a fraction of their own, and the point fails if all starts do."""

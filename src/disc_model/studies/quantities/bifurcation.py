@@ -6,14 +6,16 @@ from typing import Annotated, Any, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from disc_model.analysis.classify import ANSWER, Motion, Settling, closure, settling
+from disc_model.analysis.classify import ANSWER, Motion, Settling, closure
 from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
 from disc_model.errors import require
+from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Start
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     MOST,
-    SIMULATED,
     STATUS,
+    Arrival,
     Coordinate,
     Point,
     Quantity,
@@ -33,16 +35,18 @@ class Bifurcation(Start, Quantity):
     settled, up to `max_transient`.
     """
 
-    section: Literal["stroboscopic", "event"] = (
-        "stroboscopic"  # once a turn of the drive, or at events
-    )
+    section: Literal["stroboscopic", "event"] = "stroboscopic"
+    """whether samples are taken once a turn of the drive, or at events"""
     tol: Tolerance = 1e-10
-    transient: Seconds  # left out
+    """tolerance of simulations: error of event times after a second of motion"""
+    transient: Seconds
+    """time left out at the beginning; at events it is doubled until the motion has settled"""
     max_transient: Seconds = 480.0
+    """longest time left out"""
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50
-    theta: Annotated[Finite, Unit("rad")] = (
-        1.0  # the disc's point whose displacement is sampled once a turn
-    )
+    """number of samples"""
+    theta: Annotated[Finite, Unit("rad")] = 1.0
+    """angle of the disc's point whose displacement is sampled once a turn"""
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {
@@ -81,7 +85,10 @@ class Bifurcation(Start, Quantity):
             "1", "number of the turn after the transient", lambda o: range(o.samples)
         )
     }
-    cost: ClassVar = lambda o: SIMULATED * (o.transient + o.max_transient / 2)
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Some transients are doubled to the longest, most are not."""
+        return 0.6 * unit.second * (self.transient + self.max_transient / 2)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         return (
@@ -100,6 +107,7 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     """Sample at t = i 2 pi / Omega after the transient; samples that the run does not reach are
     missing."""
     from disc_model.simulation.api import make_initial_state, simulate
+    from disc_model.stability.attractors import Arrival, arrival
 
     p = point.parameters
     require((p.Omega > 0, "Omega", p.Omega, "must be > 0, because samples are taken once a turn"))
@@ -110,23 +118,27 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     turns = Poincare(start=max(first - 0.25, 0.0) * turn, stop=end, theta=options.theta)
     start = make_initial_state(p, point.start, options.tol)
     run = simulate(p, end, {"turns": turns}, tol=options.tol, initial_state=start)
-    reached, taken = run.final_state.time, run.samples["turns"]
-    answer = settling(taken["time"], taken["psi"]) if run.status.complete else Settling()
-    values = (
-        _answer(answer) | {name: taken[name] for name in SAMPLED} | {"phase": taken["phase"] + 1}
-    )  # 0 is "none"
-    values |= {"status": run.status.value, "first_separation": run.first_separation}
+    time, taken = run.final_state.time, run.samples["turns"]
+    reached, motion = Arrival(Settling()), Motion(Outcome.UNDECIDED)
+    if run.status.complete:
+        reached = arrival(p, [run])
+        motion = _motion_reached(p, reached, run, options.tol)
+    values: dict[str, Any] = {name: taken[name] for name in SAMPLED}
+    values |= _answer(reached.settling, motion)
     values |= {
+        "status": run.status.value,
+        "phase": taken["phase"] + 1,  # 0 is "none"
+        "first_separation": run.first_separation,
         "separations": int(run.statistics["separations"]),
         "transient_time": options.transient,
+        "stick_fraction": run.statistics["time_stick"] / time if time else math.nan,
     }
-    values["stick_fraction"] = run.statistics["time_stick"] / reached if reached else math.nan
     return values, "" if run.status.complete else f"the simulation ended early: {run.status}"
 
 
 def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
     from disc_model.simulation.api import make_initial_state, simulate
-    from disc_model.stability.attractors import arrival, regularity
+    from disc_model.stability.attractors import arrival
     from disc_model.stability.outcome import shares
     from disc_model.stability.thresholds import FIRST_LEG
 
@@ -146,25 +158,18 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
             }
             return known, f"the simulation ended early: {run.status}"
         legs.append(run)
-        state, reached = run.final_state, arrival(p, legs, options.tol)
+        state, reached = run.final_state, arrival(p, legs)
         if reached.settled or 2 * transient > options.max_transient:
             break
         transient *= 2
-    answer, near, stick = reached.settling, reached.near, shares(run)[0]
+    near, stick = reached.near, shares(run)[0]
     if near is not None:  # the attractor is known exactly
         assert near.cycle.state is not None
         state, stick = near.cycle.state, near.cycle.stick_fraction
     events = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state).events
     kind = "separation" if (events["kind"] == "separation").any() else "stick_to_slip"
     taken = events[events["kind"] == kind]
-    motion = Motion(reached.calm or Outcome.UNDECIDED)
-    if near is not None:
-        n = near.cycle.separations or near.cycle.releases
-        times = run.events["time"][run.events["kind"] == kind]
-        intervals = np.diff(times[times > transient - FIRST_LEG])
-        motion = Motion(near.kind, n, closure(intervals, n) if n < len(intervals) else math.nan)
-    elif reached.settled and reached.calm is None:
-        motion = regularity(p, state, options.tol)
+    motion = _motion_reached(p, reached, run, options.tol)
     shown = taken.iloc[-options.samples :]
     columns = {
         "psi": shown["psi"],
@@ -175,17 +180,47 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     values: dict[str, Any] = {
         name: column.to_numpy(dtype=float) for name, column in columns.items()
     }
-    values |= _answer(answer) | {
-        "kind": motion.kind, "period_events": motion.period, "period_residual": motion.closure, "status": "ok",
-        "phase": ["separation" if kind == "separation" else "stick"] * len(shown), "first_separation": first,
-        "separations": separations, "stick_fraction": stick, "transient_time": transient,
-    }  # fmt: skip
-    return values, "" if reached.settled else f"not settled after {transient:g} s: {answer}"
+    values |= _answer(reached.settling, motion)
+    values |= {
+        "status": "ok",
+        "phase": ["separation" if kind == "separation" else "stick"] * len(shown),
+        "first_separation": first,
+        "separations": separations,
+        "stick_fraction": stick,
+        "transient_time": transient,
+    }
+    message = f"not settled after {transient:g} s: {reached.settling}"
+    return values, "" if reached.settled else message
 
 
-def _answer(settling: Settling) -> dict[str, Any]:
+def _motion_reached(p: Parameters, reached: Arrival, run: Result, tol: float) -> Motion:
+    """What a motion has come to at the end of a run: by the proof of its arrival, or else by its
+    regularity if the record shows that it has settled."""
+    from disc_model.stability.attractors import regularity
+    from disc_model.stability.thresholds import FIRST_LEG
+
+    if reached.calm is not None:
+        return Motion(reached.calm)
+    if reached.near is None:
+        settled = reached.settled
+        return regularity(p, run.final_state, tol) if settled else Motion(Outcome.UNDECIDED)
+    cycle = reached.near.cycle
+    n, kind = cycle.releases, "stick_to_slip"
+    if cycle.separations:
+        n, kind = cycle.separations, "separation"
+    times = run.events["time"][run.events["kind"] == kind]
+    intervals = np.diff(times[times > run.final_state.time - FIRST_LEG])
+    residual = closure(intervals, n) if n < len(intervals) else math.nan
+    return Motion(reached.near.kind, n, residual)
+
+
+def _answer(settling: Settling, motion: Motion) -> dict[str, Any]:
+    """Columns that say whether a motion has settled, and on what."""
     return {
         "settled": settling.answer.value,
         "change_rate": settling.rate,
         "least_rate": settling.least,
+        "kind": motion.kind,
+        "period_events": motion.period,
+        "period_residual": motion.closure,
     }

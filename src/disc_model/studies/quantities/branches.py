@@ -4,7 +4,7 @@ there.
 """
 
 import math
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -13,6 +13,7 @@ from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
 from disc_model.studies import quantity
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     STATUS,
     Coordinate,
@@ -34,22 +35,27 @@ class Branches(Quantity):
     and down."""
 
     parameter: Free = "Omega"
-    scan: Annotated[
-        Range, Unit(of="parameter")
-    ]  # cycles are followed between its first value and its last
-    sweep_from: Annotated[Finite | None, Unit(of="parameter")] = (
-        None  # the rising sweep leaves out values below
-    )
-    dwell: Seconds  # at each value; it is doubled until the motion has settled
+    """number of the case along which cycles are followed"""
+    scan: Annotated[Range, Unit(of="parameter")]
+    """values of the sweep; cycles are followed between the first and the last"""
+    sweep_from: Annotated[Finite | None, Unit(of="parameter")] = None
+    """value at which the rising sweep begins; the first one if not given"""
+    dwell: Seconds
+    """time at each value, doubled until the motion has settled"""
     max_dwell: Seconds = 480.0
-    evaluation_time: Seconds = 2.0  # the last stretch of a stay, over which the range is taken
-    releases: Annotated[Count, Field(ge=1, le=100)] = (
-        4  # greatest number of a cycle that is followed
-    )
-    max_step: Positive = 0.05  # arclength of the longest step along a branch
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200  # of a branch, in each direction
+    """longest time at a value"""
+    evaluation_time: Seconds = 2.0
+    """length of the last stretch at a value, over which the range is taken"""
+    releases: Annotated[Count, Field(ge=1, le=100)] = 4
+    """greatest number of releases of a cycle that is followed"""
+    max_step: Positive = 0.05
+    """arclength of the longest step along a branch"""
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 300
+    """most points of a branch, in each direction, folds included"""
     max_branches: Annotated[Count, Field(ge=1, le=1000)] = 12
+    """room for that many branches"""
     tol: Tolerance = 1e-10
+    """tolerance of simulations: error of event times after a second of motion"""
 
     _rules = (
         (lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),
@@ -92,34 +98,25 @@ class Branches(Quantity):
             "1", "number of the point along the branch", lambda o: range(2 * o.max_points)
         ),
     }
-    cost: ClassVar = lambda o: quantity.WORK
+
+    def cost(self, unit: UnitCosts) -> float:
+        """The sweep, whose stays are doubled once or twice, and some ten branches."""
+        sweep = 6 * unit.second * (self.scan.intervals + 1) * self.dwell
+        return sweep + 10 * unit.cycle * self.max_points
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.attractors import sweep
         from disc_model.stability.cycle import find_cycle
         from disc_model.stability.sliding import steady_sliding
 
-        values, message, failures = self.scan.values, "", 0
-        rows: list[dict[str, Any]] = []
+        values = self.scan.values
+        message = ""
         swept = {
             name: column.empty((2, len(values)))
             for name, column in self.COLUMNS.items()
             if column.dims == _SWEEP
         }
-
-        def follow(cycle: quantity.FloquetResult, reached: bool) -> None:
-            nonlocal failures
-            assert cycle.state is not None
-            value = cycle.parameters.numbers[self.parameter]
-            size = _range(cycle.parameters, cycle.state, cycle.period)
-            if len(rows) < self.max_branches and not any(
-                _passes(row, value, cycle.period, size) for row in rows
-            ):
-                try:
-                    rows.append(_branch(cycle, reached, self))
-                except quantity.NUMERICAL:
-                    failures += 1
-
+        found = _Found(self)
         lowest = 0 if self.sweep_from is None else int(np.searchsorted(values, self.sweep_from))
         how = self.dwell, self.max_dwell, self.evaluation_time, self.tol, lowest
         for (way, i), result, late, reached in sweep(
@@ -128,24 +125,26 @@ class Branches(Quantity):
             if late is None:
                 message = f"{self.parameter}={values[i]:g}: {result.message}"
                 break
-            swept["sweep_range"][way, i], swept["sweep_separation_rate"][way, i] = (
-                late.range,
-                late.separation_rate,
-            )
+            swept["sweep_range"][way, i] = late.range
+            swept["sweep_separation_rate"][way, i] = late.separation_rate
             swept["sweep_settled"][way, i] = ANSWER.flags.index(reached.settling.answer)
-            if (way == 0 or i < lowest) and (
-                near_start := find_cycle(result.parameters)
-            ).state is not None:
-                follow(near_start, False)
+            if way == 0 or i < lowest:
+                near_start = find_cycle(result.parameters)
+                if near_start.state is not None:
+                    found.follow(near_start, reached=False)
             if reached.near is not None and reached.near.cycle.releases <= self.releases:
-                follow(reached.near.cycle, True)
+                found.follow(reached.near.cycle, reached=True)
         sliding = [
             steady_sliding(point.parameters.replace(**{self.parameter: v})).growth_rate
             for v in values
         ]
-        counts = {"n_branches": len(rows), "n_continuation_failures": failures}
-        known = {"status": "failed" if message else "ok", "sliding_growth_rate": sliding}
-        return quantity.listed(rows) | swept | counts | known, message
+        columns: dict[str, Any] = quantity.listed(found.rows)
+        columns.update(swept)
+        columns["n_branches"] = len(found.rows)
+        columns["n_continuation_failures"] = found.failures
+        columns["status"] = "failed" if message else "ok"
+        columns["sliding_growth_rate"] = sliding
+        return columns, message
 
 
 SAME = np.array([2e-4, 0.4])
@@ -153,30 +152,105 @@ SAME = np.array([2e-4, 0.4])
 distinguish branches; ranges between points of a steep branch are known roughly."""
 
 
-def _branch(cycle: quantity.FloquetResult, reached: bool, options: Branches) -> dict[str, Any]:
-    """Continue a cycle in both directions by arclength: the one near the static start, or one that
-    a motion reached."""
-    from disc_model.stability.continuation import StepControl, continue_cycle
-    from disc_model.stability.return_map import ReturnMap
+class _Found:
+    """The branches found so far, as rows of columns, and the number of cycles that could not be
+    followed."""
 
-    p, name = cycle.parameters, options.parameter
-    bounds = options.scan.values[0], options.scan.values[-1]
-    near = cycle.state if reached else None
-    steps = StepControl(longest=options.max_step, max_points=options.max_points, beyond=True)
+    def __init__(self, options: Branches) -> None:
+        self.options = options
+        self.rows: list[dict[str, Any]] = []
+        self.failures = 0
+
+    def follow(self, cycle: quantity.FloquetResult, *, reached: bool) -> None:
+        """Continue a cycle in both directions, unless a known branch passes there: the one near the
+        static start, or one that a motion reached."""
+        assert cycle.state is not None
+        value = cycle.parameters.numbers[self.options.parameter]
+        size = _range(cycle.parameters, cycle.state, cycle.period)
+        known = any(_passes(row, value, cycle.period, size) for row in self.rows)
+        if known or len(self.rows) >= self.options.max_branches:
+            return
+        try:
+            rows = _branch(cycle, reached, self.options)
+        except quantity.NUMERICAL:
+            self.failures += 1
+            return
+        self.rows += rows[: self.options.max_branches - len(self.rows)]
+
+
+def _branch(
+    cycle: quantity.FloquetResult, reached: bool, options: Branches
+) -> list[dict[str, Any]]:
+    """The branch of a cycle, by continuation in both directions, with its folds among its points: a
+    row for each stretch with one number of separations in a period."""
+    from disc_model.stability.continuation import StepControl, continue_cycle
+
+    name = options.parameter
+    steps = StepControl(longest=options.max_step, max_points=_most_points(options), beyond=True)
     branch = continue_cycle(
-        p, name, bounds, steps=steps, guess=near, releases=cycle.releases if near else 1
+        cycle.parameters,
+        name,
+        (options.scan.values[0], options.scan.values[-1]),
+        steps=steps,
+        guess=cycle.state if reached else None,
+        releases=cycle.releases if reached else 1,
     )
-    row = {"value": branch.values[:, 0], "period": branch.period, "growth_rate": branch.growth_rate}
-    return_map = ReturnMap(p)
-    ranges = []
-    for value, x, time in zip(row["value"], branch.points, branch.period, strict=True):
-        case = p.replace(**{name: float(value)})
-        map_ = ReturnMap(case)
-        ranges.append(_range(case, map_.state(x / return_map.scale * map_.scale), time))
-    return row | {
-        "range": np.array(ranges),
-        "releases": cycle.releases,
-        "separations": cycle.separations,
+    points = [
+        _BranchPoint(
+            float(branch.values[i, 0]),
+            float(branch.period[i]),
+            float(branch.growth_rate[i]),
+            _range(branch.case_at(i), branch.state(i), float(branch.period[i])),
+            int(branch.separations[i]),
+        )
+        for i in range(len(branch))
+    ]
+    for fold in reversed([special for special in branch.special if special.kind == "fold"]):
+        size = _range(fold.case, fold.state, fold.period)
+        apart = points[fold.after].separations
+        value = float(fold.values[0])
+        here = _BranchPoint(value, fold.period, fold.growth_rate, size, apart)
+        points.insert(fold.after + 1, here)
+    return [_row(stretch, cycle.releases) for stretch in _stretches(points)]
+
+
+class _BranchPoint(NamedTuple):
+    """A cycle of a branch: the parameter's value, period (s), growth rate (1/s), range of the
+    slider's height (m), and number of separations in a period."""
+
+    value: float
+    period: float
+    growth_rate: float
+    range: float
+    separations: int
+
+
+def _most_points(options: Branches) -> int:
+    """Largest number of computed points in each direction, which leaves room for the folds between
+    them: as a step turns by 26 degrees at most, at least six lie from fold to fold."""
+    return max(2, 5 * options.max_points // 6)
+
+
+def _stretches(points: list[_BranchPoint]) -> list[list[_BranchPoint]]:
+    """Neighbouring points with one number of separations; the last of a stretch is repeated as the
+    first of the next one, to which it is joined."""
+    stretches = [[points[0]]]
+    for point in points[1:]:
+        if point.separations != stretches[-1][-1].separations:
+            stretches.append([stretches[-1][-1]._replace(separations=point.separations)])
+        stretches[-1].append(point)
+    return [stretch for stretch in stretches if len(stretch) > 1]
+
+
+def _row(stretch: list[_BranchPoint], releases: int) -> dict[str, Any]:
+    """The columns of a stretch of a branch."""
+    return {
+        "value": np.array([point.value for point in stretch]),
+        "period": np.array([point.period for point in stretch]),
+        "growth_rate": np.array([point.growth_rate for point in stretch]),
+        "range": np.array([point.range for point in stretch]),
+        "releases": releases,
+        "separations": stretch[0].separations,
     }
 
 
@@ -188,12 +262,15 @@ def _range(p: Parameters, state: State, period: float) -> float:
     return math.nan if stretch is None else stretch.range
 
 
-def _passes(row: dict[str, Any], value: float, *of: float) -> bool:
+def _passes(row: dict[str, Any], value: float, period: float, size: float) -> bool:
     """Whether a branch passes a value of the parameter with about this period and this range of the
     slider's height."""
-    x, y = row["value"], np.log([row["period"], row["range"]])
+    x = row["value"]
+    logarithms = np.log([row["period"], row["range"]])
+    known = np.log([period, size])
     for i in np.flatnonzero((x[:-1] - value) * (x[1:] - value) <= 0):
         share = (value - x[i]) / (x[i + 1] - x[i]) if x[i + 1] != x[i] else 0.0
-        if np.all(np.abs(y[:, i] + share * (y[:, i + 1] - y[:, i]) - np.log(of)) <= SAME):
+        there = logarithms[:, i] + share * (logarithms[:, i + 1] - logarithms[:, i])
+        if np.all(np.abs(there - known) <= SAME):
             return True
     return False

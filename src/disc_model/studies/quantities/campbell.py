@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from disc_model.data.variables import EXCLUDED, CycleStatus, Variable, flag_names
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantities.floquet import CYCLE_STATUSES
-from disc_model.studies.quantity import CYCLE, Coordinate, Dataset, Point, Quantity, along, listed
+from disc_model.studies.quantity import Coordinate, Dataset, Point, Quantity, along, listed
 from disc_model.units import Count, CycleTolerance, Positive, Unit
 
 KINDS = ("none", "disc", "slider")
@@ -32,17 +33,16 @@ there and on neither side; there is no cycle; or fewer than three speeds, or an 
 class Campbell(Quantity):
     """Frequencies and growth rates of steady sliding and of the stick-slip cycle."""
 
-    modes: Annotated[Count, Field(ge=1, le=1000)] = (
-        12  # room for that many, the lowest in frequency
-    )
-    half_bandwidth: Annotated[Positive, Unit("Hz")] = (
-        1.0  # of the window about a crossing, see `effect_of`
-    )
-    min_rise: Annotated[Positive, Unit("1/s")] = (
-        0.01  # of a growth rate within the window, above those at its ends
-    )
+    modes: Annotated[Count, Field(ge=1, le=1000)] = 12
+    """room for that many modes, the lowest in frequency"""
+    half_bandwidth: Annotated[Positive, Unit("Hz")] = 1.0
+    """greatest difference of the frequencies that meet, in the window about a crossing"""
+    min_rise: Annotated[Positive, Unit("1/s")] = 0.01
+    """least rise of a growth rate in the window, above those at its ends, that counts"""
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100
+    """room for that many crossings"""
     tol: CycleTolerance = 1e-12
+    """tolerance of cycles: relative residual of the return map"""
     over: ClassVar = "Omega"
     COLUMNS: ClassVar = {
         "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
@@ -96,7 +96,10 @@ class Campbell(Quantity):
             "1", "number of the crossing", lambda o: range(1, o.max_crossings + 1)
         )
     }
-    cost: ClassVar = lambda o: 1.5 * CYCLE
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Multipliers are assigned to modes besides."""
+        return 2 * unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.cycle import frequencies

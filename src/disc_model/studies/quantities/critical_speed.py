@@ -1,8 +1,5 @@
 """Critical speeds: all speeds at which separation within a horizon begins or ends, since there may
 be several.
-
-To extrapolate departures from a cycle would save a quarter of the time, but moves first separations
-too far.
 """
 
 import math
@@ -15,8 +12,8 @@ from pydantic import AfterValidator, Field
 
 from disc_model.data.variables import SCALARS, Variable
 from disc_model.studies import quantity
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
-    SIMULATED,
     STATUS,
     Coordinate,
     OutcomeResult,
@@ -36,14 +33,19 @@ class CriticalSpeed(Quantity):
     """Scan of the speed, then bisection of each interval in which separation begins or ends."""
 
     tol: Tolerance = 1e-10
-    early_end: bool = True  # whether a simulation ends as soon as its outcome is known
-    # each has a critical speed of its own, all from the same simulations
+    """tolerance of simulations: error of event times after a second of motion"""
+    early_end: bool = True
+    """whether a simulation ends as soon as its outcome is known"""
     horizons: Annotated[
         tuple[Seconds, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))
     ]
+    """times within which separation must occur; each has a critical speed of its own"""
     scan: Annotated[Range, Unit("rad/s")]
-    precision: Speed = 0.1  # width of the last interval; the scan's step must be a multiple
+    """speeds that are looked at first, evenly spaced"""
+    precision: Speed = 0.1
+    """width to which crossings are bisected; the scan's step must be a multiple"""
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12
+    """room for that many crossings"""
 
     _rules = (
         (lambda o: o.scan.scale == "linear", "scan must be linear"),
@@ -87,13 +89,15 @@ class CriticalSpeed(Quantity):
             "rad s-1", "speed of the drive point, in the scan", lambda o: o.scan.values
         ),
     }
-    cost: ClassVar = lambda o: SIMULATED * o.scan.intervals * o.horizons[-1] / 9
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Half of the speeds are followed to the longest horizon, with some ten by bisection."""
+        return 0.5 * unit.second * (self.scan.intervals + 1) * self.horizons[-1]
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.outcome import find_outcome
 
         p, scan = point.parameters, self.scan
-        how: dict[str, Any] = {"tol": self.tol, "furthest": 0.0, "early": self.early_end}
         motions: dict[int, OutcomeResult] = {}
         known: dict[int, float] = {}
 
@@ -102,9 +106,10 @@ class CriticalSpeed(Quantity):
 
         def look(i: int) -> None:
             """Follow the motion from the static start at a speed, up to the longest horizon."""
-            result = find_outcome(p.replace(Omega=speed(i)), self.horizons[-1], **how)
+            case, longest = p.replace(Omega=speed(i)), self.horizons[-1]
+            result = find_outcome(case, longest, tol=self.tol, early=self.early_end)
             # return maps would take megabytes each for a disc of many modes
-            motions[i] = replace(result, near=None, extrapolated=None)
+            motions[i] = replace(result, near=None)
             none = math.isnan(result.first_separation) and result.status == "ok"
             known[i] = math.inf if none else result.first_separation
 

@@ -5,7 +5,8 @@ import math
 from typing import Any, ClassVar
 
 from disc_model.data.variables import CycleStatus, Variable
-from disc_model.studies.quantity import CYCLE, Point, Quantity, State
+from disc_model.studies.costs import UnitCosts
+from disc_model.studies.quantity import Point, Quantity, State
 from disc_model.units import CycleTolerance
 
 CYCLE_STATUSES = (*(status.value for status in CycleStatus), "failed")
@@ -15,6 +16,7 @@ class Floquet(Quantity):
     """The stick-slip cycle at each point and its growth rate, by Floquet multipliers."""
 
     tol: CycleTolerance = 1e-12
+    """tolerance of cycles: relative residual of the return map"""
     motions: ClassVar = 7
     motion: ClassVar = "The stick-slip cycle itself, stable or not."
     COLUMNS: ClassVar = {
@@ -26,7 +28,10 @@ class Floquet(Quantity):
         "multiplier_im": Variable("1", "imaginary part of the leading multiplier"),
         "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding"),
     }
-    cost: ClassVar = lambda o: CYCLE
+
+    def cost(self, unit: UnitCosts) -> float:
+        """One cycle."""
+        return unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.cycle import floquet

@@ -1,6 +1,7 @@
 """Hysteresis: a slow sweep of the speed up and down, which continues the motion from speed to
 speed."""
 
+import math
 from dataclasses import asdict
 from typing import Annotated, Any, ClassVar
 
@@ -8,9 +9,9 @@ import numpy as np
 
 from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     DIRECTION,
-    SIMULATED,
     STATUS,
     STATUSES,
     Coordinate,
@@ -28,10 +29,15 @@ class Hysteresis(Quantity):
     of the last one."""
 
     tol: Tolerance = 1e-10
+    """tolerance of simulations: error of event times after a second of motion"""
     scan: Annotated[Range, Unit("rad/s")]
-    dwell: Seconds  # at each speed; it is doubled until the motion has settled
+    """speeds of the sweep"""
+    dwell: Seconds
+    """time at each speed, doubled until the motion has settled"""
     max_dwell: Seconds = 480.0
-    evaluation_time: Seconds = 5.0  # the last stretch of a stay, which is described
+    """longest time at a speed"""
+    evaluation_time: Seconds = 5.0
+    """length of the last stretch at a speed, which is described"""
 
     _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
     scans: ClassVar = ("Omega",)
@@ -62,7 +68,11 @@ class Hysteresis(Quantity):
             "rad s-1", "speed of the drive point, in the sweep", lambda o: o.scan.values
         ),
     }
-    cost: ClassVar = lambda o: SIMULATED * 2 * o.scan.intervals * o.dwell
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Stays are doubled about half as often as they may be."""
+        stay = math.sqrt(self.dwell * max(self.dwell, self.max_dwell))
+        return 2 * unit.second * (self.scan.intervals + 1) * stay
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.attractors import sweep

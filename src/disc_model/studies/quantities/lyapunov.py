@@ -8,7 +8,8 @@ from pydantic import Field
 from disc_model.data.variables import Variable
 from disc_model.errors import SimulationError
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import SIMULATED, STATUS, Coordinate, Point, Quantity, State, along
+from disc_model.studies.costs import UnitCosts
+from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity, State, along
 from disc_model.units import Count, Seconds, Tolerance
 
 CONVERGED = ("unknown", "no", "yes")
@@ -19,12 +20,15 @@ class Lyapunov(Start, Quantity):
     """The largest Lyapunov exponents of the motion, without the one along it, which is zero."""
 
     tol: Tolerance = 1e-10
-    transient: Seconds  # left out
-    duration: Seconds  # averaging time of the rates
+    """tolerance of simulations: error of event times after a second of motion"""
+    transient: Seconds
+    """time left out at the beginning"""
+    duration: Seconds
+    """time over which rates are averaged"""
     exponents: Annotated[Count, Field(ge=1, le=7)] = 2
-    interval: Seconds = (
-        0.05  # between orthonormalisations; exponents below -400/s need a shorter one
-    )
+    """number of exponents, the largest ones"""
+    interval: Seconds = 0.05
+    """time between orthonormalisations; exponents below -400/s need a shorter one"""
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {
@@ -49,7 +53,10 @@ class Lyapunov(Start, Quantity):
             "1", "number of the exponent, largest first", lambda o: range(o.exponents)
         )
     }
-    cost: ClassVar = lambda o: SIMULATED * (o.transient + 20 * o.exponents * o.duration)
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Each exponent needs a change of its own, which costs more than the motion."""
+        return unit.second * (self.transient + 12 * self.exponents * self.duration)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.simulation.result import STATUS_OF

@@ -7,8 +7,8 @@ from typing import Annotated, Any, ClassVar
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Ramp
 from disc_model.studies import quantity
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
-    SIMULATED,
     STATUS,
     Coordinate,
     Point,
@@ -27,10 +27,15 @@ class Ramps(Quantity):
     """Slow ramps of the speed, up from the static start and down again, once for each rate."""
 
     tol: Tolerance = 1e-10
+    """tolerance of simulations: error of event times after a second of motion"""
     low: Speed
+    """speed at which the ramps begin and end"""
     high: Speed
+    """speed up to which they rise"""
     rates: Annotated[Range, Unit("rad/s^2")]
-    dwell: Seconds = 60.0  # at the highest speed, and at the lowest one at the end
+    """rates of the ramps, a run each"""
+    dwell: Seconds = 60.0
+    """time at the highest speed, and at the lowest one in the end"""
 
     _rules = (
         (lambda o: o.low < o.high, "low must be < high"),
@@ -54,9 +59,12 @@ class Ramps(Quantity):
     COORDINATES: ClassVar = {
         "rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)
     }
-    cost: ClassVar = lambda o: (
-        SIMULATED * sum(2 * ((o.high - o.low) / rate + o.dwell) for rate in o.rates.values)
-    )
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Both ramps and both stays, for each rate."""
+        rates = self.rates.values
+        stays = 2 * self.dwell * len(rates)
+        return unit.second * (stays + sum(2 * (self.high - self.low) / rate for rate in rates))
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         rows: list[dict[str, Any]] = []

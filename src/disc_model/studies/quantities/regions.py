@@ -7,23 +7,26 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Variable
-from disc_model.studies.quantity import COME_TO, STATUS, WORK, Made, Point, Quantity, State
+from disc_model.studies.costs import UnitCosts
+from disc_model.studies.quantity import COME_TO, STATUS, Made, Point, Quantity, State
 from disc_model.units import Count, Seconds, Tolerance
 
-METHODS = ("none", "multipliers", "simulation", "inferred", "settled")
+METHODS = ("none", "multipliers", "simulation", "inferred")
 JOINED = ("no", "yes")
 _CONTINUES = "whether the cycle continues into the next point's along the plane's"
 CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
 
 
 class Regions(Quantity):
-    """Outcomes over a plane of two parameters, computed more densely where they change."""
+    """Outcomes over a plane of two parameters. Only separation is inferred, within cells that
+    separate wherever they are computed."""
 
-    tol: Tolerance = 1e-8
+    tol: Tolerance = 1e-10
+    """tolerance of simulations: error of event times after a second of motion"""
     horizon: Seconds
-    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = (
-        8  # side of a first cell, in intervals of the grid
-    )
+    """longest simulated time"""
+    initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8
+    """side of the first cells, in intervals of the grid"""
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
     tiled: ClassVar = True
@@ -34,7 +37,7 @@ class Regions(Quantity):
         ),
         "method": Variable(
             "1",
-            "how the outcome is known; inferred: like that cell's corners; settled: in contact, before the horizon",
+            "how the outcome is known; inferred: separation, as at the cell's corners and middle",
             METHODS,
         ),
         "first_separation": SCALARS["first_separation"],
@@ -58,7 +61,10 @@ class Regions(Quantity):
             "1", "number of other cycles known, followed from neighbours", whole=True
         ),
     }
-    cost: ClassVar = lambda o: WORK
+
+    def cost(self, unit: UnitCosts) -> float:
+        """A cycle or two at each point, and a motion at one of ten, some way to the horizon."""
+        return 2 * unit.cycle + 0.06 * unit.second * self.horizon
 
     def state_at(self, point: Point) -> State:
         from disc_model.simulation.api import simulate

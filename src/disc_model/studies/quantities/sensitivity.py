@@ -18,8 +18,9 @@ from disc_model.analysis.classify import share
 from disc_model.data import variables
 from disc_model.data.variables import EXCLUDED, SAMPLE, SCALARS, STABLE_CYCLES, Variable, flag_names
 from disc_model.errors import Fault, ParameterError, as_text, suggestion
-from disc_model.parameters import DEFAULTS, RELATED, Disc, Parameters, case_of
+from disc_model.parameters import DEFAULTS, RATIOS, RELATED, Disc, Parameters, case_of
 from disc_model.studies import quantity
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     NUMBERS,
     STATUS,
@@ -98,18 +99,22 @@ class Sensitivity(Quantity):
     """The stick-slip cycle at samples of uncertain parameters, and the outcome of the static
     start."""
 
-    # by parameter, or by number of a mode of a disc, such as omega_2_0 for two nodal diameters and
-    # no circle
     distributions: Annotated[dict[str, Distribution], Field(min_length=1)]
+    """distributions by parameter, or by number of a mode of a disc, such as omega_2_0 for two nodal
+    diameters and no circle"""
     # the grid contains it: the result of a sample depends only on the seed and on its own number
     samples: Annotated[Count, Field(ge=2, le=2**16, exclude=True)] = 64
+    """number of samples, a power of two"""
     seed: Annotated[Count, Field(ge=0)] = 0
-    simulated_samples: Annotated[Count, Field(ge=0)] = (
-        0  # the first ones, whose motion is simulated as well
-    )
+    """whole number that determines the samples"""
+    simulated_samples: Annotated[Count, Field(ge=0)] = 0
+    """number of the first samples whose motion is simulated as well"""
     horizon: Seconds = 500.0
-    tol: CycleTolerance = 1e-12  # of the cycles
+    """longest simulated time of a sample"""
+    tol: CycleTolerance = 1e-12
+    """tolerance of cycles: relative residual of the return map"""
     motion_tol: Tolerance = 1e-10
+    """tolerance of simulations: error of event times after a second of motion"""
 
     @classmethod
     def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
@@ -149,9 +154,11 @@ class Sensitivity(Quantity):
         ),
         **_with_interval("probability_separation", "probability of separation within the horizon"),
     }
-    cost: ClassVar = lambda o: (
-        quantity.CYCLE + quantity.SIMULATED * o.horizon / 4 * (o.simulated_samples > 0)
-    )
+
+    def cost(self, unit: UnitCosts) -> float:
+        """A cycle, and a motion if any sample has one: samples that are added keep their batches."""
+        simulated = self.simulated_samples > 0
+        return unit.cycle + 0.1 * unit.second * self.horizon * simulated
 
     @property
     def dimensions(self) -> Mapping[str, Blocks]:
@@ -164,19 +171,16 @@ class Sensitivity(Quantity):
     def faults(self, grid: Any) -> Iterator[Fault]:
         """Distributions must be of numbers, of no parameter that varies otherwise, and within valid
         values."""
-        path, faults = (
-            ("options", "distributions"),
-            dict[str, Fault](),
-        )  # the first one of each name
+        path = ("options", "distributions")
+        faults: dict[str, Fault] = {}  # the first one of each name
         first = next(grid.points_along(grid.dims))
+        varied = {*grid.varied, *(RATIOS[name][0] for name in grid.varied if name in RATIOS)}
         for point in grid.points_of([*self.distributions, *RELATED]):
-            case = case_of({**grid.base, **first, **point}, grid.discs)
-            own = _own_values(case)
+            case = Parameters(**case_of({**grid.base, **first, **point}, grid.discs))
+            own = _own_values(dict(case))
             for name, distribution in self.distributions.items():
-                nominal, varies = (
-                    own.get(name),
-                    name in grid.varied or (name not in NUMBERS and "disc" in grid.varied),
-                )
+                nominal = own.get(name)
+                varies = name in varied or (name not in NUMBERS and "disc" in varied)
                 if name not in NUMBERS and (name not in own or name in DEFAULTS):
                     rule = f"must be of a parameter that is a number{suggestion(name, NUMBERS)}"
                 elif varies and not distribution.relative:
@@ -192,10 +196,10 @@ class Sensitivity(Quantity):
                 faults.setdefault(fault.path[0], Fault((*inside, *fault.path), fault.value, rule))
         yield from faults.values()
 
-    def _out_of_reach(self, case: Mapping[str, Any], own: Mapping[str, Any]) -> Iterator[Fault]:
+    def _out_of_reach(self, p: Parameters, own: Mapping[str, Any]) -> Iterator[Fault]:
         """Rules broken by an end of a distribution at a point; rules between parameters are tested
         at all corners."""
-        p, ends = Parameters(**case), dict[str, list[float]]()
+        ends: dict[str, list[float]] = {}
         for name, distribution in self.distributions.items():
             scale = own[name] if distribution.relative else 1.0
             ends[name] = [scale * distribution.low, scale * distribution.high]

@@ -6,6 +6,8 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field
 
 from disc_model.data.variables import Variable
+from disc_model.parameters import Parameters
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import STATUS, Coordinate, Free, Point, Quantity, Range, listed
 from disc_model.units import Count, Unit
 
@@ -15,11 +17,12 @@ _ONE, _EACH = ("value",), ("value", "mode")
 class Sliding(Quantity):
     """Modes of steady sliding along one parameter, each keeping its number."""
 
-    parameter: Free = "Omega"  # with mu_k, mu_s rises where that is larger
+    parameter: Free = "Omega"
+    """number of the case that varies; with mu_k, mu_s rises where that is larger"""
     scan: Annotated[Range, Unit(of="parameter")]
-    modes: Annotated[Count, Field(ge=1, le=2000)] = (
-        24  # room for that many, numbered by frequency at the first value
-    )
+    """values of the parameter"""
+    modes: Annotated[Count, Field(ge=1, le=2000)] = 24
+    """room for that many modes, numbered by frequency at the first value"""
     scans: ClassVar = ("parameter",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -47,14 +50,23 @@ class Sliding(Quantity):
             "1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1)
         ),
     }
-    cost: ClassVar = lambda o: 3e-3 * (o.scan.intervals + 1)
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Eigenvalues at each value."""
+        return 0.6 * unit.cycle * (self.scan.intervals + 1)
+
+    def _case_at(self, p: Parameters, value: float) -> Parameters:
+        """The case of a point at a value of the parameter."""
+        if self.parameter == "mu_k":
+            return p.replace(mu_k=value, mu_s=max(p.mu_s, value))
+        return p.replace(**{self.parameter: value})
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.sliding import SlidingStatus, follow_modes
 
         p, values = point.parameters, self.scan.values
-        least = {"mu_s": max(p.mu_s, values[-1])} if self.parameter == "mu_k" else {}
-        followed = follow_modes([p.replace(**{self.parameter: value}, **least) for value in values])
+        cases = [self._case_at(p, value) for value in values]
+        followed = follow_modes(cases)
         shape, message = (len(values), self.modes), ""
         columns = {
             name: column.empty(shape)

@@ -1,14 +1,16 @@
 """Neutral curves and folds of the stick-slip cycle, by continuation in two parameters."""
 
+from __future__ import annotations
+
 from dataclasses import asdict
-from typing import Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from pydantic import Field
 
 from disc_model.data.variables import Variable
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     STATUS,
-    WORK,
     Coordinate,
     Free,
     Point,
@@ -19,6 +21,9 @@ from disc_model.studies.quantity import (
 )
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Unit
 
+if TYPE_CHECKING:
+    from disc_model.stability.curves import StabilityCurve
+
 KINDS = ("none", "neutral", "fold")
 SIDES = ("no", "yes")
 _one, _each = along("curve"), along("curve", "curve_point")
@@ -28,17 +33,25 @@ class StabilityCurves(Quantity):
     """Neutral curves and folds of the stick-slip cycle in the plane of two parameters."""
 
     x: Free = "Omega"
+    """first number of the case that varies"""
     y: Free = "N"
-    x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]  # from, to
-    y_lines: Annotated[Range, Unit(of="y")]  # cycles are searched for along these lines
-    margin: Annotated[Real, Field(ge=0, le=1)] = (
-        0.0  # fraction of the range of y by which curves may leave it
-    )
-    points: Annotated[Count, Field(ge=2, le=10_000)] = 31  # of the search, along each line
-    max_step: Positive = 0.1  # arclength of the longest step along a curve
-    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 100  # of a curve, in each direction
+    """second number of the case that varies"""
+    x_range: Annotated[tuple[Finite, Finite], Unit(of="x")]
+    """least and greatest value of x"""
+    y_lines: Annotated[Range, Unit(of="y")]
+    """values of y along which cycles are searched for"""
+    margin: Annotated[Real, Field(ge=0, le=1)] = 0.0
+    """fraction of the range of y by which curves may leave it"""
+    points: Annotated[Count, Field(ge=2, le=10_000)] = 31
+    """number of points of the search along each line"""
+    max_step: Positive = 0.1
+    """arclength of the longest step along a curve"""
+    max_points: Annotated[Count, Field(ge=2, le=10_000)] = 200
+    """most points of a curve, in each direction"""
     max_curves: Annotated[Count, Field(ge=1, le=1000)] = 24
+    """room for that many curves"""
     tol: CycleTolerance = 1e-12
+    """tolerance of cycles: relative residual of the return map"""
 
     _rules = (
         (lambda o: o.x != o.y, "x and y must differ"),
@@ -74,7 +87,10 @@ class StabilityCurves(Quantity):
             "1", "number of the point along the curve", lambda o: range(2 * o.max_points)
         ),
     }
-    cost: ClassVar = lambda o: WORK
+
+    def cost(self, unit: UnitCosts) -> float:
+        """Some ten curves."""
+        return 40 * unit.cycle * self.max_points
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.curves import neutral_curves
@@ -82,27 +98,40 @@ class StabilityCurves(Quantity):
         lines = self.y_lines
         margin = self.margin * (lines.stop - lines.start)
         bounds = {self.x: self.x_range, self.y: (lines.start - margin, lines.stop + margin)}
-        how: dict[str, Any] = {
-            "points": self.points,
-            "max_points": self.max_points,
-            "longest": self.max_step,
-        }
-        curves = neutral_curves(point.parameters, bounds, lines.values, tol=self.tol, **how)
-        rows = []
-        for curve in sorted(
-            curves, key=lambda curve: -len(curve.period)
-        ):  # the array holds the longest curve
-            row = {
-                name: getattr(curve, name) for name in ("kind", "adjoins_stable_cycle", "period")
-            }
-            row |= {"x": curve.values[:, 0], "y": curve.values[:, 1]}
-            row |= {
-                "multiplier_re": curve.multipliers.real,
-                "multiplier_im": curve.multipliers.imag,
-            }
-            rows.append(
-                row
-                | {f"resonance_{name}": value for name, value in asdict(curve.resonance).items()}
-            )
-        counts = {"n_curves": len(curves), "n_continuation_failures": len(curves.failures)}
-        return listed(rows) | counts | {"status": "ok"}, ""
+        curves = neutral_curves(
+            point.parameters,
+            bounds,
+            lines.values,
+            points=self.points,
+            max_points=self.max_points,
+            longest=self.max_step,
+            tol=self.tol,
+        )
+        # those beside a stable cycle first, in case there are more than the array holds
+        rows = [_row(curve) for curve in sorted(curves, key=_importance, reverse=True)]
+        columns: dict[str, Any] = listed(rows[: self.max_curves])
+        columns["n_curves"] = len(curves)
+        columns["n_continuation_failures"] = len(curves.failures)
+        columns["status"] = "ok"
+        return columns, ""
+
+
+def _importance(curve: StabilityCurve) -> tuple[int, int]:
+    """The number of points of a curve beside a stable cycle, and that of all."""
+    return int(curve.adjoins_stable_cycle.sum()), len(curve.period)
+
+
+def _row(curve: StabilityCurve) -> dict[str, Any]:
+    """The columns of a curve."""
+    row: dict[str, Any] = {
+        "kind": curve.kind,
+        "adjoins_stable_cycle": curve.adjoins_stable_cycle,
+        "period": curve.period,
+        "x": curve.values[:, 0],
+        "y": curve.values[:, 1],
+        "multiplier_re": curve.multipliers.real,
+        "multiplier_im": curve.multipliers.imag,
+    }
+    for name, value in asdict(curve.resonance).items():
+        row[f"resonance_{name}"] = value
+    return row

@@ -1,0 +1,224 @@
+"""What a continuation returns: the cycles of a branch, its special points, and why it ends."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.data.variables import Variable
+from disc_model.display import counted, draw
+from disc_model.errors import require
+from disc_model.parameters import Parameters
+from disc_model.simulation.states import State
+from disc_model.stability.continuation.problem import MapFactory
+from disc_model.stability.return_map import Array, ReturnMap
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.axes import Axes
+
+LABELS: Mapping[str, str] = {
+    "fold": "LP",
+    "period_doubling": "PD",
+    "neimark_sacker": "TR",
+    "branch_point": "BP",
+    "grazing": "GR",
+    "end": "EP",
+}
+"""Kinds of special points, and their labels in AUTO and COCO."""
+VARIABLES: Mapping[str, Variable] = {
+    "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle"),
+    "period": Variable("s", "period of the cycle"),
+    "stick_fraction": Variable("1", "share of the period spent sticking"),
+}
+"""What is known of each cycle of a branch, and of each special point."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SpecialPoint:
+    """A point of a branch at which the number or the stability of cycles changes, or its end.
+
+    Attributes
+    ----------
+    kind : "fold", two cycles meet; "period_doubling", a multiplier is -1; "neimark_sacker", a complex pair of
+        multipliers has modulus one; "grazing", a switch is touched, and an event appears or vanishes; "branch_point",
+        another branch crosses; "end", of the branch
+    values : shape (n_parameters,), SI units
+    period : s; stick_fraction; growth_rate : 1/s
+    multiplier : the one that is critical; at a grazing and at an end, the leading one
+    after : number of the point of the branch before it, or at it
+    case : with the values of this point
+    modal : (n,), modal coordinates on the section, in SI units
+    make_map : makes the return map to that section
+    """
+
+    kind: str
+    values: Array
+    period: float
+    stick_fraction: float
+    growth_rate: float
+    multiplier: complex
+    after: int
+    case: Parameters
+    modal: Array = field(repr=False)
+    make_map: MapFactory = ReturnMap
+
+    @property
+    def label(self) -> str:
+        """Label of the kind in AUTO and COCO: LP, PD, TR, BP, GR or EP."""
+        return LABELS[self.kind]
+
+    @cached_property
+    def point(self) -> Array:
+        """The cycle's point of the section, (n,), in the coordinates of its own return map."""
+        return self.modal * self.make_map(self.case).scale
+
+    @cached_property
+    def state(self) -> State:
+        """The cycle's state on the section, at the end of stick, at time 0."""
+        return self.make_map(self.case).state(self.point)
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{value:.9g}" for value in self.values)
+        return f"SpecialPoint({self.kind} at {values}, period {self.period:.6g} s)"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Branch:
+    """Cycles along a curve.
+
+    Attributes
+    ----------
+    parameters : names of the free parameters
+    values : shape (n_points, n_parameters), in SI units
+    period : s; stick_fraction; growth_rate : 1/s; each (n_points,)
+    multipliers : complex, (n_points, n), largest modulus first
+    diameters : int, (n_points,), nodal diameters of the modes with most energy in the leading multiplier's eigenvector
+    separations : int, (n_points,), number of separations in a period
+    points : (n_points, n), on the section, in the coordinates of `ReturnMap` for the case followed
+    folds : (n_folds, n_parameters), values at which the first parameter turns, located to rounding; only on a branch
+        in one parameter
+    ended : reason for which the branch ends; of both ends if they differ, that of the first point first
+    case : whose cycle is followed; its own values of the free parameters do not count
+    special : the special points in their order along the branch; `special_points` is their table
+    """
+
+    parameters: tuple[str, ...]
+    values: Array = field(repr=False)
+    period: Array = field(repr=False)
+    stick_fraction: Array = field(repr=False)
+    growth_rate: Array = field(repr=False)
+    multipliers: NDArray[np.complex128] = field(repr=False)
+    diameters: NDArray[np.int64] = field(repr=False)
+    separations: NDArray[np.int64] = field(repr=False)
+    points: Array = field(repr=False)
+    folds: Array
+    ended: str
+    case: Parameters = field(repr=False)
+    special: tuple[SpecialPoint, ...] = ()
+    _make_map: MapFactory = ReturnMap
+    variables: ClassVar = VARIABLES
+
+    def __len__(self) -> int:
+        return len(self.period)
+
+    def __repr__(self) -> str:
+        spans = []
+        for name, values in zip(self.parameters, self.values.T, strict=True):
+            spans.append(f"{name} from {values.min():.6g} to {values.max():.6g}")
+        folds = counted(len(self.folds), "fold")
+        return f"Branch({len(self)} cycles, {', '.join(spans)}, {folds}; ended: {self.ended})"
+
+    @property
+    def special_points(self) -> pd.DataFrame:
+        """The special points as a table, in their order along the branch.
+
+        Columns: `kind` and `label` (AUTO's LP, PD, TR, BP and EP; GR for a grazing), the parameters
+        by their names (SI units), `growth_rate` (1/s), `period` (s), `stick_fraction`,
+        `multiplier`, `after` (number of the branch's point before it) and `state`, a `State` of the
+        cycle to simulate and draw.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
+        >>> branch.special_points[["kind", "label", "Omega"]]
+           kind label      Omega
+        0   end    EP  14.800000
+        1  fold    LP  15.094912
+        2   end    EP  14.800000
+        """
+        import pandas as pd
+
+        columns: dict[str, list[object]] = {
+            "kind": [special.kind for special in self.special],
+            "label": [special.label for special in self.special],
+        }
+        for i, name in enumerate(self.parameters):
+            columns[name] = [float(special.values[i]) for special in self.special]
+        for name in VARIABLES:
+            columns[name] = [getattr(special, name) for special in self.special]
+        columns["multiplier"] = [special.multiplier for special in self.special]
+        columns["after"] = [special.after for special in self.special]
+        columns["state"] = [special.state for special in self.special]
+        return pd.DataFrame(columns)
+
+    def case_at(self, i: int) -> Parameters:
+        """The case of the i-th cycle: the case followed with this cycle's values of the free
+        parameters."""
+        values = self.values[self._number(i)].tolist()
+        return self.case.replace(**dict(zip(self.parameters, values, strict=True)))
+
+    def state(self, i: int) -> State:
+        """The state of the i-th cycle on the section, at the end of stick and at time 0, to
+        simulate and draw; the cycle may be unstable.
+
+        Simulated for a period, the modal coordinates return to those of this state within 1e-7 of
+        the largest, times the leading multiplier. Raises `ParameterError` if there is no such
+        cycle.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
+        >>> print(f"{branch.growth_rate[-1]:.3f}/s")
+        0.531/s
+        >>> run = dm.simulate(branch.case_at(-1), branch.period[-1], initial_state=branch.state(-1))
+        >>> float(abs(run.final_state.u / branch.state(-1).u - 1)) < 1e-10
+        True
+        """
+        i = self._number(i)
+        own = self._make_map(self.case_at(i))
+        reference = self._make_map(self.case)
+        return own.state(self.points[i] / reference.scale * own.scale)
+
+    def _number(self, i: int) -> int:
+        """A number of a cycle, checked, counted from the first one."""
+        try:
+            number = operator.index(i)
+        except TypeError:
+            number = len(self)
+        rule = f"must be the number of a cycle, from {-len(self)} to {len(self) - 1}"
+        require((-len(self) <= number < len(self), "i", i, rule))
+        return number % len(self)
+
+    def plot(self, y: str = "growth_rate", *, ax: Axes | None = None) -> Axes:
+        """Draw growth_rate, period or stick_fraction over the parameter, thick where the cycle is
+        stable, and the special points.
+
+        A branch in two parameters is drawn as the second over the first. Returns the axes; raises
+        `ParameterError` if `y` is another name, or `ax` no axes.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2)).plot("period").get_ylabel()
+        'Period of the cycle (ms)'
+        """
+        return draw("plot_branch", self, y, ax=ax)

@@ -1,0 +1,273 @@
+"""Points of a curve F(z) = 0 by prediction and correction, and the test that a step stays on it.
+
+F has one row less than z has entries.  A step predicts on the cubic through the former point, and
+corrects within a plane; `check_step` then compares both points as those of a
+smooth curve.  The sense of the tangent is that of the sign of det [F'; tangent], which is constant
+along a curve of regular points: a corrector that has come to another part of the curve often shows
+the other sign.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Annotated, NamedTuple, Protocol
+
+import numpy as np
+from pydantic import Field
+
+from disc_model.errors import DiscModelError
+from disc_model.stability.continuation.spectrum import Spectrum, spectrum_of
+from disc_model.stability.return_map import Array, Flight, newton_step, rounding
+from disc_model.units import Count, Finite, Positive, Strict
+
+MOST_CORRECTIONS = 14  # of Newton's method with Broyden's updates, which takes 3 to 5
+MOST_DERIVATIVES = 4  # computed anew in a correction that is slow
+SLOW = 0.3  # a correction that leaves more of the residual needs the derivative at its own point
+GOAL = 30  # residual of a point, over the tolerance of the map
+# A step is taken along one smooth curve if, relative to its length, the corrector moves by no more
+# than DRIFT, and the chord differs from the mean tangent by no more than DEFECT: for an arc that
+# turns by an angle t they are t^2 / 4 and t^2 / 12 at most, a sixteenth and a fiftieth for 30 deg.
+DRIFT = 0.25
+DEFECT = 0.02
+# the last correction of a point whose residual is limited by rounding; a residual that is as small
+# but no zero, as beside a narrow fold, leads to corrections a hundred times as large
+UNCERTAIN = 1e-7
+DIVERGES = "Newton's method does not converge"
+FARTHEST_PREDICTION = 2  # length of a step that is predicted from the former one, over that
+FARTHEST = 0.5  # of a single corrector's way, relative to the step, before it is given up
+
+
+class Rejected(DiscModelError):
+    """A point that cannot be computed, or a step that must be shorter; the message says why."""
+
+
+class StepControl(Strict):
+    """Step lengths and limits of a continuation.
+
+    Steps become shorter by themselves where the curve bends, where multipliers turn fast, and where
+    the corrector moves far, as before a jump to another part of the branch.
+
+    Parameters
+    ----------
+    step, longest, shortest : arclength of the first, the longest and the shortest step
+    max_points : largest number of points in each direction
+    scale : value of the parameter that counts as one in the arclength; by default its own, or a tenth of the larger
+        bound if that is more. For one parameter only
+    growth, easy, sharpest : factor by which a step grows if the cosine of the angle between successive tangents exceeds
+        `easy`; below `sharpest` the step is shortened
+    beyond : whether a branch in one parameter ends at the first point beyond a bound, instead of at the bound
+    """
+
+    step: Positive = 0.02
+    longest: Positive = 0.1
+    shortest: Positive = 1e-7
+    max_points: Annotated[Count, Field(ge=1)] = 2000
+    scale: Positive | None = None
+    growth: Finite = 1.5
+    easy: Finite = 0.99
+    sharpest: Finite = 0.9
+    beyond: bool = False
+
+
+class Evaluation(NamedTuple):
+    """F at a point z: its value (n,), its derivative `by` z, the flight of the return map, and the
+    Jacobian of the map by x, (n, n)."""
+
+    residual: Array
+    by: Array
+    flight: Flight
+    jacobian: Array
+
+
+class Problem(Protocol):
+    """F, whose zeros form the curve. Both methods raise `Rejected` where F has no value.
+
+    n : number of rows of F; tol : relative tolerance of its values
+    """
+
+    n: int
+    tol: float
+
+    def residual(self, z: Array) -> Array:
+        """F at z, which costs little."""
+        ...
+
+    def evaluate(self, z: Array) -> Evaluation:
+        """F at z, with its derivatives."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class CurvePoint:
+    """A point z of a curve, with F's derivative `by` z, the unit tangent, the sign of det [by;
+    tangent], and the cycle's flight and Jacobian.
+
+    Of a border of stability it also has the multiplier `mu` that is followed, and the gradients of
+    the test function and of `mu` within the surface of cycles.
+    """
+
+    z: Array
+    by: Array
+    tangent: Array
+    orientation: float
+    flight: Flight
+    jacobian: Array
+    mu: complex = 1.0
+    gradient: Array = field(default_factory=lambda: np.zeros(0))
+    turning: Array = field(default_factory=lambda: np.zeros(0))
+
+    @cached_property
+    def spectrum(self) -> Spectrum:
+        return spectrum_of(self.jacobian)
+
+    @property
+    def value(self) -> float:
+        """The last entry of z, which is the scaled parameter of a curve in one parameter."""
+        return float(self.z[-1])
+
+    @property
+    def slope(self) -> float:
+        """The parameter's share of the unit tangent, which vanishes at a fold."""
+        return float(self.tangent[-1])
+
+    def reversed(self) -> CurvePoint:
+        """The same point of a curve that is followed in the other sense."""
+        return replace(self, tangent=-self.tangent, orientation=-self.orientation)
+
+
+def solve(
+    problem: Problem, guess: Array, rows: Array, matrix: Array, radius: float = np.inf
+) -> tuple[Array, Evaluation]:
+    """Solve F(z) = 0 within the plane through `guess` normal to the `rows`, by Newton's method.
+
+    It starts with a `matrix` [F'; rows] from nearby and improves it by Broyden's updates, because F
+    costs a tenth of its derivatives. Returns z and F there. Raises `Rejected` if the iteration
+    leaves a `radius` round the guess, or does not converge.
+    """
+    z = guess
+    step: Array | None = None
+    last = np.inf
+    derivatives = 0
+    fresh = False  # whether the matrix is that at the former iterate
+    for _ in range(MOST_CORRECTIONS):
+        right = np.concatenate([problem.residual(z), rows @ (z - guess)])
+        error = float(np.linalg.norm(right))
+        if error <= GOAL * problem.tol:
+            break
+
+        if step is not None and error > SLOW * last:
+            small = float(np.linalg.norm(step)) <= UNCERTAIN
+            by_rounding = small and error <= rounding(problem.tol, 1e4)
+            if by_rounding and (fresh or derivatives == MOST_DERIVATIVES):
+                break
+            if derivatives == MOST_DERIVATIVES:
+                raise Rejected(DIVERGES)
+            matrix = np.vstack([problem.evaluate(z).by, rows])
+            derivatives += 1
+            fresh = True
+        elif step is not None:
+            matrix = matrix + np.outer(right, step) / (step @ step)
+            fresh = False
+
+        last = error
+        step = -newton_step(matrix, right)
+        z = z + step
+        if not np.linalg.norm(z - guess) <= radius:
+            raise Rejected("the corrector moves too far")
+    else:
+        raise Rejected(DIVERGES)
+
+    # one more correction, now with the derivatives at this point, which are needed anyhow
+    found = problem.evaluate(z)
+    left = np.concatenate([found.residual, rows @ (z - guess)])
+    return z - newton_step(np.vstack([found.by, rows]), left), found
+
+
+def curve_point(z: Array, found: Evaluation, along: Array) -> CurvePoint:
+    """A point of a curve with the tangent that makes an acute angle with the vector `along`."""
+    matrix = np.vstack([found.by, along])
+    end = np.zeros(len(z))
+    end[-1] = 1.0
+    try:
+        tangent = np.linalg.solve(matrix, end)
+    except np.linalg.LinAlgError:  # the curve is normal to the vector
+        tangent = np.linalg.svd(found.by)[2][-1]
+    tangent = np.asarray(tangent, dtype=np.float64) / float(np.linalg.norm(tangent))
+    sign, _ = np.linalg.slogdet(np.vstack([found.by, tangent]))
+    return CurvePoint(z, found.by, tangent, float(sign), found.flight, found.jacobian)
+
+
+class Guess(NamedTuple):
+    """Where a point of a curve is expected, and F's derivative there, (n, n + 1)."""
+
+    z: Array
+    by: Array
+
+
+def predict(former: CurvePoint | None, current: CurvePoint, ds: float) -> Guess:
+    """The point expected at arclength ds ahead: along the tangent, or on the cubic through a former
+    point if that is not much nearer, because little is known of a long way from a short one."""
+    if former is not None:
+        length = float(np.linalg.norm(current.z - former.z))
+        if ds <= FARTHEST_PREDICTION * length:
+            return interpolate(former, current, 1 + ds / length)
+    return Guess(current.z + ds * current.tangent, current.by)
+
+
+def interpolate(before: CurvePoint, after: CurvePoint, share: float) -> Guess:
+    """The point at a share of the way between two, on the cubic with both tangents; beyond the
+    second for a share above one."""
+    length = float(np.linalg.norm(after.z - before.z))
+    rest = 1 - share
+    ends = rest**2 * (1 + 2 * share) * before.z + share**2 * (1 + 2 * rest) * after.z
+    bend = share * rest * (rest * before.tangent - share * after.tangent)
+    return Guess(ends + length * bend, rest * before.by + share * after.by)
+
+
+def check_step(
+    before: CurvePoint, after: CurvePoint, sharpest: float, largest_defect: float = DEFECT
+) -> None:
+    """Raise `Rejected` unless two points are neighbours on a smooth curve: the tangents enclose an
+    angle of a cosine of at least `sharpest`, and the chord differs from their mean by no more than
+    `largest_defect` of its length."""
+    chord = after.z - before.z
+    length = float(np.linalg.norm(chord))
+    if float(before.tangent @ after.tangent) < sharpest:
+        raise Rejected("the curve bends too sharply")
+    defect = chord - length / 2 * (before.tangent + after.tangent)
+    if np.linalg.norm(defect) > largest_defect * length:
+        raise Rejected("the curve bends within the step")
+
+
+def follow_curve(
+    start: CurvePoint,
+    advance: Callable[[Sequence[CurvePoint], float], list[CurvePoint]],
+    steps: StepControl,
+    watch: Callable[[list[CurvePoint]], bool],
+) -> tuple[list[CurvePoint], Rejected | None]:
+    """Points along a curve from `start` on, at most `max_points`.
+
+    From the points so far, `advance` finds the next ones within an arclength, or raises `Rejected`;
+    the step is then halved. After each point, `watch` looks at all of them, may change the last,
+    and says whether it is the last of the curve. Returns the points, and the rejection if even the
+    shortest step ended in one.
+    """
+    points = [start]
+    ds = min(steps.step, steps.longest)
+    while len(points) < steps.max_points:
+        try:
+            ahead = advance(points, ds)
+        except Rejected as rejected:
+            ds /= 2
+            if ds < steps.shortest:
+                return points, rejected
+            continue
+        for point in ahead:
+            points.append(point)
+            if watch(points):
+                return points, None
+        if float(points[-1].tangent @ points[-2].tangent) > steps.easy:
+            ds = min(steps.longest, steps.growth * ds)
+    return points, None

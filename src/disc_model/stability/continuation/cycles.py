@@ -1,0 +1,211 @@
+"""`continue_cycle`: a cycle followed in one parameter, both ways from a case."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from disc_model.engine.jit.cache import compiling
+from disc_model.errors import Fault, raise_faults, require, suggestion, violations
+from disc_model.parameters import Parameters, Quantity, foreign_case
+from disc_model.simulation.states import State, is_finite_array
+from disc_model.stability.continuation import ends, special
+from disc_model.stability.continuation.branch import Branch, SpecialPoint
+from disc_model.stability.continuation.course import SAME_VALUE, Course, Search
+from disc_model.stability.continuation.curve import CurvePoint, StepControl
+from disc_model.stability.continuation.ends import End
+from disc_model.stability.continuation.problem import CycleProblem, growth_rate, parameter_scale
+from disc_model.stability.continuation.special import Located
+from disc_model.stability.cycle import find_cycle, guess_faults, multipliers
+from disc_model.stability.return_map import Counts
+from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, limits_faults
+
+CYCLE = StepControl()
+STOPS = (special.FOLD, special.PERIOD_DOUBLING, special.NEIMARK_SACKER)
+
+
+def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
+    """Faults of the names of free parameters."""
+    known = p.numbers
+    wrong = [name for name in names if not isinstance(name, str) or name not in known]
+    return [
+        Fault.of(("name",), name, f"must be a number of the case{suggestion(name, known)}")
+        for name in wrong
+    ]
+
+
+def interval_in_si(name: Any, bounds: Any) -> Any:
+    """Bounds of a parameter in SI units, from texts with units too; None unless they are two
+    ascending numbers."""
+    values = values_in_si(name, bounds)
+    return values if is_finite_array(values, 2) and values[0] < values[1] else None
+
+
+def values_in_si(name: Any, values: Any) -> Any:
+    """Values of a parameter in SI units, from texts with units too."""
+    unit = Parameters.unit(name) if isinstance(name, str) else ""
+    return in_si(values, unit, [], ())
+
+
+@compiling()
+def continue_cycle(  # noqa: PLR0913
+    p: Parameters,
+    name: str,
+    bounds: tuple[Quantity, Quantity],
+    *,
+    direction: int = 0,
+    guess: State | None = None,
+    releases: int = 1,
+    tol: float = 1e-12,
+    steps: StepControl = CYCLE,
+    values: Sequence[Quantity] = (),
+    stop_at: str | None = None,
+) -> Branch:
+    """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
+
+    The branch goes both ways from the case. From a state `guess` the cycle may lose contact; with
+    its impacts it is followed as long as the motion depends continuously on the parameter. Where a
+    switch is grazed, the return map jumps: the branch ends, and says which event appears or
+    vanishes there. A branch that closes ends where it began.
+
+    Parameters
+    ----------
+    p : case whose cycle is followed; its value of the parameter must lie within the bounds
+    name : the free parameter, one of `Parameters.numbers`
+    bounds : values of the parameter between which the cycle is followed; SI units, or texts with units
+    direction : 0 for both ways; 1 to begin with increasing values alone, -1 with decreasing ones
+    guess, releases, tol : as in `floquet`
+    steps : length and number of the steps
+    values : of the parameter; the branch has a cycle at exactly each of them, as often as it passes
+    stop_at : "fold", "period_doubling" or "neimark_sacker" to end at the first such point, in each direction
+
+    Returns
+    -------
+    Branch
+        The cycles in their order along the curve; its folds and other special points; and in `ended` why it ends; if
+        for two reasons, that of its first point, then that of its last.
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule, or no cycle is found to start from.
+
+    Examples
+    --------
+    The fold of the cycle at 385 N:
+
+    >>> import disc_model as dm
+    >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2), values=[15.0])
+    >>> branch
+    Branch(... cycles, Omega from 14.8 to 15.09..., 1 fold; ended: the bound Omega = 14.8 rad/s was reached)
+    >>> print(f"{branch.folds[0, 0]:.6f} rad/s")
+    15.094912 rad/s
+    >>> branch.growth_rate[branch.values[:, 0] == 15.0].round(4).tolist()
+    [-0.1055, 0.5751]
+    """
+    span = interval_in_si(name, bounds)
+    listed = isinstance(values, Sequence | np.ndarray)
+    wanted: Any = values_in_si(name, list(values)) if listed else None
+    ways = is_number(direction) and direction in (-1, 0, 1)
+    stops = stop_at is None or (isinstance(stop_at, str) and stop_at in STOPS)
+    wrong = violations(
+        (span is not None, "bounds", bounds, "must be two ascending finite numbers"),
+        (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
+        (ways, "direction", direction, "must be -1, 0 or 1"),
+        (wanted == [] or is_finite_array(wanted), "values", values, "must be finite numbers"),
+        (stops, "stop_at", stop_at, f"must be None or one of {', '.join(STOPS)}"),
+    )
+    wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases)
+    raise_faults(foreign_case(p) or wrong + free_faults(p, [name]))
+    tol = float(tol)
+    start = p.numbers[name]
+    slack = 1e-9 * (span[1] - span[0])  # ratios are rounded
+    within = span[0] - slack <= start <= span[1] + slack
+    rule = f"must lie within the bounds, {span[0]:g} to {span[1]:g}, to start from there"
+    require((within, name, start, rule))
+
+    cycle = find_cycle(p, tol, guess, releases)
+    order = None
+    if guess is not None:
+        order = Counts(*(getattr(cycle, event) for event in Counts._fields))
+    scale = steps.scale or parameter_scale(p, name, max(map(abs, span)))
+    problem = CycleProblem(p, (name,), scale, tol, order)
+    rising = np.zeros(problem.n + 1)
+    rising[-1] = 1.0
+    search = Search(problem, steps, span, stop_at)
+    course = search.follow(problem.start(cycle, rising), int(direction))
+    course = search.with_values(course, wanted)
+    return branch_of(problem, course, (*span, start, *wanted))
+
+
+def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()) -> Branch:
+    """The branch of a course, in SI units. Values of the parameter that scaling has moved by its
+    rounding from one of some `exact` ones are these."""
+    points = course.points
+    values = np.array([point.z[problem.n :] * problem.scales for point in points])
+    for value in exact:
+        values[np.abs(values - value) <= SAME_VALUE * abs(value)] = value
+    every = [multipliers(point.jacobian) for point in points]
+    period = np.array([point.flight.period for point in points])
+    stick_time = np.array([point.flight.stick_time for point in points])
+    growth = [growth_rate(each[0], time) for each, time in zip(every, period, strict=True)]
+    rows = _special_points(problem, course)
+    folds = [row.values for row in rows if row.kind == special.FOLD]
+    reasons = [end.text for end in (course.first, course.last) if end is not None]
+    return Branch(
+        parameters=problem.names,
+        values=values,
+        period=period,
+        stick_fraction=stick_time / period,
+        growth_rate=np.array(growth),
+        multipliers=np.array(every),
+        diameters=np.array([problem.leading_diameters(point) for point in points]),
+        separations=np.array([point.flight.counts.separations for point in points]),
+        points=np.array([point.z[: problem.n] * problem.size for point in points]),
+        folds=np.array(folds).reshape(-1, len(problem.names)),
+        ended="; ".join(dict.fromkeys(reasons)),
+        case=problem.base,
+        special=rows,
+        _make_map=problem.make_map,
+    )
+
+
+def _special_points(problem: CycleProblem, course: Course) -> tuple[SpecialPoint, ...]:
+    """The special points of a course, its ends included, in their order."""
+    places = list(course.special)
+    last = len(course.points) - 1
+    closed = course.last.kind == ends.CLOSED
+    if not (closed or (course.first is not None and course.first.kind == ends.STOPPED)):
+        places.insert(0, _end_of(course.first, course.points[0], 0))
+    if not (closed or course.last.kind == ends.STOPPED):
+        places.append(_end_of(course.last, course.points[-1], last))
+    rows = []
+    for place in places:
+        z = place.point.z
+        flight = place.point.flight
+        values = z[problem.n :] * problem.scales
+        case = problem.base.replace(**dict(zip(problem.names, values.tolist(), strict=True)))
+        rows.append(
+            SpecialPoint(
+                kind=place.kind,
+                values=values,
+                period=flight.period,
+                stick_fraction=flight.stick_time / flight.period,
+                growth_rate=growth_rate(special.leading(place.point), flight.period),
+                multiplier=place.multiplier,
+                after=place.after,
+                case=case,
+                modal=z[: problem.n] * problem.size / problem.reference.scale,
+                make_map=problem.make_map,
+            )
+        )
+    return tuple(rows)
+
+
+def _end_of(end: End | None, point: CurvePoint, number: int) -> Located:
+    """The end of a branch as a special point; without a reason it is the start."""
+    grazed = end is not None and end.kind == ends.GRAZED
+    kind = special.GRAZING if grazed else "end"
+    return Located(kind, point, special.leading(point), number)

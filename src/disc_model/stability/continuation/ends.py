@@ -1,0 +1,114 @@
+"""The reason for which a branch ends, found by simulating the motion just beyond its last cycle.
+
+Where the return map is discontinuous, no cycle continues the branch.  A switch is grazed there:
+just beyond, the motion has an event that the cycle lacks, or lacks one of the cycle's, and the
+first event that differs tells which.
+"""
+
+from __future__ import annotations
+
+from itertools import zip_longest
+from typing import NamedTuple
+
+import numpy as np
+
+from disc_model.errors import DiscModelError, ParameterError
+from disc_model.simulation.api import simulate
+from disc_model.stability.continuation.curve import CurvePoint, Rejected
+from disc_model.stability.continuation.problem import CycleProblem
+
+BOUND = "bound"
+CLOSED = "closed"
+MOST_POINTS = "max_points"
+STOPPED = "stopped"
+GRAZED = "grazing"
+LIMIT = "limit"
+LOST = "lost"
+# Arclengths beyond the last cycle, which is within the shortest step of a discontinuity; events of
+# a motion without one move by about as much, over the period.
+BEYOND = (1e-6, 1e-5, 1e-4)
+SAME_TIME = 5e-3  # largest difference of two times of one event, over the period
+
+GRAZINGS = {
+    ("stick_to_slip", True): "a grazing release: during stick the pull touches friction's limit",
+    (
+        "stick_to_slip",
+        False,
+    ): "a grazing release: the pull touches friction's limit where stick ends",
+    ("slip_to_stick", True): "a grazing stop: the cycle touches zero slip speed during slip",
+    ("slip_to_stick", False): "stick vanishes: the cycle touches zero slip speed",
+    ("slip_reversal", True): "a slip reversal appears: the pull touches friction's limit at a stop",
+    ("slip_reversal", False): "a slip reversal vanishes: the cycle touches zero slip speed",
+    ("separation", True): "contact is lost: the contact force touches zero",
+    ("separation", False): "a separation vanishes: the contact force touches zero",
+    ("reattachment", True): "a grazing impact: the slider touches the disc during separation",
+    ("reattachment", False): "a grazing impact: the slider touches the disc without an impact",
+}
+"""Words for the kind of the first event that differs, and whether it appears beyond the branch."""
+
+
+class End(NamedTuple):
+    """Why a branch ends: one of the kinds above, and a sentence."""
+
+    kind: str
+    text: str
+
+
+class Event(NamedTuple):
+    """An event of a motion: its kind and its time, over the period of the cycle."""
+
+    kind: str
+    time: float
+
+
+def reason_of_loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) -> End:
+    """Why a curve cannot be followed beyond a point at which even the shortest step was
+    rejected."""
+    for distance in BEYOND:
+        z = last.z + distance * last.tangent
+        try:
+            problem.case(z)
+        except ParameterError as fault:
+            return End(LIMIT, f"beyond it the case is not valid: {fault}")
+    cycle = _events(problem, last.z, last.flight.period)
+    for distance in BEYOND:
+        motion = _events(problem, last.z + distance * last.tangent, last.flight.period)
+        text = _first_difference(cycle, motion)
+        if text:
+            return End(GRAZED, text)
+    return End(LOST, f"no shorter step succeeds: {rejected}")
+
+
+def _events(problem: CycleProblem, z: np.ndarray, period: float) -> list[Event]:
+    """The events of the motion from a point of the section up to the last release of the period,
+    which a leading multiplier of a million, as beside a grazing release, displaces."""
+    section_map = problem.map_at(z)
+    start = section_map.state(problem.section_point(z))
+    try:
+        run = simulate(problem.case(z), duration=period, initial_state=start, tol=problem.tol)
+    except DiscModelError:
+        return []
+    table = run.events
+    early = table[table["time"] < (1 - SAME_TIME) * period]
+    return [
+        Event(str(kind), float(time) / period)
+        for kind, time in zip(early["kind"], early["time"], strict=True)
+    ]
+
+
+def _are_same(one: Event | None, other: Event | None) -> bool:
+    """Whether two motions have the same event, or neither has one."""
+    if one is None or other is None:
+        return one is other
+    return one.kind == other.kind and abs(one.time - other.time) < SAME_TIME
+
+
+def _first_difference(cycle: list[Event], motion: list[Event]) -> str:
+    """Words for the first event that only one of two motions has; none if they have the same."""
+    for ours, theirs in zip_longest(cycle, motion):
+        if _are_same(ours, theirs):
+            continue
+        appears = ours is None or (theirs is not None and theirs.time < ours.time)
+        kind = theirs.kind if appears else ours.kind
+        return GRAZINGS.get((kind, appears), "")
+    return ""

@@ -1,0 +1,274 @@
+"""F(x, q) = R(x, q) - x of a return map R: its zeros are cycles, as a curve or surface over the
+free parameters q.
+
+Unknowns are z = (x / size, q / scales). The map is a `SectionMap`; that of the stick-slip cycle is
+`disc_model.stability.return_map.ReturnMap`, and another section needs another map only.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.errors import ModeError, ParameterError
+from disc_model.parameters import DEFAULTS, Parameters
+from disc_model.simulation.states import State
+from disc_model.stability.continuation.compliance import CompliantPlate
+from disc_model.stability.continuation.curve import CurvePoint, Evaluation, Rejected, curve_point
+from disc_model.stability.cycle import FloquetResult
+from disc_model.stability.return_map import (
+    ENDS,
+    PARAMETERS,
+    Array,
+    Counts,
+    Flight,
+    ReturnMap,
+    newton_step,
+)
+
+# typical values of parameters whose value in Table 1 is missing or 0
+USUAL = {
+    "Omega": 20.0,
+    "N": 300.0,
+    "c": 0.5,
+    "c_p": 0.5,
+    "contact_compliance": 1e-8,
+    "damping_ratio": 1e-3,
+    "friction_decay": 1.0,
+}
+SMALLEST = 0.2  # of a parameter's scale, over its typical value
+SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value of interest
+DIFFERENCE = 1e-5  # over a parameter's scale: flights are accurate to 1e-13, their second derivatives of order one
+
+
+class SectionMap(Protocol):
+    """The return map of one case to a section; see `ReturnMap`, which is one.
+
+    size : dimension n of the section
+    scale : (n,), units of its coordinates, which may depend on the case
+    diameters : nodal diameters of the coordinates that belong to modes, which come first
+    deflection : unit of distances
+    """
+
+    size: int
+    scale: Array
+    diameters: NDArray[np.int64]
+    deflection: float
+
+    def evaluate(
+        self, x: Array, *, releases: int = 1, tangent: bool = True, may_separate: bool = False
+    ) -> Flight:
+        """The motion from x to its return, with derivatives by x and the map's parameters."""
+        ...
+
+    def point(self, state: State) -> Array:
+        """The point of the section of a state on it."""
+        ...
+
+    def state(self, x: Array) -> State:
+        """The state of a point of the section."""
+        ...
+
+
+class MapFactory(Protocol):
+    """What makes the map of a case; `parameters` are those by which it is differentiated."""
+
+    def __call__(
+        self,
+        p: Parameters,
+        tol: float = 1e-12,
+        parameters: tuple[str, ...] = (),
+        *,
+        patient: bool = False,
+    ) -> SectionMap: ...
+
+
+def parameter_scale(p: Parameters, name: str, farthest: float = 0.0) -> float:
+    """The change of a parameter that counts as one: its value, a fifth of a typical one, or a tenth
+    of the `farthest` value to which it is followed, whichever is most."""
+    value = abs(p.numbers[name])
+    usual = USUAL.get(name, DEFAULTS.get(name))
+    typical = SMALLEST * usual if isinstance(usual, float) else 0.0
+    return max(value, typical, SMALLEST_OF_SPAN * abs(farthest)) or 1.0
+
+
+def value_text(name: str, value: float) -> str:
+    """A value of a parameter with its name and unit."""
+    unit = Parameters.unit(name).removeprefix("1")
+    return f"{name} = {value:.6g} {unit}".strip()
+
+
+class CycleProblem:
+    """F of the cycles of a case, in the free parameters `names`.
+
+    With an `order` of events cycles may lose contact, and have as many releases in a period; `scale`
+    replaces a parameter's own. `points` of the section are over `size`, the norm of the static
+    deflection, in the coordinates of the case `base`; those of another case differ from them where
+    the disc's frequencies do.
+    """
+
+    def __init__(
+        self,
+        base: Parameters,
+        names: tuple[str, ...],
+        scale: float | None,
+        tol: float,
+        order: Counts | None = None,
+        make_map: MapFactory | None = None,
+    ) -> None:
+        self.base = base
+        self.names = names
+        self.tol = tol
+        self.order = order
+        self.make_map: MapFactory = make_map or ReturnMap
+        self.reference = self.make_map(base, tol)
+        self.n = self.reference.size
+        self.size = self.reference.deflection
+        self.scales = np.array([scale or parameter_scale(base, name) for name in names])
+        self._differentiable = tuple(name for name in names if name in PARAMETERS)
+        self._plate: CompliantPlate | None = None
+        if CompliantPlate.is_needed(base, names):
+            self._plate = CompliantPlate(base, names[0])
+        self._map: SectionMap | None = None  # the map of the parameters last used
+        self._values: tuple[float, ...] = ()
+
+    def case(self, z: Array) -> Parameters:
+        """The case at a point; raises `ParameterError` where there is none."""
+        values = (z[self.n :] * self.scales).tolist()
+        p = self.base.replace(**dict(zip(self.names, values, strict=True)))
+        if self._plate is not None:
+            p = p.replace(contact_compliance=self._plate.at(values[0]))
+        return p
+
+    def words(self, point: CurvePoint) -> str:
+        """The values of the free parameters at a point, such as "Omega = 15.0949 rad/s"."""
+        values = point.z[self.n :] * self.scales
+        return ", ".join(map(value_text, self.names, values.tolist()))
+
+    def map_at(self, z: Array) -> SectionMap:
+        """The return map of the case at a point."""
+        values = tuple(z[self.n :].tolist())
+        if self._map is None or values != self._values:
+            self._map = self._make_map(z)
+            self._values = values
+        return self._map
+
+    def _make_map(self, z: Array) -> SectionMap:
+        try:
+            p = self.case(z)
+            missing = min(p.Omega, p.N, p.k_p) <= 0
+            if missing:
+                raise Rejected("the drive, the preload or the in-plane spring vanishes")
+            patient = self.order is not None
+            return self.make_map(p, self.tol, self._differentiable, patient=patient)
+        except (ParameterError, ModeError) as fault:
+            raise Rejected(str(fault)) from None
+
+    def section_point(self, z: Array) -> Array:
+        """The point of the section, in the coordinates of the map at z."""
+        return z[: self.n] * self.size / self._turn(self.map_at(z))
+
+    def _turn(self, section_map: SectionMap) -> Array:
+        """Factors from the coordinates of a map to those of the reference."""
+        return self.reference.scale / section_map.scale
+
+    def fly(self, z: Array, *, tangent: bool) -> Flight:
+        """The motion from a point to its return, whatever its end."""
+        return self.map_at(z).evaluate(
+            self.section_point(z),
+            releases=self.order.releases if self.order else 1,
+            tangent=tangent,
+            may_separate=self.order is not None,
+        )
+
+    def _return(self, z: Array, *, tangent: bool) -> tuple[Flight, Array]:
+        """The motion from a point to its return, and F."""
+        flight = self.fly(z, tangent=tangent)
+        if not flight.returned:
+            raise Rejected(f"the motion does not return: {ENDS[flight.outcome]}")
+        residual = (flight.end - flight.start) * self._turn(self.map_at(z)) / self.size
+        return flight, residual
+
+    def residual(self, z: Array) -> Array:
+        """F at z."""
+        return self._return(z, tangent=False)[1]
+
+    def evaluate(self, z: Array) -> Evaluation:
+        """F at z, with its derivatives."""
+        flight, residual = self._return(z, tangent=True)
+        turn = self._turn(self.map_at(z))
+        jacobian = flight.jacobian * turn[:, None] / turn[None, :]
+        by_parameters = np.zeros((self.n, len(self.names)))
+        column = 0
+        for i, name in enumerate(self.names):
+            if name in self._differentiable:
+                change = flight.by[:, column] * turn / self.size
+                by_parameters[:, i] = change * self.scales[i]
+                column += 1
+            else:
+                by_parameters[:, i] = self._difference(z, i)
+        by = np.hstack([jacobian - np.eye(self.n), by_parameters])
+        if not (np.all(np.isfinite(by)) and np.all(np.isfinite(residual))):
+            raise Rejected("the variational equations are singular: a switch is grazed")
+        return Evaluation(residual, by, flight, jacobian)
+
+    def _difference(self, z: Array, i: int) -> Array:
+        """Derivative of F by the i-th scaled parameter, by a difference of two flights."""
+        move = np.zeros(len(z))
+        move[self.n + i] = DIFFERENCE
+        ends = []
+        for side in (1, -1):
+            # x stays the same point of the reference's coordinates
+            ends.append(self.residual(z + side * move))
+        return np.asarray((ends[0] - ends[1]) / (2 * DIFFERENCE), dtype=float)
+
+    def place(self, cycle: FloquetResult) -> Array:
+        """z of a cycle of the case `base`; raises `ParameterError` if it cannot be followed."""
+        one_release = "p: must have a cycle of one release"
+        rule = "guess: must lie near a cycle" if self.order else one_release
+        if cycle.state is None or (cycle.releases > 1 and not self.order):
+            raise ParameterError(
+                f"{rule} that can be followed, but the search ended with {cycle.message}"
+            )
+        return self.place_at(self.reference.point(cycle.state))
+
+    def place_at(self, x: Array) -> Array:
+        """z of a point of the section of the case `base`."""
+        values = np.array([self.base.numbers[name] for name in self.names])
+        return np.concatenate([x / self.size, values / self.scales])
+
+    def start(self, cycle: FloquetResult, along: Array) -> CurvePoint:
+        """A cycle of the case `base` as a point of the curve in one parameter, with the tangent
+        along a vector; raises `ParameterError` if it cannot be followed."""
+        z = self.place(cycle)
+        try:
+            found = self.evaluate(z)
+        except Rejected as lost:
+            raise ParameterError(
+                f"p: must have a cycle that can be followed, but at its state {lost}"
+            ) from None
+        left = np.append(found.residual, np.zeros(len(self.names)))
+        rows = np.eye(len(z))[self.n :]
+        return curve_point(z - newton_step(np.vstack([found.by, rows]), left), found, along)
+
+    def leading_diameters(self, point: CurvePoint) -> int:
+        """Nodal diameters of the modes with most energy in the leading multiplier's eigenvector."""
+        spectrum = point.spectrum
+        leading = int(np.argmax(np.abs(spectrum.values)))
+        diameters = self.reference.diameters
+        energy = np.abs(spectrum.right[: len(diameters), leading]) ** 2
+        return int(np.argmax(np.bincount(diameters, energy)))
+
+
+def growth_rate(multiplier: complex, period: float) -> float:
+    """Growth rate of a multiplier, 1/s."""
+    return math.log(abs(multiplier)) / period if multiplier else -math.inf
+
+
+def values_of(problem: CycleProblem, points: Sequence[CurvePoint]) -> Array:
+    """Values of the free parameters at points, (n_points, n_parameters), SI units."""
+    return np.array([point.z[problem.n :] * problem.scales for point in points])

@@ -1,0 +1,203 @@
+"""Special points of a branch in one parameter: folds, period doublings, Neimark-Sacker
+bifurcations, changes of the order of events, and branch points.
+
+Between two neighbouring points a test function changes sign, and its root along the curve is
+located to rounding.  A pair of folds within a step leaves the sign of the slope unchanged; it is
+found because the slope nearly vanishes there.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from disc_model.stability.continuation.curve import CurvePoint, Rejected
+from disc_model.stability.continuation.spectrum import follow_multipliers
+from disc_model.stability.continuation.tracing import BranchTracer
+
+FOLD = "fold"
+PERIOD_DOUBLING = "period_doubling"
+NEIMARK_SACKER = "neimark_sacker"
+GRAZING = "grazing"
+BRANCH_POINT = "branch_point"
+ON_CIRCLE = 1e-6  # largest difference of a critical multiplier's modulus from one
+NEARLY_FOLDED = (
+    0.5  # least slope between three points, over that of the middle one, that is looked at
+)
+MOST_REFINEMENTS = 4  # of the points round a slope that nearly vanishes
+
+
+class Located(NamedTuple):
+    """A special point: its kind, the point of the curve, the critical multiplier, and the number of
+    the point of the branch before it."""
+
+    kind: str
+    point: CurvePoint
+    multiplier: complex
+    after: int
+
+
+class Unlocated(Rejected):
+    """A special point that is between two points of a branch, and cannot be computed."""
+
+
+def locate_between(
+    tracer: BranchTracer, before: CurvePoint, after: CurvePoint, number: int = 0
+) -> list[Located]:
+    """The special points between two neighbours of a branch, in their order; the first of the two
+    has this number. Raises `Unlocated` if a fold between them cannot be computed."""
+    found = [Located(*special, number) for special in _between(tracer, before, after)]
+    return sorted(found, key=lambda special: float((special.point.z - before.z) @ before.tangent))
+
+
+def _between(
+    tracer: BranchTracer, before: CurvePoint, after: CurvePoint
+) -> Iterator[tuple[str, CurvePoint, complex]]:
+    """The special points between two neighbours."""
+    folded = before.slope * after.slope < 0
+    if after.flight.counts != before.flight.counts:
+        yield GRAZING, before, leading(before)
+        return
+    if folded:
+        yield FOLD, locate_fold(tracer, before, after), 1.0 + 0j
+    elif before.orientation != after.orientation:
+        yield BRANCH_POINT, before, 1.0 + 0j
+    if _doubling_test(before) * _doubling_test(after) < 0:
+        doubled = tracer.locate(before, after, _doubling_test)
+        if doubled is not None:
+            critical = nearest(doubled, -1.0 + 0j)
+            if abs(critical + 1) < ON_CIRCLE:
+                yield PERIOD_DOUBLING, doubled, critical
+    yield from _neimark_sackers(tracer, before, after)
+
+
+def locate_fold(tracer: BranchTracer, before: CurvePoint, after: CurvePoint) -> CurvePoint:
+    """The fold between two neighbours, where the tangent has no component along the parameter;
+    raises `Unlocated` if it cannot be computed."""
+    fold = tracer.locate(before, after, lambda point: point.slope)
+    if fold is None:
+        raise Unlocated(f"near {tracer.problem.words(before)}")
+    return fold
+
+
+def _doubling_test(point: CurvePoint) -> float:
+    """det (J + I), which changes sign where a real multiplier passes -1; without the factors of
+    multipliers that are far away."""
+    factors = 1 + point.spectrum.values
+    return float(np.prod(factors / np.maximum(np.abs(factors), 1.0)).real)
+
+
+def _neimark_sackers(
+    tracer: BranchTracer, before: CurvePoint, after: CurvePoint
+) -> Iterator[tuple[str, CurvePoint, complex]]:
+    """The points between two neighbours where a pair of complex multipliers crosses the unit
+    circle."""
+    successors = follow_multipliers(before.spectrum, after.spectrum)
+    for i, multiplier in enumerate(before.spectrum.values):
+        successor = after.spectrum.values[successors[i]]
+        crosses = (abs(multiplier) - 1) * (abs(successor) - 1) < 0
+        if not crosses or multiplier.imag <= 0 or successor.imag == 0:
+            continue
+        follower = _Follower(before, i)
+        point = tracer.locate(before, after, follower.excess)
+        if point is None:
+            continue
+        critical = follower.multiplier(point)
+        if abs(abs(critical) - 1) < ON_CIRCLE and critical.imag != 0:
+            yield NEIMARK_SACKER, point, complex(critical.real, abs(critical.imag))
+
+
+class _Follower:
+    """The multiplier of a point that continues the i-th one of another."""
+
+    def __init__(self, start: CurvePoint, i: int) -> None:
+        self.start = start
+        self.i = i
+
+    def multiplier(self, point: CurvePoint) -> complex:
+        j = follow_multipliers(self.start.spectrum, point.spectrum)[self.i]
+        return complex(point.spectrum.values[j])
+
+    def excess(self, point: CurvePoint) -> float:
+        """By how much its modulus exceeds one."""
+        return abs(self.multiplier(point)) - 1
+
+
+def nearest(point: CurvePoint, value: complex) -> complex:
+    """The multiplier nearest to a value."""
+    values = point.spectrum.values
+    return complex(values[np.argmin(np.abs(values - value))])
+
+
+def leading(point: CurvePoint) -> complex:
+    """The multiplier of largest modulus."""
+    values = point.spectrum.values
+    return complex(values[np.argmax(np.abs(values))])
+
+
+# ---- Pairs of folds within a step
+
+
+def reveal_folds(tracer: BranchTracer, points: Sequence[CurvePoint]) -> list[CurvePoint]:
+    """The points of a branch and, between them, one where the slope has the other sign, wherever a
+    pair of folds hides within a step."""
+    revealed = {}
+    for i in range(1, len(points) - 1):
+        point = _hidden_turn(tracer, list(points[i - 1 : i + 2]))
+        if point is not None:
+            behind = float((point.z - points[i].z) @ points[i].tangent) < 0
+            revealed[i - 1 if behind else i] = point
+    complete = list[CurvePoint]()
+    for i, point in enumerate(points):
+        complete.append(point)
+        if i in revealed:
+            complete.append(revealed[i])
+    return complete
+
+
+def _hidden_turn(tracer: BranchTracer, three: list[CurvePoint]) -> CurvePoint | None:
+    """The point between three neighbours whose slope differs from theirs in sign, if a parabola
+    through the slopes suggests one and it exists."""
+    sign = math.copysign(1.0, three[1].slope)
+    for _ in range(MOST_REFINEMENTS):
+        slopes = [sign * point.slope for point in three]
+        if not 0 < slopes[1] < min(slopes[0], slopes[2]):
+            return None
+        lengths = [float(np.linalg.norm(b.z - a.z)) for a, b in pairwise(three)]
+        place, least = _least_of_parabola(lengths, slopes)
+        if least > NEARLY_FOLDED * slopes[1]:
+            return None
+        if place < 0:
+            before, after = three[0], three[1]
+            share = 1 + place / lengths[0]
+        else:
+            before, after = three[1], three[2]
+            share = place / lengths[1]
+        if not 1e-3 < share < 1 - 1e-3:
+            return None
+        try:
+            there = tracer.between(before, after, share)
+        except Rejected:
+            return None
+        if sign * there.slope < 0:
+            return there
+        middle = three[1].tangent
+        four = sorted([*three, there], key=lambda point: float(point.z @ middle))
+        lowest = min((1, 2), key=lambda i: sign * four[i].slope)
+        three = four[lowest - 1 : lowest + 2]
+    return None
+
+
+def _least_of_parabola(lengths: Sequence[float], values: Sequence[float]) -> tuple[float, float]:
+    """Place, from the middle point, and least value of the parabola through three points at
+    distances `lengths`, whose middle value is the smallest."""
+    behind = (values[0] - values[1]) / lengths[0]
+    ahead = (values[2] - values[1]) / lengths[1]
+    curvature = (behind + ahead) / (lengths[0] + lengths[1])
+    slope = ahead - curvature * lengths[1]
+    place = -slope / (2 * curvature)
+    return place, values[1] + slope * place / 2

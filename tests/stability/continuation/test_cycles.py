@@ -1,0 +1,224 @@
+"""Branches of stick-slip cycles: compared with shorter steps, with `floquet`, with simulations, and
+their ends with the margins of the events."""
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters, Window, continue_cycle, floquet, simulate
+from disc_model.data.variables import CycleStatus
+from disc_model.stability.continuation import Branch, StepControl
+
+pytestmark = pytest.mark.compiled
+
+SHORT = StepControl(step=0.002, longest=0.01, max_points=20_000)
+STEEL = {
+    "normalization": "orthonormal",
+    "a": 0.04,
+    "b": 0.15,
+    "r_0": 0.13,
+    "h": 0.006,
+    "E": 210e9,
+    "rho": 7800,
+    "nu": 0.3,
+    "m": 0.3,
+    "k": 5e5,
+    "k_p": 2e5,
+    "c_p": 5,
+    "mu_s": 0.45,
+    "mu_k": 0.35,
+    "damping_ratio": 5e-4,
+}
+BRANCHES = {
+    "published": (Parameters(N=200, Omega=20), (4, 50)),
+    "orthonormal": (Parameters(N=300, Omega=20, normalization="orthonormal"), (10, 40)),
+    "steel": (Parameters(N=9000, Omega=16, friction_offset="surface", **STEEL), (15, 30)),
+}
+
+
+@pytest.fixture(scope="module", params=BRANCHES)
+def branch(request: pytest.FixtureRequest) -> Branch:
+    p, bounds = BRANCHES[request.param]
+    return continue_cycle(p, "Omega", bounds)
+
+
+def folds_with_periods(branch: Branch) -> np.ndarray:
+    """Values and periods of the folds, (n, 2): cycles of one value differ in their periods."""
+    folds = [each for each in branch.special if each.kind == "fold"]
+    return np.array([(each.values[0], each.period) for each in folds]).reshape(-1, 2)
+
+
+def test_no_fold_is_listed_twice_and_shorter_steps_find_the_same(branch: Branch) -> None:
+    folds = folds_with_periods(branch)
+    apart = np.abs(folds[:, None] / folds[None] - 1).max(axis=2) + np.eye(len(folds))
+    assert apart.min(initial=1.0) > 1e-7
+    p = branch.case
+    bounds = next(bounds for case, bounds in BRANCHES.values() if case == p)
+    fine = continue_cycle(p, "Omega", bounds, steps=SHORT)
+    assert len(fine) > len(branch)
+    assert fine.ended == branch.ended
+    # both are located to rounding, 1e-11 as a rule
+    np.testing.assert_allclose(folds_with_periods(fine), folds, rtol=1e-9)
+
+
+def test_points_are_the_cycles_of_floquet(branch: Branch) -> None:
+    """Away from folds, where Newton's method from the point itself comes to it again."""
+    simple = np.flatnonzero(np.abs(branch.multipliers[:, 0]) < 1.3)
+    for i in simple[:: max(1, len(simple) // 12)]:
+        near_fold = np.abs(branch.multipliers[i] - 1).min() < 1e-3
+        if near_fold:
+            continue
+        found = floquet(branch.case_at(i), guess=branch.state(i))
+        assert found.status is CycleStatus.OK
+        # residuals of 1e-12 over the distance of a multiplier from 1
+        assert found.period == pytest.approx(branch.period[i], rel=1e-9)
+        apart = np.abs(found.multipliers[:, None] - branch.multipliers[i][None, :]).min(axis=1)
+        assert apart.max() < 1e-6
+
+
+def test_a_state_of_a_branch_repeats_in_simulation_though_unstable(branch: Branch) -> None:
+    unstable = np.flatnonzero(branch.growth_rate > 0)
+    for i in unstable[:: max(1, len(unstable) // 6)]:
+        state = branch.state(i)
+        run = simulate(branch.case_at(i), branch.period[i], initial_state=state, tol=1e-13)
+        # the residual, some 1e-11 of the deflection, moves the period, and with it fast modes
+        allowed = 1e-7 * max(1.0, abs(branch.multipliers[i, 0]))
+        for name in ("a", "b", "alpha", "beta"):
+            start, end = getattr(state, name), getattr(run.final_state, name)
+            scale = max(np.abs(getattr(state, pair)).max() for pair in _OF_ONE_SIZE[name])
+            assert np.abs(end - start).max() < allowed * scale
+
+
+_OF_ONE_SIZE = {
+    "a": ("a", "b"),
+    "b": ("a", "b"),
+    "alpha": ("alpha", "beta"),
+    "beta": ("alpha", "beta"),
+}
+
+
+def test_special_points_have_their_multipliers(branch: Branch) -> None:
+    for special in branch.special:
+        if special.kind not in ("fold", "neimark_sacker", "period_doubling"):
+            continue
+        assert abs(special.multiplier) == pytest.approx(1, abs=1e-6)
+        run = simulate(special.case, special.period, initial_state=special.state, tol=1e-13)
+        # it is a cycle: the slider is where it was
+        assert run.final_state.u == pytest.approx(special.state.u, abs=1e-9 * abs(special.state.u))
+
+
+def test_stability_changes_at_the_first_neimark_sacker_point_of_a_stable_cycle() -> None:
+    p = Parameters(N=300, Omega=20, normalization="orthonormal")
+    branch = continue_cycle(p.replace(Omega=18.5), "Omega", (18.5, 22), direction=1)
+    [point] = [each for each in branch.special if each.kind == "neimark_sacker"]
+    speed = float(point.values[0])
+    below, above = (floquet(p.replace(Omega=speed + shift)) for shift in (-1e-3, 1e-3))
+    assert below.growth_rate < 0 < above.growth_rate
+    # both are as far, and the rate is linear over so little
+    assert abs(below.growth_rate + above.growth_rate) < 0.05 * above.growth_rate
+
+
+def test_a_branch_can_stop_where_the_cycle_first_loses_stability() -> None:
+    p = Parameters(N=300, Omega=18.5, normalization="orthonormal")
+    branch = continue_cycle(p, "Omega", (18.2, 30), direction=1, stop_at="neimark_sacker")
+    assert branch.ended.startswith("the first Neimark-Sacker bifurcation, at Omega = 19.")
+    assert np.all(branch.growth_rate[:-1] < 0)
+    assert branch.growth_rate[-1] == pytest.approx(0, abs=1e-5)
+
+
+# ---- Ends
+
+STEEL_ALONE = Parameters(N=5139, Omega=34.65, **STEEL)
+FALLING = {"normalization": "orthonormal", "friction_decay": 8.0}
+ENDS = {
+    "stick vanishes: the cycle touches zero slip speed": (STEEL_ALONE, 1, "stop"),
+    "a grazing release: during stick the pull touches friction's limit": (
+        Parameters(N=507, Omega=12.8, normalization="orthonormal"),
+        1,
+        "earlier release",
+    ),
+    "a grazing release: the pull touches friction's limit where stick ends": (
+        Parameters(N=200, Omega=9.8),
+        -1,
+        "release",
+    ),
+    "a grazing stop: the cycle touches zero slip speed during slip": (
+        Parameters(N=253, Omega=6.16),
+        1,
+        "earlier stop",
+    ),
+    "contact is lost: the contact force touches zero": (
+        Parameters(N=334, Omega=11.1, normalization="orthonormal"),
+        1,
+        "contact",
+    ),
+}
+
+
+def margins(branch: Branch, i: int) -> dict[str, float]:
+    """Margins of a cycle's events over its preload and period, from samples of a simulation: how
+    steeply slip and stick end, and how near to an event the motion comes elsewhere."""
+    p = branch.case_at(i)
+    period = branch.period[i]
+    count = 40_000
+    windows = {"all": Window(rate=count / period)}
+    run = simulate(p, period, windows, initial_state=branch.state(i), tol=1e-12)
+    samples = run["all"]
+    force = samples["P"].values / p.N
+    f = (p.Omega - samples["psi_velocity"].values) / p.Omega
+    pull = p.r_0 * (p.k_p * samples["psi"].values + p.c_p * samples["psi_velocity"].values)
+    left = force - np.abs(pull) / (p.mu_s * p.N)  # of friction's limit
+    stick = samples["phase"].values == 0
+
+    def least(values: np.ndarray, where: np.ndarray) -> float:
+        inner = (values[1:-1] < values[:-2]) & (values[1:-1] < values[2:])
+        inner &= where[1:-1] & where[:-2] & where[2:]
+        return float(values[1:-1][inner].min(initial=np.inf))
+
+    [stop] = np.flatnonzero(np.diff(stick.astype(int)) == 1)
+    return {
+        "stop": float(f[stop - 2] - f[stop - 1]) * count,
+        "release": float(left[-4] - left[-3]) * count,
+        "earlier release": least(left, stick),
+        "earlier stop": least(f, ~stick),
+        "contact": float(force.min()),
+    }
+
+
+@pytest.mark.parametrize("ended", ENDS)
+def test_the_reason_of_an_end_is_the_margin_that_vanishes_there(ended: str) -> None:
+    p, direction, vanishing = ENDS[ended]
+    branch = continue_cycle(p, "Omega", (4, 60), direction=direction)
+    assert branch.ended == ended
+    assert branch.special[-1].kind == "grazing"
+    found = margins(branch, -1)
+    # touching leaves the square root of 1e-7 in a slope, at the shortest step, and all of it in a distance
+    smallest = min(found, key=lambda name: found[name])
+    assert smallest == vanishing
+    assert abs(found[smallest]) < 0.02
+    others = [value for name, value in found.items() if name != vanishing]
+    assert min(others) > 2 * abs(found[smallest])
+
+
+# ---- Random starts
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(24))
+def test_branches_of_random_cases_are_those_of_shorter_steps(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    if seed % 3 == 2:
+        offset = ("surface", 0.0)[seed % 2]
+        load, speed = rng.uniform(5000, 10_000), rng.uniform(12, 30)
+        p = Parameters(N=load, Omega=speed, friction_offset=offset, **STEEL)
+    else:
+        modes = ("as_published", "orthonormal")[seed % 3]
+        load, speed = rng.uniform(50, 350), rng.uniform(8, 50)
+        p = Parameters(N=load, Omega=speed, normalization=modes)
+    bounds = (0.6 * p.Omega, 60.0)
+    coarse = continue_cycle(p, "Omega", bounds)
+    fine = continue_cycle(p, "Omega", bounds, steps=SHORT)
+    folds = folds_with_periods(coarse)
+    np.testing.assert_allclose(folds_with_periods(fine), folds, rtol=1e-6)
+    assert fine.ended == coarse.ended
+    assert "no shorter step" not in coarse.ended
+    assert "meets itself" not in coarse.ended

@@ -1,0 +1,125 @@
+"""Motions near a cycle or near steady sliding: where and when they are there, and what follows."""
+
+import numpy as np
+import pytest
+
+from disc_model.data.variables import Outcome
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.states import perturb
+from disc_model.stability import thresholds
+from disc_model.stability.cycle import find_cycle
+from disc_model.stability.linear_motion import (
+    NearCycle,
+    approaches_sliding,
+    cycle_of_static_start,
+    find_cycle_near,
+    find_near_return,
+)
+from disc_model.stability.return_map import ReturnMap
+from disc_model.stability.sliding import steady_sliding
+
+pytestmark = pytest.mark.compiled
+
+
+def near_start(p: Parameters) -> NearCycle:
+    near = cycle_of_static_start(p)
+    assert isinstance(near, NearCycle)
+    return near
+
+
+@pytest.mark.parametrize(
+    ("N", "Omega", "waits"),
+    [(50.0, 15.0, 0.0), (540.0, 24.5, 1.5), (584.5, 40.1, 6.0), (429.2966, 28.01568, 15.0)],
+)
+def test_a_motion_near_a_cycle_is_the_simulated_one_at_its_time(N, Omega, waits) -> None:
+    """Also if it follows the cycle only after strongly damped modes have decayed."""
+    near = near_start(Parameters(N=N, Omega=Omega))
+    assert near.follows_cycle
+    first = near.map.first_release.time
+    assert near.time - first == pytest.approx(waits, abs=0.02)  # a period
+    assert (near.time == first) == (waits == 0)
+    # a picosecond before the release
+    there = simulate(near.cycle.parameters, near.time - 1e-12, tol=1e-13).final_state
+    x = near.map.point(there)
+    # a motion that grows at 0.3/s keeps what a tolerance of 1e-13 leaves, and a picosecond moves it
+    apart = np.linalg.norm(x - near.x - near.distance)
+    assert apart < 1e-8 * near.map.deflection
+    assert near.periods_left(near.time) == 0
+    assert near.periods_left(near.time + 10.5 * near.cycle.period) == 11
+
+
+@pytest.mark.parametrize(
+    ("N", "Omega", "until", "beyond"),
+    # growth by 0.018/s and 0.0145/s after 6 and 1.5 s, and by 0.019/s
+    [(460.27, 11.58, 120, 250), (450.7, 11.7484, 250, 400), (200.0, 20.0, 200, 300)],
+)
+def test_a_motion_that_stays_linear_grows_as_the_simulated_one(N, Omega, until, beyond) -> None:
+    near = near_start(Parameters(N=N, Omega=Omega))
+    assert not near.cycle.stable
+    assert not near.stays_linear_until(beyond)
+    assert not near.stays_linear_until(1000.0)
+    for horizon in (until / 4, until):
+        assert near.stays_linear_until(horizon)
+        end = simulate(near.cycle.parameters, horizon, events=False).final_state
+        release = near.map.next_release(end)
+        apart = float(np.linalg.norm(release.x - near.x))
+        ahead = np.linalg.matrix_power(near.jacobian, near.periods_left(horizon)) @ near.distance
+        # up to a period earlier or later, and with a growth rate that has changed by a quarter
+        assert apart == pytest.approx(float(np.linalg.norm(ahead)), rel=0.3)
+        assert apart < thresholds.NEAR * near.map.deflection
+
+
+def test_a_cycle_near_a_later_release_has_the_time_of_that_release() -> None:
+    p = Parameters(N=50, Omega=15, c=0.1)
+    map_ = ReturnMap(p)
+    end = simulate(p, 40.0).final_state
+    release = map_.next_release(end)
+    run = simulate(p, 40.1, initial_state=end, tol=1e-13)
+    wanted = run.events["time"][run.events["kind"] == "stick_to_slip"].iloc[0]
+    assert release.time == pytest.approx(wanted, abs=1e-9)
+    near = find_cycle_near(map_, release, find_near_return(map_, release.x))
+    assert near is not None
+    assert near.follows_cycle
+    assert near.time >= release.time
+    assert near.kind is Outcome.QUIET
+
+
+def test_a_release_in_contact_is_no_release_after_a_loss_of_contact() -> None:
+    """A motion about to separate came to the section, and was then tested as if it had not."""
+    p = Parameters(N=385, Omega=15.1)
+    late = simulate(p, 60.0)
+    assert late.events["kind"].eq("separation").any()
+    strict, patient = ReturnMap(p), ReturnMap(p, patient=True)
+    lost = [
+        (strict.next_release(state).reached, patient.next_release(state).reached)
+        for state in (
+            simulate(p, 60.0 + i * 1e-3, initial_state=late.final_state).final_state
+            for i in range(1, 16)
+        )
+    ]
+    assert all(with_patience for _, with_patience in lost)
+    assert not all(in_contact for in_contact, _ in lost)
+
+
+SLIDES = Parameters(N=50, Omega=15, c_p=0.5)
+
+
+def test_a_motion_approaches_sliding_however_late_it_is_asked() -> None:
+    for time in (2.0, 20.0, 200.0):
+        assert approaches_sliding(SLIDES, simulate(SLIDES, time).final_state)
+    # it sticks, it is not near, and it departs
+    assert not approaches_sliding(SLIDES, simulate(SLIDES, 1e-4).final_state)
+    end = simulate(SLIDES, 20.0).final_state
+    assert not approaches_sliding(SLIDES, perturb(SLIDES, end, f=-10.0))
+    unstable = SLIDES.replace(N=385, c_p=2.0)
+    assert not steady_sliding(unstable).stable
+    assert not approaches_sliding(unstable, simulate(unstable, 5.0).final_state)
+
+
+def test_a_start_that_never_sticks_is_near_no_cycle() -> None:
+    """The damper pulls it loose at once: its spring never has what a release needs."""
+    p = Parameters(N=200, Omega=20, c_p=45.0)
+    near = cycle_of_static_start(p)
+    assert not isinstance(near, NearCycle)
+    assert near.status == find_cycle(p).status == "no_stick_slip"

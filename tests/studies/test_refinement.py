@@ -1,0 +1,149 @@
+"""Tiles of a plane: what is computed of them, presumed and filled, with made-up motions and
+cycles."""
+
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from disc_model.data.variables import CycleStatus, Outcome
+from disc_model.parameters import Parameters
+from disc_model.stability.linear_motion import NearCycle
+from disc_model.stability.outcome import OutcomeResult
+from disc_model.studies import refinement
+from disc_model.studies.refinement import Tile
+
+Index = tuple[int, int]
+NO_CYCLE = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
+
+
+def place(p: Parameters) -> Index:
+    """The place of a case, whose load and speed count rows and columns from 1."""
+    return int(p.N) - 1, int(p.Omega) - 1
+
+
+def near(*, stable: bool = False, slow: bool = False, x: float = 0.0) -> NearCycle:
+    """A cycle that the static start follows; `slow` if it grows too slowly to leave it."""
+    cycle: Any = SimpleNamespace(
+        stable=stable, slow=slow, growth_rate=0.1, period=0.015, releases=1, separations=0,
+        parameters=Parameters(N=100, Omega=10),
+    )  # fmt: skip
+    map_: Any = SimpleNamespace(deflection=1.0)
+    at = np.array([x, 0.0])
+    return NearCycle(cycle, True, map_, at, np.zeros(2), np.eye(2))
+
+
+class MadeUp:
+    """A plane in which outcomes and starts are as said, and the places that were computed."""
+
+    def __init__(self) -> None:
+        self.outcome: Callable[[Index], OutcomeResult] = lambda index: quiet()
+        self.starts: dict[Index, NearCycle] = {}
+        self.computed: list[Index] = []
+
+    def find_outcome(self, p: Parameters, horizon: float, **_: Any) -> OutcomeResult:
+        index = place(p)
+        self.computed.append(index)
+        return self.outcome(index)
+
+    def start(self, p: Parameters) -> Any:
+        return self.starts.get(place(p), NO_CYCLE)
+
+    def tile(self, rows: int, columns: int, cell: int) -> Tile:
+        points = [[Parameters(N=i + 1, Omega=j + 1) for j in range(columns)] for i in range(rows)]
+        options = SimpleNamespace(initial_cell_size=cell, horizon=100.0, tol=1e-8)
+        return Tile(points, [], options)
+
+
+def quiet() -> OutcomeResult:
+    return OutcomeResult(Outcome.QUIET, 1.0)
+
+
+def separation() -> OutcomeResult:
+    return OutcomeResult(Outcome.SEPARATION, 1.0)
+
+
+def growing() -> OutcomeResult:
+    return OutcomeResult(Outcome.GROWING, 1.0)
+
+
+@pytest.fixture
+def plane(monkeypatch: pytest.MonkeyPatch) -> MadeUp:
+    made = MadeUp()
+    monkeypatch.setattr(refinement, "find_outcome", made.find_outcome)
+    monkeypatch.setattr(refinement, "cycle_of_static_start", made.start)
+    monkeypatch.setattr(refinement, "newton", lambda *_, **__: None)
+    monkeypatch.setattr(NearCycle, "stays_linear_until", lambda self, horizon: self.cycle.slow)
+    return made
+
+
+def row_at(tile: Tile, index: Index) -> dict[str, Any]:
+    row, _ = tile.rows()[index[0]][index[1]]
+    return dict(row)
+
+
+def test_multipliers_decide_where_the_start_stays_near_its_cycle(plane: MadeUp) -> None:
+    plane.starts = {(0, 0): near(stable=True), (0, 1): near(slow=True)}
+    tile = plane.tile(1, 2, 1)
+    assert plane.computed == []
+    rows = [row_at(tile, (0, j)) for j in (0, 1)]
+    assert [row["outcome"] for row in rows] == [Outcome.QUIET, Outcome.GROWING]
+    assert {row["method"] for row in rows} == {"multipliers"}
+
+
+@pytest.mark.parametrize(("simulated", "method"), [(100.0, "simulation"), (0.0, "multipliers")])
+def test_a_row_says_how_its_outcome_is_known(plane: MadeUp, simulated: float, method: str) -> None:
+    plane.outcome = lambda index: OutcomeResult(Outcome.OTHER_CYCLE, simulated)
+    assert row_at(plane.tile(1, 1, 1), (0, 0))["method"] == method
+
+
+def test_separation_is_inferred_only_in_cells_that_separate_at_corners_and_in_the_middle(
+    plane: MadeUp,
+) -> None:
+    plane.outcome = lambda index: growing() if index == (2, 2) else separation()
+    tile = plane.tile(9, 9, 8)
+    assert row_at(tile, (2, 2))["outcome"] == Outcome.GROWING
+    assert row_at(tile, (2, 2))["method"] == "simulation"
+    row = row_at(tile, (7, 6))
+    assert (row["outcome"], row["method"]) == (Outcome.SEPARATION, "inferred")
+    assert (7, 6) not in plane.computed
+
+
+def test_no_other_outcome_is_inferred(plane: MadeUp) -> None:
+    plane.outcome = lambda index: growing()
+    plane.tile(5, 5, 4)
+    assert sorted(plane.computed) == [(i, j) for i in range(5) for j in range(5)]
+
+
+def test_a_first_cell_is_divided_before_anything_is_inferred(plane: MadeUp) -> None:
+    plane.outcome = lambda index: separation()
+    tile = plane.tile(5, 5, 4)
+    corners = {(i, j) for i in (0, 2, 4) for j in (0, 2, 4)}
+    middles = {(i, j) for i in (1, 3) for j in (1, 3)}
+    assert set(plane.computed) == corners | middles
+    assert row_at(tile, (3, 4))["outcome"] == Outcome.SEPARATION
+
+
+def test_a_quiet_point_inside_a_cell_that_separates_is_shown_as_quiet(plane: MadeUp) -> None:
+    plane.starts = {(1, 2): near(stable=True)}
+    plane.outcome = lambda index: separation()
+    tile = plane.tile(5, 5, 4)
+    assert row_at(tile, (1, 2))["outcome"] == Outcome.QUIET
+    assert (1, 1) in plane.computed
+
+
+@pytest.mark.parametrize(
+    ("apart", "found", "joined"),
+    [(0.001, None, "yes"), (0.1, None, "no"), (0.1, 0.1, "yes"), (0.1, 0.05, "no")],
+)
+def test_cycles_are_joined_if_they_are_close_or_newton_s_method_leads_from_one_to_the_other(
+    plane: MadeUp, apart: float, found: float | None, joined: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    orbit = None if found is None else SimpleNamespace(start=np.array([found, 0.0]))
+    monkeypatch.setattr(refinement, "newton", lambda *_, **__: orbit)
+    plane.starts = {(0, 0): near(stable=True), (0, 1): near(stable=True, x=apart)}
+    row = row_at(plane.tile(1, 2, 1), (0, 0))
+    assert row["branch_continues_second"] == joined
+    assert row["branch_continues_first"] == "no"
