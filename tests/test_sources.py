@@ -118,7 +118,7 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
 
     for name in quantity_names():
         batch = of(SCRIPTS / "compute_batch.py", f"studies.quantities.{name}")
-        assert {"engine/series.py", "disc/plate.py", f"studies/quantities/{name}.py"} <= batch
+        assert {"engine/slip.py", "disc/plate.py", f"studies/quantities/{name}.py"} <= batch
         assert not {path.split("/")[0] for path in batch} & {
             "figures",
             "paper",
@@ -137,7 +137,7 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
             f"studies/quantities/{one}.py" for one in {name, *(["floquet"] * (name == "campbell"))}
         }
     case = of(SCRIPTS / "simulate_case.py")
-    assert {"engine/event_loop.py", "simulation/states.py"} <= case
+    assert {"engine/loop.py", "simulation/states.py"} <= case
     assert not [path for path in case if path.startswith(("stability", "studies"))]
     assert {"stability/cycle.py", "mode_choice.py"} <= of(
         SCRIPTS / "simulate_case.py", "mode_choice"

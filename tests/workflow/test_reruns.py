@@ -106,7 +106,7 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
 @pytest.mark.parametrize(
     ("source", "jobs"),
     [
-        ("src/disc_model/engine/event_loop.py", everything),
+        ("src/disc_model/engine/loop.py", everything),
         # multipliers need no simulation
         (
             "src/disc_model/simulation/api.py",

@@ -19,9 +19,12 @@ from numpy.typing import ArrayLike
 from pydantic import Field
 
 from disc_model.data.variables import PHASES
-from disc_model.engine import audit, dense_output, event_loop, layout, transitions
+from disc_model.engine import audit, loop, record, transitions
+from disc_model.engine import state as motion
 from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
+from disc_model.engine.model import blocks_of, flags_of, on_ramp, slope_under_slider
+from disc_model.engine.stick_modes import LONGEST_STICK
 from disc_model.errors import (
     DiscModelError,
     Fault,
@@ -331,7 +334,7 @@ class _Run:
             most is None
         ):  # twenty for each radian of the highest mode, far more than any of the published cases takes
             most = 10_000 + 20 * (self.t_end - start) / model.unit
-        longest = event_loop.LONGEST_STICK * model.unit
+        longest = LONGEST_STICK * model.unit
         grids = {
             name: window.grid(self.p, start, self.t_end) for name, window in self.windows.items()
         }
@@ -339,7 +342,7 @@ class _Run:
         grids = {name: grid._replace(theta=grid.theta - self.lead) for name, grid in grids.items()}
         self.collector = Collector(grids, self.windows, self.events, self.t_end, longest)
         self.wall_time = 0.0
-        self.limits = event_loop.Limits(
+        self.limits = loop.Limits(
             order,
             states.series_tolerance(self.tol, self.compliant),
             self.t_end,
@@ -347,9 +350,7 @@ class _Run:
             int(min(most, MOST_STEPS)),
             # pauses serve progress and Ctrl-C; there are fewer steps between them where a step
             # costs more
-            max(
-                1, STEPS_PER_PAUSE // (len(model.shift) // layout.WIDTH * (6 if every_step else 1))
-            ),
+            max(1, STEPS_PER_PAUSE // (blocks_of(model) * (6 if every_step else 1))),
             1
             if every_step
             else 256,  # a compliant contact takes about four times as many steps per second
@@ -369,27 +370,23 @@ class _Run:
             self.limits = self.limits._replace(t_end=min(self.t_end, piece.end))
         if index > 0:  # the first piece has the Omega and N of the case
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
-            self.model = layout.on_ramp(self.model, piece.begin, piece.angle, **rates)
-        kind = tuple(
-            flag for flag in self.model if type(flag) is tuple
-        )  # they determine the types of all arguments
+            self.model = on_ramp(self.model, piece.begin, piece.angle, **rates)
+        kind = flags_of(self.model)  # they determine the types of all arguments
         if kind not in _ENGINES:
             with compiling():
-                _ENGINES[kind] = compiled_for(event_loop.run, self._arguments())
+                _ENGINES[kind] = compiled_for(loop.run, self._arguments())
         self.engine = _ENGINES[kind]
 
     def _begin_at_switch(self) -> None:
         """Let the engine determine the phase at this instant, by a run of zero duration that
         records nothing."""
         model, series, state, probe, limits, buffers = self._arguments()
-        low, state.x[layout.TIME_LOW] = float(state.x[layout.TIME_LOW]), 0.0
+        low = motion.scalars_of(state)["time_low"]
+        motion.set_time_low(state, 0.0)
         buffers = buffers._replace(samplers=buffers.samplers[:0], sampled=buffers.sampled[:0])
         self.engine(model, series, state, probe, limits._replace(t_end=self.time), buffers)
-        state.x[layout.TIME_LOW], state.x[layout.PROPAGATED], state.x[layout.IN_A_ROW] = (
-            low,
-            0.0,
-            0.0,
-        )
+        motion.set_time_low(state, low)
+        motion.clear_switch(state)
         for sums in (buffers.counters, buffers.phase_times, buffers.audit):
             sums.fill(0)
 
@@ -406,7 +403,7 @@ class _Run:
     @property
     def time(self) -> float:
         """The time reached, s."""
-        return float(self.state.x[layout.TIME])
+        return motion.time_of(self.state)
 
     def advance(self) -> int:
         """Compute until the engine pauses or ends, and empty its buffers.  Returns the exit
@@ -426,11 +423,13 @@ class _Run:
     def result(self, status: Status) -> Result:
         """Assemble the result of the run, which ends here: other runs of the case may use its
         arrays."""
-        x = self.state.x
-        message = f"{status.value}: at t = {self.time:.9g} s in {PHASES[int(x[layout.PHASE])]}"
+        phase = PHASES[motion.phase_of(self.state)]
+        message = f"{status.value}: at t = {self.time:.9g} s in {phase}"
         if status is Status.PARADOX:
-            slope = float(np.dot(self.model.dw_dtheta, self.state.z))
-            message += f", psi = {x[layout.PSI]:.6g} rad, f = {x[layout.F]:.6g} rad/s, slope B = {slope:.6g}"
+            scalars = motion.scalars_of(self.state)
+            slope = slope_under_slider(self.model, self.state)
+            message += f", psi = {scalars['psi']:.6g} rad, f = {scalars['f']:.6g} rad/s"
+            message += f", slope B = {slope:.6g}"
         result = Result(
             parameters=self.p,
             t_end=self.t_end,
@@ -462,13 +461,13 @@ class _Run:
         buffers, every_step, coupled = (
             self.collector.buffers,
             self.execution.audit_every_step,
-            bool(self.model.coupled),
+            bool(self.model.has_couple),
         )
         count, total = buffers.counters.tolist(), buffers.audit.tolist()
         return {
-            "steps": count[event_loop.STEPS],
-            "events": count[event_loop.EVENTS],
-            "separations": count[event_loop.SEPARATIONS],
+            "steps": count[record.STEPS],
+            "events": count[record.EVENTS],
+            "separations": count[record.SEPARATIONS],
             **{
                 f"time_{phase}": time
                 for phase, time in zip(PHASES, buffers.phase_times.tolist(), strict=True)
@@ -515,13 +514,13 @@ class Collector:
         longest_step: float,
     ) -> None:
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
-        longest = longest_step + dense_output.SAME_INSTANT * t_end
+        longest = longest_step + record.SAME_INSTANT * t_end
         per_step, folds, rows = 0, dict[str, int](), dict[str, float]()
         for name, grid in grids.items():
             per_step += 1 + math.ceil(min(longest / grid.interval, grid.number))
             folds[name] = getattr(windows[name], "envelope", None) or 1
             rows[name] = float(grid.number) / folds[name]
-        size = 8.0 * len(dense_output.ROW) * (sum(rows.values()) + per_step)
+        size = 8.0 * len(record.SAMPLE_ROW) * (sum(rows.values()) + per_step)
         if rows and size > (room := _memory()):
             rule = f"must fit into memory: {size / 1e9:.3g} GB of samples in all, and there are {room / 1e9:.3g} GB"
             raise ParameterError(Fault(("windows", max(rows, key=rows.__getitem__)), "", rule))
@@ -529,25 +528,25 @@ class Collector:
         self.first_separation = math.nan  # s
         self.keeps_events, self.events = events, list[Array]()
         capacity = BUFFER if grids else 0
-        self.buffers = event_loop.RunBuffers(
-            np.zeros(event_loop.N_COUNTERS, np.int64),
+        self.buffers = record.RunBuffers(
+            np.zeros(record.N_COUNTERS, np.int64),
             np.zeros(3),
             np.zeros(audit.N_SUMS),
             np.array([*grids.values()]) if grids else np.zeros((0, 5)),
             np.zeros(len(grids), np.int64),
-            np.empty((capacity + per_step, len(dense_output.ROW))),
+            np.empty((capacity + per_step, len(record.SAMPLE_ROW))),
             capacity,
-            np.empty((EVENT_BUFFER, len(event_loop.EVENT_ROW))),
+            np.empty((EVENT_BUFFER, len(record.EVENT_ROW))),
         )
 
     def drain(self) -> None:
         """Copy the rows from the buffers and empty them."""
         counters = self.buffers.counters
-        events = self.buffers.event_rows[: counters[event_loop.EVENT_ROWS]]
-        rows = self.buffers.sample_rows[: counters[event_loop.SAMPLE_ROWS]]
-        counters[event_loop.EVENT_ROWS] = counters[event_loop.SAMPLE_ROWS] = 0
-        if counters[event_loop.SEPARATIONS] > 0 and math.isnan(self.first_separation):
-            self.first_separation = events[events[:, 1] == event_loop.LOSS_OF_CONTACT][0, 0].item()
+        events = self.buffers.event_rows[: counters[record.EVENT_ROWS]]
+        rows = self.buffers.sample_rows[: counters[record.SAMPLE_ROWS]]
+        counters[record.EVENT_ROWS] = counters[record.SAMPLE_ROWS] = 0
+        if counters[record.SEPARATIONS] > 0 and math.isnan(self.first_separation):
+            self.first_separation = events[events[:, 1] == record.LOSS_OF_CONTACT][0, 0].item()
         self.events.append(events.copy() if self.keeps_events else events[:0])
         for i, samples in enumerate(self.samples.values()):
             if len(new := rows[rows[:, 0] == i]):
@@ -562,7 +561,7 @@ class _Samples:
         names = SAMPLE_ROW if fold == 1 else BIN_ROW
         self.columns = {name: np.empty(count // fold) for name in names}
         self.fold, self.filled = fold, 0
-        self.rest = np.empty((0, len(dense_output.ROW)))  # rows of the bin that is not full
+        self.rest = np.empty((0, len(record.SAMPLE_ROW)))  # rows of the bin that is not full
 
     def add(self, rows: Array) -> None:
         """Take in rows of the engine in order of time."""
@@ -582,7 +581,7 @@ class _Samples:
 def _fold(cells: Array) -> Array:
     """Rows of mean time and (min, max) of each folded column, from cells of shape (n, samples,
     columns)."""
-    columns = [cells[:, :, dense_output.ROW.index(name)] for name in ("time", *FOLDED)]
+    columns = [cells[:, :, record.SAMPLE_ROW.index(name)] for name in ("time", *FOLDED)]
     ranges = [bound for column in columns[1:] for bound in (column.min(axis=1), column.max(axis=1))]
     return np.stack([columns[0].mean(axis=1), *ranges], axis=1)
 

@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, Window, plate_modes, simulate
-from disc_model.engine import layout, transitions
+from disc_model.engine import step, transitions
+from disc_model.engine.model import build_state
+from disc_model.engine.state import U, known_roots
 from disc_model.errors import DiscModelError
 from disc_model.simulation.result import EVENT_KINDS, PHASES
 from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import ReturnMap
-from tests.engine.test_variational import differences, solved
+from tests.engine.test_saltation import differences, solved
 from tests.references import printed
 
 STEEP = Parameters(N=100, Omega=20, mu_k=50, mu_s=60, k_p=2e7, n_diameters=1)
@@ -41,7 +43,7 @@ def test_release_without_a_solution_is_a_paradox() -> None:
 
 @pytest.mark.skipif(not numba.config.DISABLE_JIT, reason="the limit is a constant of compiled code")
 def test_switches_without_the_clock_moving_end_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(transitions, "MAX_EVENTS_IN_A_ROW", 0)
+    monkeypatch.setattr(step, "MAX_EVENTS_IN_A_ROW", 0)
     # stick cannot hold from the start
     result = simulate(Parameters(N=200, Omega=10, k_p=0, c_p=100, n_diameters=1), 0.1)
     assert result.status == "stalled"
@@ -118,14 +120,39 @@ def test_rounding_of_a_gap_is_that_of_the_modes_it_is_made_of(gap: float, known:
     case = engine_case(
         Parameters(N=600, Omega=30, normalization="orthonormal", contact_compliance="residual")
     )
-    here = layout.build_state(case.model)
+    here = build_state(case.model)
     here.disc[:] = 0.0
     # two modes that lift the disc by 1 cm each, one up, one down
     here.z[0], here.z[1] = 0.01 / case.model.mode_amplitude[0], -0.01 / case.model.mode_amplitude[1]
     w, _, _ = transitions.disc_point(case.model, here)
-    here.x[layout.U] = w + gap
+    here.x[U] = w + gap
     transitions.change_phase(case.model, here, transitions.CONTACT_LOST, False)
-    assert here.x[layout.KNOWN] == known
+    assert known_roots(here)[0] == known
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    "law",
+    [
+        # without a drop of friction, and where it falls, slip begins with f = f' = 0
+        {"mu_s": 0.3, "mu_k": 0.3},
+        pytest.param({"friction_decay": 0.5, "contact_compliance": 1e-7}, marks=pytest.mark.slow),
+    ],
+    ids=["even", "falling"],
+)
+def test_a_run_cut_at_a_switch_continues_with_the_same_switches(law: dict[str, float]) -> None:
+    """It was refused, as f had the wrong sign by rounding; or slip ended at once and began again."""
+    p = Parameters(N=385, Omega=15.1, **law)
+    whole = simulate(p, 1.05).events
+    times, kinds = whole["time"].to_numpy(), list(whole["kind"])
+    for cut in times[times < 1.02]:
+        for end in (np.nextafter(cut, 0), cut, np.nextafter(cut, 9), cut + 1e-15):
+            first = simulate(p, float(end))
+            second = simulate(p, 1.05, initial_state=first.final_state)
+            assert [*first.events["kind"], *second.events["kind"]] == kinds
+            got = np.concatenate([first.events["time"], second.events["time"]])
+            # local errors of 1e-10 s a second; a cut begins another series
+            np.testing.assert_allclose(got, times, rtol=0, atol=1e-9)
 
 
 def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:

@@ -8,17 +8,18 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from disc_model.engine import layout
-from disc_model.engine.polynomial import NO_ROOT, dot, first_root, set_powers
+from disc_model.engine.jit.simd import aligned
+from disc_model.engine.model import ROWS
+from disc_model.engine.roots import NO_ROOT, dot, first_root, set_powers
 
 DEGREE = 24
 
 
 def first(coefficients, x_end: float = 1.0, low: int = 0) -> float:
-    c, powers = layout.aligned(layout.ROWS), layout.aligned(layout.ROWS)
+    c, powers = aligned(ROWS), aligned(ROWS)
     c[: len(coefficients)] = coefficients
     set_powers(powers, x_end, DEGREE)
-    return first_root(c, low, DEGREE, x_end, powers, np.zeros((56, layout.ROWS)))
+    return first_root(c, low, DEGREE, x_end, powers, np.zeros((56, ROWS)))
 
 
 def from_roots(roots) -> np.ndarray:

@@ -8,7 +8,8 @@ import pytest
 
 from disc_model import Parameters, plate_modes
 from disc_model.data.variables import PHASES
-from disc_model.engine import layout, tangent, transitions
+from disc_model.engine import columns, saltation, transitions
+from disc_model.engine.state import phase_of
 from disc_model.simulation.states import engine_case
 from disc_model.stability.return_map import PARAMETERS, parameter_change
 from tests.contact_laws import COMPILES, COUPLED, FALLING, LAWS
@@ -180,11 +181,11 @@ class Disturbances:
         of parameters."""
         start = moved_to(self.start, flat(self.start))
         run, case = Full(self.p, stored.engine_state(start, self.p)), engine_case(self.p)
-        t = run.tangent = tangent.build_tangent(run.model, 16, run.order, 8)
+        t = run.tangent = columns.build_tangent(run.model, 8, run.order, 8)
         now = t.now.reshape(2, -1, 8)[0, :, :2]
         now[case.places], now[-4:] = (self._signs * self.moved[4:])[case.present], self.moved[:4]
         by = np.array([parameter_change(self.p, run.model, name) for name in PARAMETERS])
-        t.parameters.reshape(2, -1, 8)[1, :, :2] = by.T @ self.changed
+        t.inputs.reshape(2, -1, 8)[1, :, :2] = by.T @ self.changed
         return run
 
     def read(self, run: Full) -> np.ndarray:
@@ -219,20 +220,20 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
 
     engine, sizes = disturbances.run(), disturbances.sizes
     assert engine.fly(float(span)) == transitions.TIME_OVER
-    ends = {"at rest": tangent.STICKS, "reversal": tangent.REVERSALS, "release": tangent.RELEASES}
-    ends |= {"release backwards": tangent.BACK_RELEASES, "impact": None}
-    counted = ends.get(switch.removesuffix(", slip backwards"), tangent.SEPARATIONS)
+    ends = {"at rest": columns.STICKS, "reversal": columns.REVERSALS, "release": columns.RELEASES}
+    ends |= {"release backwards": columns.BACK_RELEASES, "impact": None}
+    counted = ends.get(switch.removesuffix(", slip backwards"), columns.SEPARATIONS)
     log = engine.tangent.log
-    assert [i for i in range(tangent.RELEASES, tangent.STICKS + 1) if log[i]] == [counted] * (
+    assert [i for i in range(columns.RELEASES, columns.STICKS + 1) if log[i]] == [counted] * (
         counted is not None
     )
-    assert log[tangent.RELEASES : tangent.STICKS + 1].sum() == (counted is not None)
+    assert log[columns.RELEASES : columns.STICKS + 1].sum() == (counted is not None)
     first, spent = PHASES.index(SWITCHES[switch][0]), np.zeros(len(PHASES))
     spent[first] = switched = float(run.events[0]["time"])
-    spent[int(engine.state.x[layout.PHASE])] += float(span) - switched
-    times = log[tangent.DURATION : tangent.RELEASES]
+    spent[phase_of(engine.state)] += float(span) - switched
+    times = log[columns.DURATION : columns.RELEASES]
     np.testing.assert_allclose(times, [float(span), *spent], rtol=0, atol=1e-9 * float(span))
-    assert log[tangent.N_STEPS] >= len(kinds)
+    assert log[columns.N_STEPS] >= len(kinds)
     if not p.contact_compliance and kinds[-1] != "separation":
         sizes[2:4] = np.inf  # u and u' are the disc's
     got, expected = disturbances.read(engine) / sizes, disturbances.expected(end) / sizes
@@ -261,10 +262,12 @@ def test_when_contact_is_lost(switch: str, pressed: float) -> None:
 
     engine = disturbances.run()
     t = engine.tangent
-    tangent.rates(engine.model, engine.state, t.before)
+    saltation.rates(engine.model, engine.state, t.before)
     expected = disturbances.expected(numerator)
     for at_once in (False, True):
-        rate = tangent.event_times(engine.model, engine.state, t, transitions.CONTACT_LOST, at_once)
+        rate = saltation.event_times(
+            engine.model, engine.state, t, transitions.CONTACT_LOST, at_once
+        )
         wanted = 0 * expected if at_once and pressed else expected
         np.testing.assert_allclose(-rate * t.tau.reshape(2, 8)[:, :2].ravel(), wanted, rtol=1e-8)
 

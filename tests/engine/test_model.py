@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters
-from disc_model.engine import layout
+from disc_model.engine.model import build_state
 from disc_model.simulation.states import engine_case
 
 COMPLIANCES = pytest.mark.parametrize("compliance", [0.0, 1e-7])
@@ -22,7 +22,7 @@ def test_the_closed_form_of_stick_knows_the_places_of_the_state(compliance: floa
     compliant contact u."""
     model = engine_case(case(compliance)).model
     disc, width, n0 = (
-        layout.build_state(model).disc,
+        build_state(model).disc,
         len(model.mode_amplitude),
         len(model.mode_amplitude0),
     )
