@@ -118,7 +118,7 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
 
     for name in quantity_names():
         batch = of(SCRIPTS / "compute_batch.py", f"studies.quantities.{name}")
-        assert {"engine/series.py", "disc/plate.py", f"studies/quantities/{name}.py"} <= batch
+        assert {"engine/slip.py", "disc/plate.py", f"studies/quantities/{name}.py"} <= batch
         assert not {path.split("/")[0] for path in batch} & {
             "figures",
             "paper",
@@ -137,13 +137,18 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
             f"studies/quantities/{one}.py" for one in {name, *(["floquet"] * (name == "campbell"))}
         }
     case = of(SCRIPTS / "simulate_case.py")
-    assert {"engine/event_loop.py", "simulation/states.py"} <= case
+    assert {"engine/loop.py", "simulation/states.py"} <= case
     assert not [path for path in case if path.startswith(("stability", "studies"))]
     assert {"stability/cycle.py", "mode_choice.py"} <= of(
         SCRIPTS / "simulate_case.py", "mode_choice"
     )
     assert {"config/paper.yaml", "paper/section41.yaml"} <= of(SCRIPTS / "check_claims.py")
-    assert "config/paper.yaml" not in of(SCRIPTS / "draw_figure.py", "paper.figures.runs")
+    figure = of(SCRIPTS / "draw_figure.py")
+    assert {"figures/heat_map.py", "figures/kinds/general.py"} <= figure
+    assert not [path for path in figure if path.startswith("paper")]
+    figure = of(SCRIPTS / "draw_figure.py", "paper.figures.composite")
+    assert {"paper/figures/composite.py", "paper/figures/strokes.py"} <= figure
+    assert "config/paper.yaml" not in figure
     assert "explorer/static/page.css" in of(SCRIPTS / "build_explorer.py")
     assert {
         "benchmarks/methods/kernels.py",

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, floquet, simulate
-from disc_model.engine import event_loop, transitions
+from disc_model.engine import section, transitions
 from disc_model.stability import return_map
 from disc_model.stability.cycle import bifurcation_type, cycle_of
 from disc_model.stability.linear_motion import first_release
 from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Flight, ReturnMap, newton
 from tests.contact_laws import ALL_LAWS, COMPILES, COUPLE, LAWS
-from tests.engine.test_variational import differences
+from tests.engine.test_saltation import differences
 from tests.references.printed import Printed
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
@@ -172,9 +172,9 @@ def test_a_flight_in_pieces_is_the_same_flight(monkeypatch: pytest.MonkeyPatch) 
     """Between pieces Ctrl-C is answered: kernels cannot be interrupted, and a mass of 1e12 kg kept
     them busy for minutes."""
     calls = []
-    integrate = event_loop.integrate
+    integrate = section.integrate
     monkeypatch.setattr(
-        event_loop, "integrate", lambda *arguments: calls.append(1) or integrate(*arguments)
+        section, "integrate", lambda *arguments: calls.append(1) or integrate(*arguments)
     )
     map_ = ReturnMap(P.replace(c=0.2))
     how = {"releases": 3}

@@ -16,9 +16,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from disc_model.data.variables import PHASES
-from disc_model.engine import audit, dense_output, event_loop, layout, transitions
+from disc_model.engine import audit, loop, record, transitions
+from disc_model.engine import state as motion
 from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
+from disc_model.engine.model import blocks_of, flags_of, on_ramp, slope_under_slider
+from disc_model.engine.stick_modes import LONGEST_STICK
 from disc_model.errors import (
     DiscModelError,
     Fault,
@@ -263,10 +266,10 @@ class _Run:
             grid = window.grid(request.parameters, self.time, request.t_end)
             # the engine knows the angle without the lead
             grids[name] = grid._replace(theta=grid.theta - self.lead)
-        longest = event_loop.LONGEST_STICK * self.case.model.unit
+        longest = LONGEST_STICK * self.case.model.unit
         return Collector(grids, request.windows, request.events, request.t_end, longest)
 
-    def _first_limits(self, order: int) -> event_loop.Limits:
+    def _first_limits(self, order: int) -> loop.Limits:
         """Return the limits of the engine for series of an order, to the end of the run."""
         request = self.request
         model = self.case.model
@@ -278,12 +281,12 @@ class _Run:
 
         # pauses serve progress and Ctrl-C; there are fewer steps between them where a step costs
         # more. A compliant contact takes about four times as many steps per second
-        step_cost = len(model.shift) // layout.WIDTH
+        step_cost = blocks_of(model)
         audit_interval = 256
         if execution.audit_every_step:
             step_cost *= 6
             audit_interval = 1
-        return event_loop.Limits(
+        return loop.Limits(
             order,
             states.series_tolerance(request.tol, self.compliant),
             request.t_end,
@@ -302,25 +305,23 @@ class _Run:
             self.limits = self.limits._replace(t_end=min(self.request.t_end, piece.end))
         if index > 0:  # the first piece has the Omega and N of the case
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
-            self.model = layout.on_ramp(self.model, piece.begin, piece.angle, **rates)
-        # flags that are tuples determine the types of all arguments
-        kind = tuple(flag for flag in self.model if type(flag) is tuple)
+            self.model = on_ramp(self.model, piece.begin, piece.angle, **rates)
+        kind = flags_of(self.model)  # they determine the types of all arguments
         if kind not in _ENGINES:
             with compiling():
-                _ENGINES[kind] = compiled_for(event_loop.run, self._arguments())
+                _ENGINES[kind] = compiled_for(loop.run, self._arguments())
         self.engine = _ENGINES[kind]
 
     def _begin_at_switch(self) -> None:
         """Let the engine determine the phase at this instant, by a run of zero duration that
         records nothing."""
         model, series, state, probe, limits, buffers = self._arguments()
-        low = float(state.x[layout.TIME_LOW])
-        state.x[layout.TIME_LOW] = 0.0
+        low = motion.scalars_of(state)["time_low"]
+        motion.set_time_low(state, 0.0)
         buffers = buffers._replace(samplers=buffers.samplers[:0], sampled=buffers.sampled[:0])
         self.engine(model, series, state, probe, limits._replace(t_end=self.time), buffers)
-        state.x[layout.TIME_LOW] = low
-        state.x[layout.PROPAGATED] = 0.0
-        state.x[layout.IN_A_ROW] = 0.0
+        motion.set_time_low(state, low)
+        motion.clear_switch(state)
         for sums in (buffers.counters, buffers.phase_times, buffers.audit):
             sums.fill(0)
 
@@ -337,7 +338,7 @@ class _Run:
     @property
     def time(self) -> float:
         """The time reached, s."""
-        return float(self.state.x[layout.TIME])
+        return motion.time_of(self.state)
 
     def advance(self) -> int:
         """Compute until the engine pauses or ends, and empty its buffers.  Returns the exit
@@ -358,11 +359,13 @@ class _Run:
         """Assemble the result of the run, which ends here: other runs of the case may use its
         arrays."""
         request = self.request
-        x = self.state.x
-        message = f"{status.value}: at t = {self.time:.9g} s in {PHASES[int(x[layout.PHASE])]}"
+        phase = PHASES[motion.phase_of(self.state)]
+        message = f"{status.value}: at t = {self.time:.9g} s in {phase}"
         if status is Status.PARADOX:
-            slope = float(np.dot(self.model.dw_dtheta, self.state.z))
-            message += f", psi = {x[layout.PSI]:.6g} rad, f = {x[layout.F]:.6g} rad/s, slope B = {slope:.6g}"
+            scalars = motion.scalars_of(self.state)
+            slope = slope_under_slider(self.model, self.state)
+            message += f", psi = {scalars['psi']:.6g} rad, f = {scalars['f']:.6g} rad/s"
+            message += f", slope B = {slope:.6g}"
         result = Result(
             parameters=request.parameters,
             t_end=request.t_end,
@@ -393,13 +396,13 @@ class _Run:
 
         buffers = self.collector.buffers
         every_step = self.request.execution.audit_every_step
-        coupled = bool(self.model.coupled)
+        coupled = bool(self.model.has_couple)
         count = buffers.counters.tolist()
         total = buffers.audit.tolist()
         return {
-            "steps": count[event_loop.STEPS],
-            "events": count[event_loop.EVENTS],
-            "separations": count[event_loop.SEPARATIONS],
+            "steps": count[record.STEPS],
+            "events": count[record.EVENTS],
+            "separations": count[record.SEPARATIONS],
             **{
                 f"time_{phase}": time
                 for phase, time in zip(PHASES, buffers.phase_times.tolist(), strict=True)
@@ -446,7 +449,7 @@ class Collector:
         longest_step: float,
     ) -> None:
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
-        longest = longest_step + dense_output.SAME_INSTANT * t_end
+        longest = longest_step + record.SAME_INSTANT * t_end
         per_step = 0
         folds: dict[str, int] = {}
         rows: dict[str, float] = {}
@@ -454,7 +457,7 @@ class Collector:
             per_step += 1 + math.ceil(min(longest / grid.interval, grid.number))
             folds[name] = getattr(windows[name], "envelope", None) or 1
             rows[name] = float(grid.number) / folds[name]
-        size = 8.0 * len(dense_output.ROW) * (sum(rows.values()) + per_step)
+        size = 8.0 * len(record.SAMPLE_ROW) * (sum(rows.values()) + per_step)
         if rows and size > (room := _memory()):
             rule = f"must fit into memory: {size / 1e9:.3g} GB of samples in all, and there are {room / 1e9:.3g} GB"
             raise ParameterError(Fault(("windows", max(rows, key=rows.__getitem__)), "", rule))
@@ -463,25 +466,25 @@ class Collector:
         self.keeps_events = events
         self.events: list[Array] = []
         capacity = BUFFER if grids else 0
-        self.buffers = event_loop.RunBuffers(
-            np.zeros(event_loop.N_COUNTERS, np.int64),
+        self.buffers = record.RunBuffers(
+            np.zeros(record.N_COUNTERS, np.int64),
             np.zeros(3),
             np.zeros(audit.N_SUMS),
             np.array([*grids.values()]) if grids else np.zeros((0, 5)),
             np.zeros(len(grids), np.int64),
-            np.empty((capacity + per_step, len(dense_output.ROW))),
+            np.empty((capacity + per_step, len(record.SAMPLE_ROW))),
             capacity,
-            np.empty((EVENT_BUFFER, len(event_loop.EVENT_ROW))),
+            np.empty((EVENT_BUFFER, len(record.EVENT_ROW))),
         )
 
     def drain(self) -> None:
         """Copy the rows from the buffers and empty them."""
         counters = self.buffers.counters
-        events = self.buffers.event_rows[: counters[event_loop.EVENT_ROWS]]
-        rows = self.buffers.sample_rows[: counters[event_loop.SAMPLE_ROWS]]
-        counters[event_loop.EVENT_ROWS] = counters[event_loop.SAMPLE_ROWS] = 0
-        if counters[event_loop.SEPARATIONS] > 0 and math.isnan(self.first_separation):
-            self.first_separation = events[events[:, 1] == event_loop.LOSS_OF_CONTACT][0, 0].item()
+        events = self.buffers.event_rows[: counters[record.EVENT_ROWS]]
+        rows = self.buffers.sample_rows[: counters[record.SAMPLE_ROWS]]
+        counters[record.EVENT_ROWS] = counters[record.SAMPLE_ROWS] = 0
+        if counters[record.SEPARATIONS] > 0 and math.isnan(self.first_separation):
+            self.first_separation = events[events[:, 1] == record.LOSS_OF_CONTACT][0, 0].item()
         self.events.append(events.copy() if self.keeps_events else events[:0])
         for i, samples in enumerate(self.samples.values()):
             if len(new := rows[rows[:, 0] == i]):
@@ -497,7 +500,7 @@ class _Samples:
         self.columns = {name: np.empty(count // fold) for name in names}
         self.fold = fold
         self.filled = 0
-        self.rest = np.empty((0, len(dense_output.ROW)))  # rows of the bin that is not full
+        self.rest = np.empty((0, len(record.SAMPLE_ROW)))  # rows of the bin that is not full
 
     def add(self, rows: Array) -> None:
         """Take in rows of the engine in order of time."""
@@ -517,7 +520,7 @@ class _Samples:
 def _fold(cells: Array) -> Array:
     """Rows of mean time and (min, max) of each folded column, from cells of shape (n, samples,
     columns)."""
-    columns = [cells[:, :, dense_output.ROW.index(name)] for name in ("time", *FOLDED)]
+    columns = [cells[:, :, record.SAMPLE_ROW.index(name)] for name in ("time", *FOLDED)]
     ranges = [bound for column in columns[1:] for bound in (column.min(axis=1), column.max(axis=1))]
     return np.stack([columns[0].mean(axis=1), *ranges], axis=1)
 

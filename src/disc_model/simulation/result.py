@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike
 from disc_model import errors
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, values_text
 from disc_model.display import Summarised, counted, number_text
-from disc_model.engine import dense_output
-from disc_model.engine.event_loop import EVENT_ROW
+from disc_model.engine import record
+from disc_model.engine.record import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status, require, suggestion
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, line
@@ -37,7 +37,7 @@ _ERRORS: dict[Status, type[errors.SimulationError]] = {
     Status.NON_FINITE: errors.NonFinite,
 }
 STATUS_OF = {error: status for status, error in _ERRORS.items()}
-SAMPLE_ROW = dense_output.ROW[1:]
+SAMPLE_ROW = record.SAMPLE_ROW[1:]
 """Columns of a window."""
 FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 BIN_ROW = ("time", *(f"{name}_{end}" for name in FOLDED for end in ("min", "max")))
