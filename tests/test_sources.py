@@ -143,7 +143,12 @@ def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
         SCRIPTS / "simulate_case.py", "mode_choice"
     )
     assert {"config/paper.yaml", "paper/section41.yaml"} <= of(SCRIPTS / "check_claims.py")
-    assert "config/paper.yaml" not in of(SCRIPTS / "draw_figure.py", "paper.figures.runs")
+    figure = of(SCRIPTS / "draw_figure.py")
+    assert {"figures/heat_map.py", "figures/kinds/general.py"} <= figure
+    assert not [path for path in figure if path.startswith("paper")]
+    figure = of(SCRIPTS / "draw_figure.py", "paper.figures.composite")
+    assert {"paper/figures/composite.py", "paper/figures/strokes.py"} <= figure
+    assert "config/paper.yaml" not in figure
     assert "explorer/static/page.css" in of(SCRIPTS / "build_explorer.py")
     assert {
         "benchmarks/methods/kernels.py",
