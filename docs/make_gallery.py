@@ -1,7 +1,10 @@
 """Make the gallery of docs/ from finished figures: small pictures and the page that shows them."""
 
 import re
+from contextlib import chdir
+from doctest import DocTestParser
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 import xarray as xr
@@ -13,9 +16,9 @@ from PIL import Image
 import disc_model as dm
 from disc_model.data.dataset import load_cases, samples
 from disc_model.errors import script
+from disc_model.figures.disc import film
 from disc_model.figures.drawing import styled
-from disc_model.figures.motion import film
-from disc_model.paper.figures.runs import motion_of
+from disc_model.paper.figures.instants import motion_of
 from disc_model.studies.study import load_study
 
 RESULTS = Path("results")
@@ -141,6 +144,23 @@ def draw_first_study() -> None:
     axes.figure.savefig(GALLERY / "my_growth.png", dpi=120)
 
 
+def figure_of_page(page: Path) -> Figure:
+    """Return the figure that the examples of a page draw, without the files that they write."""
+    examples = DocTestParser().get_examples(page.read_text(encoding="utf-8"))
+    source = "".join(example.source for example in examples)
+    names: dict[str, Any] = {}
+    with TemporaryDirectory() as folder, chdir(folder):
+        exec(compile(source, page.name, "exec"), names)
+    figure: Figure = names["figure"]
+    return figure
+
+
+def draw_own_figure() -> None:
+    """Draw the picture of the page on figures for a paper."""
+    figure = figure_of_page(DOCS / "howto" / "figures.md")
+    figure.savefig(GALLERY / "own_figure.png", dpi=120)
+
+
 # ---- The page
 
 
@@ -186,6 +206,7 @@ def main() -> None:
     """Draw, shrink and list all pictures."""
     draw_first_run()
     draw_first_study()
+    draw_own_figure()
 
     known = entries()
     shown = []

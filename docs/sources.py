@@ -14,7 +14,9 @@ from docs.sentences import NUMBER, ROOT, Value, numbers_of
 import disc_model as dm
 from disc_model.data.dataset import Missing, MissingFile, load
 from disc_model.data.variables import flag_names
-from disc_model.figures.over_parameter import agreement, common_points, probabilities
+from disc_model.figures.selection import common_points
+from disc_model.figures.sensitivity import probabilities
+from disc_model.figures.sliding_outcome import agreement
 from disc_model.paper import ledger, measures, survival
 from docs import plate_stiffening
 

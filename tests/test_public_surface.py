@@ -41,6 +41,7 @@ def run(**options: Any) -> None:
 
 start.__signature__ = inspect.signature(dm.State)  # type: ignore[attr-defined]
 run.__signature__ = inspect.signature(dm.Execution)  # type: ignore[attr-defined]
+PICTURE = {"ax": "None", "legend": "True", "labels": "None", "title": "text None"}
 SHAPES = {"p": P, "states": RUN.final_state, "r": 0.1, "theta": 0.0}
 #: Functions, right arguments, and by argument those of `WRONG` that are right as well.
 SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
@@ -78,7 +79,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         },
         {"source": "text dict", "workers": "huge", "processes": "True"},
     ),
-    (dm.plot_modes, {"p": P}, {"ax": "None", "most": "huge"}),
+    (dm.plot_modes, {"p": P}, PICTURE | {"most": "huge"}),
     (
         dm.fit,
         {"p": P, "vary": ["E"], "measured": {"frequency_0_0": (239.0, 1.0)}},
@@ -89,20 +90,16 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {"quantity": "period", "value": 1.0, "uncertainty": 1.0},
         {"value": "negative"},
     ),
-    (
-        dm.plot_sweep,
-        {"study": GRID},
-        {"ax": "None", "log": "True", "variable": "None", "x": "None"},
-    ),
-    (RUN.plot, {"windows": "all"}, {"windows": "None", "ax": "None"}),
-    (RUN.plot_phase_portrait, {"window": "all"}, {"window": "None", "ax": "None"}),
+    (dm.plot_sweep, {"study": GRID}, PICTURE | {"log": "True", "variable": "None", "x": "None"}),
+    (RUN.plot, {"windows": "all"}, PICTURE | {"windows": "None"}),
+    (RUN.plot_phase_portrait, {"window": "all"}, PICTURE | {"window": "None"}),
     (
         RUN.plot_spectrum,
         {"window": "all", "highest": 2e4},
-        {"window": "None", "ax": "None", "highest": "huge"},
+        PICTURE | {"window": "None", "highest": "None huge"},
     ),
-    (RUN.plot_poincare, {}, {"ax": "None"}),
-    *((found.plot, {}, {"ax": "None"}) for found in (dm.floquet(P), dm.steady_sliding(P))),
+    (RUN.plot_poincare, {}, PICTURE),
+    *((found.plot, {}, PICTURE) for found in (dm.floquet(P), dm.steady_sliding(P))),
     (dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot, {}, {"ax": "None"}),
     (RUN.__getitem__, {}, {}),
     (DISC.to_csv, {}, {"path": "text"}),

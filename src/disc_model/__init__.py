@@ -21,7 +21,7 @@ _NAMES = {
     "disc.flexibility": "residual_flexibility",
     "disc.plate": "plate_modes coupled_natural_frequencies",
     "disc.plausibility": "ImplausibleValue",
-    "figures.results": "plot_modes plot_sweep",
+    "figures.pictures": "plot_modes plot_sweep",
     "errors": (
         "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite"
     ),
@@ -60,7 +60,7 @@ if TYPE_CHECKING:
         Status,
         StepLimit,
     )
-    from disc_model.figures.results import plot_modes, plot_sweep
+    from disc_model.figures.pictures import plot_modes, plot_sweep
     from disc_model.fitting.fit import Fit, Measurement, fit
     from disc_model.mode_choice import choose_modes
     from disc_model.parameters import Disc, Parameters

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from html import escape
 from importlib import import_module
 from typing import Any
@@ -62,12 +62,19 @@ class Drawn:
 
     _picture: str
 
-    def plot(self, *, ax: Any = None) -> Any:
+    def plot(
+        self,
+        *,
+        ax: Any = None,
+        legend: bool | Mapping[str, Any] = True,
+        labels: Mapping[str, str] | None = None,
+        title: str | None = None,
+    ) -> Any:
         """Draw the picture that the class describes, on axes of matplotlib or in a new figure;
         returns the axes.
 
-        Raises `ParameterError` if `ax` is no axes, or there is nothing to draw, and `CycleError`
-        without a cycle.
+        `ax`, `legend`, `labels` and `title` are as in `Result.plot`. Raises `ParameterError` if one
+        of them cannot be understood, or there is nothing to draw, and `CycleError` without a cycle.
 
         Examples
         --------
@@ -75,4 +82,4 @@ class Drawn:
         >>> dm.floquet(dm.Parameters(N=385, Omega=15)).plot().get_xlabel()
         'Re κ'
         """
-        return draw(self._picture, self, ax=ax)
+        return draw(self._picture, self, ax=ax, legend=legend, labels=labels, title=title)

@@ -253,3 +253,13 @@ def test_a_decaying_transient_does_not_lie_on_the_curve_on_which_it_ends() -> No
     )
     assert classify.first_settled(curve) == 0
     assert classify.first_settled(spiral, 2000) == 2000
+
+
+@pytest.mark.parametrize("outside", [1, 2, 17])
+def test_a_motion_has_settled_from_the_first_point_after_the_last_one_outside(outside: int) -> None:
+    """Points on a circle, after some far from it."""
+    angle = 2 * np.pi * GOLDEN * np.arange(400)
+    points = np.column_stack([np.cos(angle), np.sin(angle)])
+    points[:outside] += 1.0
+    assert classify.first_settled(points) == outside
+    assert classify.first_settled(points, start=outside + 5) == outside + 5

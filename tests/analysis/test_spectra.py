@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from disc_model.analysis import spectra
+from disc_model.parameters import Parameters
 
 RATE = 4000.0
 TIME = 3.0 + np.arange(40_000) / RATE
@@ -135,3 +136,58 @@ def test_a_line_stands_out_or_it_is_noise() -> None:
     assert spectra.chance(t, np.sin(2 * np.pi * 100.0 * t), spectra.Line(100.0, 1.0), 1.0) == 0.0
     with pytest.raises(ValueError, match="no bin of the spectrum is 1 to 6 Hz from 100 Hz"):
         spectra.chance(t[:100], noise[:100], spectra.Line(100.0, 1.0), 1.0)
+
+
+@pytest.mark.parametrize("m", [-3, -2, -1, 1, 2, 3])
+@pytest.mark.parametrize("n", [1, 5, 12])
+def test_combinations_of_up_to_three_times_the_drive_are_named(n: int, m: int) -> None:
+    found = spectra.identify(n * F_S + m * F_DRIVE, F_S, F_DRIVE)
+    assert (found.n, found.m, found.deviation) == (n, m, pytest.approx(0, abs=1e-12))
+
+
+@pytest.mark.parametrize("amplitude", [1.0, 3.0])
+def test_a_sine_of_amplitude_one_has_the_power_one_half(amplitude: float) -> None:
+    time = np.arange(8000) / RATE
+    # in the middle of a bin of the window of one second
+    found = spectra.time_frequency(time, amplitude * np.sin(2 * np.pi * 100 * time))
+    # the mean of the square; sine and window repeat within the window
+    np.testing.assert_allclose(found.power.max(axis=0), amplitude**2 / 2, rtol=1e-6)
+
+
+def test_the_chance_of_a_line_counts_all_bins_that_were_searched() -> None:
+    """With p the probability of so much in one bin, it is 1 - (1 - p)^n for n bins within the band;
+    half the bins give half of it."""
+    time = np.arange(40_000) / 4000
+    noise = np.random.default_rng(3).standard_normal(time.size)
+    frequency, amplitude = spectra.amplitude_spectrum(time, noise)
+    line = spectra.Line(200.0, 0.05)
+    off = np.abs(frequency - line.frequency)
+    sides = [frequency < line.frequency, frequency > line.frequency]
+    near = (off > 4 * frequency[1]) & (off < 1)
+    far = (off > 1) & (off < 6)
+    level = max(np.median(amplitude[side & band] ** 2) for side in sides for band in (near, far))
+    of_one_bin = 2.0 ** (-(line.amplitude**2) / level)
+    bins = int(np.sum(off <= 1.5)) - 1  # 15 on each side
+    assert bins == 30
+    expected = 1 - (1 - of_one_bin) ** bins
+    assert spectra.chance(time, noise, line, 1.5) == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_detuning_is_how_far_the_multiple_lies_above_the_mode() -> None:
+    p = Parameters(N=385, Omega=15.0)
+    frequency, l = next((f, l) for f, l, bound in spectra.modes_at_rest(p) if l == 2 and not bound)
+    seen = frequency - l * p.Omega / (2 * np.pi)  # of the backward wave, in the slider's frame
+    for detuning in (0.4, -0.7):
+        period = 2 / (seen + detuning)  # 2 f_s lies so far above it
+        multiplier = np.exp(2j * np.pi * seen * period)
+        found = spectra.nearest_resonance(p, period, complex(multiplier), l)
+        assert (found.harmonic, found.diameters, found.sign) == (2, l, -1)
+        assert found.detuning == pytest.approx(detuning, abs=1e-9)
+        assert found.frequency == pytest.approx(frequency)
+
+
+def test_the_highest_line_is_that_of_a_hundredth_of_the_strongest() -> None:
+    values = signal({100.0: 1.0, 300.0: 0.02, 700.0: 0.005})
+    assert spectra.highest_line(TIME, values, 0.01) == pytest.approx(300, abs=0.01)
+    assert spectra.highest_line(TIME, values, 0.003) == pytest.approx(700, abs=0.01)
+    assert spectra.highest_line(TIME, 0 * TIME, 0.01) == RATE / 2

@@ -3,7 +3,10 @@
 import numpy as np
 
 from disc_model import Parameters
-from disc_model.engine import event_loop, layout, tangent
+from disc_model.engine import saltation, section
+from disc_model.engine.columns import build_tangent, column_of, n_rows
+from disc_model.engine.loop import FlightLimits
+from disc_model.engine.model import build_state
 from disc_model.engine.series import build_series
 from disc_model.simulation.states import State, engine_case, series_order, write_state
 
@@ -28,12 +31,9 @@ class Full:
             2 * (width + n0) + np.arange(scalars),
         ]
         self.rows = np.concatenate(rows)
-        self.series, self.state = (
-            build_series(self.model, self.order),
-            layout.build_state(self.model),
-        )
-        self.tangent = tangent.build_tangent(self.model, len(self.rows), self.order)
-        self.n_rows = tangent.n_rows(self.model)
+        self.series, self.state = (build_series(self.model, self.order), build_state(self.model))
+        self.tangent = build_tangent(self.model, len(self.rows), self.order)
+        self.n_rows = n_rows(self.model)
         write_state(case, start, self.state)
         self.set_columns(np.eye(len(self.rows)))
 
@@ -51,16 +51,15 @@ class Full:
 
     @property
     def coordinates(self):
-        slider = self.state.x[layout.PSI : layout.U_VELOCITY + 1]
-        return np.concatenate([self.state.disc[: self.n_rows - 4], slider])[self.rows]
+        return column_of(self.state, self.model)[self.rows]
 
     @property
     def rates(self):
         out = np.zeros(self.n_rows * 8)
-        tangent.rates(self.model, self.state, out)
+        saltation.rates(self.model, self.state, out)
         return out[::8][self.rows]
 
     def fly(self, duration, tangent=True):
         limits = (self.order, self.tol, 2.0, duration, 0)
-        course = event_loop.IntegrationLimits(*limits, may_separate=True, tangent=tangent)
-        return event_loop.integrate(self.model, self.series, self.state, self.tangent, course)
+        course = FlightLimits(*limits, may_separate=True, tangent=tangent)
+        return section.integrate(self.model, self.series, self.state, self.tangent, course)

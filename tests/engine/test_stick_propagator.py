@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 
 from disc_model import Execution, Parameters, Window, simulate
-from disc_model.engine import dense_output, layout, series, stick_modes
-from disc_model.engine.series import Series, build_series
+from disc_model.engine import dense_output, stick_modes, stick_propagator
+from disc_model.engine.model import Model, build_state
+from disc_model.engine.series import Series, build_series, load_state
+from disc_model.engine.state import PSI, U_VELOCITY, EngineState, U
+from disc_model.engine.stick import stick_series
 from disc_model.engine.transitions import stick_force
 from disc_model.simulation.states import engine_case
 from tests.contact_laws import COMPILES, by_series
@@ -24,20 +27,20 @@ COMPLIANT = {"contact_compliance": 2.5e-7, "c": 20.0, "D_star": 1e-2}
 ALL = VARIANTS | {"compliant": COMPLIANT, "compliant coupled": COMPLIANT | VARIANTS["coupled"]}
 
 
-def _propagate(model: layout.Model, s: Series, state: layout.EngineState, x: float) -> float:
-    length = dense_output.closed_form_length(model, s, state)
-    dense_output.propagate_stick(model, s, x, state)
+def _propagate(model: Model, s: Series, state: EngineState, x: float) -> float:
+    length = stick_propagator.closed_form_length(model, s, state)
+    stick_propagator.propagate_stick(model, s, x, state)
     return float(length)
 
 
-def _lively(model: layout.Model, seed: int = 1) -> layout.EngineState:
+def _lively(model: Model, seed: int = 1) -> EngineState:
     """Stick with every mode in motion."""
-    state, rng = layout.build_state(model), np.random.default_rng(seed)
+    state, rng = build_state(model), np.random.default_rng(seed)
     used = model.stiffness > 0
     state.z[:] += 1e-6 * rng.normal(size=len(state.z)) * used
     state.e[:] += 3e-3 * rng.normal(size=len(state.e)) * used
     state.y[:] += 1e-6
-    state.x[layout.PSI] = -0.01
+    state.x[PSI] = -0.01
     return state
 
 
@@ -53,33 +56,32 @@ def test_closed_form_is_the_series(variant: str, x: float) -> None:
     closed, taylor = _lively(model), _lively(model)
     _propagate(model, build_series(model, ORDER), closed, x)
     s = build_series(model, ORDER)
-    dense_output.load_state(model, s, taylor)
-    expand = series.compliant_stick_series if model.compliant else series.stick_series
-    expand(model, s, ORDER)
+    load_state(model, s, taylor)
+    stick_series(model, s, ORDER)
     dense_output.state_at(model, s, ORDER, x, 0.0, taylor)
     size = max(np.abs(taylor.z).max(), np.abs(taylor.y).max(initial=0.0))
     for name, unit in {"e": model.unit, "g": model.unit, "z": 1.0, "y": 1.0}.items():
         np.testing.assert_allclose(
             getattr(closed, name), getattr(taylor, name), atol=1e-14 * size / unit, rtol=0
         )
-    assert closed.x[layout.PSI] == pytest.approx(taylor.x[layout.PSI], rel=1e-15)
-    if model.compliant:
-        assert closed.x[layout.U] == pytest.approx(taylor.x[layout.U], abs=1e-14 * size)
-        assert closed.x[layout.U_VELOCITY] == pytest.approx(
-            taylor.x[layout.U_VELOCITY], abs=1e-14 * size / model.unit
+    assert closed.x[PSI] == pytest.approx(taylor.x[PSI], rel=1e-15)
+    if model.has_compliance:
+        assert closed.x[U] == pytest.approx(taylor.x[U], abs=1e-14 * size)
+        assert closed.x[U_VELOCITY] == pytest.approx(
+            taylor.x[U_VELOCITY], abs=1e-14 * size / model.unit
         )
 
 
-def excited(model: layout.Model, mode: int, angle: float) -> layout.EngineState:
+def excited(model: Model, mode: int, angle: float) -> EngineState:
     """The static equilibrium with one mode at amplitude one and an angle, as small as the force is
     linear."""
-    state = layout.build_state(model)
+    state = build_state(model)
     n, length = len(model.modes.gain), len(state.disc)
     leave = model.modes.leave.reshape(2 * n, length)
     state.disc[:] = model.modes.rest + np.cos(angle) * leave[mode] + np.sin(angle) * leave[n + mode]
-    if model.compliant:
+    if model.has_compliance:
         slider = 2 * (len(state.z) + len(state.y))  # u and u' stand behind the disc
-        state.x[layout.U : layout.U_VELOCITY + 1] = state.disc[slider : slider + 2]
+        state.x[U : U_VELOCITY + 1] = state.disc[slider : slider + 2]
     return state
 
 
@@ -109,18 +111,18 @@ def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed:
     model = engine_case(p).model
     s, state = build_series(model, ORDER), _lively(model, seed)
     length = _propagate(model, s, state, 0.0)
-    assert dense_output.SHORTEST_STICK <= length < stick_modes.LONGEST_STICK
+    assert stick_propagator.SHORTEST_STICK <= length < stick_modes.LONGEST_STICK
     swing, lowest = 0.0, np.inf
     for x in np.linspace(0.0, length, 500):
-        dense_output.propagate_stick(model, s, x, state)
+        stick_propagator.propagate_stick(model, s, x, state)
         P = stick_force(model, state)
-        pull = p.r_0 * (p.k_p * state.x[layout.PSI] + p.c_p * p.Omega)
+        pull = p.r_0 * (p.k_p * state.x[PSI] + p.c_p * p.Omega)
         lowest = min(lowest, p.mu_s * P - abs(pull))
         swing = max(swing, abs(P - p.N))
     assert lowest > -1e-12 * p.N
     # the bound adds amplitudes that are never all at their worst together: it may not be idle,
     # though
-    bound = p.N - p.r_0 * (p.k_p * state.x[layout.PSI] + p.c_p * p.Omega) / p.mu_s
+    bound = p.N - p.r_0 * (p.k_p * state.x[PSI] + p.c_p * p.Omega) / p.mu_s
     assert swing <= bound <= 4.0 * swing
 
 
@@ -142,7 +144,7 @@ def test_nothing_is_promised_where_nothing_is_sure() -> None:
     """A spring beyond the friction limit, or a swing that could take P to zero."""
     model = engine_case(Parameters(N=385, Omega=15.1)).model
     s, pulled, shaken = build_series(model, ORDER), _lively(model), _lively(model)
-    pulled.x[layout.PSI] = 0.1
+    pulled.x[PSI] = 0.1
     shaken.e[:] *= 1e4
     assert _propagate(model, s, pulled, 0.0) == _propagate(model, s, shaken, 0.0) == 0.0
 
@@ -154,8 +156,8 @@ def test_a_spring_that_pulls_hard_already_leaves_less_time() -> None:
     limit, unit = p.mu_s * p.N / p.r_0, engine_case(p).model.unit
     # from no pull at all that would take as long as one advance may last
     model = engine_case(p.replace(Omega=limit / (p.k_p * unit * stick_modes.LONGEST_STICK))).model
-    s, state = build_series(model, ORDER), layout.build_state(model)
-    state.x[layout.PSI] = 0.9 * limit / p.k_p
+    s, state = build_series(model, ORDER), build_state(model)
+    state.x[PSI] = 0.9 * limit / p.k_p
     # 0.1 of it, right to the rounding of forces of which nine tenths cancel
     assert _propagate(model, s, state, 0.0) == pytest.approx(
         0.1 * stick_modes.LONGEST_STICK, rel=1e-12

@@ -7,14 +7,16 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, simulate
-from disc_model.engine import layout, transitions
+from disc_model.engine import transitions
 from disc_model.engine.laws import Instant, impact
+from disc_model.engine.model import build_state
+from disc_model.engine.state import SLIP, known_roots, phase_of
 from disc_model.simulation.states import engine_case, static_start, write_state
 from tests.contact_laws import COMPILES
 
 
 def test_an_impact_pushes_along_the_normal_of_the_slope_and_leaves_no_gap() -> None:
-    model = SimpleNamespace(normal=True, r_0=0.05, inverse_effective_mass=3.0)
+    model = SimpleNamespace(has_normal_force=True, r_0=0.05, inverse_effective_mass=3.0)
     i = Instant(
         *[1.0] * 8,
         psi=0.0,
@@ -41,11 +43,11 @@ def test_the_root_of_f_where_slip_begins_is_double_if_nothing_accelerates_it(
 ) -> None:
     p = Parameters(N=200, Omega=10)
     case = engine_case(p)
-    state = layout.build_state(case.model)
+    state = build_state(case.model)
     # at rest under N, pulled by as much as kinetic friction, or a bit more
     write_state(case, static_start(p).replace(psi=share * p.mu_k * p.N / (p.r_0 * p.k_p)), state)
     transitions.enter_slip(case.model, state, 1.0)
-    assert (state.x[layout.PHASE], state.x[layout.KNOWN]) == (layout.SLIP, known)
+    assert (phase_of(state), known_roots(state)[0]) == (SLIP, known)
 
 
 @pytest.mark.parametrize("psi", [pytest.param(psi, marks=COMPILES) for psi in (0.02, -0.02)])

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from disc_model.explorer import LEVELS, WORDS, Picture, page
+from disc_model.explorer import LEVELS, Picture, page
+from disc_model.figures.classes import LOOKS
 from tests import needs
 from tests.explorer.test_page import FAILED, MESSAGE, contents, force, plane
 from tests.workflow.browser import Page, browser
@@ -136,7 +137,7 @@ def tells_of_points(shown: Explorer) -> None:
     )
     shown.choose("Variable", "outcome")
     red, green, blue = shown.ask("colour", 0, 0)
-    assert f"#{red:02x}{green:02x}{blue:02x}" == WORDS["quiet"].lower()
+    assert f"#{red:02x}{green:02x}{blue:02x}" == LOOKS["quiet"].face
 
 
 def shows_motions(shown: Explorer) -> None:

@@ -158,11 +158,18 @@ def test_numbers_flags_and_messages_come_through() -> None:
     assert (text == study["message"].values).all()
     spring = {
         "name": "k",
+        "label": "Spring k",
         "title": "spring of the slider, normal to the disc",
         "unit": "N m-1",
         "value": 5e4,
     }
     assert told["fixed"] == [spring]
+    labels = {dim["name"]: dim["label"] for dim in told["dims"]}
+    known = {"N": "Preload N", "Omega": "Speed Ω", "mu_k": "Kinetic friction μ_k"}
+    assert {name: known[name] for name in labels if name in known} == {
+        name: label for name, label in labels.items() if name in known
+    }
+    assert known.keys() & labels.keys(), "axes are called as in figures"
 
 
 def test_an_axis_that_ends_at_infinity_is_told_in_words() -> None:

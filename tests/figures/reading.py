@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from disc_model.figures.kind import kind_of
+from disc_model.figures.kinds import kind_of
+from disc_model.figures.render import render
 
 ON_EACH_SCALE = pytest.mark.parametrize(
     ("x", "values", "scale"),
@@ -29,7 +30,7 @@ def draw(
     print."""
     shown = {"study": study, **(others or {})}
     inputs = {name: xr.DataTree(dataset) for name, dataset in shown.items()}
-    figure = kind_of(kind).model_validate({"kind": kind, **phrase}).render(inputs)
+    figure = render(kind_of(kind).model_validate({"kind": kind, **phrase}), inputs)
     assert_fit_for_print(figure)
     return figure
 

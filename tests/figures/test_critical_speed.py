@@ -9,8 +9,9 @@ from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
-from disc_model.figures import maps
-from disc_model.figures.maps import Curve, branches
+from disc_model.figures import critical_speed
+from disc_model.figures.borders import Curve
+from disc_model.figures.critical_speed import branches
 from tests.figures.reading import draw, labels
 from tests.studies.conftest import SCAN, computed, growth_over
 
@@ -30,7 +31,7 @@ def chart(fake_motions: None, monkeypatch: pytest.MonkeyPatch) -> Callable[..., 
         options=options,
         axes={"N": LOADS, "normalization": ["as_published"]},
     )
-    monkeypatch.setattr(maps, "curves_of", lambda _: [NEUTRAL, FOLD, FOLD])
+    monkeypatch.setattr(critical_speed, "curves_of", lambda _: [NEUTRAL, FOLD, FOLD])
     curves = xr.Dataset()
     return lambda **others: draw(
         "critical_speed", scanned, {"curves": curves, **others}, paper_points=PAPER_POINTS

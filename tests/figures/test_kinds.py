@@ -5,13 +5,12 @@ from pathlib import Path
 import pytest
 
 from disc_model.errors import ParameterError
-from disc_model.figures.general import General
-from disc_model.figures.kind import CasePlot, Plot, kind_of, kinds_in
+from disc_model.figures.kinds import KINDS, CasePlot, General, Plot, kind_of
+from disc_model.figures.render import DRAWINGS
 from disc_model.parameters import Parameters
 from disc_model.studies.registry import quantity_names
 from tests.processes import python
 
-KINDS = kinds_in("")
 TESTS = [path for path in Path(__file__).parent.glob("test_*.py") if path.name != "test_kinds.py"]
 
 
@@ -30,6 +29,12 @@ def test_a_kind_is_drawn_by_a_test(name: str) -> None:
         assert {*kind.quantities} <= {*quantity_names()}
         assert {*kind(**plane).dims} <= {*Parameters.model_fields}
     assert any(f'"{name}"' in test.read_text() for test in TESTS)
+
+
+def test_kinds_are_listed_by_their_names_and_each_has_a_drawing() -> None:
+    assert {*DRAWINGS} == {*KINDS}
+    for name, kind in KINDS.items():
+        assert kind.model_fields["kind"].default == name
 
 
 @pytest.mark.parametrize(

@@ -3,11 +3,14 @@
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.colors import to_rgb
 from matplotlib.text import Annotation
 
-from disc_model.figures import maps as drawn
+from disc_model.figures import ramps as drawn
+from disc_model.figures.basins import LARGEST
+from disc_model.figures.borders import Curve
+from disc_model.figures.classes import LOOKS
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
-from disc_model.figures.maps import Curve
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
@@ -93,6 +96,16 @@ def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset) -> None:
         [bar.get_height() for bar in ax.patches] for ax in figure.axes[:3]
     ]  # quiet, then separating
     assert shown == [[1, 1, 1, 0, 0, 0, 0, 1], [1, 1, 0, 0, 0, 0, 1, 1], [1, 0, 0, 0, 0, 1, 1, 1]]
+    starts = 12  # at three energies, each with four
+    quiet = [*to_rgb(LOOKS["quiet"].face), 1.0]
+    [marks] = [
+        marks
+        for marks in figure.axes[-2].collections
+        if marks.get_offsets().size and np.allclose(marks.get_facecolor(), quiet)
+    ]
+    areas = zip(marks.get_offsets()[:, 0], marks.get_sizes(), strict=True)
+    by_share = {float(x): float(area) / LARGEST for x, area in areas}
+    assert by_share == pytest.approx({12.0: 1.0, 13.0: 8 / starts, 14.0: 4 / starts})
     kicks = lines(figure.axes[-1])["by bisection"].get_ydata()
     np.testing.assert_allclose(kicks, [np.nan, 0.5, 0.05, np.nan], rtol=0.06)
     # what separates without a kick has no place on a logarithmic scale, and is not left out

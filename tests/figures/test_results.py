@@ -1,6 +1,7 @@
 """What results draw of themselves."""
 
 import functools
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from matplotlib import pyplot
 from PIL import Image
 
 import disc_model as dm
+from disc_model.figures.spectrum import draw_spectrum
 from tests.figures.reading import labels
 
 P = dm.Parameters(N=385, Omega=15.1)
@@ -53,6 +55,10 @@ def test_pictures_are_drawn_on_the_axes_that_are_given() -> None:
     figure, axes = pyplot.subplots(2, 2)
     assert run().plot_phase_portrait(ax=axes[0, 0]) is axes[0, 0]
     assert labels(axes[0, 0]) == ["stick", "slip", "separation"]
+    axes[0, 0].set_title("Mine")
+    run().plot_phase_portrait(ax=axes[0, 0])
+    legend = axes[0, 0].get_legend().get_window_extent()
+    assert axes[0, 0].get_window_extent().containsy(legend.y1), "the place of a title stays free"
     run().plot_spectrum(ax=axes[0, 1], highest=300)
     assert axes[0, 1].get_xlim()[1] == pytest.approx(300, abs=0.2)
     run().plot_poincare(ax=axes[1])
@@ -75,6 +81,34 @@ def test_pictures_are_drawn_on_the_axes_that_are_given() -> None:
         run().plot(ax=axes[0])
 
 
+def test_names_of_lines_stay_in_a_narrow_spectrum_and_apart() -> None:
+    """At 84 mm names overlapped and left the axes, and the range ended below the main line; they
+    also overlapped where a figure became smaller after they had been written."""
+    time = np.arange(0, 4, 1 / 8000)
+    signal = sum(
+        size * np.sin(2 * np.pi * frequency * time)
+        for frequency, size in ((70, 0.3), (1900, 1.0), (1920, 0.9), (1940, 0.8), (3000, 1e-4))
+    )
+    samples = xr.Dataset({"psi": ("time", signal)}, {"time": time})
+    figure, ax = pyplot.subplots(figsize=(174 / 25.4, 4), layout="constrained")
+    draw_spectrum(ax, samples, "psi")
+    for width, height in ((174, 4.0), (84, 2.2)):
+        figure.set_size_inches(width / 25.4, height)
+        figure.draw_without_rendering()
+        names = [text for text in ax.texts if text.get_visible()]
+        frame = ax.get_window_extent()
+        boxes = [name.get_window_extent() for name in names]
+        assert {"70.0 Hz", "1900.0 Hz"} <= {name.get_text() for name in names}
+        for box in boxes:
+            assert frame.x0 <= box.x0
+            assert box.x1 <= frame.x1
+            assert box.y1 <= frame.y1
+        assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
+    assert 1940 < ax.get_xlim()[1] < 3000, "to where the energy is"
+    assert ax.get_title(loc="left") == ""
+    assert ax.get_ylabel() == "Angle ψ, amplitude (rad)"
+
+
 def test_a_film_has_its_frames(tmp_path: Path) -> None:
     run().animate(tmp_path / "film.gif", frames=3)
     with Image.open(tmp_path / "film.gif") as film:
@@ -83,14 +117,16 @@ def test_a_film_has_its_frames(tmp_path: Path) -> None:
 
 def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
     cycle = dm.floquet(P.replace(Omega=15))
-    assert "stable, growth rate -0.105/s" in cycle.plot().get_title(loc="left")
+    words = " ".join(cycle.plot().get_title(loc="left").split())
+    assert "stable, growth rate -0.105/s" in words
     sliding, neutral = dm.steady_sliding(P), dm.steady_sliding(P.replace(mu_s=0, mu_k=0, D_star=0))
-    assert {text.get_text() for text in neutral.plot().texts} == {"decays", "grows"}
+    assert labels(neutral.plot().figure) == ["decays"]
+    assert labels(sliding.plot().figure) == ["decays", "grows"]
     unstable = sliding.eigenvalues[(sliding.eigenvalues.real > 0) & (sliding.eigenvalues.imag >= 0)]
     named = [text.get_text() for text in sliding.plot().texts]
     assert named[: len(unstable)] == [f"{x:.0f} Hz" for x in unstable.imag / 2 / np.pi]
     branch = dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2))
-    assert "fold at 15.095" in labels(branch.plot())
+    assert "fold at 15.095" in labels(branch.plot().figure)
     for shown, text in ((run(), "54.418905"), (cycle, "-0.10"), (sliding, "135"), (P, "15.1")):
         assert text in shown._repr_html_()
 
@@ -104,7 +140,7 @@ def test_critical_values_neutral_curves_and_exponents_are_drawn_with_their_case(
     assert "μ" in pyplot.gcf().get_suptitle(), "the ratio of friction is stated"
     curves = dm.neutral_curves(case, {"Omega": (14, 15.5), "mu_s": (0.38, 0.42)}, [0.4], points=5)
     axes = curves.plot()
-    assert labels(axes) == ["cycle ends in a fold"]
+    assert labels(axes.figure) == ["cycle ends in a fold"]
     assert (axes.get_xlim(), axes.get_ylim()) == ((14, 15.5), (0.38, 0.42))
     exponents = dm.lyapunov_exponents(P, 0.5, count=2)
     assert exponents.plot().get_title(loc="left") == "over 0.5 s, 0 separations"
@@ -123,7 +159,8 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
     outcomes = plane.assign(
         outcome=(("Omega", "N"), [["quiet", "quiet"], ["separation", "quiet"], ["quiet", "quiet"]])
     )
-    assert labels(dm.plot_sweep(outcomes, "outcome").figure) == ["quiet", "unresolved"]
+    named = labels(dm.plot_sweep(outcomes, "outcome").figure)
+    assert named == ["quiet", "separation", "unresolved", "Outcome"]
     with pytest.raises(
         dm.ParameterError, match="variable='perod': must be one over the grid, did you mean period"
     ):
@@ -140,6 +177,32 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
         counted, {"branch": [0, 1], "branch_point": [0, 1, 2], "sweep_value": [10.0, 11.0]}
     )
     np.testing.assert_allclose(dm.plot_sweep(branches).lines[0].get_ydata(), [1, 2])
+
+
+def test_a_sweep_of_sliding_is_not_called_a_cycle() -> None:
+    """The growth of steady sliding was that of the stick-slip cycle, and its dots a stable cycle."""
+    axes = {"Omega": [10.0, 20.0, 40.0], "N": [50.0, 300.0]}
+    sliding = dm.sweep(dm.steady_sliding, P.replace(c_p=0.5), **axes)
+    assert (sliding["growth_rate"] < 0).sel(N=50).all()
+    assert (sliding["growth_rate"] > 0).sel(N=300).all()
+    figure = dm.plot_sweep(sliding).figure
+    assert " ".join(figure.axes[1].get_ylabel().split()) == "Growth rate of steady sliding (1/s)"
+    assert "stable" in labels(figure)
+    assert "stable cycle" not in labels(figure)
+    [line] = dm.plot_sweep(sliding.sel(N=300)).lines[:1]
+    assert " ".join(line.axes.get_ylabel().split()) == "Growth rate of steady sliding (1/s)"
+
+
+def test_sliding_that_grows_is_not_painted_as_steady() -> None:
+    case = P.replace(friction_offset="surface", normalization="orthonormal")
+    plane = dm.sweep(dm.floquet, case, Omega=[10.0, 60.0], N=[300.0, 2000.0])
+    plane["status"] = plane["status"].where(plane["Omega"] < 60, "no_stick_slip")
+    plane["growth_rate"] = plane["growth_rate"].where(plane["Omega"] < 60)
+    plane["sliding_growth_rate"].loc[{"Omega": 60.0}] = [-0.1, 1.2]
+    assert {"steady sliding", "unstable steady sliding"} <= set(labels(dm.plot_sweep(plane).figure))
+    assert "slides without sticking" in labels(
+        dm.plot_sweep(plane.drop_vars("sliding_growth_rate")).figure
+    )
 
 
 def test_shares_of_starts_are_bars_of_the_outcomes_that_occur() -> None:

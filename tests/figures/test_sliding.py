@@ -5,8 +5,10 @@ import pytest
 import xarray as xr
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
-from disc_model.figures.kind import kind_of
-from disc_model.figures.over_parameter import AGREEMENTS, agreement, common_points
+from disc_model.figures.kinds import kind_of
+from disc_model.figures.render import render
+from disc_model.figures.selection import common_points
+from disc_model.figures.sliding_outcome import AGREEMENTS, agreement
 from tests.studies.conftest import SMALL, computed
 
 SCAN = {"start": 0, "stop": 0.4, "count": 5}
@@ -26,7 +28,7 @@ def over_mu() -> xr.Dataset:
 def test_modes_are_drawn_along_the_parameter(
     kind: str, more: dict[str, float], over_mu: xr.Dataset
 ) -> None:
-    figure = kind_of(kind)(kind=kind, **more).render({"study": xr.DataTree(over_mu)})
+    figure = render(kind_of(kind)(kind=kind, **more), {"study": xr.DataTree(over_mu)})
     assert (figure.axes[0].get_ylim()[1] == 900) == bool(more)
     axes = figure.axes[0] if kind == "root_locus" else figure.axes[1]
     shown = axes.collections if kind == "root_locus" else axes.lines
@@ -66,7 +68,7 @@ def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:
     shared, other = common_points(plane, sliding.rename(value="c_p"), ("N", "c_p"))
     assert (dict(shared.sizes), other.sizes["c_p"]) == ({"N": 2, "c_p": 5}, 5)
     plot = kind_of("sliding_outcome")(x="c_p", y="N", overlays={"sliding": "s"})
-    figure = plot.render({"study": xr.DataTree(plane), "sliding": xr.DataTree(sliding)})
+    figure = render(plot, {"study": xr.DataTree(plane), "sliding": xr.DataTree(sliding)})
     growing = float((sliding["largest_growth_rate"] > 0).mean())
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert f"{AGREEMENTS['unstable_separates'].label}: {100 * growing:.0f} %" in texts
+    assert f"{AGREEMENTS['unstable_separates'].label}: {100 * growing:.0f}\u00a0%" in texts

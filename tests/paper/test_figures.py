@@ -1,5 +1,6 @@
 """The paper's figures, as config/paper.yaml describes them."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -8,12 +9,14 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model import Parameters, Window, simulate
-from disc_model.figures.drawing import COLUMN, PAGE
-from disc_model.figures.kind import CasePlot
-from disc_model.paper.figures.runs import motion_of
+from disc_model.data.variables import flag_names
+from disc_model.figures.kinds import CasePlot
+from disc_model.figures.render import render
+from disc_model.figures.sizes import COLUMN, PAGE
+from disc_model.paper.figures.instants import motion_of
 from disc_model.studies.study import load_study
 from tests.damages import DAMAGES, damaged
-from tests.figures.reading import assert_fit_for_print
+from tests.figures.reading import assert_fit_for_print, labels
 from tests.figures.test_cases import RECORDED, said_in, simulated
 from tests.paper import evidence
 
@@ -31,7 +34,7 @@ MOVED = {
 
 def drawn(name: str, case: xr.DataTree) -> Figure:
     plot = FIGURES[name].model_copy(update=MOVED.get(name, {}))
-    return plot.render(dict.fromkeys(plot.cases, case))
+    return render(plot, dict.fromkeys(plot.cases, case))
 
 
 @pytest.mark.parametrize(
@@ -59,6 +62,42 @@ def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -
         lacks = (f"did not record {window}" for window in (*RECORDED, "poincare", "events"))
         known = {"failed"} if damage == "failed" else {*lacks}
         assert set(reasons) <= {f"not shown: the case {reason}" for reason in known}
+
+
+def test_the_composite_has_phases_from_events() -> None:
+    """From samples at 4 kHz sticks of 0.94 and 0.78 ms had 0.7 to 1.1 ms, in no order."""
+    case = simulated(True)
+    force = drawn("composite", case).axes[2]
+    events = case["events"].to_dataset()
+    kinds, times = flag_names(events["kind"]), events["time"].values
+    begins = times[(kinds == "separation") & (times > 57) & (times < 57.04)]
+    ends = times[(kinds == "reattachment") & (times > 57) & (times < 57.04)]
+    shown = {1e3 * (time - 57) for time in (*begins, *ends)}
+    bars = {
+        x for patch in force.patches for x in (patch.get_x(), patch.get_x() + patch.get_width())
+    }
+    assert len(shown) >= 8
+    for time in shown:
+        assert min(abs(time - bar) for bar in bars) < 1e-9
+
+
+def test_captions_say_nothing_that_a_legend_finds_out() -> None:
+    """A caption said "not shown to have settled" of points that the legend called settled."""
+    for name, plot in STUDY.figures.items():
+        if plot.kind == "poincare":
+            assert not re.search(r"settled|in contact|crosses|dots|triangles", plot.caption), name
+
+
+def test_areas_of_the_figure_on_both_scales_have_names() -> None:
+    """Two names stood on white, which was a third area."""
+    plot, maps = STUDY.figures["figB2"], evidence.scans()
+    figure = render(
+        plot,
+        {"study": xr.DataTree(maps["map_N"]), **{n: xr.DataTree(maps[n]) for n in plot.overlays}},
+    )
+    named = ["with neither", "only as published", "only by Eq. (17)", "with both"]
+    assert labels(figure)[:4] == named
+    assert not [text for text in figure.axes[1].texts if "only" in text.get_text()]
 
 
 # ---- the whole disc
@@ -101,11 +140,12 @@ def test_the_figure_on_both_scales_counts_what_vanishes() -> None:
     plot = STUDY.figures["figB2"]
     changes = {name: {"first_separation": [[[90]], [[np.nan]]]} for name in ("map_m", "map_D_star")}
     for lost, maps in ((0, evidence.scans()), (2, evidence.scans(**changes))):
-        figure = plot.render(
+        figure = render(
+            plot,
             {
                 "study": xr.DataTree(maps["map_N"]),
                 **{n: xr.DataTree(maps[n]) for n in plot.overlays},
-            }
+            },
         )
         assert_fit_for_print(figure)
         assert figure.axes[2].get_title(loc="right") == f"{lost} of 9: none by Eq. (17)"

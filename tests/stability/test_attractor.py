@@ -84,7 +84,9 @@ long motion. At the 1304 points of the former coarse maps there was none."""
 def test_shortcuts_agree_with_brute_force() -> None:
     """Points spread over four planes: simulated throughout, to a horizon at which all outcomes
     occur."""
-    horizon, points, simulated = 400.0, 0, 0.0
+    horizon = 400.0
+    points = 0
+    simulated = 0.0
     disagree: list[tuple[dict[str, float], OutcomeResult, float]] = []
     for number, plane in enumerate(PLANES):
         varied = {name: bounds for name, bounds in plane.items() if isinstance(bounds, tuple)}
@@ -96,7 +98,8 @@ def test_shortcuts_agree_with_brute_force() -> None:
             p = Parameters(**{**plane, **at})
             found = find_outcome(p, horizon)
             whole = find_outcome(p, horizon, early=False)
-            points, simulated = points + 1, simulated + found.simulated
+            points = points + 1
+            simulated = simulated + found.simulated
             if math.isfinite(whole.first_separation) != (found.outcome is Outcome.SEPARATION):
                 disagree.append((at, found, whole.first_separation))
             if found.outcome is Outcome.QUIET and found.simulated == 0.0:
@@ -126,10 +129,8 @@ def test_a_kick_has_the_energy_asked_for_and_its_direction_hangs_on_its_key_alon
     assert kick_energy(P14, one, start) == pytest.approx(0.3, rel=1e-12)
     # slider and disc go along
     assert one.u == pytest.approx(float(mode_arrays(P14).psi @ one.a), rel=1e-14)
-    again, other = (
-        random_perturbation(P14, start, 0.3, (1, 0, 5)),
-        random_perturbation(P14, start, 0.3, (1, 0, 6)),
-    )
+    again = random_perturbation(P14, start, 0.3, (1, 0, 5))
+    other = random_perturbation(P14, start, 0.3, (1, 0, 6))
     assert np.array_equal(one.a, again.a)
     assert np.array_equal(one.beta, again.beta)
     assert not np.array_equal(one.a, other.a)
@@ -179,7 +180,8 @@ def test_a_stay_is_doubled_until_it_has_settled_and_no_further(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """2, 2, 4, 8 s, and never beyond the longest; the late segment comes after that."""
-    simulated, described = list[tuple[float, float]](), list[tuple[float, float]]()
+    simulated = list[tuple[float, float]]()
+    described = list[tuple[float, float]]()
 
     def simulate_to(p: Parameters, end: float, *, tol: float, initial_state: Any) -> Any:
         begin = 0.0 if initial_state is None else initial_state.time

@@ -146,7 +146,8 @@ def test_places_where_multipliers_meet_are_found_by_their_angles() -> None:
     assert curves._meetings(np.array([0.1]), np.array([-0.4])) == pytest.approx([0.25])
     assert curves._meetings(np.array([0.5, 1.0]), np.array([0.1, 0.1])) == []
     # through the axis and back: from 0.1 to -0.3 looks like 0.3
-    one, two = np.array([0.1, 2.0]), np.array([0.3, 2.1])
+    one = np.array([0.1, 2.0])
+    two = np.array([0.3, 2.1])
     assert curves._returns_from_axis(one, two, 0.4) == pytest.approx([0.25])
     assert curves._returns_from_axis(math.pi - one, math.pi - two, 0.4) == pytest.approx([0.25])
     assert curves._returns_from_axis(one, two, 0.1) == []

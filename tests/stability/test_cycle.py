@@ -21,7 +21,8 @@ P = Parameters(N=200, Omega=20, n_diameters=1)
 def test_a_rough_tolerance_finds_the_cycle(tol: float) -> None:
     """Flights as rough as the residual asked for scattered too much to reach it: no cycle was
     found, of any case."""
-    found, fine = floquet(P, tol=tol), floquet(P)
+    found = floquet(P, tol=tol)
+    fine = floquet(P)
     assert found.status is CycleStatus.OK
     assert found.residual <= tol
     # a point off by tol has a multiplier off by about tol, and a period is 0.01 s
@@ -52,10 +53,12 @@ CASES = {
     "p", [pytest.param(p, marks=marks, id=name) for name, (p, marks) in CASES.items()]
 )
 def test_multipliers_agree_with_central_differences_of_the_return_map(p):
-    result, map_ = floquet(p), ReturnMap(p)
+    result = floquet(p)
+    map_ = ReturnMap(p)
     assert result.status is CycleStatus.OK
     x = map_.point(result.state)
-    expected, mine = central_differences(map_, x), result.multipliers
+    expected = central_differences(map_, x)
+    mine = result.multipliers
     reference = np.linalg.eigvals(expected)
     distance = np.min(np.abs(mine[:, None] - reference[None, :]), axis=1)
     assert np.max(distance) < 1e-6
@@ -83,15 +86,19 @@ def test_the_cycle_is_found_again_from_a_simulation():
 class Logistic:
     """The map x -> r x (1 - x): its fixed point 1 - 1 / r doubles its period at r = 3."""
 
-    size, deflection, tol = 1, 1.0, 1e-14
+    size = 1
+    deflection = 1.0
+    tol = 1e-14
 
     def __init__(self, r: float) -> None:
         self.r = r
 
     def evaluate(self, x, *, releases, **_):
-        start, slope = x, np.eye(1)
+        start = x
+        slope = np.eye(1)
         for _ in range(releases):
-            slope, x = self.r * (1 - 2 * x[0]) * slope, self.r * x * (1 - x)
+            slope = self.r * (1 - 2 * x[0]) * slope
+            x = self.r * x * (1 - x)
         counts = Counts(releases, 0, 0, 0, releases)
         return Flight(RETURNED, 0.01 * releases, 0.3, counts, start, x, slope, np.zeros((1, 0)))
 
@@ -100,7 +107,8 @@ def test_a_cycle_that_is_run_through_twice_is_told_from_one_of_double_period():
     """Which just beyond the doubling is 5e-4 of its size away from the simple one, to which
     Newton's method goes."""
     r = 3 + 1e-6
-    simple, double = Logistic(r), (r + 1 + math.sqrt((r - 3) * (r + 1))) / (2 * r)
+    simple = Logistic(r)
+    double = (r + 1 + math.sqrt((r - 3) * (r + 1))) / (2 * r)
     for x, releases in ((1 - 1 / r + 1e-12, 1), (double, 2)):
         assert (
             run_through_once(simple, simple.evaluate(np.array([x]), releases=2)).counts.releases
@@ -110,7 +118,8 @@ def test_a_cycle_that_is_run_through_twice_is_told_from_one_of_double_period():
 
 def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
     stable = P.replace(c=0.1)
-    result, map_ = floquet(stable), ReturnMap(stable)
+    result = floquet(stable)
+    map_ = ReturnMap(stable)
     assert result.stable
     x = map_.point(result.state)
     away = x + 1e-4 * np.linalg.norm(x) * np.eye(len(x))[0]
@@ -167,18 +176,23 @@ def test_multipliers_of_random_cases_are_those_of_a_differenced_return_map(seed:
 
     Where friction does not fall, stick may last for no time, and the map has a corner.
     """
-    rng, sure, passed_over = np.random.default_rng(seed), 0, 0
+    rng = np.random.default_rng(seed)
+    sure = 0
+    passed_over = 0
     cases = (drawn_case(rng) for _ in range(200))
     cycles = (floquet(p) for p in cases if p.n_diameters >= 0 and p.mu_s > p.mu_k)
     for found in (cycle for cycle in cycles if cycle.status is CycleStatus.OK):
-        map_, how = ReturnMap(found.parameters), {"releases": found.releases}
+        map_ = ReturnMap(found.parameters)
+        how = {"releases": found.releases}
         x = map_.point(found.state)
-        size, got = np.linalg.norm(x), map_.evaluate(x, **how).jacobian
+        size = np.linalg.norm(x)
+        got = map_.evaluate(x, **how).jacobian
         for step in (1e-4, 1e-6, 1e-8):
             rough, fine = (
                 central_differences(map_, x, h * size, **how) for h in (step, 0.3 * step)
             )
-            error, scale = np.abs(rough - fine).max(), max(1.0, np.abs(fine).max())
+            error = np.abs(rough - fine).max()
+            scale = max(1.0, np.abs(fine).max())
             if error <= 1e-3 * scale:
                 # rounding of flights, 3e-13, over the step
                 assert np.abs(got - fine).max() <= 1e-11 / step * scale + 10 * error, (

@@ -90,7 +90,8 @@ def test_a_release_in_contact_is_no_release_after_a_loss_of_contact() -> None:
     p = Parameters(N=385, Omega=15.1)
     late = simulate(p, 60.0)
     assert late.events["kind"].eq("separation").any()
-    strict, patient = ReturnMap(p), ReturnMap(p, patient=True)
+    strict = ReturnMap(p)
+    patient = ReturnMap(p, patient=True)
     lost = [
         (strict.next_release(state).reached, patient.next_release(state).reached)
         for state in (

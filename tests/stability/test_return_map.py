@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, floquet, simulate
-from disc_model.engine import event_loop, transitions
+from disc_model.engine import section, transitions
 from disc_model.stability import return_map
 from disc_model.stability.cycle import bifurcation_type, cycle_of
 from disc_model.stability.linear_motion import first_release
 from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Flight, ReturnMap, newton
 from tests.contact_laws import ALL_LAWS, COMPILES, COUPLE, LAWS
-from tests.engine.test_variational import differences
+from tests.engine.test_saltation import differences
 from tests.references.printed import Printed
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
@@ -62,7 +62,8 @@ class Affine:
     def evaluate(self, x, **how):
         self.calls += 1
         code = RETURNED if self.calls not in self.lost_at else RETURNED + 1
-        bent, slope = self.A @ x + self.d + 0.01 * np.sin(x), self.wrong + 0.01 * np.diag(np.cos(x))
+        bent = self.A @ x + self.d + 0.01 * np.sin(x)
+        slope = self.wrong + 0.01 * np.diag(np.cos(x))
         return Flight(
             code, 1.0, 0.3, Counts(1, 0, 0, 0, 1), x, bent, slope, np.zeros((self.size, 0))
         )
@@ -139,7 +140,8 @@ def test_a_search_begins_where_the_simulated_static_start_is_first_released(law,
     release = map_.first_release
     # an independent path to the event: the closed form of stick, and a search for the root
     run = simulate(p, 2 * release.time, tol=1e-14)
-    kind, time = run.events["kind"].iloc[0], run.events["time"].iloc[0]
+    kind = run.events["kind"].iloc[0]
+    time = run.events["time"].iloc[0]
     assert (kind, release.reached) == ("stick_to_slip", True)
     assert release.time == pytest.approx(time, rel=1e-11)
     before = simulate(p, time * (1 - 1e-12), tol=1e-14).final_state
@@ -172,9 +174,9 @@ def test_a_flight_in_pieces_is_the_same_flight(monkeypatch: pytest.MonkeyPatch) 
     """Between pieces Ctrl-C is answered: kernels cannot be interrupted, and a mass of 1e12 kg kept
     them busy for minutes."""
     calls = []
-    integrate = event_loop.integrate
+    integrate = section.integrate
     monkeypatch.setattr(
-        event_loop, "integrate", lambda *arguments: calls.append(1) or integrate(*arguments)
+        section, "integrate", lambda *arguments: calls.append(1) or integrate(*arguments)
     )
     map_ = ReturnMap(P.replace(c=0.2))
     how = {"releases": 3}
@@ -256,7 +258,8 @@ def check_derivatives(
 ) -> None:
     """Derivatives of where a flight ends by parameters, against differences of steps relative to
     their values."""
-    p, how = map_.parameters, {"may_separate": True}
+    p = map_.parameters
+    how = {"may_separate": True}
     by = ReturnMap(p, parameters=names).evaluate(x, **how).by
     for i, name in enumerate(names):
         value = getattr(p, name)

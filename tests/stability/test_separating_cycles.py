@@ -62,7 +62,8 @@ def test_the_cycle_closes(cycle) -> None:
         p, found.period, initial_state=found.state.replace(time=0.0), tol=1e-12
     ).final_state
     for name in ("a", "b", "alpha", "beta"):
-        one, other = getattr(found.state, name), getattr(end, name)
+        one = getattr(found.state, name)
+        other = getattr(end, name)
         np.testing.assert_allclose(one, other, rtol=0, atol=1e-9 * np.max(np.abs(one)))
 
 

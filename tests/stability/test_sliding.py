@@ -26,10 +26,8 @@ P = Parameters(N=200, Omega=20, n_diameters=1)
 def state_of(p: Parameters, sliding: SteadySliding) -> State:
     """The equilibrium as a state."""
     modes = plate_modes(p)
-    w, slope = (
-        float(modes["psi"] @ sliding.a),
-        float((modes["diameters"] * modes["psi"]) @ sliding.b),
-    )
+    w = float(modes["psi"] @ sliding.a)
+    slope = float((modes["diameters"] * modes["psi"]) @ sliding.b)
     mu = p.mu_k + (p.mu_s - p.mu_k) / (1 + p.friction_decay * p.r_0 * p.Omega)
     share = 1 - mu * slope / p.r_0 if p.contact_force == "normal" else 1.0
     height = w - p.contact_compliance * share * sliding.contact_force
@@ -58,12 +56,11 @@ SLIDING = {
 )
 def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
     """It stays where it is, and its eigenvalues are those of a flight from there."""
-    sliding, duration = steady_sliding(p), 1e-3
+    sliding = steady_sliding(p)
+    duration = 1e-3
     assert sliding.status is SlidingStatus.OK
-    name, verdict = (
-        "R" if p.contact_force == "normal" else "P",
-        "stable" if sliding.growth_rate < 0 else "not stable",
-    )
+    name = "R" if p.contact_force == "normal" else "P"
+    verdict = "stable" if sliding.growth_rate < 0 else "not stable"
     assert (
         sliding.message == f"steady sliding with {name} = {sliding.contact_force:.6g} N, {verdict}"
     )
@@ -112,7 +109,8 @@ def test_all_rates_of_the_model_s_equations_vanish_in_steady_sliding(law, change
     flipped = {name: sign * getattr(state, name) for name in ("a", "b", "alpha", "beta")}
     step = taylor.Step(taylor.problem_of(p), "slip", 1, state.replace(**flipped), order=1)
     # the size of a rate is that of its largest term
-    static, omega = p.N * np.abs(modes["psi"] / modes["omega"]).max(), modes["omega"].max()
+    static = p.N * np.abs(modes["psi"] / modes["omega"]).max()
+    omega = modes["omega"].max()
     for name in ("alpha", "beta"):
         assert np.abs(getattr(step, name)[1]).max() < 1e-12 * omega * static
     for name in ("a", "b"):
@@ -170,7 +168,8 @@ def test_modes_are_the_eigenvalues_of_steady_sliding():
     """With what brake engineers read from them: frequency in Hz, damping ratio, number of unstable
     modes."""
     p = Parameters(N=385, Omega=20, normalization="orthonormal")
-    sliding, modes = steady_sliding(p), sliding_modes(p)
+    sliding = steady_sliding(p)
+    modes = sliding_modes(p)
     values = modes.growth_rate + 2j * math.pi * modes.frequency
     oscillating = sliding.eigenvalues[sliding.eigenvalues.imag > 0]
     np.testing.assert_allclose(values, oscillating[np.argsort(oscillating.imag)], rtol=1e-10)
@@ -225,7 +224,8 @@ def test_modes_keep_their_numbers_where_frequencies_cross():
 def roots_of_energies(p, shapes):
     """Of each row of modes' shapes: its energy is the square of the modulus."""
     modes = mode_arrays(p)
-    omega, r_0 = modes.omega[:, None], p.r_0
+    omega = modes.omega[:, None]
+    r_0 = p.r_0
     (a, alpha, b, beta), (psi, f), height = split_rows(modes, shapes)
     disc = np.concatenate([omega * a, alpha, omega * b, beta])
     slider = r_0 * np.array([math.sqrt(p.k_p) * psi, math.sqrt(p.m) * f])
@@ -240,7 +240,8 @@ def test_modes_are_named_and_compared_by_their_energies():
     base = Parameters(
         N=385, Omega=20, normalization="orthonormal", contact_compliance=1e-7, c_p=0.5
     )
-    l, kinds = mode_arrays(base).diameters, set()
+    l = mode_arrays(base).diameters
+    kinds = set()
     heavy = base.replace(
         N=3e4, m=100.0, k_p=3.468e8
     )  # here not |f| but its square tells whose motion it is

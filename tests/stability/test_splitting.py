@@ -33,7 +33,8 @@ def case(pad: dict[str, Any], damping: float = 1e-3, **changes: Any) -> dm.Param
 def by_integration(p: dm.Parameters, split: float) -> float:
     """Growth rate by an integrator of scipy, with the stiffness of the disc turned by a matrix into
     the slider's frame."""
-    jacobian, omega = dm.steady_sliding(p).jacobian, 3000.0
+    jacobian = dm.steady_sliding(p).jacobian
+    omega = 3000.0
     size = len(jacobian)  # a, alpha, b, beta, psi, f
     halves = np.diag([(omega * (1 + split / 2)) ** 2, (omega * (1 - split / 2)) ** 2])
 
@@ -65,7 +66,8 @@ def test_a_light_pad_couples_both_waves_as_averaging_has_it(split: float) -> Non
     p = case(LIGHT, damping=5e-5)
     values = dm.steady_sliding(p).eigenvalues
     waves = sorted(values[(values.imag > 2000) & (values.imag < 4000)], key=lambda x: x.imag)
-    with_slider, against = waves[0] + 2j * p.Omega, waves[1] - 2j * p.Omega
+    with_slider = waves[0] + 2j * p.Omega
+    against = waves[1] - 2j * p.Omega
     root = np.sqrt(((with_slider - against) / 2) ** 2 - (3000 * split / 2) ** 2)
     expected = ((with_slider + against) / 2).real + abs(root.real)
     found = dm.split_growth(p, split)
@@ -74,7 +76,8 @@ def test_a_light_pad_couples_both_waves_as_averaging_has_it(split: float) -> Non
 
 def test_both_limits_are_reached() -> None:
     p = case(LIGHT, damping=5e-5)
-    none, large = dm.split_growth(p, 0.0), dm.split_growth(p, 0.03)
+    none = dm.split_growth(p, 0.0)
+    large = dm.split_growth(p, 0.03)
     assert none.growth_rate == none.together == dm.steady_sliding(p).growth_rate
     assert not none.matters
     assert large.apart < 0 < large.together

@@ -173,7 +173,11 @@ def made_up_samples(normalization: str = "orthonormal") -> tuple[xr.Dataset, xr.
     }
     known, each = {"flag_meanings": "unknown no yes"}, ("N", "exponent_number")
     samples = {
-        "phase": (("N", "sample"), np.ones((3, 2), np.int8)),
+        "phase": (
+            ("N", "sample"),
+            np.ones((3, 2), np.int8),
+            {"flag_meanings": "none stick slip separation"},
+        ),
         "psi": (("N", "sample"), np.ones((3, 2))),
     }
     answers = {"flag_meanings": "undecided changing settled"}

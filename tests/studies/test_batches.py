@@ -7,10 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from disc_model import floquet
 from disc_model.data.variables import flag_names
-from disc_model.figures import drawing
+from disc_model.figures import selection
+from disc_model.figures.render import render
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
 from disc_model.studies import run
@@ -129,6 +131,6 @@ def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: P
     assert ((status == "excluded") == left_out.transpose(*study["status"].dims)).all()
     assert np.isfinite(study["period"]).equals(~left_out.transpose(*study["period"].dims))
     assert not list(failures(study))
-    assert list(drawing.gaps(study, study["period"])) == []
+    assert list(selection.gaps(study, study["period"])) == []
     for name, plot in grid.plots.items():
-        plot.draw(study, {}).savefig(tmp_path / f"{name}.png")
+        render(plot, {"study": xr.DataTree(study)}).savefig(tmp_path / f"{name}.png")

@@ -6,7 +6,7 @@ which tests notice.
 What is changed is read from the syntax tree, so that no formatting and no new function needs
 attention here:
 
-    a + b, a - b, a += b, a -= b    the other sign; of a vector operation, the sign of its last argument
+    a + b, a - b, a += b, a -= b    the other sign
     -a                              a
     a**b                            a
     2.0 in a sum or product         4.0 (any float)
@@ -119,8 +119,7 @@ def codes(code: CodeType) -> Iterator[CodeType]:
 
 # ------------------------------------------------------------------------------------ where to
 # change, and what
-VECTOR_OPERATIONS = ("fma", "mul", "add", "sub")
-STORAGE = ("load", "store", "spread")
+STORAGE = ("load", "store", "spread", "item", "put", "entry", "put_entry")
 NUMBERS_OF_ELEMENTS = ("range", "len")
 OTHER = {ast.Add: ast.Sub, ast.Sub: ast.Add}
 OPPOSITE = {
@@ -154,7 +153,7 @@ def _changeable(node: ast.AST) -> Iterator[ast.AST]:
     called = node.func.id if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else ""
     if called in NUMBERS_OF_ELEMENTS:
         return
-    if (called in VECTOR_OPERATIONS and not _is_size(node)) or _is_changeable(node):
+    if _is_changeable(node):
         yield node
     if isinstance(node, ast.BinOp):
         yield from (side for side in (node.left, node.right) if _is_factor(side))
@@ -216,9 +215,6 @@ def flip(node: ast.AST) -> str:
             node.ops[0] = OPPOSITE[type(node.ops[0])]()
         case ast.Constant():
             node.value = 2 * node.value
-        case ast.Call(func=function, args=[*_, last]):
-            node.args[-1] = ast.UnaryOp(ast.USub(), last)
-            return f"{ast.unparse(function)}(..., {ast.unparse(last)}) -> -"
     return f"{before} -> {ast.unparse(node)}"
 
 

@@ -106,13 +106,13 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
 @pytest.mark.parametrize(
     ("source", "jobs"),
     [
-        ("src/disc_model/engine/event_loop.py", everything),
+        ("src/disc_model/engine/loop.py", everything),
         ("src/disc_model/stability/outcome.py", everything),
         ("src/disc_model/studies/quantities/sliding.py", whole_growth),
         ("src/disc_model/studies/quantities/hysteresis.py", lambda _: set()),
         ("src/disc_model/studies/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL | MERGED),
         ("src/disc_model/studies/study.py", lambda _: set()),
-        ("src/disc_model/figures/motion.py", lambda _: FIGURES | PLOT),
+        ("src/disc_model/figures/history.py", lambda _: FIGURES | PLOT),
         ("src/disc_model/paper/figures/scales.py", lambda _: set()),
         ("src/disc_model/figures/drawing.mplstyle", lambda _: FIGURES | PLOT),
         ("workflow/scripts/draw_figure.py", lambda _: FIGURES | PLOT),

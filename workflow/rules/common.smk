@@ -53,7 +53,7 @@ if LOCAL and sys.platform == "linux":
     finalize(workflow, warm.kill)
 
 try:
-    from disc_model.figures.kind import Plot
+    from disc_model.figures.kinds import Plot
     from disc_model.errors import DiscModelError
     from disc_model.sources import (
         BATCHES,

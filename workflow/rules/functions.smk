@@ -26,9 +26,9 @@ def files_of(wildcards):
 
 
 def drawing_of(wildcards):
-    """Sources of a figure: all kinds of the package, and its own kind where that is elsewhere."""
-    home = figure_of(wildcards).plot.__module__.removeprefix("disc_model.")
-    return ["figures", "data", f"{home.replace('.', '/')}.py"]
+    """Sources of a figure: those of the package, and those of the part that its kind belongs to."""
+    part = figure_of(wildcards).plot.kind.rpartition(".")[0]
+    return ["figures", "data", *([f"{part}/figures"] if part else [])]
 
 
 def motions_of(study):

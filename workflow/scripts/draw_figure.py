@@ -6,7 +6,8 @@ import json
 from disc_model.data.dataset import load
 from disc_model.errors import script
 from disc_model.figures.drawing import save
-from disc_model.figures.kind import kind_of
+from disc_model.figures.kinds import kind_of
+from disc_model.figures.render import render
 
 
 @script
@@ -14,6 +15,6 @@ def main(plot: str, title: str, pdf: str, png: str, *inputs: str) -> None:
     options = json.loads(plot)
     names, _, files = zip(*(pair.partition("=") for pair in inputs), strict=True)
     shown = dict(zip(names, map(load, files), strict=True))
-    figure = kind_of(options["kind"]).model_validate(options).render(shown)
+    figure = render(kind_of(options["kind"]).model_validate(options), shown)
     for path in (png, pdf):
         save(figure, path, title=json.loads(title))

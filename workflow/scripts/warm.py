@@ -50,14 +50,15 @@ def prepare():
     from io import BytesIO
 
     # the first of those that import numba sets the cache's folder
-    for name in ("simulation.api", "studies.run", "data.texts", "figures.kind"):
+    for name in ("simulation.api", "studies.run", "data.texts", "figures.kinds"):
         import_module(f"disc_model.{name}")
     yield 0
     sources = import_module("disc_model.sources")
     sources.source_hash(*sources.BATCHES)  # which every batch states
     yield 0
     backends = [f"matplotlib.backends.backend_{form}" for form in ("agg", "pdf")]
-    for name in ("scipy.special", "scipy.signal", "pint", "cmcrameri.cm", *backends):
+    drawings = "disc_model.figures.render"
+    for name in ("scipy.special", "scipy.signal", "pint", "cmcrameri.cm", *backends, drawings):
         import_module(name)
         yield 0
     from disc_model.figures.drawing import panels, styled

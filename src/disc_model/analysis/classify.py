@@ -18,14 +18,16 @@ from disc_model.data.variables import PHASES, Outcome, Variable
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-CLOSES = 1e-8  # s, to which intervals of a periodic motion repeat; those on a torus mostly differ by far more
-# of its first n returns a quasi-periodic motion has one that misses by 1/n of its spread: a period
-# must be far closer
+CLOSES = 1e-8
+"""s, to which intervals of a periodic motion repeat; those on a torus mostly differ by far more."""
 NEAR_RETURN = 1e-3
+"""Of its first n returns a quasi-periodic motion has one that misses by 1/n of its spread: a period
+must be far closer."""
 FEWEST = 20  # fewest intervals from which a motion is classified
-# a motion is regular if the 0-1 test gives less, chaotic above one minus this; known signals are
-# within 0.1 of the ends
 REGULAR = 0.3
+"""A motion is regular if the 0-1 test gives less, chaotic above one minus this; known signals are
+within 0.1 of the ends."""
+ANGLES = 101  # of the 0-1 test
 
 
 class Motion(NamedTuple):
@@ -46,12 +48,10 @@ class Motion(NamedTuple):
     chaos: float = math.nan
 
     def __str__(self) -> str:
+        if self.period == 1:
+            return "periodic"
         if self.period:
-            return (
-                "periodic"
-                if self.period == 1
-                else f"periodic, repeats after {self.period} releases"
-            )
+            return f"periodic, repeats after {self.period} releases"
         return str(self.kind).replace("_", "-")
 
 
@@ -71,11 +71,15 @@ def motion_of(intervals: Array, tolerance: float = CLOSES) -> Motion:
     """
     if intervals.size < FEWEST:
         raise ValueError(f"{intervals.size} intervals: at least {FEWEST} are needed")
-    if period := shortest_period(intervals, tolerance):
+    period = shortest_period(intervals, tolerance)
+    if period:
         return Motion(Outcome.OTHER_CYCLE, period, closure(intervals, period))
     chaos = zero_one(intervals)
-    kind = Outcome.QUASI_PERIODIC if chaos < REGULAR else Outcome.UNDECIDED
-    kind = Outcome.IRREGULAR if chaos > 1 - REGULAR else kind
+    kind = Outcome.UNDECIDED
+    if chaos < REGULAR:
+        kind = Outcome.QUASI_PERIODIC
+    elif chaos > 1 - REGULAR:
+        kind = Outcome.IRREGULAR
     return Motion(kind, 0, closure(intervals, 1), chaos)
 
 
@@ -90,7 +94,9 @@ def shortest_period(
     """Least number of releases, up to half of all, after which intervals repeat to `tolerance` s; 0
     if there is none. One that closes no better than near returns (`NEAR_RETURN`) does not count,
     but for 1: a slow transient."""
-    extent = float(np.ptp(intervals)) if intervals.size else 0.0
+    if not intervals.size:
+        return 0
+    extent = float(np.ptp(intervals))
     for n in range(1, intervals.size // 2 + 1):
         if abs(intervals[n] - intervals[0]) > tolerance:
             continue
@@ -120,17 +126,26 @@ def zero_one(values: Array) -> float:
 
     signal = np.asarray(values, dtype=float)
     signal = (signal - signal.mean()) / (signal.std() or 1.0)
+    places = np.arange(1, signal.size + 1)
     steps = np.arange(1, max(2, signal.size // 10) + 1)
-    count, growths = signal.size - steps.size, []
-    for c in np.random.default_rng(0).uniform(np.pi / 5, 4 * np.pi / 5, 101):
-        path = np.cumsum(signal * np.exp(1j * c * np.arange(1, signal.size + 1)))
+    count = signal.size - steps.size
+    growths = []
+    for c in np.random.default_rng(0).uniform(np.pi / 5, 4 * np.pi / 5, ANGLES):
+        path = np.cumsum(signal * np.exp(1j * c * places))
+
+        # mean of |path[i + j] - path[i]|^2 over i < count
         sums = np.append(0.0, np.cumsum(np.abs(path) ** 2))
-        # mean of |path[i + j] - path[i]|^2 over i < count, without its oscillating part; it grows
-        # with j in chaos
         together = correlate(path, path[:count], mode="valid", method="fft").real
-        square = (sums[count + steps] - sums[steps] + sums[count] - 2 * together[steps]) / count
-        square -= signal.mean() ** 2 * (1 - np.cos(c * steps)) / (1 - np.cos(c))
-        growths.append(np.corrcoef(steps, square)[0, 1] if np.ptp(square) else 0.0)
+        square = sums[count + steps] - sums[steps] + sums[count] - 2 * together[steps]
+        square /= count
+
+        # without its oscillating part it grows with j in chaos
+        oscillating = (1 - np.cos(c * steps)) / (1 - np.cos(c))
+        square -= signal.mean() ** 2 * oscillating
+        growth = 0.0
+        if np.ptp(square):
+            growth = float(np.corrcoef(steps, square)[0, 1])
+        growths.append(growth)
     return float(np.median(growths))
 
 
@@ -152,12 +167,14 @@ def separation_location(height: Array, starts: NDArray[np.int64]) -> float:
         raise ValueError("no separation")
     # half a period of the dominant oscillation
     amplitude = np.abs(np.fft.rfft(height - np.mean(height)))
-    half = max(2, round(len(height) / max(1, int(np.argmax(amplitude[1:]) + 1))) // 2)
-    cycles = [height[max(0, i - half) : i + half + 1] for i in starts]
-    shares = [
-        (height[i] - x.min()) / (float(np.ptp(x)) or 1.0)
-        for i, x in zip(starts, cycles, strict=True)
-    ]
+    oscillations = int(np.argmax(amplitude[1:]) + 1)
+    half = max(2, round(len(height) / oscillations) // 2)
+
+    shares = []
+    for start in starts:
+        cycle = height[max(0, start - half) : start + half + 1]
+        extent = float(np.ptp(cycle)) or 1.0
+        shares.append((height[start] - cycle.min()) / extent)
     return float(np.median(shares))
 
 
@@ -170,11 +187,10 @@ def share(
 
     if trials == 0:
         return np.nan, 0.0, 1.0
-    low, high = (
-        binomtest(h, trials + unknown).proportion_ci(confidence, "wilson")
-        for h in (hits, hits + unknown)
-    )
-    return hits / trials, float(low.low), float(high.high)
+    known = trials + unknown
+    as_misses = binomtest(hits, known).proportion_ci(confidence, "wilson")
+    as_hits = binomtest(hits + unknown, known).proportion_ci(confidence, "wilson")
+    return hits / trials, float(as_misses.low), float(as_hits.high)
 
 
 # ---- Poincare sections: one sample every 2 pi/Omega
@@ -196,9 +212,10 @@ def stages(
     first_separation : s, nan if there was none
     settled_since : s, nan if it is not shown that the motion has settled: then all samples in contact are early
     """
-    before = np.asarray(
-        ~(time >= (first_separation if math.isfinite(first_separation) else settled_since))
-    )
+    divides = settled_since
+    if math.isfinite(first_separation):
+        divides = first_separation
+    before = np.asarray(~(time >= divides))  # all of them if it is nan
     apart = np.asarray(phase == PHASES.index("separation"))
     return before & ~apart, ~before & ~apart, apart
 
@@ -217,16 +234,19 @@ def distinct_points(points: Array, extent: Array | None = None) -> int:
     points = np.asarray(points, dtype=float)
     if points.size == 0:
         return 0
-    extent = np.ptp(points, axis=0) if extent is None else extent
-    rounding = 1e-9 * np.max(
-        np.abs(points)
-    )  # bound for axes along which only rounding changes the points
-    scaled = np.where(
-        extent > rounding, (points - points.min(axis=0)) / np.where(extent > 0, extent, 1.0), 0.0
-    )
+    if extent is None:
+        extent = np.ptp(points, axis=0)
+    # along other axes only rounding changes the points
+    varies = extent > 1e-9 * np.max(np.abs(points))
+    scaled = np.zeros(points.shape)
+    np.divide(points - points.min(axis=0), extent, out=scaled, where=varies)
     centres: list[Array] = []
     for point in scaled:
-        if not centres or np.min(np.max(np.abs(np.array(centres) - point), axis=1)) > SAME:
+        if not centres:
+            centres.append(point)
+            continue
+        apart = np.max(np.abs(np.array(centres) - point), axis=1)
+        if apart.min() > SAME:
             centres.append(point)
     return len(centres)
 
@@ -246,32 +266,37 @@ def first_settled(points: Array, start: int = 0) -> int:
     from scipy.spatial import KDTree
 
     ends = points[(start + len(points)) // 2 :]
-    extent = np.maximum(
-        np.ptp(ends, axis=0), STILL * np.abs(ends).max(axis=0) + np.finfo(float).tiny
-    )
+    smallest = STILL * np.abs(ends).max(axis=0) + np.finfo(float).tiny
+    extent = np.maximum(np.ptp(ends, axis=0), smallest)
     tree = KDTree(ends / extent)
-    apart = max(SAME, float(tree.query(ends / extent, k=2, p=np.inf)[0][:, 1].max()))
-    away = np.flatnonzero(tree.query(points / extent, p=np.inf)[0] > apart)
-    return max(start, int(away[-1]) + 1 if away.size else 0)
+
+    # neighbours on the set, the first of which is the point itself
+    between, _ = tree.query(ends / extent, k=2, p=np.inf)
+    apart = max(SAME, float(between[:, 1].max()))
+    distance, _ = tree.query(points / extent, p=np.inf)
+    away = np.flatnonzero(distance > apart)
+    if not away.size:
+        return start
+    return max(start, int(away[-1]) + 1)
 
 
 # ---- Whether a motion has settled: the rate at which a record of it still changes, and the least
 # rate that it shows. A record does not exclude what stays unseen, such as a slow departure from an
 # unstable cycle or a sudden end of chaos.
 
-WINDOWS, LEAST_SAMPLES = (
-    8,
-    8,
-)  # number of windows into which a record is cut, and least number of samples in each
-PARTS = 1 - np.geomspace(
-    1, 0.05, 40
-)  # starts of later parts of a record, over its length: each omits 7 % of the rest
-QUANTILE = 3.707  # of Student's t, `WINDOWS` - 2 degrees of freedom, 99 % on both sides: half-width of a slope
-RESOLUTION = (
-    0.01  # least change over a record that counts as visible, relative to the width of the motion
-)
-SLOWEST = 5e-5  # 1/s: a settled motion's width changes by less than 5 % in 1000 s, and the record can show that
-STILL = 1e-3  # width, over the mean, below which a signal counts as constant: changes are then relative to this width
+WINDOWS = 8  # number of windows into which a record is cut,
+LEAST_SAMPLES = 8  # and least number of samples in each
+PARTS = 1 - np.geomspace(1, 0.05, 40)
+"""Starts of later parts of a record, over its length: each omits 7 % of the rest."""
+QUANTILE = 3.707
+"""Of Student's t, `WINDOWS` - 2 degrees of freedom, 99 % on both sides: half-width of a slope."""
+RESOLUTION = 0.01
+"""Least change over a record that counts as visible, relative to the width of the motion."""
+SLOWEST = 5e-5
+"""1/s: a settled motion's width changes by less than 5 % in 1000 s, and the record can show that."""
+STILL = 1e-3
+"""Width, over the mean, below which a signal counts as constant: changes are then relative to this
+width."""
 
 
 class Settled(StrEnum):
@@ -302,8 +327,10 @@ class Settling(NamedTuple):
     def __str__(self) -> str:
         if not np.isfinite(self.least):
             return f"{self.answer}, since the record has too few events to show a change"
-        rate = "" if np.isnan(self.rate) else f" at {self.rate:.2g}/s"
-        return f"{self.answer}{rate}, the record shows {self.least:.2g}/s or more"
+        seen = f"the record shows {self.least:.2g}/s or more"
+        if np.isnan(self.rate):
+            return f"{self.answer}, {seen}"
+        return f"{self.answer} at {self.rate:.2g}/s, {seen}"
 
 
 def settling(
@@ -319,38 +346,52 @@ def settling(
     slowest : 1/s, least rate that matters
     still : least width to which changes are relative, over the mean; 1 for values that are widths themselves
     """
-    t, x = np.asarray(time, dtype=float), np.asarray(values, dtype=float)
+    t = np.asarray(time, dtype=float)
+    x = np.asarray(values, dtype=float)
     if not t.size or not np.isfinite(x).all():
         return Settling()
     whole = _drift(t, x, slowest, still)
-    # shorter parts cannot show that little
-    starts = [
-        start for start in t[0] + PARTS * (t[-1] - t[0]) if t[-1] - start >= RESOLUTION / slowest
-    ]
-    later = (_drift(t[i:], x[i:], slowest, still) for i in np.searchsorted(t, starts))
-    return next((part for part in later if part.answer is Settled.SETTLED), whole)
+    for start in t[0] + PARTS * (t[-1] - t[0]):
+        if t[-1] - start < RESOLUTION / slowest:  # shorter parts cannot show that little
+            break
+        first = int(np.searchsorted(t, start))
+        part = _drift(t[first:], x[first:], slowest, still)
+        if part.answer is Settled.SETTLED:
+            return part
+    return whole
 
 
 def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:
+    """Whether mean, spread and number of samples change in a record, by straight lines through their
+    values in windows; arguments as in `settling`."""
     edges = np.linspace(t[0], t[-1], WINDOWS + 1)
     parts = np.split(x, np.searchsorted(t, edges[1:-1]))
     if min(part.size for part in parts) < LEAST_SAMPLES:
         return Settling()
-    means, spreads, counts = np.array([(part.mean(), part.std(), part.size) for part in parts]).T
+
+    # moments of each window, relative to the width of the motion
+    means = np.array([part.mean() for part in parts])
+    spreads = np.array([part.std() for part in parts])
+    counts = np.array([part.size for part in parts])
     width = max(2 * spreads.max(), still * float(np.abs(means).max()), np.finfo(float).tiny)
     moments = np.array([means / width, 2 * spreads / width, counts / counts.mean()])
+
+    # slopes of lines through them, and their errors, 1/s
     middle = (edges[1:] + edges[:-1]) / 2 - (t[0] + t[-1]) / 2
-    slopes = moments @ middle / (middle @ middle)
+    square = middle @ middle
+    slopes = moments @ middle / square
     rest = moments - moments.mean(axis=1, keepdims=True) - np.outer(slopes, middle)
-    errors = QUANTILE * np.sqrt((rest**2).sum(axis=1) / (WINDOWS - 2) / (middle @ middle))
-    errors, sizes = np.maximum(errors, RESOLUTION / (t[-1] - t[0])), np.abs(slopes)
+    variance = (rest**2).sum(axis=1) / (WINDOWS - 2)
+    errors = QUANTILE * np.sqrt(variance / square)
+    errors = np.maximum(errors, RESOLUTION / (t[-1] - t[0]))
+
+    # the fastest change, of those that are clear if there are any
+    sizes = np.abs(slopes)
     clear = sizes > np.maximum(errors, slowest)
-    fastest, least = (
-        int(np.argmax(sizes + clear)),
-        float(errors.max()),
-    )  # of those that are clear, if any
+    fastest = float(slopes[int(np.argmax(sizes + clear))])
+    least = float(errors.max())
     if clear.any():
-        return Settling(Settled.CHANGING, float(slopes[fastest]), least)
+        return Settling(Settled.CHANGING, fastest, least)
     if max(least, sizes.max()) <= slowest:
-        return Settling(Settled.SETTLED, float(slopes[fastest]), least, float(t[0]))
-    return Settling(Settled.UNDECIDED, float(slopes[fastest]), least)
+        return Settling(Settled.SETTLED, fastest, least, float(t[0]))
+    return Settling(Settled.UNDECIDED, fastest, least)

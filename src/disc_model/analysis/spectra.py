@@ -16,14 +16,16 @@ from disc_model.parameters import Parameters
 
 Array = NDArray[np.float64]
 
-AROUND = (
-    1.0,
-    6.0,
-)  # Hz, distances from a line between which the level of its neighbourhood is determined
-RESOLVED = (
-    4  # bins, half the width of a line's main lobe: two lines nearer to each other are not resolved
-)
-SIDE_LOBES = 3e-5  # highest side lobe of the window relative to the line's own height: 2.5e-5, and a margin of a fifth
+AROUND = (1.0, 6.0)
+"""Hz, distances from a line between which the level of its neighbourhood is determined."""
+RESOLVED = 4
+"""Bins, half the width of a line's main lobe: two lines nearer to each other are not resolved."""
+SIDE_LOBES = 3e-5
+"""Highest side lobe of the window relative to the line's own height: 2.5e-5, and a margin of a
+fifth."""
+HIGHEST_HARMONIC = 12  # of the stick-slip frequency in combinations,
+HIGHEST_TURN = 3  # and of the drive's
+EQUALLY_NEAR = 3  # digits of Hz to which combinations are equally near
 
 
 class Line(NamedTuple):
@@ -43,9 +45,11 @@ class Combination(NamedTuple):
     deviation: float
 
     def __str__(self) -> str:
-        parts = [
-            f"{order} {symbol}" for order, symbol in ((self.n, "f_s"), (self.m, "f_Ω")) if order
-        ]
+        parts = []
+        if self.n:
+            parts.append(f"{self.n} f_s")
+        if self.m:
+            parts.append(f"{self.m} f_Ω")
         plain = re.sub(r"\b1 ", "", " + ".join(parts))  # f_s for 1 f_s
         return plain.replace("+ -", "− ") or "0"
 
@@ -67,10 +71,9 @@ def rate_of(time: Array, values: Array) -> float:
     if not np.all(np.isfinite(values)):
         raise ParameterError("values: must be finite")
     step = (time[-1] - time[0]) / (len(time) - 1)
+    even = np.linspace(time[0], time[-1], len(time))
     # a missing sample shifts times by half a step or more, and rounding by less
-    if not step > 0 or not np.all(
-        np.abs(time - np.linspace(time[0], time[-1], len(time))) < 0.45 * step
-    ):
+    if not step > 0 or not np.all(np.abs(time - even) < 0.45 * step):
         raise ParameterError("time: must rise in even steps; resample an uneven signal first")
     return float(1 / step)
 
@@ -84,11 +87,10 @@ def amplitude_spectrum(time: Array, values: Array) -> tuple[Array, Array]:
     frequency, amplitude : Hz and the signal's unit, shape (len(time) // 2 + 1,); a sine of amplitude 1 has a line of
         height 1, less the loss between two bins (at most 0.8 dB)
     """
-    rate = rate_of(time, values)
-    from scipy.signal.windows import (
-        blackmanharris,
-    )  # the first import takes a second: most jobs do without
+    # the first import takes a second: most jobs do without
+    from scipy.signal.windows import blackmanharris
 
+    rate = rate_of(time, values)
     window = blackmanharris(len(time), sym=False)
     transform = np.fft.rfft((values - np.mean(values)) * window)
     frequency = np.asarray(np.fft.rfftfreq(len(time), 1 / rate), dtype=np.float64)
@@ -121,24 +123,36 @@ def lines(
     """
     frequency, amplitude = amplitude_spectrum(time, values)
     step = float(frequency[1])
-    peaks = _maxima(amplitude, RESOLVED if apart is None else max(1, round(apart / step)))
+    distance = RESOLVED
+    if apart is not None:
+        distance = max(1, round(apart / step))
+    peaks = _maxima(amplitude, distance)
+
     # vertices of parabolas through the logarithms of the maxima and their neighbours
-    low, mid, high = (
-        np.log(np.maximum(amplitude[peaks + i], np.finfo(float).tiny)) for i in (-1, 0, 1)
-    )
+    levels = np.log(np.maximum(amplitude, np.finfo(float).tiny))
+    low = levels[peaks - 1]
+    mid = levels[peaks]
+    high = levels[peaks + 1]
     curvature = low - 2 * mid + high
     shift = np.divide(0.5 * (low - high), curvature, out=np.zeros(len(peaks)), where=curvature < 0)
-    frequencies, heights = (
-        frequency[peaks] + shift * frequency[1],
-        np.exp(mid - 0.25 * (low - high) * shift),
-    )
+    frequencies = frequency[peaks] + shift * step
+    heights = np.exp(mid - 0.25 * (low - high) * shift)
+
+    # those between the two frequencies that are strong enough
     inside = (frequencies > above) & (frequencies < below)
     bins = np.where(inside, amplitude[peaks], 0.0)
     lasting = inside & (bins >= floor * bins.max(initial=0.0))
-    return [
-        Line(float(f), float(a))
-        for f, a in zip(frequencies[lasting], heights[lasting], strict=True)
-    ]
+    found = zip(frequencies[lasting].tolist(), heights[lasting].tolist(), strict=True)
+    return [Line(*line) for line in found]
+
+
+def highest_line(time: Array, values: Array, floor: float) -> float:
+    """Frequency of the highest line, Hz, whose amplitude is at least `floor` times that of the
+    strongest; half the sampling rate if there is no line."""
+    found = lines(time, values, floor=floor)
+    if not found:
+        return rate_of(time, values) / 2
+    return found[-1].frequency
 
 
 def strongest(time: Array, values: Array, near: float, within: float) -> Line:
@@ -169,20 +183,29 @@ def chance(time: Array, values: Array, line: Line, searched: float) -> float:
     """
     near, far = AROUND
     frequency, amplitude = amplitude_spectrum(time, values)
-    step, off = float(frequency[1]), frequency - line.frequency
-    stretches = ((RESOLVED * step, near), (near, far))
-    parts = [
-        (side * off > low) & (side * off < high) for side in (-1, 1) for low, high in stretches
-    ]
-    levels = [float(np.median(amplitude[part] ** 2)) for part in parts if part.any()]
+    step = float(frequency[1])
+    power = amplitude**2
+
+    # the level of the neighbourhood: of four bands, the largest median
+    levels = []
+    for side in (-1, 1):
+        off = side * (frequency - line.frequency)
+        for low, high in ((RESOLVED * step, near), (near, far)):
+            band = (off > low) & (off < high)
+            if band.any():
+                levels.append(float(np.median(power[band])))
     if not levels:
         raise ValueError(
             f"no bin of the spectrum is {near:g} to {far:g} Hz from {line.frequency:g} Hz"
         )
-    level, trials = max(levels), max(1.0, 2 * searched / step)
+    level = max(levels)
     if not level > 0:
         return 0.0
-    return float(-np.expm1(trials * np.log1p(-np.exp2(-(line.amplitude**2) / level))))
+
+    # of one bin or more among those that were searched
+    of_one = np.exp2(-(line.amplitude**2) / level)
+    trials = max(1.0, 2 * searched / step)
+    return float(-np.expm1(trials * np.log1p(-of_one)))
 
 
 def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
@@ -192,10 +215,19 @@ def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
     Of combinations that are equally near, to a thousandth of a Hz, the one with the smallest orders
     is taken.
     """
-    orders = [(n, m) for n in range(13) for m in range(-3, 4) if n > 0 or m > 0]
-    values = ((n, m, n * f_s + m * f_drive) for n, m in orders)
-    combinations = [Combination(n, m, value, frequency - value) for n, m, value in values]
-    return min(combinations, key=lambda near: (round(abs(near.deviation), 3), near.n + abs(near.m)))
+    combinations = []
+    for n in range(HIGHEST_HARMONIC + 1):
+        for m in range(-HIGHEST_TURN, HIGHEST_TURN + 1):
+            if n == 0 and m <= 0:  # no frequency
+                continue
+            value = n * f_s + m * f_drive
+            combinations.append(Combination(n, m, value, frequency - value))
+
+    def rank(found: Combination) -> tuple[float, int]:
+        """The nearest first, and of those the one with the smallest orders."""
+        return round(abs(found.deviation), EQUALLY_NEAR), found.n + abs(found.m)
+
+    return min(combinations, key=rank)
 
 
 def time_frequency(
@@ -214,23 +246,28 @@ def time_frequency(
     Only windows within the samples are kept: the result begins half a window after the first sample and ends half a
     window before the last. A sine of amplitude 1 has power 1/2. Raises ValueError if the samples are shorter.
     """
+    from scipy.signal import ShortTimeFFT
+    from scipy.signal.windows import hann
+
     rate = rate_of(time, values)
-    length, step = round(window * rate), max(1, round(hop * rate))
+    length = round(window * rate)
+    step = max(1, round(hop * rate))
     if len(values) < length + 2 * step:
         raise ValueError(
             f"{len(values) / rate:g} s of samples are too few for a window of {window:g} s"
         )
-    from scipy.signal import ShortTimeFFT
-    from scipy.signal.windows import hann
-
     # scale_to="magnitude": the height of a line does not depend on the window's length
     transform = ShortTimeFFT(
         hann(length, sym=False), step, rate, fft_mode="onesided2X", scale_to="magnitude"
     )
     centred = np.asarray(values, dtype=float) - np.mean(values)
-    first, last = transform.lower_border_end[1], transform.upper_border_begin(len(centred))[1]
-    power = np.abs(transform.stft(centred, p0=first, p1=last)) ** 2 / 2
-    return TimeFrequency(time[0] + transform.delta_t * np.arange(first, last), transform.f, power)
+
+    # only windows within the samples
+    first = transform.lower_border_end[1]
+    last = transform.upper_border_begin(len(centred))[1]
+    amplitude = np.abs(transform.stft(centred, p0=first, p1=last))
+    middles = time[0] + transform.delta_t * np.arange(first, last)
+    return TimeFrequency(middles, transform.f, amplitude**2 / 2)
 
 
 def power_share(time: Array, values: Array, above: float, reference: float) -> float:
@@ -248,7 +285,9 @@ def coverage(time: Array, values: Array, low: float, high: float, floor: float =
     band = (frequency >= low) & (frequency <= high)
     peaks = _maxima(amplitude, RESOLVED)
     strongest = amplitude[peaks][band[peaks]].max(initial=0.0)
-    return float(np.mean(amplitude[band] > floor * strongest)) if strongest > 0 else 0.0
+    if not strongest > 0:
+        return 0.0
+    return float(np.mean(amplitude[band] > floor * strongest))
 
 
 def _maxima(amplitude: Array, distance: int) -> NDArray[np.int64]:
@@ -283,8 +322,11 @@ class Resonance:
     @property
     def label(self) -> str:
         """Label in figures, such as "2 f_s = 135.42 Hz" or "4 f_s = 290.28 Hz - 2 Ω/2π"."""
-        shift = f" {'-' if self.sign < 0 else '+'} {self.diameters} Ω/2π" if self.sign else ""
-        return f"{self.harmonic:g} f_s = {self.frequency:.2f} Hz{shift}"
+        standing = f"{self.harmonic:g} f_s = {self.frequency:.2f} Hz"
+        if not self.sign:
+            return standing
+        side = "-" if self.sign < 0 else "+"
+        return f"{standing} {side} {self.diameters} Ω/2π"
 
 
 def nearest_resonance(
@@ -297,36 +339,61 @@ def nearest_resonance(
     the nearest multiple of f_s, or of f_s / 2.
     """
     rate = 1 / float(period)
+    turn = p.Omega / (2 * math.pi)
     angle = math.atan2(multiplier.imag, multiplier.real) / (2 * math.pi)
-    half = 0.5 if multiplier.imag == 0 and multiplier.real < 0 else 0.0
-    resonances: list[tuple[float, Resonance]] = []
-    for frequency, l, bound in modes_at_rest(p):
-        if l != diameters:
+    doubles = multiplier.imag == 0 and multiplier.real < 0
+    half = 0.5 if doubles else 0.0
+
+    def miss(seen: float) -> float:
+        """How far a frequency, over that of releases, is from the multiplier's angle, in turns."""
+        return min(abs((seen - side * angle + 0.5) % 1 - 0.5) for side in (-1, 1))
+
+    found: list[tuple[float, Resonance]] = []
+    for mode in modes_at_rest(p):
+        if mode.diameters != diameters:
             continue
-        standing = (0,) if bound else ()
-        for sign in (*standing, -1, 1) if l else (0,):
-            seen = (frequency + sign * l * p.Omega / (2 * math.pi)) / rate
-            miss = min(abs((seen - s * angle + 0.5) % 1 - 0.5) for s in (-1, 1))
+        for sign in _senses(mode):
+            seen = (mode.frequency + sign * mode.diameters * turn) / rate
             harmonic = round(seen - half) + half
-            resonances.append(
-                (miss, Resonance(harmonic, frequency, l, sign, float((harmonic - seen) * rate)))
-            )
-    return min(resonances, key=lambda pair: pair[0])[1]
+            detuning = float((harmonic - seen) * rate)
+            resonance = Resonance(harmonic, mode.frequency, mode.diameters, sign, detuning)
+            found.append((miss(seen), resonance))
+    nearest = min(found, key=lambda pair: pair[0])
+    return nearest[1]
 
 
-def modes_at_rest(p: Parameters) -> list[tuple[float, int, bool]]:
-    """Frequency (Hz), diameters and whether the slider takes part, for every mode of disc and
-    slider at rest. A coupled mode has the diameters of the disc's mode with most of its energy; a
-    compliant contact adds one mode."""
+class ModeAtRest(NamedTuple):
+    """A mode of disc and slider at rest: its frequency, Hz, nodal diameters, and whether it is bound
+    to the slider."""
+
+    frequency: float
+    diameters: int
+    bound: bool
+
+
+def _senses(mode: ModeAtRest) -> tuple[int, ...]:
+    """Senses in which a mode travels in the slider's frame: -1, 1, and 0 where it stands."""
+    if not mode.diameters:
+        return (0,)
+    return (0, -1, 1) if mode.bound else (-1, 1)
+
+
+def modes_at_rest(p: Parameters) -> list[ModeAtRest]:
+    """All modes of disc and slider at rest, by ascending frequency. A coupled mode has the diameters
+    of the disc's mode with most of its energy; a compliant contact adds one mode."""
     modes = mode_arrays(p)
-    frequencies, shapes = coupled_shapes(p, contact_compliance(p))
-    coupled = [
-        (
-            float(frequency) / (2 * math.pi),
-            int(modes.diameters[np.argmax(np.abs(shape[: len(modes.omega)]))]),
-            True,
-        )
-        for frequency, shape in zip(frequencies, shapes.T, strict=True)
-    ]
-    pairs = zip(modes.omega[modes.diameters > 0], modes.diameters[modes.diameters > 0], strict=True)
-    return sorted(coupled + [(float(omega) / (2 * math.pi), int(l), False) for omega, l in pairs])
+    count = len(modes.omega)
+    found = []
+
+    # those in which the slider takes part
+    omegas, shapes = coupled_shapes(p, contact_compliance(p))
+    for omega, shape in zip(omegas, shapes.T, strict=True):
+        largest = int(np.argmax(np.abs(shape[:count])))
+        diameters = int(modes.diameters[largest])
+        found.append(ModeAtRest(float(omega) / (2 * math.pi), diameters, bound=True))
+
+    # those with a nodal diameter at the slider
+    for omega, diameters in zip(modes.omega, modes.diameters, strict=True):
+        if diameters > 0:
+            found.append(ModeAtRest(float(omega) / (2 * math.pi), int(diameters), bound=False))
+    return sorted(found)

@@ -25,7 +25,8 @@ from matplotlib.ticker import NullFormatter, NullLocator
 
 from disc_model.data.variables import values_text
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, BLUE, GREEN, GREY, ORANGE, PAGE, PURPLE
+from disc_model.figures.drawing import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE
+from disc_model.figures.sizes import PAGE
 
 Look = dict[str, Any]
 """Arguments of matplotlib on how something looks."""

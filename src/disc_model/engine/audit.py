@@ -10,21 +10,23 @@ in the plane. On a ramp of N the first balance gains N' (u - u_0), because the e
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from . import layout
 from .dense_output import force_at, move_to
 from .jit import helper, inlined
-from .jit.simd import WIDTH, fma, load, splat, total
+from .jit.simd import WIDTH, load, splat, total
 from .laws import friction_coefficient
+from .model import drive_now, load_now
+from .state import DIRECTION, PHASE, PHI_RATE, PSI, SEPARATION, SLIP, U_VELOCITY, U
 from .transitions import disc_point, friction_force, inplane_force_per_radius, slider_motion
 
 # 24 nodes integrate degree 47: products of two series of the usual order are exact to rounding.
 _NODES, _WEIGHTS = (a * 0.5 for a in np.polynomial.legendre.leggauss(24))
 _NODES = _NODES + 0.5
 _PANEL = 8.0  # time units that the nodes resolve; only stick in closed form is longer
-# Indices of the sums in the audit's array. TRANSVERSE, INPLANE: sums of the residuals; *_SCALE:
+# Places of the sums in the audit's array. TRANSVERSE, INPLANE: sums of the residuals; *_SCALE:
 # largest energy exchanged in one step; *_TURNOVER: sum of the moduli of all energy put in and taken
 # out; COUPLE: sum of the work T v_s; SURFACE: largest abs(v_s) / (r_0 Omega) at the ends of steps,
 # audited or not.
@@ -32,13 +34,28 @@ STEPS, WORST, TRANSVERSE, INPLANE, TRANSVERSE_SCALE, INPLANE_SCALE = range(6)
 TRANSVERSE_TURNOVER, INPLANE_TURNOVER, COUPLE, SURFACE, N_SUMS = range(6, 11)
 
 
+class Powers(NamedTuple):
+    """Powers, W."""
+
+    transverse: float  # into the transverse motion
+    inplane: float  # into the in-plane motion
+    transverse_size: float  # sum of the moduli of the parts of the former
+    inplane_size: float  # of the latter
+    couple: float  # T v_s
+
+
+# ---- Energies and powers
+
+
 @helper
 def transverse_energy(model, state, phase):
-    """Energy of the disc, of the slider's vertical motion and of a compliant contact, J."""
-    u, v = state.x[layout.U], state.x[layout.U_VELOCITY]
+    """Return the energy of the disc, of the slider's vertical motion and of a compliant contact,
+    J."""
+    u = state.x[U]
+    v = state.x[U_VELOCITY]
     energy = 0.0
-    if phase != layout.SEPARATION:
-        if model.compliant:
+    if phase != SEPARATION:
+        if model.has_compliance:
             w, _, _ = disc_point(model, state)
             energy += (w - u) ** 2 / model.compliance
         else:
@@ -48,18 +65,16 @@ def transverse_energy(model, state, phase):
     for j in range(len(model.mode_amplitude0)):
         energy += state.g[j] ** 2 + model.stiffness0[j] * state.y[j] ** 2
     raised = u - model.u_0
-    return (
-        0.5 * energy
-        + 0.5 * model.m * v * v
-        + 0.5 * model.k * raised**2
-        + layout.load_now(model, state) * raised
-    )
+    slider = 0.5 * model.m * v * v + 0.5 * model.k * raised**2
+    return 0.5 * energy + slider + load_now(model, state) * raised
 
 
 @helper
 def inplane_energy(model, state):
-    x = state.x
-    return 0.5 * model.r_0**2 * (model.m * x[layout.F] ** 2 + model.k_p * x[layout.PSI] ** 2)
+    """Return the energy of the slider's motion in the plane and of its spring there, J."""
+    f = state.x[PHI_RATE]
+    psi = state.x[PSI]
+    return 0.5 * model.r_0**2 * (model.m * f**2 + model.k_p * psi**2)
 
 
 @inlined
@@ -68,74 +83,100 @@ def surface_velocity(model, state):
     the disc; m/s."""
     velocity = splat(0.0)
     for b in range(0, len(model.shift), WIDTH):
-        velocity = fma(load(model.couple, b), load(state.e, b), velocity)
+        velocity = velocity + load(model.couple, b) * load(state.e, b)
     return -total(velocity)
+
+
+@inlined
+def surface_share(model, state):
+    """Return abs(v_s) over the speed of the drive point; 0 if that rests."""
+    speed = model.r_0 * drive_now(model, state)
+    return abs(surface_velocity(model, state)) / speed if speed > 0.0 else 0.0
 
 
 @helper
 def _powers_in(model, state, phase, direction, P):
-    """Power into the transverse and the in-plane motion, the sums of the moduli of their parts, and
-    T v_s, W."""
+    """Return the `Powers` in a state of a phase under the contact force P."""
     u, v, dw_dtheta = slider_motion(model, state)
-    f, F, Omega = (
-        state.x[layout.F],
-        inplane_force_per_radius(model, state),
-        layout.drive_now(model, state),
-    )
+    f = state.x[PHI_RATE]
+    F = inplane_force_per_radius(model, state)
+    Omega = drive_now(model, state)
+
+    # what dampers take out
     lost = model.c * v * v
     for j in range(len(model.shift)):
         lost += model.damping[j] * state.e[j] ** 2
     for j in range(len(model.mode_amplitude0)):
         lost += model.damping0[j] * state.g[j] ** 2
+    damped = model.c_p * model.r_0**2 * (Omega - f) ** 2
+
+    # what the contact force and friction do
     driven = P * f * dw_dtheta
     supplied = Omega * model.r_0**2 * F
     friction = friction_coefficient(model, direction, f)
-    rubbed = friction * model.r_0 * P * f if phase == layout.SLIP else 0.0
-    if model.normal:
+    rubbed = friction * model.r_0 * P * f if phase == SLIP else 0.0
+    if model.has_normal_force:
         # P is R: V = R (1 - s mu B / r_0) is what acts vertically, and R B / r_0 acts in the plane
         rubbed += driven
         driven *= 1.0 - friction * dw_dtheta / model.r_0
-    damped = model.c_p * model.r_0**2 * (Omega - f) ** 2
-    if model.ramped:
+    if model.has_ramp:
         driven += model.N_rate * (u - model.u_0)
-    size, couple = abs(driven) + lost, 0.0
-    if model.coupled:
+    transverse_size = abs(driven) + lost
+    couple = 0.0
+    if model.has_couple:
         couple = friction_force(model, state, phase, direction, P) * surface_velocity(model, state)
         driven += couple
-        size += abs(couple)
-    return (
-        driven - lost,
-        supplied - rubbed - damped,
-        size,
-        abs(supplied) + abs(rubbed) + damped,
-        couple,
+        transverse_size += abs(couple)
+    return Powers(
+        transverse=driven - lost,
+        inplane=supplied - rubbed - damped,
+        transverse_size=transverse_size,
+        inplane_size=abs(supplied) + abs(rubbed) + damped,
+        couple=couple,
     )
+
+
+# ---- Balances
 
 
 @helper
-def audit_step(model, s, order, x_end, phase, direction, probe, audit):
-    """Add the residuals of both balances over the step (0, x_end) to ``audit``."""
-    work_t, work_p, size_t, size_p = 0.0, 0.0, 0.0, 0.0
-    panels = math.ceil(x_end / _PANEL)
+def audit_step(model, series, order, x_end, state, probe, audit):
+    """Add the residuals of both balances over the step (0, x_end) of the phase of ``state`` to
+    ``audit``; ``probe`` is a work state."""
+    phase = state.x[PHASE]
+    direction = state.x[DIRECTION]
+
+    # work done, and sums of the moduli of its parts
+    work_t = 0.0
+    work_p = 0.0
+    size_t = 0.0
+    size_p = 0.0
+    panels = max(1, math.ceil(x_end / _PANEL))
+    length = x_end / panels
     for i in range(len(_NODES) * panels):
-        x = (i // len(_NODES) + _NODES[i % len(_NODES)]) * x_end / panels
-        move_to(model, s, order, x, phase, probe)
-        P = force_at(model, s, order, phase, probe)
-        weight = _WEIGHTS[i % len(_NODES)] * x_end / panels * model.unit
-        t, p, st, sp, couple = _powers_in(model, probe, phase, direction, P)
-        work_t += weight * t
-        work_p += weight * p
-        size_t += weight * st
-        size_p += weight * sp
-        audit[COUPLE] += weight * couple
-    move_to(model, s, order, 0.0, phase, probe)
-    start_t, start_p = transverse_energy(model, probe, phase), inplane_energy(model, probe)
-    move_to(model, s, order, x_end, phase, probe)
+        node = i % len(_NODES)
+        x = (i // len(_NODES) + _NODES[node]) * length
+        move_to(model, series, order, x, phase, probe)
+        P = force_at(model, series, order, phase, probe)
+        power = _powers_in(model, probe, phase, direction, P)
+        weight = _WEIGHTS[node] * length * model.unit
+        work_t += weight * power.transverse
+        work_p += weight * power.inplane
+        size_t += weight * power.transverse_size
+        size_p += weight * power.inplane_size
+        audit[COUPLE] += weight * power.couple
+
+    # energies at both ends
+    move_to(model, series, order, 0.0, phase, probe)
+    start_t = transverse_energy(model, probe, phase)
+    start_p = inplane_energy(model, probe)
+    move_to(model, series, order, x_end, phase, probe)
     residual_t = transverse_energy(model, probe, phase) - start_t - work_t
     residual_p = inplane_energy(model, probe) - start_p - work_p
-    accumulate_residuals(
-        audit, residual_t, residual_p, size_t + abs(start_t), size_p + abs(start_p)
-    )
+
+    reference_t = size_t + abs(start_t)
+    reference_p = size_p + abs(start_p)
+    accumulate_residuals(audit, residual_t, residual_p, reference_t, reference_p)
     audit[TRANSVERSE_TURNOVER] += size_t
     audit[INPLANE_TURNOVER] += size_p
     audit[STEPS] += 1.0
@@ -143,7 +184,7 @@ def audit_step(model, s, order, x_end, phase, direction, probe, audit):
 
 @helper
 def accumulate_residuals(audit, residual_t, residual_p, size_t, size_p):
-    """Add residuals, with their reference energies ``size_t`` and ``size_p``."""
+    """Add residuals, with their reference energies ``size_t`` and ``size_p``, J."""
     audit[TRANSVERSE] += residual_t
     audit[INPLANE] += residual_p
     audit[TRANSVERSE_SCALE] = max(audit[TRANSVERSE_SCALE], size_t)
@@ -156,11 +197,18 @@ def accumulate_residuals(audit, residual_t, residual_p, size_t, size_p):
 
 @helper
 def audit_impact(model, before, impulse, dw_dtheta, state, audit):
-    """Balance of a plastic impact: Delta E = -p^2 (S2 + 1/m) / 2 + p f B, f being that after it.
-    The normal force changes f: the energy that the slope takes from the in-plane motion beyond p f
-    B is lost."""
-    lost, f = 0.5 * impulse**2 * (model.inverse_effective_mass + 1.0 / model.m), state.x[layout.F]
+    """Add the balance of a plastic impact: Delta E = -p^2 (S + 1/m) / 2 + p f B, f being that after
+    it. The normal force changes f: the energy that the slope takes from the in-plane motion beyond
+    p f B is lost.
+
+    before : transverse energy before the impact, J
+    impulse : p, N s
+    dw_dtheta : B
+    state : after the impact
+    """
+    f = state.x[PHI_RATE]
+    lost = 0.5 * impulse**2 * (model.inverse_effective_mass + 1.0 / model.m)
     expected = -lost + impulse * f * dw_dtheta
-    after = transverse_energy(model, state, layout.SEPARATION)
+    after = transverse_energy(model, state, SEPARATION)
     accumulate_residuals(audit, after - before - expected, 0.0, abs(before) + abs(expected), 0.0)
     audit[TRANSVERSE_TURNOVER] += abs(expected)

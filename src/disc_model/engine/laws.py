@@ -3,25 +3,52 @@
 A law takes an `Instant`, whose entries are real or complex numbers.  After a complex step of one
 entry, the imaginary part holds the derivative with respect to it, exact to rounding (Squire and
 Trapp, SIAM Review 40, 1998).
+
+Letters are those of docs/model.md: P or R is the contact force, V its vertical part with that of
+friction, T friction, H the force that brakes the slider in the plane, F the pull of the spring in
+the plane divided by r_0, B the slope of the disc under the slider and beta = B / r_0.
 """
 
-from collections import namedtuple
+from typing import NamedTuple
 
 from .jit import inlined
 
 TINY = 1e-100  # the complex step: its square is far below rounding, but not zero
 
 
-# Arguments of the laws, with respect to which they are differentiated: parameters of the model, and
-# those of a state. compliance: 0 if rigid; w, w_velocity, dw_dtheta: of the disc under the slider,
-# in its frame; free: A, the disc's acceleration there but for the contact force and f'; u,
-# u_velocity: of the slider, where that is a state of its own.
-Instant = namedtuple(
-    "Instant", "N k c m k_p c_p Omega compliance psi f w w_velocity dw_dtheta free u u_velocity"
-)
+class Instant(NamedTuple):
+    """Arguments of the laws, with respect to which they are differentiated: parameters of the
+    model, then entries of a state."""
+
+    N: float
+    k: float
+    c: float
+    m: float
+    k_p: float
+    c_p: float
+    Omega: float
+    compliance: float  # 0 if contact is rigid
+    psi: float
+    f: float
+    w: float  # displacement of the disc under the slider
+    w_velocity: float  # its velocity, in the slider's frame
+    dw_dtheta: float  # B
+    free: float  # A, the disc's acceleration there but for the contact force and f'
+    u: float  # of the slider, where that is a state of its own
+    u_velocity: float
+
+
 (
-    PSI_ENTRY, F_ENTRY, W_ENTRY, W_VELOCITY_ENTRY, DW_DTHETA_ENTRY, FREE_ENTRY, U_ENTRY, U_VELOCITY_ENTRY, N_ENTRIES,
-) = range(8, 17)  # fmt: skip
+    PSI_ENTRY,
+    F_ENTRY,
+    W_ENTRY,
+    W_VELOCITY_ENTRY,
+    DW_DTHETA_ENTRY,
+    FREE_ENTRY,
+    U_ENTRY,
+    U_VELOCITY_ENTRY,
+    N_ENTRIES,
+) = range(8, 17)
 
 
 @inlined
@@ -37,49 +64,42 @@ def free_force(model, i):
     return i.N + i.k * (i.w - model.u_0) + i.c * i.w_velocity + i.m * i.free
 
 
-@inlined
-def stick_numerator(model, i):
-    """The vertical contact force V in stick (f = 0), multiplied by 1 + m S2 in rigid contact."""
-    return (i.w - i.u) / i.compliance if model.compliant else free_force(model, i)
-
-
-@inlined
-def vertical_in_stick(model, i):
-    """Vertical contact force V in stick (f = 0)."""
-    if model.compliant:
-        return stick_numerator(model, i)
-    return stick_numerator(model, i) / (1.0 + i.m * model.inverse_effective_mass)
+# ---- Slip
 
 
 @inlined
 def friction_coefficient(model, direction, f):
     """The coefficient of friction in slip, with the sign of ``direction``."""
-    if model.decaying:
-        return direction * (
-            model.mu_k + (model.mu_s - model.mu_k) / (1.0 + direction * model.decay * f)
-        )
+    if model.has_falling_friction:
+        excess = (model.mu_s - model.mu_k) / (1.0 + direction * model.decay * f)
+        return direction * (model.mu_k + excess)
     return direction * model.mu_k
+
+
+@inlined
+def slip_shares(model, friction, beta):
+    """V and H per unit of the contact force, under a ``friction_coefficient``: the vertical force
+    is a normal force without slope."""
+    if model.has_normal_force:
+        return 1.0 - friction * beta, friction + beta
+    return 1.0, friction
 
 
 @inlined
 def slip_denominator(model, m, friction, dw_dtheta):
     """The denominator of the contact force in slip under a ``friction_coefficient``."""
-    if model.normal:
-        beta = dw_dtheta / model.r_0
-        if model.compliant:
-            return 1.0 - friction * beta
-        return (1.0 + m * model.inverse_effective_mass) * (1.0 - friction * beta) + (
-            friction + beta
-        ) * beta
-    if model.compliant:
-        return 1.0
-    return 1.0 + m * model.inverse_effective_mass + friction * dw_dtheta / model.r_0
+    beta = dw_dtheta / model.r_0
+    vertical, inplane = slip_shares(model, friction, beta)
+    if model.has_compliance:
+        return vertical
+    # in this order: the quotient does not wait for the slope
+    return (1.0 + m * model.inverse_effective_mass) * vertical + inplane / model.r_0 * dw_dtheta
 
 
 @inlined
 def slip_numerator(model, i):
     """The contact force in slip, P, or R under the normal force, multiplied by its denominator."""
-    if model.compliant:
+    if model.has_compliance:
         return stick_numerator(model, i)
     return free_force(model, i) + i.dw_dtheta * inplane_force_per_radius(i)
 
@@ -88,21 +108,38 @@ def slip_numerator(model, i):
 def slip_rates(model, i, friction, force):
     """Vertical force V on the disc, and f', under the contact force of slip and a
     ``friction_coefficient``."""
-    if model.normal:
-        beta = i.dw_dtheta / model.r_0
-        V, held = force * (1.0 - friction * beta), (friction + beta) * force
-    else:
-        V, held = force, friction * force
-    return V, (inplane_force_per_radius(i) - held / model.r_0) / i.m
+    vertical, inplane = slip_shares(model, friction, i.dw_dtheta / model.r_0)
+    H = inplane * force
+    return vertical * force, (inplane_force_per_radius(i) - H / model.r_0) / i.m
+
+
+# ---- Stick
+
+
+@inlined
+def stick_numerator(model, i):
+    """The vertical contact force V in stick (f = 0), multiplied by 1 + m S in rigid contact."""
+    if model.has_compliance:
+        return (i.w - i.u) / i.compliance
+    return free_force(model, i)
+
+
+@inlined
+def vertical_in_stick(model, i):
+    """Vertical contact force V in stick (f = 0)."""
+    if model.has_compliance:
+        return stick_numerator(model, i)
+    return stick_numerator(model, i) / (1.0 + i.m * model.inverse_effective_mass)
 
 
 @inlined
 def stick_loads(model, i, V):
     """Tangential load (pull) and normal load (press) of stick under V: friction holds while
-    abs(pull) <= mu_s press. Under the normal force both are in units of 1 / (1 + (B / r_0)^2), a
-    common factor."""
-    pull, press = model.r_0 * inplane_force_per_radius(i), V
-    if model.normal:
+    abs(pull) <= mu_s press. Under the normal force both are in units of 1 / (1 + beta^2), a common
+    factor."""
+    pull = model.r_0 * inplane_force_per_radius(i)
+    press = V
+    if model.has_normal_force:
         press = press + inplane_force_per_radius(i) * i.dw_dtheta
         pull = pull - i.dw_dtheta / model.r_0 * V
     return pull, press
@@ -112,20 +149,27 @@ def stick_loads(model, i, V):
 def friction_in_stick(model, i, V):
     """Friction T in stick under V, N."""
     pull, _ = stick_loads(model, i, V)
-    return pull / (1.0 + (i.dw_dtheta / model.r_0) ** 2) if model.normal else pull
+    if model.has_normal_force:
+        return pull / (1.0 + (i.dw_dtheta / model.r_0) ** 2)
+    return pull
+
+
+# ---- Impact
 
 
 @inlined
 def impact(model, i):
     """Plastic impact (Eqs. 29-37): the impulse, and f after it, which the slope reduces if the
     force is normal."""
-    lever = (
-        i.dw_dtheta / (i.m * model.r_0**2) if model.normal else 0.0 * i.dw_dtheta
-    )  # of the type of an entry
-    p = (i.w_velocity - i.u_velocity) / (
-        model.inverse_effective_mass + 1.0 / i.m + i.dw_dtheta * lever
-    )
+    lever = 0.0 * i.dw_dtheta  # of the type of an entry
+    if model.has_normal_force:
+        lever = i.dw_dtheta / (i.m * model.r_0**2)
+    give = model.inverse_effective_mass + 1.0 / i.m + i.dw_dtheta * lever
+    p = (i.w_velocity - i.u_velocity) / give
     return p, i.f - p * lever
+
+
+# ---- Derivatives
 
 
 @inlined
@@ -137,10 +181,20 @@ def _step(value, here):
 def stepped(i, entry):
     """An instant with a complex step in one entry."""
     return Instant(
-        _step(i.N, entry == 0), _step(i.k, entry == 1), _step(i.c, entry == 2), _step(i.m, entry == 3),
-        _step(i.k_p, entry == 4), _step(i.c_p, entry == 5), _step(i.Omega, entry == 6), _step(i.compliance, entry == 7),
-        _step(i.psi, entry == PSI_ENTRY), _step(i.f, entry == F_ENTRY),
-        _step(i.w, entry == W_ENTRY), _step(i.w_velocity, entry == W_VELOCITY_ENTRY),
-        _step(i.dw_dtheta, entry == DW_DTHETA_ENTRY), _step(i.free, entry == FREE_ENTRY),
-        _step(i.u, entry == U_ENTRY), _step(i.u_velocity, entry == U_VELOCITY_ENTRY),
-    )  # fmt: skip
+        N=_step(i.N, entry == 0),
+        k=_step(i.k, entry == 1),
+        c=_step(i.c, entry == 2),
+        m=_step(i.m, entry == 3),
+        k_p=_step(i.k_p, entry == 4),
+        c_p=_step(i.c_p, entry == 5),
+        Omega=_step(i.Omega, entry == 6),
+        compliance=_step(i.compliance, entry == 7),
+        psi=_step(i.psi, entry == PSI_ENTRY),
+        f=_step(i.f, entry == F_ENTRY),
+        w=_step(i.w, entry == W_ENTRY),
+        w_velocity=_step(i.w_velocity, entry == W_VELOCITY_ENTRY),
+        dw_dtheta=_step(i.dw_dtheta, entry == DW_DTHETA_ENTRY),
+        free=_step(i.free, entry == FREE_ENTRY),
+        u=_step(i.u, entry == U_ENTRY),
+        u_velocity=_step(i.u_velocity, entry == U_VELOCITY_ENTRY),
+    )

@@ -5,7 +5,7 @@ import base64
 import io
 import json
 import zlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from importlib.resources import files
 from itertools import groupby
 from operator import attrgetter
@@ -21,25 +21,17 @@ from numpy.typing import NDArray
 from PIL import Image, ImageOps
 
 from disc_model.data.variables import attributes
-from disc_model.figures.drawing import (
-    BLACK,
-    BLUE,
-    BROWN,
-    GREEN,
-    GREY,
-    ORANGE,
-    PHASE_COLOURS,
-    PURPLE,
-    SKY,
-    VERMILION,
-)
+from disc_model.figures.classes import Look, looks_of
+from disc_model.figures.drawing import PHASE_COLOURS
+from disc_model.figures.words import plain_name
 from disc_model.parameters import RATIOS, Parameters
 
 # ---- Contents of studies: numbers packed, words as they are
 
 TRACES = ("P", "u", "psi")
 LEVELS = 65535  # steps between the least and the greatest value of a stored history
-BITS = 17  # number of bits kept of the 23 of a 32-bit mantissa: five digits, as many as are shown
+MANTISSA = 23  # bits of the mantissa of a 32-bit float,
+BITS = 17  # and those that are kept: five digits, as many as are shown
 
 
 def study_contents(
@@ -52,27 +44,30 @@ def study_contents(
     study = _in_words(study.transpose(*study.sizes), endless)
     motions = None if motions is None else _in_words(motions, endless)
     base = json.loads(study.attrs.get("base", "{}"))
-    messages = None
-    if "message" in study:  # as indices into the distinct ones; most points share theirs
-        words, indices = np.unique(study["message"].values.astype(str), return_inverse=True)
-        messages = {
-            "dims": [*study["message"].dims],
-            "words": words.tolist(),
-            "data": packed(indices, "<u4"),
-        }
+    drawn = [x for x in study.data_vars.values() if x.ndim and x.dtype.kind in "biuf"]
     return {
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,
-        "fixed": [
-            _named(name, attributes(name)) | {"value": value} for name, value in base.items()
-        ],
+        "fixed": [_fixed(parameter, value) for parameter, value in base.items()],
         "dims": [_dimension(study, str(dim)) for dim in study.sizes],
-        "variables": [
-            _variable(x) for x in study.data_vars.values() if x.ndim and x.dtype.kind in "biuf"
-        ],
-        "messages": messages,
+        "variables": [_variable(variable) for variable in drawn],
+        "messages": _messages(study),
         "motions": None if motions is None else motion_contents(motions, text),
     }
+
+
+def _fixed(name: str, value: Any) -> dict[str, Any]:
+    """A parameter that a study does not vary."""
+    return {**_named(name, attributes(name)), "value": value}
+
+
+def _messages(study: xr.Dataset) -> dict[str, Any] | None:
+    """Messages of a study's points, as indices into the distinct ones; most points share theirs."""
+    if "message" not in study:
+        return None
+    messages = study["message"]
+    words, indices = np.unique(messages.values.astype(str), return_inverse=True)
+    return {"dims": [*messages.dims], "words": words.tolist(), "data": packed(indices, "<u4")}
 
 
 def _in_words(dataset: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
@@ -90,21 +85,28 @@ def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:
     left out."""
     good = motions.isel(point=np.flatnonzero(motions["status"].values == 0))
     names = [str(name) for name in good.coords if good[name].dims == ("point",)]
-    points = zip(*(good[name].values.tolist() for name in names), strict=True)
-    lengths, phases = good["length"].values.tolist(), good["phase"].values
     return {
         "text": text,
         "names": names,
         "samples": good.sizes["sample"],
         "phases": good["phase"].attrs["flag_meanings"].split(),
-        "traces": [
-            {"name": name, "unit": good[name].attrs["units"], **traces(good[name].values)}
-            for name in TRACES
-        ],
-        "points": [
-            {"at": list(coordinates), "length": length, "phase": runs(phase)}
-            for coordinates, length, phase in zip(points, lengths, phases, strict=True)
-        ],
+        "traces": [_trace(good[name]) for name in TRACES],
+        "points": [_motion(good.isel(point=i), names) for i in range(good.sizes["point"])],
+    }
+
+
+def _trace(histories: xr.DataArray) -> dict[str, Any]:
+    """The histories of one variable."""
+    name = str(histories.name)
+    return {"name": name, "unit": histories.attrs["units"], **traces(histories.values)}
+
+
+def _motion(motion: xr.Dataset, names: Sequence[str]) -> dict[str, Any]:
+    """Where a motion lies, its length in s, and its phases."""
+    return {
+        "at": [motion[name].item() for name in names],
+        "length": motion["length"].item(),
+        "phase": runs(motion["phase"].values),
     }
 
 
@@ -112,8 +114,11 @@ def traces(values: NDArray[np.floating[Any]]) -> dict[str, Any]:
     """Packed histories, shape (points, samples); ``least + step * n`` errs by half a step, 8e-6 of
     each range."""
     least = values.min(axis=1, keepdims=True, initial=np.inf).astype(float)
-    step = (values.max(axis=1, keepdims=True, initial=-np.inf).astype(float) - least) / LEVELS
-    numbers = np.rint(np.divide(values - least, step, out=np.zeros(values.shape), where=step > 0))
+    greatest = values.max(axis=1, keepdims=True, initial=-np.inf).astype(float)
+    step = (greatest - least) / LEVELS
+    steps = np.zeros(values.shape)
+    np.divide(values - least, step, out=steps, where=step > 0)
+    numbers = np.rint(steps)
     return {
         "least": least.ravel().tolist(),
         "step": step.ravel().tolist(),
@@ -139,15 +144,18 @@ def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
     """Numbers rounded to `BITS` bits of their mantissa; the other bits are zero, which compresses
     well."""
     whole = np.array(values, dtype=np.float32)
-    bits, shift = whole.view(np.uint32), np.uint32(23 - BITS)
-    rounded = (bits + np.uint32(1 << (shift - 1))) >> shift << shift
+    bits = whole.view(np.uint32)
+    shift = np.uint32(MANTISSA - BITS)
+    half = np.uint32(1 << (shift - 1))
+    rounded = (bits + half) >> shift << shift
     return np.where(np.isfinite(whole), rounded.view(np.float32), whole)
 
 
 def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:
-    """Name, label and unit of a parameter or variable."""
+    """Names of a parameter or variable, that of the axes of figures among them, and its unit."""
     return {
         "name": name,
+        "label": plain_name(xr.DataArray(0.0, name=name, attrs=attrs)),
         "title": str(attrs.get("long_name", name)),
         "unit": str(attrs.get("units", "")),
     }
@@ -158,26 +166,54 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
     text."""
     if dim in study.coords:
         values = study[dim].values.tolist()
-        return _named(dim, study[dim].attrs) | {"values": values, "parts": {dim: values}}
-    along = {str(name): x.values.tolist() for name, x in study.coords.items() if x.dims == (dim,)}
-    columns = along or {dim: list(range(study.sizes[dim]))}
-    texts = [
-        [f"{name} = {x if isinstance(x, str) else f'{x:g}'}" for x in column]
-        for name, column in columns.items()
-    ]
-    words = [", ".join(row) for row in zip(*texts, strict=True)]
-    return {"name": dim, "title": ", ".join(columns), "unit": "", "values": words, "parts": columns}
+        return {**_named(dim, study[dim].attrs), "values": values, "parts": {dim: values}}
+    columns = {
+        str(name): values.values.tolist()
+        for name, values in study.coords.items()
+        if values.dims == (dim,)
+    }
+    if not columns:
+        columns = {dim: list(range(study.sizes[dim]))}
+    rows = zip(*columns.values(), strict=True)
+    words = [_place(columns, row) for row in rows]
+    title = ", ".join(columns)
+    return {
+        "name": dim,
+        "label": title,
+        "title": title,
+        "unit": "",
+        "values": words,
+        "parts": columns,
+    }
+
+
+def _place(names: Iterable[str], values: Sequence[Any]) -> str:
+    """A value along each dimension of a zip, in words."""
+    texts = []
+    for name, value in zip(names, values, strict=True):
+        text = value if isinstance(value, str) else f"{value:g}"
+        texts.append(f"{name} = {text}")
+    return ", ".join(texts)
 
 
 def _variable(variable: xr.DataArray) -> dict[str, Any]:
-    """Numbers as 32-bit floats of `BITS`; flags as bytes with words."""
-    attrs, values = variable.attrs, variable.values
-    described = _named(str(variable.name), attrs) | {"dims": list(variable.dims)}
-    if "flag_meanings" in attrs:
-        words = str(attrs["flag_meanings"]).split()
-        codes = np.atleast_1d(attrs.get("flag_values", range(len(words))))
-        return described | {"flags": words, "data": packed(np.searchsorted(codes, values), "u1")}
-    return described | {"data": packed(shortened(values), "<f4")}
+    """Numbers as 32-bit floats of `BITS`; flags as bytes with words and their looks, those of the
+    figures."""
+    described = _named(str(variable.name), variable.attrs)
+    described["dims"] = list(variable.dims)
+    meanings = variable.attrs.get("flag_meanings")
+    if meanings is None:
+        return {**described, "data": packed(shortened(variable.values), "<f4")}
+    words = str(meanings).split()
+    codes = np.atleast_1d(variable.attrs.get("flag_values", range(len(words))))
+    looks = [_look(look) for look in looks_of(words).values()]
+    data = packed(np.searchsorted(codes, variable.values), "u1")
+    return {**described, "flags": words, "looks": looks, "data": data}
+
+
+def _look(look: Look) -> dict[str, str]:
+    """The look of a class: its name, colour and pattern, and the colour of the pattern."""
+    return {**look._asdict(), "ink": look.ink}
 
 
 # ---- The page
@@ -194,25 +230,6 @@ SCRIPTS = (
     "motion",
     "start",
 )  # in the order of their dependence
-PALETTE = (
-    BLUE,
-    ORANGE,
-    SKY,
-    GREEN,
-    PURPLE,
-    BROWN,
-    GREY,
-    VERMILION,
-)  # of flags whose words have no colour of their own
-WORDS = {
-    "ok": SKY,
-    "quiet": BLUE,
-    "stable": BLUE,
-    "growing": ORANGE,
-    "unstable": ORANGE,
-    "failed": BLACK,
-}
-WORDS = PHASE_COLOURS | WORDS
 
 
 class Picture(NamedTuple):
@@ -231,8 +248,7 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
             kind: [to_hex(colour) for colour in colours(range(256))]
             for kind, colours in maps.items()
         },
-        "palette": PALETTE,
-        "words": WORDS,
+        "phases": PHASE_COLOURS,
         "parameters": [*Parameters.model_fields, *RATIOS],
     }
     texts = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)

@@ -1,75 +1,58 @@
-"""Common style and parts of several figures: labels, envelopes of long histories, points of
-grids."""
+"""Style of all figures and what several of them draw: colours, sizes, panels, labels and marks.
 
-from __future__ import annotations
+Widths of lines, sizes of text and of marks follow the settings of matplotlib in force: those of the
+common style, or of a reader who brings own axes.
+"""
 
 import json
 import logging
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
-from contextvars import ContextVar
 from itertools import chain, repeat
 from pathlib import Path
-from pkgutil import resolve_name
-from textwrap import fill
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import Any, Literal
 
+import matplotlib as mpl
+import matplotlib.figure
+import matplotlib.style
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
-from disc_model.data import dataset, variables
-from disc_model.data.variables import (
-    EXCLUDED,
-    SHOWN,
-    WITHOUT_CYCLE,
-    axis_of,
-    flag_names,
-    stated_in,
-    typeset,
-)
+from disc_model.data.variables import SHOWN, axis_of, typeset
+from disc_model.figures.sizes import PAGE
+from disc_model.figures.words import UNITS, measured
 
-if TYPE_CHECKING:
-    from matplotlib.artist import Artist
-    from matplotlib.axes import Axes
-    from matplotlib.colors import Normalize
-    from matplotlib.figure import Figure, FigureBase
-else:  # names for annotations
-    Artist = Axes = Figure = FigureBase = Normalize = Any
+# the reports of fontTools on fonts would fill the logs of figures
+logging.getLogger("fontTools").setLevel(logging.WARNING)
 
+STYLE = Path(__file__).with_name("drawing.mplstyle")
 
-class _Deferred(NamedTuple):
-    """A library that is imported where something is drawn, see `disc_model.figures.kind`."""
+# ---- Colours, of Okabe and Ito: one per quantity in the whole set
 
-    library: str
+BLACK = "#000000"
+GREY = "#8a8a8a"
+BLUE = "#0072B2"
+SKY = "#56B4E9"
+VERMILION = "#D55E00"
+ORANGE = "#E69F00"
+BROWN = "#7A4B12"
+GREEN = "#009E73"
+PURPLE = "#CC79A7"
 
-    def __getattr__(self, name: str) -> Any:
-        return resolve_name(f"{self.library}.{name}")
-
-
-mpl, cm = _Deferred("matplotlib"), _Deferred("cmcrameri.cm")
-
-logging.getLogger("fontTools").setLevel(
-    logging.WARNING
-)  # its reports on fonts would fill the logs of figures
-
-COLUMN = 84 / 25.4  # width of one column, inch
-PAGE = 174 / 25.4  # width of both columns, inch
-
-BLUE, SKY = "#0072B2", "#56B4E9"
-VERMILION, ORANGE, BROWN = "#D55E00", "#E69F00", "#7A4B12"
-GREEN, PURPLE = "#009E73", "#CC79A7"
-BLACK, GREY = "#000000", "#8a8a8a"
-
-# One colour per quantity in the whole set; loss of contact is always vermilion.
-DISC, SLIDER, FORCE = BLUE, ORANGE, "#4d4d4d"
-STICK, SLIP, SEPARATED = GREEN, PURPLE, VERMILION
-PHASE_COLOURS = {"stick": STICK, "slip": SLIP, "separation": SEPARATED}
+DISC = BLUE
+SLIDER = ORANGE
+FORCE = "#4d4d4d"
+SEPARATED = VERMILION  # loss of contact, always
+PHASE_COLOURS = {"stick": GREEN, "slip": PURPLE, "separation": SEPARATED}
 PAPER = "#F0E442"  # the paper's results, always with a black edge: no other mark and no map has it
 
-BORDERS: dict[
-    str, dict[str, Any]
-] = {  # lines of all stability charts; corners of cells stay visible in short dashes
+BORDERS: dict[str, dict[str, Any]] = {
     "neutral": {
         "color": BLACK,
         "linewidth": 1.0,
@@ -79,234 +62,170 @@ BORDERS: dict[
     "fold": {
         "color": BLACK,
         "linewidth": 1.0,
-        "linestyle": (0, (1.2, 0.8)),
+        "linestyle": (0, (1.2, 0.8)),  # corners of cells stay visible in short dashes
         "label": "stable cycle ends (fold)",
     },
 }
+"""Lines of all stability charts, for a line width of 1 point."""
+DECADES = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()
+"""Ticks of a logarithmic axis."""
+
+# ---- Sizes that follow the settings in force
+
+STYLE_TEXT = 8.0  # points, font.size of the common style
+USUAL_MARK = 6.0  # points, lines.markersize of matplotlib, which the style keeps
+
+
+def wide(points: float) -> float:
+    """Width of a line that has so many points where lines.linewidth is 1."""
+    return float(points * mpl.rcParams["lines.linewidth"])
+
+
+def large(points: float) -> float:
+    """Size of text that has so many points where font.size is that of the style."""
+    return float(points * mpl.rcParams["font.size"] / STYLE_TEXT)
+
+
+def mark(points: float) -> float:
+    """Size of a mark that has so many points where lines.markersize is as usual."""
+    return float(points * mpl.rcParams["lines.markersize"] / USUAL_MARK)
+
+
+# ---- Figures
 
 
 def styled() -> AbstractContextManager[None]:
     """The common style instead of the user's settings, as a context."""
-    return mpl.style.context(Path(__file__).with_name("drawing.mplstyle"), after_reset=True)
+    return mpl.style.context(STYLE, after_reset=True)
+
+
+def readers_style() -> AbstractContextManager[None]:
+    """The common style where the reader's settings are those of matplotlib, as a context: what the
+    reader has set stays."""
+    style = mpl.rc_params_from_file(STYLE, use_default_template=False)
+    free = {
+        name: value
+        for name, value in style.items()
+        if mpl.rcParams[name] == mpl.rcParamsDefault[name]
+    }
+    return mpl.rc_context(free)
 
 
 def new_figure(width: float, height: float) -> Figure:
     """An empty figure of a size in inches, outside pyplot's state."""
-    return mpl.figure.Figure(figsize=(width, height), layout="constrained")
+    return Figure(figsize=(width, height), layout="constrained")
 
 
-def panels(
-    width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any
-) -> tuple[Figure, list[Axes]]:
+Panels = tuple[Figure, list[Axes]]
+
+
+def panels(width: float, height: float, rows: int = 1, columns: int = 1, **shared: Any) -> Panels:
     """A figure of a size in inches with panels, row by row; `shared` as `Figure.subplots` has
     it."""
     figure = new_figure(width, height)
     return figure, list(figure.subplots(rows, columns, squeeze=False, **shared).flat)
 
 
+def row_of_panels(width: float, count: int, height: float, stacked: float, **shared: Any) -> Panels:
+    """A figure with panels beside each other on a page, or below each other in one column.
+
+    width : of the figure, inch
+    count : number of panels
+    height : of a row of panels, inch
+    stacked : of each of several panels below each other, inch
+    shared : as `Figure.subplots` has it
+    """
+    if width == PAGE or count == 1:
+        return panels(width, height, 1, count, **shared)
+    return panels(width, stacked * count, count, 1, **shared)
+
+
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
     """Write a figure with its title; equal figures give equal bytes. Further files have the layout
     of the first."""
-    metadata: dict[str, Any] = (
-        {"CreationDate": None} if Path(path).suffix == ".pdf" else {"Software": None}
-    )
-    metadata |= {"Title": title} if title else {}
+    stamps = {".pdf": "CreationDate"}
+    metadata: dict[str, Any] = {stamps.get(Path(path).suffix, "Software"): None}
+    if title:
+        metadata["Title"] = title
     with styled():
         figure.savefig(path, metadata=metadata)
         figure.set_layout_engine(None)  # not "none", with which all is drawn twice
 
 
-def history(case: xr.DataTree, window: str = "history", until: float | None = None) -> xr.Dataset:
-    """Ranges in a window, up to a time in s; two bins define the bin width."""
-    ranges = dataset.samples(case, window, envelope=True)
-    shown = ranges.sel(time=slice(until))
-    return shown if shown.sizes["time"] > 1 else ranges
+def restate_axes(figure: Figure) -> None:
+    """Give axes in the units of the reader: their labels and ticks; what is drawn stays."""
+    for ax in figure.axes:
+        for axis in (ax.xaxis, ax.yaxis):
+            for name, (unit, factor) in UNITS.get().items():
+                shown = SHOWN[name]
+                text = axis.get_label_text()
+                known = typeset(f"{shown.name} {shown.symbol}".strip())
+                if text.startswith(known) and text.endswith(f"({shown.unit})"):
+                    axis.set_label_text(text.removesuffix(f"({shown.unit})") + f"({unit})")
+                    _set_ticks(axis, factor / shown.factor)
 
 
-MODES = {
-    "as_published": "modes as published",
-    "orthonormal": "orthonormal modes",
-    "given": "modes of a table",
-}
-WORDS = {
-    **MODES,
-    "vertical": "vertical contact force",
-    "normal": "normal contact force",
-}  # those of the paper first
-MODELS = {
-    "normal": WORDS["normal"],
-    "residual": "residual flexibility",
-    "surface": "friction on the surface",
-}
-MODELS |= dict.fromkeys(
-    ("bilateral", "bonded"), "bilateral contact"
-)  # the second in files of results
+def _set_ticks(axis: Any, ratio: float) -> None:
+    """Set ticks at round numbers of another unit, `ratio` of which are one of the axis's."""
+    ticks = np.asarray(DECADES)
+    if axis.get_scale() == "linear":
+        low, high = ratio * np.asarray(axis.get_view_interval())
+        ticks = np.asarray(MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high))
+    axis.set_major_locator(FixedLocator((ticks / ratio).tolist()))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value * ratio:.6g}"))
+
+
+# ---- Samples of a legend, and outlines
 
 
 def sample(**look: Any) -> Artist:
     """A line or mark for a legend."""
-    return mpl.lines.Line2D([], [], **look)
+    return Line2D([], [], **look)
 
 
 def halo(width: float = 1.5, colour: str = "white") -> list[Any]:
     """An outline of text, lines or marks; width in points, that of what it surrounds included."""
-    return [mpl.patheffects.withStroke(linewidth=width, foreground=colour)]
+    return [withStroke(linewidth=width, foreground=colour)]
 
 
-DECADES = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()  # ticks of a logarithmic axis
-UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
-"""Units of the reader and the factors from SI to them, by parameter or sampled variable, while a figure is drawn."""
+def border(kind: str) -> dict[str, Any]:
+    """Look of the line of a stability chart, of "neutral" or "fold"."""
+    look = dict(BORDERS[kind])
+    look["linewidth"] = wide(look["linewidth"])
+    return look
 
 
-def restate_axes(figure: Figure) -> None:
-    """Give axes in the units of the reader: their labels and ticks; what is drawn stays."""
-    for axis in [axis for ax in figure.axes for axis in (ax.xaxis, ax.yaxis)]:
-        text = axis.get_label_text()
-        for name, (unit, factor) in UNITS.get().items():
-            shown = SHOWN[name]
-            if text.startswith(typeset(f"{shown.name} {shown.symbol}".strip())) and text.endswith(
-                f"({shown.unit})"
-            ):
-                ratio, ends = factor / shown.factor, axis.get_view_interval()
-                linear = mpl.ticker.MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(
-                    *np.multiply(ratio, ends)
-                )
-                ticks = linear if axis.get_scale() == "linear" else DECADES
-                axis.set_label_text(text.removesuffix(f"({shown.unit})") + f"({unit})")
-                axis.set_major_locator(mpl.ticker.FixedLocator(np.divide(ticks, ratio)))
-                axis.set_major_formatter(
-                    mpl.ticker.FuncFormatter(lambda value, _, ratio=ratio: f"{value * ratio:.6g}")
-                )
+# ---- Sampled variables of a case
 
-
-def label_of(variable: xr.DataArray) -> tuple[str, float]:
-    """Axis label of any variable or coordinate, and the factor from SI to its unit."""
-    words = str(variable.attrs.get("long_name", variable.name)).partition(", nan ")[0]
-    for name in (
-        str(variable.name),
-        words,
-    ):  # a scanned parameter is the long name of its dimension
-        if name in SHOWN:
-            return axis_of(name)
-    words = words.replace(
-        "disturbances of ", ""
-    )  # of growth rates, which have one name in all figures
-    unit = str(variable.attrs.get("units", "1")).replace("s-1", "/s").replace(" /", "/")
-    phrase = fill(words[0].upper() + words[1:], 48)
-    return (
-        f"{phrase} ({'1' + unit if unit.startswith('/') else unit})"
-        if unit not in ("", "1")
-        else phrase
-    ), 1.0
-
-
-def along(coordinate: xr.DataArray) -> tuple[str, np.ndarray]:
-    """Axis label of a coordinate, and its values in the label's unit."""
-    label, factor = label_of(coordinate)
-    return label, coordinate.values * factor
-
-
-def as_numbers(variable: xr.DataArray) -> tuple[list[str], xr.DataArray]:
-    """Words of a flag's values, none for other variables; and the variable with numbers for words,
-    their places."""
-    words = [word for word in variable.attrs.get("flag_meanings", "").split() if word != EXCLUDED]
-    if variable.dtype.kind in "UO":
-        distinct, places = np.unique(variable.values, return_inverse=True)
-        words, variable = (
-            distinct.tolist(),
-            variable.copy(data=places.reshape(variable.shape).astype(float)),
-        )
-    return [WITHOUT_CYCLE.get(word, word.replace("_", " ")) for word in words], variable
-
-
-def picked(study: xr.Dataset, values: Mapping[str, float | str]) -> xr.Dataset:
-    """A grid study at values of some dimensions; dimensions of one value are dropped."""
-    for dim, value in values.items():
-        study = study.sel({dim: value}, method=None if isinstance(value, str) else "nearest")
-    return study.squeeze()
-
-
-def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
-    """Points where a variable has no value, by the word of their status; without those that a rule
-    excludes."""
-    words, gone = statuses(study), variable.isnull()
-    names = {str(word): WITHOUT_CYCLE.get(str(word), "failed") for word in np.unique(words)} | {
-        "ok": "no value"
-    }
-    names.pop(EXCLUDED, None)
-    each = {
-        name: gone & words.isin([word for word in names if names[word] == name])
-        for name in names.values()
-    }
-    return {name: mask for name, mask in each.items() if mask.any()}
-
-
-def what_case(values: Mapping[str, Any]) -> str:
-    """Values of parameters for titles: N, Omega, and those that differ from Table 1."""
-    words = [
-        MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS
-    ]
-    if values.get("normalization") == "orthonormal":
-        words.append(MODES["orthonormal"])
-    numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
-    return ", ".join(filter(None, [variables.values_text(numbers, UNITS.get()), *words]))
-
-
-def slices(variable: Any, by: str | None) -> list[tuple[str, Any]]:
-    """Label and values of each slice along a dimension; words as in `WORDS`, or by the number they
-    begin with."""
-    if by is None:
-        return [("", variable)]
-    names = [str(name) for name, values in variable.coords.items() if values.dims == (by,)]
-    ranks = {word: i for i, word in enumerate(WORDS)}
-
-    def rank(value: Any) -> Any:
-        leading = re.findall(r"^\d+", str(value)) or ["inf"]
-        return (ranks.get(value, 0), float(leading[0])) if isinstance(value, str) else value
-
-    parts = [variable.isel({by: i}) for i in range(variable.sizes[by])]
-    parts.sort(key=lambda part: [rank(part[name].item()) for name in names])
-    return [(", ".join(coordinate_text(part, name) for name in names), part) for part in parts]
-
-
-def coordinate_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
-    """Label of a panel or a line."""
-    value = data[by].item()
-    if isinstance(value, str):
-        return WORDS.get(value, value)
-    label, factor = label_of(data[by])
-    name, _, unit = label.rpartition(" (")
-    unit, factor = UNITS.get().get(by, (unit.rstrip(")"), factor))
-    if by == "contact_compliance":
-        return f"compliance {value * factor:.3g} µm/N" if value else "rigid contact"
-    if by == "friction_offset":
-        return (
-            f"friction {value * factor:g} mm above the middle plane"
-            if value
-            else "friction in the middle plane"
-        )
-    return f"{name} = {value * factor:g} {unit}" if name else f"{label} = {value * factor:g}"
+NO_BREAK = "\N{NO-BREAK SPACE}"
 
 
 def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
     """Axis label of a sampled variable, with the angle of the disc's fixed point, factor to its
     unit, and colour."""
-    angles = sorted({float(window.attrs["theta"]) for window in windows if "theta" in window.attrs})
-    at = rf", $\theta$ = {' and '.join(f'{angle:g}' for angle in angles)} rad"
-    label, factor = axis_of(name, at if name.startswith("w_point") else "")
-    return (
-        label,
-        factor,
-        FORCE if name == "P" else DISC if name.partition("_")[0] == "w" else SLIDER,
-    )
+    where = ""
+    if name.startswith("w_point"):
+        angles = {float(window.attrs["theta"]) for window in windows if "theta" in window.attrs}
+        shown = " and ".join(f"{angle:g}" for angle in sorted(angles))
+        angle_text = rf"$\theta$ = {shown} rad".replace(" ", NO_BREAK)
+        where = f", {angle_text}"
+    label, factor = axis_of(name, where)
+    colour = SLIDER
+    if name == "P":
+        colour = FORCE
+    elif name.partition("_")[0] == "w":
+        colour = DISC
+    return label, factor, colour
 
 
 def envelope(ax: Axes, ranges: xr.Dataset, name: str, color: str = "", label: str = "") -> None:
     """Draw the range of a variable against time, as a band that stays visible where it is thin."""
-    time, (_, factor, usual_color) = ranges["time"].values, sampled(name)
+    time = ranges["time"].values
+    _, factor, usual_colour = sampled(name)
     low, high = (ranges[f"{name}_{end}"].values * factor for end in ("min", "max"))
-    ax.fill_between(time, low, high, color=color or usual_color, linewidth=0.5, label=label)
-    ax.set_xlim(0, round(time[-1] + (time[-1] - time[-2]) / 2, 2))
+    ax.fill_between(time, low, high, color=color or usual_colour, linewidth=0.5, label=label)
+    bin_width = time[-1] - time[-2]
+    ax.set_xlim(0, round(time[-1] + bin_width / 2, 2))
 
 
 def show(ax: Axes, case: xr.DataTree, window: xr.Dataset, name: str, *, named: bool = True) -> None:
@@ -316,10 +235,18 @@ def show(ax: Axes, case: xr.DataTree, window: xr.Dataset, name: str, *, named: b
     if f"{name}_min" in window:
         envelope(ax, window, name)
     else:
-        ax.plot(window["time"], window[name].values * factor, color=colour, linewidth=0.6)
+        values = window[name].values * factor
+        ax.plot(window["time"], values, color=colour, linewidth=wide(0.6))
         ax.set_xlim(*window["time"].values[[0, -1]])
-    ax.set(xlabel="Time (s)", ylabel=label)
+    ax.set_xlabel("Time (s)")
+    ax.set_ylabel(label)
     mark_first_separation(ax, case, named=named)
+
+
+# ---- Marks
+
+ABOVE = 1.04  # height of a bar above a panel, as a share of it,
+RIGHT = 1.02  # and place of one beside it
 
 
 def headroom(ax: Axes, share: float) -> None:
@@ -328,131 +255,134 @@ def headroom(ax: Axes, share: float) -> None:
     ax.set_ylim(top=high + share * (high - low))
 
 
-def broken(
-    x: np.ndarray, y: np.ndarray, jump: float, height: np.ndarray | None = None
-) -> list[np.ndarray]:
-    """A line with gaps where its height, y unless given, changes by more than `jump`."""
-    gaps = np.flatnonzero(np.abs(np.diff(y if height is None else height)) > jump) + 1
-    return [np.insert(along.astype(float), gaps, np.nan) for along in (x, y)]
-
-
-def edges(values: np.ndarray) -> np.ndarray:
-    """Edges of cells around ascending values: halfway between neighbours, and the first and last
-    value."""
-    return np.concatenate([values[:1], 0.5 * (values[1:] + values[:-1]), values[-1:]])
-
-
-def stretches(mask: np.ndarray) -> list[tuple[int, int]]:
-    """Runs of True: index of the first element, and the index after the last."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask, [0]])))
-    return [(first, after) for first, after in edges.reshape(-1, 2).tolist()]
-
-
-def spans(along: np.ndarray, mask: np.ndarray) -> list[tuple[float, float]]:
-    """Ranges of ascending values in which a mask holds, up to halfway to their neighbours."""
-    borders = edges(along).tolist()
-    return [(borders[first], borders[after]) for first, after in stretches(mask)]
-
-
 def mark_cases(axes: Sequence[Axes], places: Mapping[str, float], height: float = 0.0) -> None:
     """Mark the paper's cases by lines, named in the first panel: left of the first line, right of
     the next."""
-    for i, (case, x) in enumerate(places.items()):
+    side = -2
+    for case, x in places.items():
         for ax in axes:
-            ax.axvline(x, color=BLACK, linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
-        side = 2 * (-1) ** (i + 1)
-        say(axes[0], case, (x, height), (side, 2), xycoords=("data", "axes fraction"), fontsize=7)
+            ax.axvline(x, color=BLACK, linewidth=wide(0.6), linestyle=(0, (1, 2)), zorder=0)
+        place = ("data", "axes fraction")
+        say(axes[0], case, (x, height), (side, 2), xycoords=place, fontsize=large(7))
+        side = -side
 
 
 def show_thickness(ax: Axes, case: xr.DataTree, along: Literal["x", "y"]) -> None:
     """Draw a bar as long as the disc is thick, beside a panel whose axis is a displacement in mm,
     if it finds room."""
-    h = json.loads(case.attrs.get("parameters", "{}")).get("h")
-    low, high = ax.get_xlim() if along == "x" else ax.get_ylim()
-    share = 1e3 * h / (high - low) if h else 1.0
+    thickness = json.loads(case.attrs.get("parameters", "{}")).get("h")
+    if not thickness:
+        return
+    low, high = {"x": ax.get_xlim, "y": ax.get_ylim}[along]()
+    share = 1e3 * thickness / (high - low)
     if share > 0.8:
         return
-    points = ([1 - share, 1], [1.04, 1.04]) if along == "x" else ([1.02, 1.02], [0, share])
+    start: tuple[float, float] = (RIGHT, 0)
+    end: tuple[float, float] = (RIGHT, share)
+    offset = (3, 1)
+    rotation = 90
+    if along == "x":
+        start = (1 - share, ABOVE)
+        end = (1, ABOVE)
+        offset = (-3, 0)
+        rotation = 0
     ax.plot(
-        *points,
+        *zip(start, end, strict=True),
         color=BLACK,
         linewidth=2.5,
         solid_capstyle="butt",
         transform=ax.transAxes,
         clip_on=False,
     )
-    point, offset, turn = (
-        ((1 - share, 1.04), (-3, 0), 0) if along == "x" else ((1.02, 0), (3, 1), 90)
-    )
     say(
         ax,
-        f"thickness {1e3 * h:g} mm",
-        point,
+        f"thickness {1e3 * thickness:g} mm",
+        start,
         offset,
         xycoords="axes fraction",
-        fontsize=6,
-        rotation=turn,
+        fontsize=large(6),
+        rotation=rotation,
     )
 
 
 def mark_printed(ax: Axes, time: float) -> None:
     """Mark a time that the paper prints, at the lower edge of a panel that shows it, in room made
     for it."""
-    (low, high), (bottom, top) = ax.get_xlim(), ax.get_ylim()
-    if low <= time <= high:
-        ax.set_ylim(bottom - 0.13 * (top - bottom), top)
-        across, beside = ax.get_xaxis_transform(), ("data", "axes fraction")
-        ax.plot(
-            [time],
-            [0],
-            marker="^",
-            c=PAPER,
-            mec=BLACK,
-            ms=6,
-            zorder=6,
-            transform=across,
-            clip_on=False,
-        )
-        say(
-            ax,
-            f"paper: {time:g} s",
-            (time, 0),
-            (-6, 4),
-            xycoords=beside,
-            fontsize=6,
-            path_effects=halo(),
-        )
+    low, high = ax.get_xlim()
+    if not low <= time <= high:
+        return
+    bottom, top = ax.get_ylim()
+    ax.set_ylim(bottom - 0.13 * (top - bottom), top)
+    ax.plot(
+        [time],
+        [0],
+        transform=ax.get_xaxis_transform(),
+        clip_on=False,
+        marker="^",
+        c=PAPER,
+        mec=BLACK,
+        ms=6,
+        zorder=6,
+    )
+    say(
+        ax,
+        f"paper: {time:g} s",
+        (time, 0),
+        (-6, 4),
+        path_effects=halo(),
+        xycoords=("data", "axes fraction"),
+        fontsize=large(6),
+    )
 
 
 def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:
     """Mark the first separation by a line with its time above it; nothing if the time shown has
     none."""
-    time, (low, high) = float(case["first_separation"]), ax.get_xlim()
-    if low <= time <= high:
-        ax.axvline(time, **{"color": SEPARATED, "linewidth": 0.8, "linestyle": (0, (4, 2)), **look})
-        if named:
-            beside = ("data", "axes fraction")
-            say(
-                ax,
-                f"first separation {time:.2f} s",
-                (time, 1),
-                (0, 2),
-                xycoords=beside,
-                fontsize=7,
-                color=SEPARATED,
-            )
+    time = float(case["first_separation"])
+    low, high = ax.get_xlim()
+    if not low <= time <= high:
+        return
+    usual: dict[str, Any] = {"color": SEPARATED, "linewidth": wide(0.8), "linestyle": (0, (4, 2))}
+    usual.update(look)
+    ax.axvline(time, **usual)
+    if named:
+        say(
+            ax,
+            f"first separation {time:.2f} s",
+            (time, 1),
+            (0, 2),
+            color=SEPARATED,
+            xycoords=("data", "axes fraction"),
+            fontsize=large(7),
+        )
+
+
+def mark_failed(
+    ax: Axes, values: np.ndarray, on: Literal["x", "y"] = "x", name: str = "failed"
+) -> None:
+    """Mark failed points by crosses beside an axis; nothing if there are none."""
+    if not values.size:
+        return
+    look: dict[str, Any] = {"color": BLACK, "markersize": mark(3.5), "clip_on": False}
+    edge = np.full(values.shape, 0.02)
+    if on == "x":
+        ax.plot(values, edge, "x", transform=ax.get_xaxis_transform(), label=name, **look)
+    else:
+        ax.plot(edge, values, "x", transform=ax.get_yaxis_transform(), label=name, **look)
+
+
+# ---- Words
 
 
 def say(
     ax: Axes, text: str, point: tuple[float, float], offset: tuple[float, float], **look: Any
-) -> None:
-    """Write a few words beside a point, on the side to which an offset in points leads."""
+) -> Any:
+    """Write a few words beside a point, on the side to which an offset in points leads; returns the
+    text."""
     across, up = np.sign(offset)
-    ha, va = (
-        {-1: "right", 0: "center", 1: "left"}[across],
-        {-1: "top", 0: "center", 1: "bottom"}[up],
-    )
-    ax.annotate(text, point, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
+    ha = {-1: "right", 0: "center", 1: "left"}[across]
+    va = {-1: "top", 0: "center", 1: "bottom"}[up]
+    return ax.annotate(text, point, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
 
 
 def say_beside(ax: Axes, height: float, text: str, gap: float = 2, **look: Any) -> None:
@@ -468,68 +398,14 @@ def letter(ax: Axes, text: str, title: str = "", **look: Any) -> None:
 def letters(axes: Sequence[Axes] | np.ndarray, titles: Iterable[str] = (), **look: Any) -> None:
     """Write the letters of panels, and the subjects of the first ones; a single panel has no
     letter."""
-    for ax, text, title in zip(axes, "abcdefghijkl", chain(titles, repeat("")), strict=False):
-        ax.set_title(f"({text}) {title}".strip() if len(axes) > 1 else title, loc="left", **look)
+    subjects = chain(titles, repeat(""))
+    if len(axes) == 1:
+        axes[0].set_title(next(subjects), loc="left", **look)
+        return
+    for ax, text, title in zip(axes, "abcdefghijkl", subjects, strict=False):
+        letter(ax, text, title, **look)
 
 
-def legend_above(ax: Axes, **look: Any) -> Any:
-    """Draw a legend in one row above the right end of the axes, where it covers nothing."""
-    return ax.legend(
-        loc="lower right", bbox_to_anchor=(1, 1), **{"borderaxespad": 0.2, "ncols": 4, **look}
-    )
-
-
-def normalizations(study: xr.Dataset) -> list[str]:
-    """Normalizations for which a grid study has values."""
-    if "normalization" in study.coords:
-        return [str(name) for name in np.atleast_1d(study["normalization"].values)]
-    base = stated_in(study, "base")
-    return ["given" if base.get("disc") else base["normalization"]]
-
-
-def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
-    """Values of a grid study for one normalization."""
-    return study.sel(normalization=normalization) if "normalization" in study.dims else study
-
-
-def statuses(study: xr.Dataset) -> xr.DataArray:
-    """The status of each point of a grid study, as a word; "ok" without one."""
-    return (
-        study["status"].copy(data=flag_names(study["status"]))
-        if "status" in study
-        else xr.DataArray("ok")
-    )
-
-
-def failed(study: xr.Dataset) -> xr.DataArray:
-    """Points of a grid study that failed."""
-    return statuses(study) != "ok"
-
-
-def mark_failed(
-    ax: Axes, values: np.ndarray, on: Literal["x", "y"] = "x", name: str = "failed"
-) -> None:
-    """Mark failed points by crosses beside an axis, as in stability maps; nothing if there are
-    none."""
-    if values.size:
-        points, transform = [values, np.full(values.shape, 0.02)], ax.get_xaxis_transform()
-        if on == "y":
-            points, transform = points[::-1], ax.get_yaxis_transform()
-        ax.plot(
-            *points,
-            "x",
-            color=BLACK,
-            markersize=3.5,
-            transform=transform,
-            clip_on=False,
-            label=name,
-        )
-
-
-def head_text(width: float, title: str, values: str) -> str:
-    """A title and values of parameters, in lines that fit a width in inches; a value stays on the
-    line of its name."""
-    joined = ", ".join(value.replace(" ", "\u00a0") for value in typeset(values).split(", "))
-    return "\n".join(fill(text, round(width / 0.06)) for text in (title, joined) if text).replace(
-        "\u00a0", " "
-    )
+def set_label(ax: Axes, along: Literal["x", "y"], variable: xr.DataArray) -> None:
+    """Label an axis by the variable that is drawn along it."""
+    getattr(ax, f"set_{along}label")(measured(variable).label)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -38,6 +38,9 @@ class Pictures:
         *,
         variables: Sequence[str] = ("P", "w", "psi_velocity"),
         ax: Axes | Sequence[Axes] | None = None,
+        legend: bool | Mapping[str, Any] = True,
+        labels: Mapping[str, str] | None = None,
+        title: str | None = None,
     ) -> Axes | NDArray[Any]:
         """Draw variables against time: the range in the whole run, and its last cycles over stick
         and separation.
@@ -47,7 +50,12 @@ class Pictures:
         windows : names of recorded windows, to draw these instead, a column each
         variables : of P, u, w, w_point, psi, psi_velocity; a window without an envelope has u_velocity and
             w_point_velocity too
-        ax : axes to draw on, one for each variable and column
+        ax : axes to draw on, one for each variable and column; settings of matplotlib (rcParams)
+            hold there, and in a new figure those that are not the usual ones
+        legend : False for none, or options of `Axes.legend`, such as ``{"loc": "upper left"}``
+        labels : other words for labels of axes, by "x" and "y", and for entries of the legend, by
+            the usual ones
+        title : another title; "" for none
 
         Returns
         -------
@@ -69,9 +77,13 @@ class Pictures:
             names = (
                 [windows] if isinstance(windows, str) or not np.iterable(windows) else list(windows)
             )
-            return draw("plot_run", self._case(), names, variables, ax=ax)
-        names = ["run", "end"] if self._span > 1.5 * self._last_cycles else ["end"]
-        return draw("plot_run", self._case(*names), names, variables, ax=ax)
+            case = self._case()
+        else:
+            names = ["run", "end"] if self._span > 1.5 * self._last_cycles else ["end"]
+            case = self._case(*names)
+        return draw(
+            "plot_run", case, names, variables, ax=ax, legend=legend, labels=labels, title=title
+        )
 
     def plot_phase_portrait(
         self,
@@ -80,12 +92,15 @@ class Pictures:
         x: str = "psi",
         y: str = "psi_velocity",
         ax: Axes | None = None,
+        legend: bool | Mapping[str, Any] = True,
+        labels: Mapping[str, str] | None = None,
+        title: str | None = None,
     ) -> Axes:
         """Draw one variable over another, coloured by phase; of the last cycles if no window is
         named.
 
-        Returns the axes. Raises `ParameterError` as `plot`, and for a window that holds ranges
-        instead of samples.
+        `ax`, `legend`, `labels` and `title` are as in `plot`. Returns the axes. Raises
+        `ParameterError` as `plot`, and for a window that holds ranges instead of samples.
 
         Examples
         --------
@@ -93,7 +108,18 @@ class Pictures:
         >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot_phase_portrait().get_xlabel()
         'Angle ψ (rad)'
         """
-        return draw("plot_phase_portrait", *self._of(window, "end"), x, y, ax=ax)
+        case, name = self._of(window, "end")
+        return draw(
+            "plot_phase_portrait",
+            case,
+            name,
+            x,
+            y,
+            ax=ax,
+            legend=legend,
+            labels=labels,
+            title=title,
+        )
 
     def plot_spectrum(
         self,
@@ -102,14 +128,18 @@ class Pictures:
         variable: str = "w_point",
         highest: float | None = None,
         ax: Axes | None = None,
+        legend: bool | Mapping[str, Any] = True,
+        labels: Mapping[str, str] | None = None,
+        title: str | None = None,
     ) -> Axes:
-        """Draw the amplitude of a variable over the frequency, up to the highest in Hz, 1000 or
-        half the window's rate.
+        """Draw the amplitude of a variable over the frequency, up to `highest` in Hz, or to where
+        its lines fall below a hundredth of the strongest.
 
         Without a named window it is that of the last 8 s, or of the second half of a shorter run,
         with 16 samples in a period of the highest mode. What vibrates faster than half a window's
-        rate appears at wrong frequencies. Returns the axes. Raises `ParameterError` as
-        `plot_phase_portrait`, and if the window is too short or nothing vibrates in it.
+        rate appears at wrong frequencies. `ax`, `legend`, `labels` and `title` are as in `plot`.
+        Returns the axes. Raises `ParameterError` as `plot_phase_portrait`, and if the window is too
+        short or nothing vibrates in it.
 
         Examples
         --------
@@ -117,13 +147,32 @@ class Pictures:
         >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 10).plot_spectrum(highest=500).get_xlabel()
         'Frequency (Hz)'
         """
-        return draw("plot_spectrum", *self._of(window, "late"), variable, highest, ax=ax)
+        case, name = self._of(window, "late")
+        return draw(
+            "plot_spectrum",
+            case,
+            name,
+            variable,
+            highest,
+            ax=ax,
+            legend=legend,
+            labels=labels,
+            title=title,
+        )
 
-    def plot_poincare(self, *, ax: Sequence[Axes] | None = None) -> NDArray[Any]:
+    def plot_poincare(
+        self,
+        *,
+        ax: Sequence[Axes] | None = None,
+        legend: bool | Mapping[str, Any] = True,
+        labels: Mapping[str, str] | None = None,
+        title: str | None = None,
+    ) -> NDArray[Any]:
         """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes,
         which it returns.
 
-        Raises `ParameterError` unless `ax` is two axes.
+        `legend`, `labels` and `title` are as in `plot`. Raises `ParameterError` unless `ax` is two
+        axes.
 
         Examples
         --------
@@ -131,7 +180,8 @@ class Pictures:
         >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 10).plot_poincare().shape
         (2,)
         """
-        return draw("plot_poincare", self._case("poincare"), ax=ax)
+        case = self._case("poincare")
+        return draw("plot_poincare", case, ax=ax, legend=legend, labels=labels, title=title)
 
     def animate(
         self,
@@ -193,7 +243,9 @@ class Pictures:
     @property
     def _last_cycles(self: Any) -> float:
         """Length of the last cycles, s: from a release of stick on."""
-        kinds, end, lengths = self.events["kind"], float(self.final_state.time), [self._span]
+        kinds = self.events["kind"]
+        end = float(self.final_state.time)
+        lengths = [self._span]
         for kind, number in ("stick_to_slip", CYCLES), ("separation", 4 * CYCLES):
             times = self.events["time"][kinds == kind].to_numpy()
             length = end - float(times[-1 - number]) if len(times) > number else 0.1
@@ -205,8 +257,10 @@ class Pictures:
         simulated once more."""
         if not names:
             return self.to_tree()
-        end, span = float(self.final_state.time), self._span
-        rate, late = max(RATE, BINS / span), min(8.0, span / 2)
+        end = float(self.final_state.time)
+        span = self._span
+        rate = max(RATE, BINS / span)
+        late = min(8.0, span / 2)
         omega = import_module("disc_model.disc.plate").mode_arrays(self.parameters).omega
         highest = float(omega.max(initial=0.0)) / math.tau
         windows = {

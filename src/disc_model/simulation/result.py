@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike
 from disc_model import errors
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, values_text
 from disc_model.display import Summarised, counted, number_text
-from disc_model.engine import dense_output
-from disc_model.engine.event_loop import EVENT_ROW
+from disc_model.engine import record
+from disc_model.engine.record import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status, require, suggestion
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, line
@@ -37,7 +37,7 @@ _ERRORS: dict[Status, type[errors.SimulationError]] = {
     Status.NON_FINITE: errors.NonFinite,
 }
 STATUS_OF = {error: status for status, error in _ERRORS.items()}
-SAMPLE_ROW = dense_output.ROW[1:]
+SAMPLE_ROW = record.SAMPLE_ROW[1:]
 """Columns of a window."""
 FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 BIN_ROW = ("time", *(f"{name}_{end}" for name in FOLDED for end in ("min", "max")))
@@ -250,7 +250,8 @@ class Result(Summarised, Pictures):
             raise unreadable(path, error) from None
 
     def __repr__(self) -> str:
-        p, first = self.parameters, self.first_separation
+        p = self.parameters
+        first = self.first_separation
         lost = "no separation" if math.isnan(first) else f"first separation at {first:.6f} s"
         windows = counted(len(self.samples), "window")
         ended = f"{self.status.value} at {self.final_state.time:.9g} s"
@@ -259,7 +260,8 @@ class Result(Summarised, Pictures):
         return f"Result(N={p.N:g} N, Omega={p.Omega:g} rad/s{ramped}: {ended}, {lost}, {events} events, {windows})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
-        s, reached = self.statistics, float(self.final_state.time)
+        s = self.statistics
+        reached = float(self.final_state.time)
         yield "case", values_text(dict(self.parameters))
         yield "status", self.message or self.status.value
         yield "advice", "" if self.status.complete else self.status.advice

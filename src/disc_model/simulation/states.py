@@ -26,8 +26,10 @@ from disc_model.disc.plate import (
     tangential_amplitudes,
 )
 from disc_model.disc.plausibility import warn_of_doubts
-from disc_model.engine import layout
+from disc_model.engine import state as motion
+from disc_model.engine.model import Contact, DiscModes, Model, build_model, build_state
 from disc_model.engine.series import Series, build_series
+from disc_model.engine.state import SEPARATION, SLIP, STICK, EngineState
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import Count, Real, Strict, in_si, is_number, is_quantity
@@ -38,21 +40,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 MODAL = ("a", "b", "alpha", "beta")
 """Names of the variables of a state with one value a mode."""
-PLAIN = (
-    "time",
-    "time_low",
-    "psi",
-    "f",
-    "u",
-    "u_velocity",
-)  # names of its scalars, and their places in the engine's
-_PLACES = dict(
-    zip(
-        PLAIN,
-        (layout.TIME, layout.TIME_LOW, layout.PSI, layout.F, layout.U, layout.U_VELOCITY),
-        strict=True,
-    )
-)
+PLAIN = motion.SCALAR_NAMES
+"""Names of its scalars."""
 SAME_HEIGHT = (
     1e-9  # relative to the disc's deflection: far above rounding, far below any intended difference
 )
@@ -108,10 +97,7 @@ class State:
     drive_angle: float | None = None
     case_key: str = ""
     mode_amplitudes: Array | None = None
-    _roots: tuple[int, int] = (
-        0,
-        0,
-    )  # multiplicity at this instant, `layout.KNOWN` and `KNOWN_FORCE`
+    _roots: tuple[int, int] = (0, 0)  # multiplicity at this instant, `engine.state.known_roots`
 
     def replace(self, **changes: Any) -> State:
         """Return a copy with some values changed; raises `ParameterError` for names and numbers
@@ -266,9 +252,11 @@ def perturb(
     modes = mode_arrays(p)
     give = modes.psi / modes.omega**2
     speed = state.f + f
-    phase, direction = state.phase, state.direction
+    phase = state.phase
+    direction = state.direction
     if f and phase != "separation":
-        phase, direction = ("slip" if speed else "stick"), int(np.sign(speed))
+        phase = "slip" if speed else "stick"
+        direction = int(np.sign(speed))
     return state.replace(
         a=state.a + u * give / (modes.psi @ give),
         alpha=state.alpha + u_velocity * modes.psi / (modes.psi @ modes.psi),
@@ -284,11 +272,13 @@ def transfer_state(p: Parameters, state: State) -> State:
     """A state of another case at time 0 of case `p`, with the same modal coordinates and distance
     of slider and disc, which is zero in rigid contact. A state with another number of modes is
     passed on, and `simulate` refuses it."""
-    psi, amplitudes = mode_arrays(p).psi, state.mode_amplitudes
+    psi = mode_arrays(p).psi
+    amplitudes = state.mode_amplitudes
     if len(psi) != len(state.a):
         return state.replace(time=0.0)
     more = np.zeros_like(psi) if amplitudes is None else psi - amplitudes
-    u, slope = state.u + float(more @ state.a), float(more @ (mode_arrays(p).diameters * state.b))
+    u = state.u + float(more @ state.a)
+    slope = float(more @ (mode_arrays(p).diameters * state.b))
     if state.phase != "separation" and p.contact_compliance == 0:
         u = float(psi @ state.a)
     velocity = state.u_velocity + float(more @ state.alpha) + state.f * slope
@@ -377,7 +367,7 @@ def deflection(
 
 # Arrays to which the engine writes in one run: its state, the state at a trial time ahead, Taylor
 # series of one step
-Workspace = tuple[layout.EngineState, layout.EngineState, Series]
+Workspace = tuple[EngineState, EngineState, Series]
 
 
 @dataclass(frozen=True, eq=False)
@@ -385,13 +375,13 @@ class EngineCase:
     """Constants of a case for the engine, shared by all runs of the case."""
 
     key: str  # `State.case_key`
-    model: layout.Model
-    start: layout.EngineState  # the static start
+    model: Model
+    start: EngineState  # the static start
     amplitudes: np.ndarray  # `State.mode_amplitudes`
     present: (
         np.ndarray
     )  # indices in a, b, alpha, beta of all modes of what exists: no b, beta without nodal diameter
-    places: np.ndarray  # their indices in `layout.EngineState.disc`
+    places: np.ndarray  # their indices in `EngineState.disc`
     point: (
         np.ndarray
     )  # matrix from there to u, u' (without the slope's share) and slope B under the slider
@@ -405,28 +395,26 @@ def engine_case(p: Parameters) -> EngineCase:
     """The engine's constants of a case, cached for equal parameters."""
     warn_of_doubts(p)
     modes = mode_arrays(p)
-    model = layout.build_model(
-        modes.diameters,
-        modes.omega,
-        modes.psi,
-        modal_damping(p),
-        {
-            name: getattr(p, name)
-            for name in layout.Model._fields
-            if name in Parameters.model_fields
-        },
-        tangential=tangential_amplitudes(p),
-        bonded=p.contact == "bilateral",
-        compliance=contact_compliance(p),
-        normal=p.contact_force == "normal",
-        friction_decay=p.friction_decay,
+    model = build_model(
+        DiscModes(
+            diameters=modes.diameters,
+            omega=modes.omega,
+            psi=modes.psi,
+            damping=modal_damping(p),
+            tangential=tangential_amplitudes(p),
+        ),
+        {name: getattr(p, name) for name in Model._fields if name in Parameters.model_fields},
+        Contact(
+            bonded=p.contact == "bilateral",
+            compliance=contact_compliance(p),
+            normal=p.contact_force == "normal",
+            friction_decay=p.friction_decay,
+        ),
     )
-    pairs, single = np.flatnonzero(modes.diameters > 0), np.flatnonzero(modes.diameters == 0)
-    lane, width, n_modes = layout.pair_lanes(len(pairs)), len(model.shift), len(modes.diameters)
-    places = np.full((4, n_modes), -1)
-    places[:, pairs] = lane + np.array([[0], [layout.HALF], [width], [width + layout.HALF]])
-    places[0::2, single] = 2 * width + np.arange(len(single)) + np.array([[0], [len(single)]])
-    present, start = np.flatnonzero(places >= 0), layout.build_state(model)
+    pairs = np.flatnonzero(modes.diameters > 0)
+    places = motion.mode_places(modes.diameters)
+    present = np.flatnonzero(places >= 0)
+    start = build_state(model)
     point = np.zeros((3, len(start.disc)))
     point[0, places[0]] = point[1, places[2]] = modes.psi
     point[2, places[1, pairs]] = (modes.diameters * modes.psi)[pairs]
@@ -441,53 +429,47 @@ def take_workspace(case: EngineCase, order: int) -> Workspace:
     try:  # in one step: several threads may take one
         workspace = case.idle[order].pop()
     except IndexError:
-        return (
-            layout.build_state(case.model),
-            layout.build_state(case.model),
-            build_series(case.model, order),
-        )
+        return (build_state(case.model), build_state(case.model), build_series(case.model, order))
     for state in workspace[:2]:
-        state.disc[:], state.x[:] = case.start.disc, case.start.x
+        motion.copy_state(case.start, state)
     return workspace
 
 
-def read_state(case: EngineCase, state: layout.EngineState, key: str = "") -> State:
+def read_state(case: EngineCase, state: EngineState, key: str = "") -> State:
     """The engine's state as a `State`; key: the `case_key` if it differs from the case's own, as on
     ramps."""
     modal = np.zeros(4 * len(case.amplitudes))
     modal[case.present] = state.disc[case.places]
     modal.setflags(write=False)
-    x = state.x.tolist()
-    phase = int(x[layout.PHASE])
-    values: dict[str, Any] = {name: x[place] for name, place in _PLACES.items()}
-    if phase == layout.SLIP and values["f"] * x[layout.DIRECTION] < 0:
+    phase = motion.phase_of(state)
+    values: dict[str, Any] = motion.scalars_of(state)
+    if phase == SLIP and values["f"] * motion.direction_of(state) < 0:
         values["f"] = 0.0  # slip that has just begun or is about to end, and f is rounding
-    if phase != layout.SEPARATION and not case.model.compliant:
+    if phase != SEPARATION and not case.model.has_compliance:
         values["u"], velocity, slope = case.point.dot(state.disc).tolist()
         values["u_velocity"] = velocity + values["f"] * slope
     return State(
         phase=PHASES[phase],
-        direction=int(x[layout.DIRECTION]),
-        _roots=(int(x[layout.KNOWN]), int(x[layout.KNOWN_FORCE])),
+        direction=motion.direction_of(state),
+        _roots=motion.known_roots(state),
         case_key=key or case.key,
         mode_amplitudes=case.amplitudes,
         **values | dict(zip(MODAL, modal.reshape(4, -1), strict=True)),
     )
 
 
-def write_state(case: EngineCase, source: State, state: layout.EngineState, key: str = "") -> bool:
+def write_state(case: EngineCase, source: State, state: EngineState, key: str = "") -> bool:
     """Write ``source`` to the engine's state; key as in `read_state`. Returns whether the engine
     has to determine the phase at this instant first: the state lies at an event of another case.
     Raises `ParameterError`."""
     _check(source, case)
-    state.disc.fill(0.0)
-    state.x.fill(0.0)
+    motion.clear(state)
     state.disc[case.places] = np.concatenate((source.a, source.b, source.alpha, source.beta))[
         case.present
     ]
-    x, row = state.x, case.point[0]
+    row = case.point[0]
     if (
-        source.phase != "separation" and not case.model.compliant
+        source.phase != "separation" and not case.model.has_compliance
     ):  # the disc determines u, which would be ignored
         w = float(row.dot(state.disc))
         off = abs(source.u - w)
@@ -500,42 +482,47 @@ def write_state(case: EngineCase, source: State, state: layout.EngineState, key:
                 "change a with it, or the phase"
             )
             raise ParameterError(Fault.of(("initial_state", "u"), source.u, rule))
-    x[[*_PLACES.values()]] = [getattr(source, name) for name in _PLACES]
-    x[layout.PHASE] = PHASES.index(source.phase)
-    x[layout.DIRECTION] = source.direction if source.phase == "slip" else 0.0
-    if x[layout.F] * x[layout.DIRECTION] < 0:  # by rounding, as `_check` has found
-        x[layout.F] = 0.0
-    x[layout.KNOWN], x[layout.KNOWN_FORCE] = source._roots
+    direction = source.direction if source.phase == "slip" else 0
+    values = {name: getattr(source, name) for name in PLAIN}
+    if values["f"] * direction < 0:  # by rounding, as `_check` has found
+        values["f"] = 0.0
+    motion.put_scalars(state, values.values())
+    motion.put_phase(state, PHASES.index(source.phase), direction, source._roots)
     return (
         any(source._roots) and source.case_key != (key or case.key) and _forget_switch(case, state)
     )
 
 
-def _forget_switch(case: EngineCase, state: layout.EngineState) -> bool:
+def _forget_switch(case: EngineCase, state: EngineState) -> bool:
     """Adapt a state at an event of another case: an event function that vanishes there need not
     vanish here. Returns whether the engine must determine if contact lasts: a slider that rests on
     the disc is put into contact."""
-    x, sizes = state.x, np.abs(case.point).dot(np.abs(state.disc))
+    sizes = np.abs(case.point).dot(np.abs(state.disc))
     w, velocity, slope = case.point.dot(state.disc)
-    f, begins = x[layout.F], bool(x[layout.KNOWN_FORCE])
-    opening = x[layout.U_VELOCITY] - velocity - f * slope
-    touches = abs(x[layout.U] - w) <= SAME_HEIGHT * sizes[0]
+    scalars = motion.scalars_of(state)
+    phase = motion.phase_of(state)
+    direction = motion.direction_of(state)
+    f = scalars["f"]
+    begins = motion.known_roots(state)[1] > 0
+    opening = scalars["u_velocity"] - velocity - f * slope
+    touches = abs(scalars["u"] - w) <= SAME_HEIGHT * sizes[0]
     rests = abs(opening) <= SAME_HEIGHT * (sizes[1] + abs(f) * sizes[2])
-    x[layout.KNOWN] = x[layout.KNOWN_FORCE] = 0.0
-    if x[layout.PHASE] == layout.SEPARATION and touches and not rests:
-        x[layout.KNOWN] = 1.0 if opening > 0 else 0.0
-    elif case.model.compliant and touches and begins:
-        x[layout.KNOWN_FORCE] = 1.0
-        x[layout.KNOWN] = 1.0 if f == 0 and x[layout.PHASE] == layout.SLIP else 0.0
-    elif touches or x[layout.PHASE] == layout.SLIP:
-        x[layout.PHASE], x[layout.DIRECTION] = layout.SLIP if f else layout.STICK, np.sign(f)
+    if phase == SEPARATION and touches and not rests:
+        motion.put_phase(state, phase, direction, (1 if opening > 0 else 0, 0))
+    elif case.model.has_compliance and touches and begins:
+        motion.put_phase(state, phase, direction, (1 if f == 0 and phase == SLIP else 0, 1))
+    elif touches or phase == SLIP:
+        motion.put_phase(state, SLIP if f else STICK, int(np.sign(f)))
         return True
+    else:
+        motion.put_phase(state, phase, direction)
     return False
 
 
 def _check(state: State, case: EngineCase) -> None:
     """Raise `ParameterError` if a state cannot be the initial one of a case."""
-    n_modes, path = len(case.amplitudes), "initial_state."
+    n_modes = len(case.amplitudes)
+    path = "initial_state."
     rule = f"must be {n_modes} finite numbers, one per row of plate_modes"
     known = isinstance(state.phase, str) and state.phase in PHASES
     signed = is_number(state.direction) and (state.direction in (-1, 1) or state.phase != "slip")
@@ -577,7 +564,8 @@ def angle_rule(drive_angle: object, path: str) -> tuple[bool, str, object, str]:
 def amplitude_rule(state: State, amplitudes: Array, path: str) -> tuple[bool, str, object, str]:
     """The rule, for `require`, that a state's `mode_amplitudes` are those of a case, shape
     (n_modes,)."""
-    stated, same = state.mode_amplitudes, True
+    stated = state.mode_amplitudes
+    same = True
     if stated is not None and stated is not amplitudes:
         # modes from two processors differ by at most 1e-13 (measured)
         within = 1e-9 * np.max(np.abs(amplitudes), initial=0.0)

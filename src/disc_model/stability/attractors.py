@@ -120,14 +120,17 @@ def sweep(
         (1, i) for i in reversed(range(len(values)))
     ]:
         case = p.replace(**{name: values[step[1]]})
-        begin, stay, legs = 0.0 if state is None else state.time, dwell, list[Result]()
+        begin = 0.0 if state is None else state.time
+        stay = dwell
+        legs = list[Result]()
         while True:
             result = simulate(case, begin + stay, tol=tol, initial_state=state)
             legs.append(result)
             if not result.status.complete:
                 yield step, result, None, Arrival(Settling())
                 return
-            state, reached = result.final_state, arrival(case, legs)
+            state = result.final_state
+            reached = arrival(case, legs)
             if reached.settled or 2 * stay > longest:
                 break
             stay *= 2
@@ -145,7 +148,8 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
     run = simulate(
         p, state.time + thresholds.SETTLING * thresholds.FIRST_LEG, tol=tol, initial_state=state
     )
-    times, kinds = run.events["time"].to_numpy(dtype=float), run.events["kind"].to_numpy()
+    times = run.events["time"].to_numpy(dtype=float)
+    kinds = run.events["kind"].to_numpy()
     separates = bool((kinds == "separation").any())
     intervals = np.diff(times[kinds == ("separation" if separates else "stick_to_slip")])
     if not run.status.complete or len(intervals) < FEWEST:
@@ -162,7 +166,8 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
         "tol": tol,
     }
     largest = lyapunov_exponents(p, thresholds.SETTLING * thresholds.FIRST_LEG / 2, **how)
-    rate, error = float(largest.exponents[0]), float(largest.errors[0])
+    rate = float(largest.exponents[0])
+    error = float(largest.errors[0])
     if not (math.isfinite(rate) and math.isfinite(error)):
         return Motion(Outcome.UNDECIDED)
     if abs(rate) <= max(CLEAR * error, CONVERGED[1]):
@@ -199,8 +204,11 @@ class Basins:
 
     def follow(self, state: State) -> OutcomeResult:
         """Outcome of the motion from a state at time 0; a new attractor is added to `known`."""
-        legs, segments = list[Result](), list[Segment]()
-        first_separation, least_tested, steady = math.nan, math.inf, False
+        legs = list[Result]()
+        segments = list[Segment]()
+        first_separation = math.nan
+        least_tested = math.inf
+        steady = False
         while True:
             leg = self._leg(state, min(state.time + thresholds.FIRST_LEG, self.horizon))
             state = leg.final_state
@@ -213,7 +221,8 @@ class Basins:
                 )
             legs.append(leg)
             segments.append(segment_of(leg))
-            over, attractor = state.time >= self.horizon, None
+            over = state.time >= self.horizon
+            attractor = None
             if self.near:
                 # tested only nearer to the quiet cycle than ever before
                 x, distance = self._near_quiet_cycle(segments, state)
@@ -228,7 +237,8 @@ class Basins:
                         [segment.range for segment in segments[-thresholds.NEARING :]]
                     )
                 least_tested = min(distance, least_tested)
-            was_steady, steady = steady, self._is_steady(segments)
+            was_steady = steady
+            steady = self._is_steady(segments)
             if attractor is None and (over or (self.near and steady and not was_steady)):
                 attractor = self._settled_on(legs, segments[-1], steady, over)
             if attractor is not None or over:
@@ -257,7 +267,8 @@ class Basins:
     def _near_quiet_cycle(self, segments: Sequence[Segment], state: State) -> tuple[Array, float]:
         """A point of a motion on the section, and its distance from the quiet cycle; infinite
         unless it is near."""
-        last, near = segments[-1], self.cycle
+        last = segments[-1]
+        near = self.cycle
         if near is not None and last.separation_rate == 0 and last.range <= segments[0].range:
             release = self.map.next_release(state)
             if release.reached:
@@ -347,8 +358,12 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
     modes = mode_arrays(p)
     draw = np.random.default_rng(list(key)).standard_normal((4, len(modes.omega)))
     draw[2:, modes.diameters == 0] = 0.0
-    a, alpha, b, beta = draw[0] / modes.omega, draw[1], draw[2] / modes.omega, draw[3]
-    u, velocity = float(modes.psi @ a), float(modes.psi @ alpha)
+    a = draw[0] / modes.omega
+    alpha = draw[1]
+    b = draw[2] / modes.omega
+    beta = draw[3]
+    u = float(modes.psi @ a)
+    velocity = float(modes.psi @ alpha)
     energy_drawn = 0.5 * (float(np.sum(draw**2)) + p.k * u**2 + p.m * velocity**2)
     size = math.sqrt(energy / energy_drawn)
     velocity_of_u = velocity + state.f * float(np.sum(modes.diameters * modes.psi * b))
@@ -362,7 +377,8 @@ def _rest_of_drift(values: Sequence[float]) -> float:
     """Extrapolated rest of a drift of the values, by a geometric series; infinite if the changes do
     not decrease."""
     changes = np.diff(values[-4:])
-    before, last = abs(changes[-2]), abs(changes[-1])
+    before = abs(changes[-2])
+    last = abs(changes[-1])
     if not (np.all(changes > 0) or np.all(changes < 0)):
         return 0.0
     return float(last**2 / (before - last)) if last < before else math.inf

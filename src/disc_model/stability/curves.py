@@ -167,7 +167,8 @@ def neutral_curves(
     raise_faults(wrong + (free_faults(p, [*bounds]) if free else []))
     tol = float(tol)
     names = x, y = tuple(plane)
-    curves, notes = list[StabilityCurve](), list[str]()
+    curves = list[StabilityCurve]()
+    notes = list[str]()
     span = np.array([high - low for low, high in plane.values()])
     for line in map(float, lines):
         along = np.linspace(plane[x][0], plane[x][1], points).tolist()
@@ -510,7 +511,8 @@ def _shares_of_change(before: ComplexArray, after: ComplexArray) -> set[float]:
     weak = np.minimum(abs(before), abs(after)) > STRONGLY_DAMPED
     on_axis = [int(np.sum(weak & (values.imag == 0))) for values in (before, after)]
     upper = weak & (before.imag > 0)
-    angle, turn = np.angle(before[upper]), np.angle(after[upper] / before[upper])
+    angle = np.angle(before[upper])
+    turn = np.angle(after[upper] / before[upper])
     longest = float(np.abs(turn).max(initial=0))
     shares = {*_meetings(angle, turn), *_returns_from_axis(angle, angle + turn, longest)}
     if longest > LONGEST_TURN or on_axis[0] != on_axis[1]:

@@ -90,7 +90,8 @@ class FloquetResult(Summarised, Drawn):
     residual: float = math.nan
 
     def __repr__(self) -> str:
-        p, exists = self.parameters, self.status is CycleStatus.OK
+        p = self.parameters
+        exists = self.status is CycleStatus.OK
         summary = (
             f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s"
             if exists
@@ -233,7 +234,9 @@ def find_cycle(
 def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
     """The cycle that Newton's method finds from the first release after the static start, or else
     after some returns of that motion; without one, the status is the kind of that motion."""
-    p, tol, start = map_.parameters, map_.tol, map_.first_release
+    p = map_.parameters
+    tol = map_.tol
+    start = map_.first_release
     x = start.x if start.reached else map_.static
     solution = newton(map_, x)
     if solution is not None:
@@ -277,7 +280,8 @@ def _without_return(map_: ReturnMap, outcome: int, duration: float) -> FloquetRe
 def run_through_once(map_: ReturnMap, flight: Flight) -> Flight:
     """A cycle with its shortest period: one that is traversed several times is reduced to a single
     pass."""
-    times, x = flight.counts.releases, flight.start
+    times = flight.counts.releases
+    x = flight.start
     for releases in (n for n in range(1, times) if times % n == 0):
         once = newton(map_, x, releases=releases, may_separate=flight.counts.separations > 0)
         if once is not None and np.allclose(
@@ -358,7 +362,8 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, Sl
     MAC of the shapes; nan without a cycle, and for the slider's in-plane motion."""
     cycle = floquet(p, tol=tol)
     modes = sliding_modes(p, cycle.sliding)
-    columns, disc = np.full((3, len(modes.frequency)), math.nan), modes.diameters >= 0
+    columns = np.full((3, len(modes.frequency)), math.nan)
+    disc = modes.diameters >= 0
     if cycle.state is None or not len(modes.frequency):
         return cycle, modes, columns
     map_ = ReturnMap(p, tol)
@@ -378,7 +383,8 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, Sl
     rows, assigned = linear_sum_assignment(-mac)
     matched = np.full(len(mac), -1)
     matched[rows] = assigned
-    first, other = matched[: shapes.shape[1]], matched[shapes.shape[1] :]
+    first = matched[: shapes.shape[1]]
+    other = matched[shapes.shape[1] :]
     rate = 1 / cycle.period
     angle = np.angle(multipliers[first]) / (2 * math.pi)
     with np.errstate(divide="ignore"):

@@ -78,7 +78,8 @@ class NearCycle:
 
     def advance(self, x: Array, periods: int, *, coarse: bool = True) -> Flight:
         """The motion from a point of the section over some periods of the cycle."""
-        n, separates = periods * self.cycle.releases, self.cycle.separations > 0
+        n = periods * self.cycle.releases
+        separates = self.cycle.separations > 0
         return self.map.evaluate(
             x, releases=n, tangent=False, may_separate=separates, coarse=coarse
         )
@@ -93,7 +94,8 @@ class NearCycle:
             count = max(i, round(time / self.cycle.period))
             flight = self.advance(x, count - done, coarse=coarse)
             yield count - done, flight
-            x, done = flight.end, count
+            x = flight.end
+            done = count
 
     def follows_multipliers(self, x: Array) -> bool:
         """Whether the motion at a point of the section departs or approaches as the multipliers
@@ -103,7 +105,8 @@ class NearCycle:
     def stays_linear_until(self, horizon: float) -> bool:
         """Whether a motion that leaves an unstable cycle is still near it at the horizon (s), as
         the linear map predicts."""
-        periods, near = self.periods_left(horizon), thresholds.NEAR * self.map.deflection
+        periods = self.periods_left(horizon)
+        near = thresholds.NEAR * self.map.deflection
         # the leading part alone excludes most motions
         right = _left_vector(self.jacobian.T)
         part = float(abs(self.leading @ self.distance)) / float(abs(self.leading @ right))
@@ -126,11 +129,14 @@ class NearCycle:
     def _is_linear(self, distance: Array, times: tuple[float, float]) -> bool:
         """Whether the motion at that distance departs from the cycle, or approaches it, as its
         multipliers predict."""
-        cycle, deflection = self.cycle, self.map.deflection
+        cycle = self.cycle
+        deflection = self.map.deflection
         least = thresholds.ARRIVED * deflection if cycle.stable else 0.0
         # the errors of coarse flights would matter at a smaller distance
         coarse = bool(np.linalg.norm(distance) > thresholds.SAME_POINT * deflection)
-        expected, parts, periods = distance, list[float](), 0
+        expected = distance
+        parts = list[float]()
+        periods = 0
         for periods, flight in self.flights(self.x + distance, times, coarse):
             expected = np.linalg.matrix_power(self.jacobian, periods) @ expected
             error = float(np.linalg.norm(flight.end - self.x - expected))
@@ -147,12 +153,14 @@ class NearCycle:
         right = _left_vector(self.jacobian.T)
         right = right / (self.leading @ right)
         real = self.cycle.multipliers[0].imag == 0
-        part, count = self.leading @ distance, 0
+        part = self.leading @ distance
+        count = 0
         before = float(abs(part))
         for periods, flight in self.flights(self.x + distance, thresholds.TEST_TIMES[-1]):
             if not flight.returned:
                 return None
-            apart, count = flight.end - self.x, count + periods
+            apart = flight.end - self.x
+            count = count + periods
             part = self.leading @ apart
             plane = np.real(part * right) * (1 if real else 2)
             if not np.linalg.norm(apart - plane) <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(
@@ -230,13 +238,15 @@ def _relate(
     )
     if not release.reached:
         return near
-    x, waited = release.x, 0.0
+    x = release.x
+    waited = 0.0
     for wait in waits:
         if wait > waited:
             flight = near.advance(x, max(1, round((wait - waited) / cycle.period)), coarse=False)
             if not flight.returned:
                 break
-            x, waited = flight.end, waited + flight.period
+            x = flight.end
+            waited = waited + flight.period
         if near.follows_multipliers(x):
             time = release.time + waited
             return replace(near, follows_cycle=True, distance=x - fixed_point, time=time)
@@ -284,7 +294,9 @@ def approaches_sliding(p: Parameters, state: State) -> bool:
         return False
     from scipy.linalg import expm  # as in plate
 
-    leading, parts, before = _left_vector(jacobian, np.real), list[float](), 0.0
+    leading = _left_vector(jacobian, np.real)
+    parts = list[float]()
+    before = 0.0
     times = thresholds.TEST_TIMES[-1]
     for time in times:
         end = state.time + time
@@ -303,7 +315,8 @@ def approaches_sliding(p: Parameters, state: State) -> bool:
 
 def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:
     """Distance from steady sliding, in the rows of its Jacobian."""
-    modes, give = mode_arrays(p), contact_compliance(p)
+    modes = mode_arrays(p)
+    give = contact_compliance(p)
     disc = [getattr(state, name) - getattr(sliding, name) for name in ("a", "alpha", "b", "beta")]
     # the contact's force is that of the slider's spring: (w - u) / give = N + k (u - u_0)
     rest = (modes.psi @ sliding.a - give * (p.N - p.k * engine_case(p).model.u_0)) / (

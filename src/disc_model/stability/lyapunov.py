@@ -14,9 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.display import Drawn, counted, html_table, number_text
-from disc_model.engine import event_loop, layout, tangent, transitions
+from disc_model.engine import columns as column_arrays
+from disc_model.engine import transitions
+from disc_model.engine.columns import coordinate_rows, energy_scale
 from disc_model.engine.jit.cache import compiling
+from disc_model.engine.loop import FlightLimits
+from disc_model.engine.model import build_state
+from disc_model.engine.saltation import rates, slider_rows
 from disc_model.engine.series import build_series
+from disc_model.engine.state import SEPARATION, phase_of
 from disc_model.errors import Status, as_text, raise_faults, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import (
@@ -31,8 +37,6 @@ from disc_model.stability.return_map import (
     ENDS,
     Array,
     case_faults,
-    coordinate_rows,
-    energy_scale,
     integrate_in_pieces,
     longest_step,
 )
@@ -143,7 +147,7 @@ def lyapunov_exponents(
     """
     raise_faults(case_faults(p, "lyapunov_exponents"))
     leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
-    most = min(layout.WIDTH, len(coordinate_rows(engine_case(p).model))) - (
+    most = min(column_arrays.COLUMNS_AT_ONCE, len(coordinate_rows(engine_case(p).model))) - (
         leaves_out and bool(leave_out_trivial)
     )
     lasts = is_number(duration) and sys.float_info.min <= duration < math.inf
@@ -170,30 +174,28 @@ def lyapunov_exponents(
     duration, interval, tol = float(duration), float(interval), float(tol)
     case, order = engine_case(p), series_order(tol)
     model, tolerance = case.model, series_tolerance(tol, compliant=p.contact_compliance != 0)
-    series, state = build_series(model, order), layout.build_state(model)
+    series, state = build_series(model, order), build_state(model)
     if initial_state is not None:
         write_state(case, initial_state, state)
-    t = tangent.build_tangent(model, layout.WIDTH, order)
-    columns, rows = t.now.reshape(-1, layout.WIDTH), coordinate_rows(model)
+    t = column_arrays.build_tangent(model, column_arrays.COLUMNS_AT_ONCE, order)
+    columns, rows = column_arrays.block_of_columns(t), coordinate_rows(model)
     metric = energy_scale(model)[rows, None]
     columns[:] = 0.0
     wanted, count = count, count + leave_out_trivial
     columns[rows, :count] = np.random.default_rng(1).standard_normal((len(rows), count)) / metric
     # components of a column below its tolerance, or below rounding, count as zero
     vanished = max(10 * tolerance, 1e-12)
-    if state.x[layout.PHASE] != layout.SEPARATION:  # in contact some rows follow from others
-        tangent.slider_rows(model, state, t)
+    if phase_of(state) != SEPARATION:  # in contact some rows follow from others
+        slider_rows(model, state, t)
     _, remaining = _orthonormalise(columns, rows, metric, np.arange(count), vanished)
     if leave_out_trivial:
-        tangent.rates(model, state, t.before)
+        rates(model, state, t.before)
         along = t.before.reshape(columns.shape)[:, 0]
         if np.any(along):
             columns[:, 0] = along
     steps = max(_BLOCKS, math.ceil(duration / interval))
     longest, length = longest_step(model, order, 10 * tolerance), duration / steps
-    course = event_loop.IntegrationLimits(
-        order, tolerance, longest, length, 0, may_separate=True, tangent=True
-    )
+    course = FlightLimits(order, tolerance, longest, length, 0, may_separate=True, tangent=True)
     logs, status, done = np.full((steps, count), -math.inf), Status.OK, 0
     for i in range(-steps, steps):
         if i == 0:
@@ -202,8 +204,8 @@ def lyapunov_exponents(
         if code != transitions.TIME_OVER or not np.all(np.isfinite(columns)):
             status = Status.NON_FINITE if code == transitions.TIME_OVER else Status(ENDS[code])
             break
-        if state.x[layout.PHASE] != layout.SEPARATION:
-            tangent.slider_rows(model, state, t)
+        if phase_of(state) != SEPARATION:
+            slider_rows(model, state, t)
         growth, remaining = _orthonormalise(columns, rows, metric, remaining, vanished)
         if i >= 0:
             logs[i, remaining] = growth
@@ -264,11 +266,12 @@ def _averaged(
     # a motion at rest or in steady sliding has no trivial exponent
     if (
         leave_out_trivial
-        and log[tangent.RELEASES] + log[tangent.STICKS] + log[tangent.SEPARATIONS] > 0
+        and log[column_arrays.RELEASES] + log[column_arrays.STICKS] + log[column_arrays.SEPARATIONS]
+        > 0
     ):
         trivial = float(np.sum(logs[:, 0]) / covered)
         order = order[order != 0]
-    order, separations = order[:count], int(log[tangent.SEPARATIONS])
+    order, separations = order[:count], int(log[column_arrays.SEPARATIONS])
     return Lyapunov(
         status,
         exponents[order],

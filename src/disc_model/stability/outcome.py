@@ -200,7 +200,8 @@ class _OutcomeSearch:
 
     def _judge_cycle(self) -> Stage:
         """Settle on a stable cycle, or go on from an unstable one."""
-        near, result = self.cycle, self.result
+        near = self.cycle
+        result = self.result
         result.near = result.near or near
         if not near.cycle.stable:
             self.departed_from = near
@@ -275,7 +276,8 @@ class _OutcomeSearch:
     def _find_followed_cycle(self, release: Passage) -> NearCycle | None:
         """The cycle that the motion follows linearly from a release on: the one near its start, if
         it comes back to that, or another."""
-        near, x = self.cycle_to_come, release.x
+        near = self.cycle_to_come
+        x = release.x
         assert self.map is not None
         if self.departed_from is not None:
             size = self.map.deflection
@@ -341,7 +343,8 @@ def final_segment(
 
 def segment_of(result: Result) -> Segment:
     """The segment of a result: ranges over its window "late", and shares of its whole time."""
-    P, u = result.samples["late"]["P"], result.samples["late"]["u"] - result.u_0
+    P = result.samples["late"]["P"]
+    u = result.samples["late"]["u"] - result.u_0
     return Segment(float(P.min()), float(P.max()), float(u.min()), float(u.max()), *shares(result))
 
 

@@ -3,7 +3,7 @@
 The section is the instant before a forward release: f = 0 and r_0 F = mu_s P.  A point of it
 consists of the modal coordinates alone, because psi follows from the release condition, scaled to
 the norm of the disc's energy: omega a, omega b, alpha, beta.  Derivatives come from the variational
-equations (`disc_model.engine.event_loop`).
+equations (`disc_model.engine.section`).
 """
 
 import math
@@ -16,9 +16,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.engine import event_loop, layout, transitions
-from disc_model.engine import tangent as columns
+from disc_model.engine import columns, section, tangent, transitions
+from disc_model.engine import state as motion
+from disc_model.engine.columns import Tangent, coordinate_rows, energy_scale
+from disc_model.engine.loop import FlightLimits
+from disc_model.engine.model import Model, blocks_of, build_state
+from disc_model.engine.section import Section
 from disc_model.engine.series import Series, build_series
+from disc_model.engine.state import EngineState
+from disc_model.engine.step_size import TYPICAL_STEP
 from disc_model.errors import raise_faults, violations
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.simulation.states import (
@@ -65,14 +71,16 @@ def case_faults(p: Any, analysis: str) -> list[str]:
     return foreign_case(p) or violations((p.n_diameters >= 0, "n_diameters", p.n_diameters, rule))
 
 
-def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
-    """As `columns.longest_step`, but shorter where dampers, springs together or a fast drive
+def longest_step(model: Model, order: int, tolerance: float) -> float:
+    """As `tangent.longest_step`, but shorter where dampers, springs together or a fast drive
     oscillate faster."""
     damping = max(
         model.damping.max(), model.damping0.max(initial=0.0), max(model.c, model.c_p) / model.m
     )
     contact = (
-        (1 / model.m + model.inverse_effective_mass) / model.compliance if model.compliant else 0.0
+        (1 / model.m + model.inverse_effective_mass) / model.compliance
+        if model.has_compliance
+        else 0.0
     )
     stiffness = (
         max((model.unit * model.free_unit) ** -2, max(model.k, model.k_p) / model.m) + contact
@@ -80,90 +88,69 @@ def longest_step(model: layout.Model, order: int, tolerance: float) -> float:
     fastest = damping / 2 + math.sqrt(damping**2 / 4 + stiffness) + model.shift.max() * model.Omega
     rate = fastest * model.unit
     # all published cases are below 1.25, where steps are not shortened
-    return columns.longest_step(order, tolerance) / (rate if rate > 1.25 else 1.0)
+    return tangent.longest_step(order, tolerance) / (rate if rate > 1.25 else 1.0)
 
 
 def integrate_in_pieces(
-    model: layout.Model,
+    model: Model,
     series: Series,
-    state: layout.EngineState,
-    tangent: columns.Tangent,
-    course: event_loop.IntegrationLimits,
-    section: event_loop.Section | None = None,
+    state: EngineState,
+    changes: Tangent,
+    limits: FlightLimits,
+    points: Section | None = None,
     start: Array | None = None,
 ) -> int:
-    """`event_loop.integrate`, with a return to Python after every `WORK_PER_PIECE`: a kernel cannot
-    be interrupted, and an integration under extreme stiffness or mass takes minutes."""
-    blocks = max(1, len(model.shift) // layout.WIDTH)
-    if course.tangent:
-        blocks *= 1 + tangent.columns // layout.WIDTH
-    step = min(course.longest, event_loop.TYPICAL_STEP) * model.unit
+    """Integrate as `section.integrate`, with a return to Python after every `WORK_PER_PIECE`: a
+    kernel cannot be interrupted, and an integration under extreme stiffness or mass takes
+    minutes."""
+    blocks = blocks_of(model)
+    if limits.tangent:
+        blocks *= 1 + changes.columns // columns.COLUMNS_AT_ONCE
+    step = min(limits.longest, TYPICAL_STEP) * model.unit
     piece = WORK_PER_PIECE / blocks * step
-    left, releases = course.t_max, course.releases
-    where: tuple[Any, ...] = () if section is None else (section,)
+    left = limits.t_max
+    releases = limits.releases
+    where: tuple[Any, ...] = () if points is None else (points,)
     if start is not None:
-        where = (section, start)
-        tangent.log[columns.RELEASES] = 0.0  # as the engine does there
+        where = (points, start)
+        changes.log[columns.RELEASES] = 0.0  # as the engine does there
     while True:
-        before = float(tangent.log[columns.RELEASES])
-        now = course._replace(t_max=min(left, piece), releases=releases)
-        code: int = event_loop.integrate(model, series, state, tangent, now, *where)
+        before = float(changes.log[columns.RELEASES])
+        now = limits._replace(t_max=min(left, piece), releases=releases)
+        code = section.integrate(model, series, state, changes, now, *where)
         if code != transitions.TIME_OVER or left <= piece:
             return code
         left -= piece
-        releases -= int(tangent.log[columns.RELEASES] - before)
+        releases -= int(changes.log[columns.RELEASES] - before)
         where = where[:1]
 
 
-def parameter_change(p: Parameters, model: layout.Model, name: str) -> Array:
+def parameter_change(p: Parameters, model: Model, name: str) -> Array:
     """Derivative of the equations with respect to one of `PARAMETERS`: a column of
-    `Tangent.parameters`."""
-    width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
-    change = np.zeros(columns.N_SCALARS + 2 * width + 2 * n0)
-    ends = columns.N_SCALARS + np.cumsum([0, width, width, n0])
-    scalars, stiffness, damping, stiffness0, damping0 = np.split(change, ends)
-    entries = {"Omega": columns.D_OMEGA, "c": columns.D_C, "m": columns.D_M, "k": columns.D_K}
-    entries |= {"k_p": columns.D_K_P, "c_p": columns.D_C_P}
-    if name in entries:
-        scalars[entries[name]] = 1.0
+    `Tangent.inputs`."""
+    if name in ("Omega", "c", "m", "k_p", "c_p"):
+        return columns.input_column(model, {name: 1.0})
     if name == "k":
-        scalars[columns.LOAD] = -model.u_0
-    elif name == "N":  # u_0 is proportional to N
-        scalars[columns.LOAD] = 1.0 - model.k * model.u_0 / model.N
-    elif name == "E":
-        # omega^2 is proportional to E; the damping (D_star / D) omega^2 does not depend on it, but
-        # 2 xi omega does
-        stiffness[:], stiffness0[:] = model.stiffness / p.E, model.stiffness0 / p.E
-        if p.damping_ratio is not None:
-            damping[:], damping0[:] = model.damping / (2 * p.E), model.damping0 / (2 * p.E)
-        # u_0 and the residual flexibility are proportional to 1 / E
-        residual = p.contact_compliance == RESIDUAL
-        scalars[columns.LOAD] = (
-            model.k * (model.u_0 + (0.0 if residual else model.N * model.compliance)) / p.E
-        )
-        scalars[columns.D_COMPLIANCE] = -1.0 / p.E if residual else 0.0
-    elif name == "D_star":
-        damping[:], damping0[:] = model.stiffness / p.D, model.stiffness0 / p.D
-    return change
-
-
-def coordinate_rows(model: layout.Model) -> NDArray[np.intp]:
-    """Rows of a column without those of empty lanes, in which rounding errors would stay for
-    ever."""
-    lanes, width = np.flatnonzero(model.shift), len(model.mode_amplitude)
-    return np.concatenate([lanes, width + lanes, np.arange(2 * width, columns.n_rows(model))])
-
-
-def energy_scale(model: layout.Model) -> Array:
-    """Square root of twice the energy of a unit of each row of a column: (rows,)."""
-    ones, ones0 = np.ones(len(model.mode_amplitude)), np.ones(len(model.mode_amplitude0))
-    slider = [model.r_0 * math.sqrt(model.k_p or model.m), model.r_0 * math.sqrt(model.m)]
-    contact = 1 / model.compliance if model.compliant else 0.0
-    height = [math.sqrt(model.k + contact or model.m), math.sqrt(model.m)]
-    stiffness = np.where(model.stiffness > 0, model.stiffness, 1.0)
-    return np.concatenate(
-        [np.sqrt(stiffness), ones, np.sqrt(model.stiffness0), ones0, slider, height]
-    )
+        return columns.input_column(model, {"k": 1.0, "load": -model.u_0})
+    if name == "N":  # u_0 is proportional to N
+        return columns.input_column(model, {"load": 1.0 - model.k * model.u_0 / model.N})
+    if name == "D_star":
+        by_D_star = model.stiffness / p.D, model.stiffness0 / p.D
+        return columns.input_column(model, {}, damping=by_D_star)
+    # E: omega^2 is proportional to it; the damping (D_star / D) omega^2 does not depend on it, but
+    # 2 xi omega does
+    stiffness = model.stiffness / p.E, model.stiffness0 / p.E
+    damping: tuple[Any, Any] = 0.0, 0.0
+    if p.damping_ratio is not None:
+        damping = model.damping / (2 * p.E), model.damping0 / (2 * p.E)
+    # u_0 and the residual flexibility are proportional to 1 / E
+    residual = p.contact_compliance == RESIDUAL
+    give = 0.0 if residual else model.N * model.compliance
+    scalars = {
+        "load": model.k * (model.u_0 + give) / p.E,
+        "compliance": -1.0 / p.E if residual else 0.0,
+    }
+    return columns.input_column(model, scalars, stiffness, damping)
 
 
 class Counts(NamedTuple):
@@ -247,36 +234,24 @@ class ReturnMap:
         flights = 1 / 20 * min(tol, 1e-10)
         self.order = series_order(flights)
         self.tolerance = series_tolerance(flights, compliant=p.contact_compliance != 0)
-        self._series, self._state = build_series(model, self.order), layout.build_state(model)
-        modes, slider = np.split(coordinate_rows(model), [-layout.SLIDER])
-        self._slider = int(slider[0])
-        l = np.abs(model.shift).astype(np.int64)
-        self.diameters = np.concatenate([l, l, np.zeros(2 * len(model.mode_amplitude0), np.int64)])[
-            modes
-        ]
-        height = slider[[layout.U, layout.U_VELOCITY]]
-        rows = np.append(modes, height) if model.compliant else modes
+        self._series, self._state = build_series(model, self.order), build_state(model)
+        height = ("u", "u_velocity") if model.has_compliance else ()
+        modes, rows = coordinate_rows(model, ()), coordinate_rows(model, height)
+        self.diameters = columns.diameters_of_rows(model)[modes]
         self.scale = energy_scale(model)[rows]
         self.size = n = len(rows)
-        self._first = layout.WIDTH * -(-n // layout.WIDTH)
         self._names = parameters
-        self._tangent = columns.build_tangent(
-            model, self._first + len(parameters), self.order, self._first
-        )
-        changes = self._tangent.parameters.reshape(
-            self._tangent.columns // layout.WIDTH, -1, layout.WIDTH
-        )
-        for i, name in enumerate(parameters, self._first):
-            changes[i // layout.WIDTH, :, i % layout.WIDTH] = parameter_change(p, model, name)
+        self._tangent = columns.build_tangent(model, n, self.order, len(parameters))
+        self._first = self._tangent.plain
+        for i, name in enumerate(parameters):
+            columns.put_input_column(self._tangent, i, parameter_change(p, model, name))
         jacobian = np.zeros((n, self._tangent.columns))
-        self._section = event_loop.Section(rows, self.scale, np.zeros(n), jacobian)
+        self._section = section.Section(rows, self.scale, np.zeros(n), jacobian)
         self.static = self._coordinates()
         self.deflection = max(float(np.linalg.norm(self.static)), sys.float_info.min)
 
     def _coordinates(self) -> Array:
-        column = np.append(
-            self._state.disc[: self._slider], self._state.x[layout.PSI : layout.U_VELOCITY + 1]
-        )
+        column = columns.column_of(self._state, self.model)
         return np.asarray(column[self._section.rows] * self.scale, dtype=float)
 
     @property
@@ -305,7 +280,7 @@ class ReturnMap:
         if coarse:
             order, tolerance, of_columns = min(20, order), 1e-9, 1e-5
         longest = longest_step(self.model, order, of_columns) if tangent else math.inf
-        course = event_loop.IntegrationLimits(
+        course = FlightLimits(
             order,
             tolerance,
             longest,
@@ -337,8 +312,8 @@ class ReturnMap:
         A damper that pulls more than friction can hold releases the slider at once, beyond the
         section. The passage is then the one after.
         """
-        p, case = self.parameters, self._case
-        self._state.disc[:], self._state.x[:] = case.start.disc, case.start.x
+        p = self.parameters
+        motion.copy_state(self._case.start, self._state)
         # four times the first stick of a rigid disc: surface friction and slopes change the loads
         stick = max(p.mu_s * p.N / p.r_0 - p.c_p * p.Omega, 0.0) / (p.k_p * p.Omega)
         first = self._follow_to_release(4 * stick + self.longest, may_separate=False)
@@ -350,7 +325,7 @@ class ReturnMap:
         self, duration: float, *, may_separate: bool, releases: int = 1
     ) -> Passage:
         """Follow the motion from the present state for at most a duration (s) to a release."""
-        course = event_loop.IntegrationLimits(
+        limits = FlightLimits(
             self.order,
             self.tolerance,
             math.inf,
@@ -359,9 +334,10 @@ class ReturnMap:
             may_separate=may_separate,
             tangent=False,
         )
-        code = integrate_in_pieces(self.model, self._series, self._state, self._tangent, course)
-        x = self._state.x
-        return Passage(code, float(x[layout.TIME] + x[layout.TIME_LOW]), self._coordinates())
+        code = integrate_in_pieces(self.model, self._series, self._state, self._tangent, limits)
+        scalars = motion.scalars_of(self._state)
+        time = scalars["time"] + scalars["time_low"]
+        return Passage(code, time, self._coordinates())
 
     def point(self, state: State) -> Array:
         """The point of the section of a state that lies on it."""
@@ -370,15 +346,8 @@ class ReturnMap:
 
     def state(self, x: Array) -> State:
         """The point `x` of the section as a `State` (time 0, at the end of stick)."""
-        state, column = self._state, np.zeros(self._slider + layout.SLIDER)
-        column[self._section.rows] = x / self.scale
-        state.disc[:], state.x[:] = 0.0, 0.0
-        state.disc[: self._slider], state.x[layout.PSI : layout.U_VELOCITY + 1] = np.split(
-            column, [self._slider]
-        )
-        state.x[layout.PHASE] = layout.STICK
-        state.x[layout.PSI] = event_loop.release_angle(self.model, state)
-        return read_state(self._case, state)
+        section.put_point(self.model, self._state, self._section, x)
+        return read_state(self._case, self._state)
 
     def returns(
         self, x: Array, most: int, *, may_separate: bool = False, coarse: bool = False

@@ -158,11 +158,14 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     raise_faults(case_faults(p, "steady_sliding"))
     if p.Omega == 0:
         return _absent(SlidingStatus.AT_REST)
-    modes, model, compliance = mode_arrays(p), engine_case(p).model, contact_compliance(p)
+    modes = mode_arrays(p)
+    model = engine_case(p).model
+    compliance = contact_compliance(p)
     a, b, vertical = _equilibrium(p, modes, compliance)
     if not (math.isfinite(vertical) and vertical > 0) and p.contact != "bilateral":
         return _absent(SlidingStatus.NO_CONTACT)
-    alpha, beta = -modes.diameters * p.Omega * b, modes.diameters * p.Omega * a
+    alpha = -modes.diameters * p.Omega * b
+    beta = modes.diameters * p.Omega * a
     height = (modes.psi @ a - compliance * vertical, 0.0) if compliance else ()
 
     def rows_at(psi: float) -> Array:
@@ -208,7 +211,8 @@ def _absent(status: SlidingStatus) -> SteadySliding:
 def _equilibrium(p: Parameters, modes: Modes, compliance: float) -> tuple[Array, Array, float]:
     """Modal coordinates a, b (n_modes,) and the vertical force at the equilibrium."""
     turned = modes.diameters * p.Omega
-    gap, lag = turned**2 - modes.omega**2, modal_damping(p) * turned
+    gap = turned**2 - modes.omega**2
+    lag = modal_damping(p) * turned
     with np.errstate(divide="ignore", invalid="ignore"):
         along, across = (
             modes.psi * part / (gap**2 + lag**2) for part in (gap, lag)
@@ -227,11 +231,13 @@ def _equilibrium(p: Parameters, modes: Modes, compliance: float) -> tuple[Array,
         # V = start + rise R, and V = R (1 - mu beta) with beta = lean_0 V + lean_1 R
         share = 1 - p.k * (float(modes.psi @ along) - compliance)
         mu = float(_LAWS.friction_coefficient(engine_case(p).model, 1.0, p.Omega))
-        start, rise = load / share, p.k * mu * float(modes.psi @ twist[0]) / share
+        start = load / share
+        rise = p.k * mu * float(modes.psi @ twist[0]) / share
         lean = mu * float(slope @ across), mu**2 * float(slope @ twist[1])
         # start + rise R = R (1 - lean_0 (start + rise R) - lean_1 R): the root that is start / (1 -
         # rise) if it is flat
-        square, linear = lean[0] * rise + lean[1], 1 - rise - lean[0] * start
+        square = lean[0] * rise + lean[1]
+        linear = 1 - rise - lean[0] * start
         R = 2 * start / (linear + math.sqrt(max(linear**2 - 4 * square * start, 0.0)))
         V = start + rise * R
         a, b = (of_V * V + of_T * mu * R for of_V, of_T in zip((along, across), twist, strict=True))
@@ -241,13 +247,16 @@ def _equilibrium(p: Parameters, modes: Modes, compliance: float) -> tuple[Array,
 def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     """Arguments of the laws of contact, and rates of slip, at states in the rows of
     `SteadySliding.jacobian`."""
-    modes, model = mode_arrays(p), engine_case(p).model
+    modes = mode_arrays(p)
+    model = engine_case(p).model
     (a, alpha, b, beta), (psi, f), height = split_rows(modes, rows)
     l, weight, w2, d = (
         each[:, None] for each in (modes.diameters, modes.psi, modes.omega**2, modal_damping(p))
     )
-    rate_a, rate_b = alpha + l * f * b, beta - l * f * a
-    free_along, free_across = l * f * beta - d * alpha - w2 * a, -l * f * alpha - d * beta - w2 * b
+    rate_a = alpha + l * f * b
+    rate_b = beta - l * f * a
+    free_along = l * f * beta - d * alpha - w2 * a
+    free_across = -l * f * alpha - d * beta - w2 * b
     parts = (a, rate_a, l * b, free_along + l * f * rate_b)
     w, velocity, slope, free = (np.sum(weight * part, axis=0) for part in parts)
     u, v = height if len(height) else (w, velocity)
@@ -268,9 +277,11 @@ def split_rows(modes: Modes, rows: Any) -> tuple[Any, Any, Any]:
     """Rows of steady sliding's Jacobian as a, alpha, b, beta of all modes; psi, f; u, u' on a
     compliant contact."""
     pairs = np.flatnonzero(modes.diameters > 0)
-    n, m = len(modes.omega), len(pairs)
+    n = len(modes.omega)
+    m = len(pairs)
     a, alpha, b_pairs, beta_pairs, slider, height = np.split(rows, np.cumsum([n, n, m, m, 2]))
-    b, beta = np.zeros_like(a), np.zeros_like(a)
+    b = np.zeros_like(a)
+    beta = np.zeros_like(a)
     b[pairs], beta[pairs] = b_pairs, beta_pairs
     return (a, alpha, b, beta), slider, height
 
@@ -313,12 +324,14 @@ def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> Slidin
     sliding = steady_sliding(p) if sliding is None else sliding
     values, vectors = np.linalg.eig(sliding.jacobian)
     order = [i for i in np.argsort(values.imag, kind="stable") if values[i].imag > 0]
-    values, vectors = values[order], np.asarray(vectors[:, order], dtype=complex)
+    values = values[order]
+    vectors = np.asarray(vectors[:, order], dtype=complex)
     if not order:
         nothing = np.zeros(0)
         return SlidingModes(nothing, nothing, nothing, np.zeros(0, np.int64), nothing, vectors)
     modes = mode_arrays(p)
-    l, omega = modes.diameters, modes.omega[:, None]
+    l = modes.diameters
+    omega = modes.omega[:, None]
     (a, alpha, b, beta), (psi, f), _ = split_rows(modes, vectors)
     energy = (
         np.abs(omega * a) ** 2 + np.abs(alpha) ** 2 + np.abs(omega * b) ** 2 + np.abs(beta) ** 2
@@ -392,7 +405,8 @@ def _numbered(
     mac = np.abs(np.array(shapes).reshape(len(shapes), len(scaled)).conj() @ scaled) ** 2
     numbers, places = linear_sum_assignment(-mac)
     if before is not None and halvings and mac[numbers, places].min(initial=1) < ALIKE:
-        values, ends = dict(before), dict(p)
+        values = dict(before)
+        ends = dict(p)
         changed = [
             name
             for name, value in values.items()
@@ -402,7 +416,8 @@ def _numbered(
         if changed and len((half := sliding_modes(between)).frequency):
             _numbered(shapes, before, between, half, halvings - 1)
             return _numbered(shapes, between, p, modes, halvings - 1)
-    matched, likeness = np.full(len(modes.frequency), -1), np.full(len(modes.frequency), math.nan)
+    matched = np.full(len(modes.frequency), -1)
+    likeness = np.full(len(modes.frequency), math.nan)
     matched[places], likeness[places] = numbers, mac[numbers, places]
     matched[matched < 0] = len(shapes) + np.arange(np.sum(matched < 0))
     for number, shape in sorted(zip(matched, scaled.T, strict=True), key=lambda pair: pair[0]):
@@ -412,8 +427,10 @@ def _numbered(
 
 def energy_weights(p: Parameters) -> Array:
     """Weights of squared rows of the Jacobian in the energy of a motion."""
-    modes, compliance = mode_arrays(p), contact_compliance(p)
-    stiffness, ones = modes.omega**2, np.ones(len(modes.omega))
+    modes = mode_arrays(p)
+    compliance = contact_compliance(p)
+    stiffness = modes.omega**2
+    ones = np.ones(len(modes.omega))
     slider = [p.r_0**2 * p.k_p, p.r_0**2 * p.m]
     height = [p.k + 1 / compliance, p.m] if compliance else []
     return np.asarray(

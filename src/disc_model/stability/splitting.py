@@ -183,7 +183,8 @@ def _waves(
 
     values, vectors = np.linalg.eig(jacobian)
     upper = values.imag > 0
-    values, energy = values[upper], np.abs(vectors[:, upper].T) ** 2 * _weights(p, modes, pairs)
+    values = values[upper]
+    energy = np.abs(vectors[:, upper].T) ** 2 * _weights(p, modes, pairs)
     share = energy / energy.sum(axis=1, keepdims=True)
     used: set[int] = set()
     rows: list[dict[str, Any]] = []

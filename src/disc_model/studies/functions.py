@@ -479,15 +479,66 @@ def _row(
 
 
 @cache
-def _known() -> dict[str, Variable]:
-    """Units and names of the variables of all quantities and of simulations."""
-    quantities = [
-        quantity_of(name).COLUMNS for name in sorted(quantity_names(), key="floquet".__eq__)
-    ]
-    known: dict[str, Variable] = {}
-    for columns in (*quantities, SCALARS):
-        known.update(columns)
-    return known
+def _common() -> dict[str, dict[str, Any]]:
+    """Units and names that all quantities and simulations give a variable of this name; what they
+    disagree about is left out, since such a name says nothing of another result's variable."""
+    tables = [quantity_of(name).COLUMNS for name in quantity_names()]
+    found: dict[str, list[dict[str, Any]]] = {}
+    for table in (*tables, SCALARS):
+        for name, column in table.items():
+            if column.units and not column.flags:
+                found.setdefault(name, []).append(column.attributes)
+    common = {}
+    for name, several in found.items():
+        first = several[0]
+        common[name] = {
+            key: first[key] for key in first if all(each[key] == first[key] for each in several)
+        }
+    return common
+
+
+@cache
+def _of_class(name: str) -> dict[str, dict[str, Any]]:
+    """Units and names of the variables of a result of a class, which has names of its own: a cycle
+    and steady sliding both have a growth rate."""
+    of_cycle = quantity_of("floquet").COLUMNS
+    columns: Mapping[str, Variable] = {}
+    if name == "FloquetResult":
+        counted = {
+            "releases": Variable("1", "number of stick releases in its period"),
+            "separations": Variable("1", "number of separations in its period"),
+        }
+        columns = {**of_cycle, **counted}
+    elif name == "SteadySliding":
+        columns = {
+            "growth_rate": of_cycle["sliding_growth_rate"],
+            "psi": Variable("rad", "angle of the drive point ahead of the slider"),
+        }
+    elif name == "Lyapunov":
+        columns = {
+            "exponents": Variable("s-1", "Lyapunov exponent"),
+            "errors": Variable("s-1", "uncertainty of the Lyapunov exponent"),
+            "duration": Variable("s", "time over which exponents are taken"),
+            "separations": Variable("1", "number of separations in that time"),
+        }
+    return {
+        name: column.attributes
+        for name, column in columns.items()
+        if column.units and not column.flags
+    }
+
+
+def _attributes_of(result: Any, name: str) -> dict[str, Any]:
+    """Unit and name of a variable of a result; empty if they are not known."""
+    kind = type(result).__name__
+    if (
+        kind == "Critical"
+        and name == "value"
+        and result.name in (*Parameters.model_fields, *RATIOS)
+    ):
+        parameter = describe(result.name)
+        return {**parameter, "long_name": f"critical value of {parameter['long_name']}"}
+    return _of_class(kind).get(name) or _common().get(name, {})
 
 
 def _variables(result: Any) -> dict[str, xr.Variable]:
@@ -498,9 +549,9 @@ def _variables(result: Any) -> dict[str, xr.Variable]:
     for name, value in _named_values(result).items():
         array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
         if array.ndim <= 1 and array.dtype.kind in "biufcU":
-            column = _known().get(name)
-            attrs = column.attributes if column and column.units and not column.flags else {}
-            variables[name] = xr.Variable((f"{name}_index",)[: array.ndim], array, attrs)
+            variables[name] = xr.Variable(
+                (f"{name}_index",)[: array.ndim], array, _attributes_of(result, name)
+            )
     return variables
 
 
@@ -512,6 +563,8 @@ def _named_values(result: Any) -> Mapping[str, Any]:
         values = {field.name: getattr(result, field.name) for field in fields(result)}
         if hasattr(result, "stable"):
             values["stable"] = result.stable
+        if hasattr(result, "sliding"):
+            values["sliding_growth_rate"] = result.sliding.growth_rate
         return values
     return result if isinstance(result, Mapping) else {"value": result}
 

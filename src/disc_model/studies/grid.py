@@ -17,9 +17,7 @@ from pydantic import Field, Tag, WithJsonSchema, create_model
 from disc_model.data.variables import PERTURBATIONS, START, attributes
 from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
-from disc_model.figures.general import General
-from disc_model.figures.kind import Kind, Plot
-from disc_model.figures.maps import RegionMap
+from disc_model.figures.kinds import General, Kind, Plot, RegionMap
 from disc_model.parameters import (
     AUTO,
     CHOOSING,

@@ -26,7 +26,8 @@ from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, values_text
 from disc_model.disc.files.table import read_disc
 from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
-from disc_model.figures.kind import NORM, CasePlot, Kind, Plot, kind_of, kinds_in
+from disc_model.figures.kinds import KINDS, CasePlot, Kind, Plot, kind_of
+from disc_model.figures.selection import NORM
 from disc_model.mode_choice import CHOSEN_BY, TRUSTED, ModeRequest, read_asked
 from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
 from disc_model.simulation.case import (
@@ -247,7 +248,7 @@ _OTHER_KIND = Annotated[
     Any, WithJsonSchema({"type": "object", "properties": _OTHER_NAME, "required": ["kind"]})
 ]
 _KIND: Any = Annotated[
-    Union[*(kind for _, kind in sorted(kinds_in("").items()))], Field(discriminator="kind")
+    Union[*(kind for _, kind in sorted(KINDS.items()))], Field(discriminator="kind")
 ]
 Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND | _OTHER_KIND)]
 """A figure of any kind; the schema for editors knows the keys of the library's kinds, and not those of the paper's."""

@@ -83,7 +83,8 @@ def test_a_state_of_a_branch_repeats_in_simulation_though_unstable(branch: Branc
         # the residual, some 1e-11 of the deflection, moves the period, and with it fast modes
         allowed = 1e-7 * max(1.0, abs(branch.multipliers[i, 0]))
         for name in ("a", "b", "alpha", "beta"):
-            start, end = getattr(state, name), getattr(run.final_state, name)
+            start = getattr(state, name)
+            end = getattr(run.final_state, name)
             scale = max(np.abs(getattr(state, pair)).max() for pair in _OF_ONE_SIZE[name])
             assert np.abs(end - start).max() < allowed * scale
 
@@ -208,11 +209,13 @@ def test_branches_of_random_cases_are_those_of_shorter_steps(seed: int) -> None:
     rng = np.random.default_rng(seed)
     if seed % 3 == 2:
         offset = ("surface", 0.0)[seed % 2]
-        load, speed = rng.uniform(5000, 10_000), rng.uniform(12, 30)
+        load = rng.uniform(5000, 10_000)
+        speed = rng.uniform(12, 30)
         p = Parameters(N=load, Omega=speed, friction_offset=offset, **STEEL)
     else:
         modes = ("as_published", "orthonormal")[seed % 3]
-        load, speed = rng.uniform(50, 350), rng.uniform(8, 50)
+        load = rng.uniform(50, 350)
+        speed = rng.uniform(8, 50)
         p = Parameters(N=load, Omega=speed, normalization=modes)
     bounds = (0.6 * p.Omega, 60.0)
     coarse = continue_cycle(p, "Omega", bounds)

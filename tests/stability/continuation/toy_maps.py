@@ -122,7 +122,8 @@ class FoldMap(ToyMap):
     deflection = 2.0
 
     def step(self, x):
-        Omega, N = self.parameters.Omega, self.parameters.N
+        Omega = self.parameters.Omega
+        N = self.parameters.N
         turned = math.exp(0.1 * outside(Omega, N)) * ROTATION
         jacobian = np.zeros((3, 3))
         jacobian[0, 0] = 1 - 0.6 * (x[0] - 1)

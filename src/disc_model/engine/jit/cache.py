@@ -1,44 +1,92 @@
-"""Files of compiled kernels, with checksums, and locks by which processes compile each kernel once.
+"""Files of compiled kernels, and the lock by which processes compile each kernel once.
 
-Numba's own cache misses changes of a callee in another file, recompiles after every changed
-comment, and trusts damaged files.  Here each signature of a kernel has one file, in a folder named
-by a hash of the engine's code; a damaged one is replaced by compiling again.
+The files are those of numba's own cache, but in a folder named by a hash of the engine's code:
+numba does not notice that a function in another file has changed, and would compile again after
+every changed comment.
 """
 
 import functools
 import hashlib
-import pickle
 import sys
-import uuid
-import zlib
+import warnings
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-import llvmlite
-import numba
-from numba.core import event, serialize
+from filelock import FileLock
+from numba.core import event
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
 
 from disc_model.sources import cache_folder, code_hash
 
 
 @functools.cache
 def folder() -> Path:
-    """The folder of the kernels of this engine, named by a hash of its code without comments,
-    docstrings and lines."""
-    digest, engine = hashlib.sha256(), Path(__file__).parents[1]
+    """Return the folder of the kernels of this engine, named by a hash of its code without
+    comments, docstrings and lines."""
+    digest = hashlib.sha256()
+    engine = Path(__file__).parents[1]
     for path in sorted(engine.rglob("*.py")):
         digest.update(f"{path.relative_to(engine)}\0{code_hash(path)}\0".encode())
     return cache_folder() / f"engine-{digest.hexdigest()[:16]}"
 
 
-def hash_of(*of: object) -> str:
-    """Hash of what compiled code depends on but for the engine, with the versions of all that makes
-    it."""
-    python = f"{sys.implementation.name} {sys.version_info[0]}.{sys.version_info[1]} {sys.platform}"
-    versions = f"numba {numba.__version__}, llvmlite {llvmlite.__version__}, {python}"
-    return hashlib.sha256(repr((*of, versions)).encode()).hexdigest()[:16]
+class _EngineFolder(_CacheLocator):
+    """Where numba keeps the files of a kernel: what decides about them is in the folder's name."""
+
+    def get_cache_path(self) -> str:
+        return str(folder())
+
+    def get_source_stamp(self) -> str:
+        return folder().name
+
+    def get_disambiguator(self) -> str:
+        return "kernel"
+
+    @classmethod
+    def from_function(cls, py_func: Any, py_file: str) -> "_EngineFolder":
+        return cls()
+
+
+class _KernelFiles(CompileResultCacheImpl):
+    _locator_classes: list[type[object]] = [_EngineFolder]  # noqa: RUF012 - as numba declares it
+
+
+class KernelCache(FunctionCache):
+    """numba's cache of a kernel, without which everything works, but compiles in every process."""
+
+    _impl_class = _KernelFiles
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return a kernel from its file, or None if there is none, or only a damaged one, which is
+        then forgotten."""
+        try:
+            return super().load_overload(sig, target_context)
+        except Exception:  # whatever a damaged file makes pickle raise
+            with suppress(OSError):
+                self.flush()
+            return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Save a kernel if possible: a full or read-only disk costs time, not the result."""
+        try:
+            super().save_overload(sig, data)
+        except OSError as error:
+            reason = f"compiled kernels cannot be kept there ({error.strerror})"
+            text = f"{folder()}: {reason}; every process compiles them again"
+            warnings.warn(text, RuntimeWarning, stacklevel=2)
+
+
+@contextmanager
+def lock(name: str) -> Iterator[None]:
+    """Let other processes wait that come to the lock of the same kernel, where files can be
+    locked."""
+    with ExitStack() as stack:
+        with suppress(OSError, NotImplementedError):
+            folder().mkdir(parents=True, exist_ok=True)
+            stack.enter_context(FileLock(folder() / f"{name}.lock"))
+        yield
 
 
 class _Listener(event.Listener):
@@ -63,37 +111,3 @@ def compiling() -> Iterator[None]:
     """Say so if the block compiles kernels; also usable as a decorator."""
     with event.install_listener("numba:compile", LISTENER):
         yield
-
-
-@contextmanager
-def lock(name: str) -> Iterator[None]:
-    """Let other processes wait that come to a lock of the same name, where files can be locked."""
-    with ExitStack() as stack:
-        with suppress(ImportError, OSError):
-            import fcntl
-
-            folder().mkdir(parents=True, exist_ok=True)
-            # never deleted: a process may wait for this file while the next one makes another
-            file = stack.enter_context((folder() / f"{name}.lock").open("a"))
-            fcntl.flock(file, fcntl.LOCK_EX)
-        yield
-
-
-def write(path: Path, contents: object) -> None:
-    """Write a file atomically; its compression contains a checksum."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f"{uuid.uuid4().hex}.tmp")
-    try:
-        temporary.write_bytes(zlib.compress(serialize.dumps(contents)))
-        temporary.replace(path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
-
-
-def read(path: Path) -> Any:
-    """The contents of a file, or None if it is missing or damaged."""
-    try:
-        return pickle.loads(zlib.decompress(path.read_bytes()))
-    except (OSError, zlib.error):
-        return None

@@ -1,32 +1,20 @@
-"""Kernels and their files, and helpers that are compiled only as parts of kernels.
+"""Kernels, and helpers that are compiled only as parts of kernels.
 
 Numba optimises every function and generates its machine code before it links it into its callers.
 Here a helper stays unoptimised until its kernel is complete, which is then optimised as a whole.
 
-The module uses internals of numba that may change: `jit` does without it if one is missing.
+The module uses internals of numba that may change: `jit` does without it if one is missing, or if
+it is switched off there.
 """
 
 import gc
-import warnings
 from copy import copy
 
 import llvmlite.binding as llvm
-from numba.core.caching import NullCache
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder
+from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.typed_passes import InlineOverloads, NopythonRewrites
 from numba.core.untyped_passes import InlineClosureLikes, LiteralUnroll, WithLifting
-
-from . import cache
-
-# Raises AttributeError if numba's dispatcher would not call the caches below, or could not store
-# what it compiles.
-_NEEDED = (
-    NullCache().load_overload,
-    NullCache().save_overload,
-    CompileResult._reduce,
-    CompileResult._rebuild,
-)
 
 # Passes for what no helper contains: closures, expressions of whole arrays, ``with``, loops over
 # mixed tuples.
@@ -39,9 +27,8 @@ class HelperLibrary(JITCodeLibrary):
     @property
     def codegen(self):
         codegen = copy(self._codegen)
-        codegen.set_env = lambda name, environment: (
-            None
-        )  # a helper has no environment, as it never touches Python
+        # a helper has no environment, as it never touches Python
+        codegen.set_env = lambda name, environment: None
         return codegen
 
     def _optimize_functions(self, ll_module):
@@ -53,36 +40,6 @@ class HelperLibrary(JITCodeLibrary):
 
     def get_pointer_to_function(self, name):
         return 0
-
-
-class KernelCache:
-    """The files of one kernel, with the methods that numba's dispatcher calls."""
-
-    def __init__(self, function):
-        self._name = f"{function.__module__.rsplit('.')[-1]}.{function.__qualname__}"
-
-    @property
-    def cache_path(self):
-        return str(cache.folder())
-
-    def load_overload(self, signature, target):
-        reduced = cache.read(self._path(signature, target.codegen()))
-        return None if reduced is None else CompileResult._rebuild(target, *reduced)
-
-    def save_overload(self, signature, compiled):
-        """Save compiled code if possible: a full or read-only disk costs time, not the result."""
-        path = self._path(signature, compiled.codegen)
-        try:
-            cache.write(path, compiled._reduce())
-        except OSError as error:
-            reason = f"compiled kernels cannot be kept there ({error.strerror}); every process compiles them again"
-            warnings.warn(f"{path.parent}: {reason}", RuntimeWarning, stacklevel=2)
-
-    def _path(self, signature, codegen):
-        return (
-            cache.folder()
-            / f"{self._name}.{cache.hash_of(signature, codegen.magic_tuple())}.kernel"
-        )
 
 
 class KernelLibrary(JITCodeLibrary):
@@ -99,18 +56,18 @@ class KernelLibrary(JITCodeLibrary):
     def _optimize_final_module(self):
         # unrolling loops takes two thirds of the time of all passes without gain
         options = llvm.create_pipeline_tuning_options(speed_level=3)
-        options.loop_unrolling, options.slp_vectorization = False, False
+        options.loop_unrolling = False
+        options.slp_vectorization = False
         builder = llvm.create_pass_builder(self._codegen._tm, options)
         builder.getModulePassManager().run(self._final_module, builder)
 
 
 def _visit(library, libraries):
     """Append a library after all libraries that it is linked to."""
-    for part in (
-        library._linking_libraries if isinstance(library, HelperLibrary | KernelLibrary) else ()
-    ):
-        if part not in libraries:
-            _visit(part, libraries)
+    if isinstance(library, HelperLibrary | KernelLibrary):
+        for part in library._linking_libraries:
+            if part not in libraries:
+                _visit(part, libraries)
     libraries.append(library)
 
 

@@ -1,9 +1,11 @@
-"""Eight doubles side by side: the one vector type of the engine.
+"""Eight doubles side by side, called lanes: the one vector type of the engine.
 
 A value is an LLVM ``<8 x double>``: one register with AVX-512; elsewhere LLVM splits it.  Numba has
 no such type, and arrays of accumulators stay in memory, which costs a factor of six in the
-convolutions of the slip series.  With ``NUMBA_DISABLE_JIT=1`` the same names are plain numpy
-functions: every kernel runs unchanged without compilation.
+convolutions of the slip series.  Lanes are added, subtracted and multiplied by ``+``, ``-`` and
+``*``, also with a number, which then stands in every lane; a product that is added to something is
+rounded once where the processor can (see `jit`).  With ``NUMBA_DISABLE_JIT=1`` the same names are
+plain numpy functions: every kernel runs unchanged without compilation.
 """
 
 import functools
@@ -34,9 +36,13 @@ def aligned(n):
 
 
 if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made at run time
-    add, sub, mul = np.add, np.subtract, np.multiply
-    maximum, minimum, absolute, largest, total = np.maximum, np.minimum, np.abs, np.max, np.sum
-    item, put = operator.getitem, operator.setitem
+    maximum = np.maximum
+    minimum = np.minimum
+    absolute = np.abs
+    largest = np.max
+    total = np.sum
+    item = operator.getitem
+    put = operator.setitem
 
     def load(array, i):
         return array[i : i + WIDTH].copy()
@@ -49,9 +55,6 @@ if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made a
 
     def spread(array, i):
         return np.full(WIDTH, array[i])
-
-    def fma(a, b, c):
-        return a * b + c
 
     def powers_of(x):
         return x ** np.arange(float(WIDTH))
@@ -69,7 +72,8 @@ else:
     from llvmlite import ir
     from numba import types
     from numba.core import cgutils
-    from numba.extending import intrinsic, models, register_model
+    from numba.core.typing.templates import AbstractTemplate, infer_global, signature
+    from numba.extending import intrinsic, lower_builtin, models, register_model
 
     _DOUBLE = ir.DoubleType()
     _VECTOR = ir.VectorType(_DOUBLE, WIDTH)
@@ -85,6 +89,25 @@ else:
     class _LanesModel(models.PrimitiveModel):
         def __init__(self, dmm, fe_type):
             super().__init__(dmm, fe_type, _VECTOR)
+
+    def _operator(symbol, write):
+        """Let kernels apply an operator to two lanes, or to lanes and a number."""
+
+        class Operator(AbstractTemplate):
+            def generic(self, args, kws):
+                known = all(kind in (LANES, types.float64) for kind in args)
+                return signature(LANES, *args) if known and LANES in args else None
+
+        def lower(context, builder, sig, args):
+            operands = [
+                value if kind == LANES else _copies(builder, value)
+                for kind, value in zip(sig.args, args, strict=True)
+            ]
+            return write(builder, *operands)
+
+        infer_global(symbol)(Operator)
+        for kinds in ((LANES, LANES), (LANES, types.float64), (types.float64, LANES)):
+            lower_builtin(symbol, *kinds)(lower)
 
     def _instruction(result, *arguments):
         """Let kernels call a function that writes LLVM code; types: None for an array, whose
@@ -175,12 +198,6 @@ else:
         """array[i] = x, i >= 0: no check of the sign."""
         builder.store(x, builder.gep(array, [i]))
 
-    @_instruction(LANES, LANES, LANES, LANES)
-    def fma(builder, a, b, c):
-        """a * b + c, lane by lane; rounded once where the processor can, since software takes 500
-        times as long."""
-        return _call(builder, "fmuladd", a, b, c)
-
     @_instruction(LANES, types.float64)
     def powers_of(builder, x):
         square = builder.fmul(x, x)
@@ -191,14 +208,15 @@ else:
             powers = builder.fmul(powers, _shuffle(builder, ones, chosen, _copies(builder, power)))
         return powers
 
+    _operator(operator.add, ir.IRBuilder.fadd)
+    _operator(operator.sub, ir.IRBuilder.fsub)
+    _operator(operator.mul, ir.IRBuilder.fmul)
+
     def _of_two(write):
         # not `write` itself: numba counts arguments by their names, and those of llvmlite have a
         # `name` as well
         return _instruction(LANES, LANES, LANES)(lambda builder, a, b: write(builder, a, b))
 
-    mul = _of_two(ir.IRBuilder.fmul)
-    add = _of_two(ir.IRBuilder.fadd)
-    sub = _of_two(ir.IRBuilder.fsub)
     maximum = _of_two(_larger)
     minimum = _of_two(lambda builder, a, b: _call(builder, "minnum", a, b))
     low_halves = _of_two(lambda builder, a, b: _shuffle(builder, a, [0, 1, 2, 3, 8, 9, 10, 11], b))

@@ -22,6 +22,7 @@ function number(value, digits = 5) {
 }
 
 const withUnit = (text, unit) => (unitOf(unit) ? `${text} ${unitOf(unit)}` : text);
+const axisLabel = (thing) => (unitOf(thing.unit) ? `${thing.label} (${unitOf(thing.unit)})` : thing.label);
 const heading = (thing) => (unitOf(thing.unit) ? `${thing.name} (${unitOf(thing.unit)})` : thing.name);
 
 // Stored numbers
@@ -58,7 +59,7 @@ function value(study, variable, place) {
 
 function shown(study, variable, place) {
   const found = value(study, variable, place);
-  return variable.flags ? variable.flags[found] : withUnit(number(found), Number.isNaN(found) ? "1" : variable.unit);
+  return variable.flags ? variable.looks[found].label : withUnit(number(found), Number.isNaN(found) ? "1" : variable.unit);
 }
 
 function messageAt(study, place) {

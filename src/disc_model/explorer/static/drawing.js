@@ -62,8 +62,15 @@ function roundTicks(first, last, most = MOST_TICKS) {
 // Colours
 
 const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-const flagColour = (variable, code) =>
-  contents.words[variable.flags[code]] ?? contents.palette[code % contents.palette.length];
+
+/** What figures call a class, by its word. */
+const labelOf = (variable, word) => variable.looks[variable.flags.indexOf(word)].label;
+
+/** What an area of a flag's class is filled with: its colour, and its pattern over it. */
+const flagFills = (ink, variable, code) => {
+  const { face, hatch, ink: line } = variable.looks[code];
+  return hatch ? [face, pattern(ink, hatch, line)] : [face];
+};
 
 /** Colours of numbers: `colour(x)`, and `value(share)` for the ticks of the bar. */
 function colouring(numbers) {
@@ -111,16 +118,56 @@ function write(ink, text, x, y, align = "center", baseline = "middle") {
 }
 
 /** A pattern for points without a result. */
-function hatching(ink) {
+const hatching = (ink) => pattern(ink, "////", style("--text"));
+
+// Lines of a pattern in a square of side 1, by its letter as in the figures; dots and rings are drawn apart.
+const STROKES = {
+  "/": [[-1, 1, 1, -1], [0, 1, 1, 0], [1, 1, 2, 0], [0, 2, 2, 0]],
+  "\\": [[-1, 0, 1, 2], [0, 0, 1, 1], [0, -1, 2, 1]],
+  "|": [[0.5, 0, 0.5, 1]],
+  "-": [[0, 0.5, 1, 0.5]],
+  "+": [[0.5, 0, 0.5, 1], [0, 0.5, 1, 0.5]],
+  x: [[0, 0, 1, 1], [0, 1, 1, 0]],
+  "*": [[0.5, 0.2, 0.5, 0.8], [0.24, 0.35, 0.76, 0.65], [0.24, 0.65, 0.76, 0.35]],
+};
+
+/** The side of the square that a pattern repeats: as in the figures, more letters make it denser. */
+const tileSide = (hatch) => Math.max(5, 14 - 1.5 * hatch.length);
+
+function patternTile(hatch, colour) {
+  const side = Math.round(tileSide(hatch));
   const tile = document.createElement("canvas");
-  tile.width = tile.height = 8;
+  tile.width = tile.height = side;
   const own = tile.getContext("2d");
-  own.strokeStyle = style("--text");
+  own.strokeStyle = own.fillStyle = colour;
   own.lineWidth = 1;
   own.beginPath();
-  for (const shift of [-8, 0, 8]) own.moveTo(shift, 8), own.lineTo(shift + 8, 0);
+  for (const [x0, y0, x1, y1] of STROKES[hatch[0]] ?? []) {
+    own.moveTo(x0 * side, y0 * side);
+    own.lineTo(x1 * side, y1 * side);
+  }
+  if (hatch[0] === "o") own.arc(side / 2, side / 2, side / 4, 0, 2 * Math.PI);
   own.stroke();
-  return ink.createPattern(tile, "repeat");
+  if (hatch[0] === ".") {
+    own.beginPath();
+    own.arc(side / 2, side / 2, 1.2, 0, 2 * Math.PI);
+    own.fill();
+  }
+  return tile;
+}
+
+const pattern = (ink, hatch, colour) => ink.createPattern(patternTile(hatch, colour), "repeat");
+
+/** A legend's swatch in the look of a class. */
+function swatchOf(look) {
+  const swatch = document.createElement("canvas");
+  swatch.width = swatch.height = 16;
+  const own = swatch.getContext("2d");
+  for (const fill of look.hatch ? [look.face, pattern(own, look.hatch, look.ink)] : [look.face]) {
+    own.fillStyle = fill;
+    own.fillRect(0, 0, swatch.width, swatch.height);
+  }
+  return swatch;
 }
 
 function xAxis(ink, box, ticks, position, title) {

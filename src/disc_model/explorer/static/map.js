@@ -42,7 +42,8 @@ function drawMap() {
     };
     const lost = failed(study, place);
     if (!curve && variable.flags) seen.flags.add(numbers[n]);
-    if (!curve && Number.isFinite(numbers[n])) fill(variable.flags ? flagColour(variable, numbers[n]) : colours.colour(numbers[n]));
+    if (!curve && Number.isFinite(numbers[n]))
+      (variable.flags ? flagFills(ink, variable, numbers[n]) : [colours.colour(numbers[n])]).forEach(fill);
     else if (!curve && !lost) seen.empty = true;
     if (variable !== study.status && lost) {
       seen.hatched = true;
@@ -53,8 +54,8 @@ function drawMap() {
     }
   });
   ink.fillStyle = style("--text");
-  xAxis(ink, box, xs.ticks(), horizontal, heading(study.dim[x]));
-  yAxis(ink, box, ys.ticks(), vertical, heading(curve ? variable : study.dim[y]));
+  xAxis(ink, box, xs.ticks(), horizontal, axisLabel(study.dim[x]));
+  yAxis(ink, box, ys.ticks(), vertical, axisLabel(curve ? variable : study.dim[y]));
   if (colours) colourBar(ink, { left: box.left, right: box.right, top: height - 44, bottom: height - 32 }, colours);
   drawn = { box, horizontal, vertical, xs, ys };
   if (curve) drawCurve(ink, cells.map(({ i }, n) => [horizontal(xs.at[i]), vertical(numbers[n])]));
@@ -114,19 +115,20 @@ function markChosen(ink) {
 
 function legend(seen, dots) {
   const { study, variable } = view;
-  const entries = [...seen.flags].sort((a, b) => a - b).map((code) => [flagColour(variable, code), variable.flags[code]]);
+  const entries = [...seen.flags].sort((a, b) => a - b)
+    .map((code) => [swatchOf(variable.looks[code]), variable.looks[code].label]);
   if (seen.empty) entries.push([style("--empty"), "no number"]);
   if (seen.hatched) entries.push(["hatched", "no result; the point's status says why"]);
-  if (dots) entries.push(["dotted", `${dots[1].title}: ${dots[2]}`]);
+  if (dots) entries.push(["dotted", `${dots[1].title}: ${labelOf(dots[1], dots[2])}`]);
   element("legend").replaceChildren(...entries.map(legendEntry));
 }
 
 function legendEntry([look, text]) {
   const item = document.createElement("li");
-  const swatch = document.createElement("span");
-  swatch.className = "swatch";
+  const swatch = look instanceof Node ? look : document.createElement("span");
+  swatch.classList.add("swatch");
   if (["hatched", "dotted"].includes(look)) swatch.classList.add(look);
-  else swatch.style.background = look;
+  else if (!(look instanceof Node)) swatch.style.background = look;
   item.append(swatch, text);
   return item;
 }

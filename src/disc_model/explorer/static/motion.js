@@ -25,7 +25,7 @@ function nearestMotion() {
     motion.far = apart.reduce((sum, one) => sum + one, 0);
     const found = outcome && value(study, outcome, { ...place, ...places });
     motion.other = Boolean(outcome) && found !== value(study, outcome, place);
-    motion.like = outcome ? `of ${motion.other ? "another" : "the same"} outcome, ${outcome.flags[found]}, ` : "";
+    motion.like = outcome ? `of ${motion.other ? "another" : "the same"} outcome, ${outcome.looks[found].label}, ` : "";
     const nearer = !best || (motion.other === best.other ? motion.far < best.far : best.other);
     if (motion.far < Infinity && nearer) best = motion;
   }
@@ -106,7 +106,7 @@ function phaseBand(ink, motions, motion, horizontal, last, top, bottom) {
   motion.phase.forEach(([begin, code], n) => {
     const end = n + 1 < motion.phase.length ? motion.phase[n + 1][0] : last;
     const word = motions.phases[code];
-    const colour = contents.words[word] ?? style("--empty");
+    const colour = contents.phases[word] ?? style("--empty");
     seen.set(word, colour);
     ink.fillStyle = colour;
     ink.fillRect(horizontal(begin), top, horizontal(end) - horizontal(begin), bottom - top);

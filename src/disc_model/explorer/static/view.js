@@ -105,7 +105,7 @@ function fillControls() {
     );
   if (marks().length)
     boxes.push(
-      choice("Dots", [[NONE, "none"], ...marks().map(([key, , word]) => [key, `${key.split("=")[0]}: ${word}`])],
+      choice("Dots", [[NONE, "none"], ...marks().map(([key, variable, word]) => [key, `${variable.name}: ${labelOf(variable, word)}`])],
         view.mark, (key) => (view.mark = key)),
     );
   element("controls").replaceChildren(...boxes);

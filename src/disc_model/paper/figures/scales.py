@@ -2,17 +2,25 @@
 other figure."""
 
 from collections.abc import Mapping
-from typing import Any, ClassVar, Literal
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import plate_modes
 from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, Axes, Figure, mpl, panels
-from disc_model.figures.kind import Plot, Role, Roles
+from disc_model.figures.cells import edges_of, paint, patches
+from disc_model.figures.classes import Look
+from disc_model.figures.drawing import BLACK, BLUE, GREY, SEPARATED, large, mark
+from disc_model.figures.legends import figure_legend
+from disc_model.figures.sizes import PAGE
+from disc_model.figures.words import LOAD, SPEED
+from disc_model.paper import section2
+from disc_model.paper.figures.kinds import Scales
 from disc_model.parameters import Parameters
 
 SCALES = ("as_published", "orthonormal")
@@ -22,126 +30,126 @@ LOOKS: tuple[dict[str, Any], ...] = (
         "label": "by Eq. (17)",
         "marker": "o",
         "markerfacecolor": "white",
-        "color": drawing.BLUE,
+        "color": BLUE,
         "linestyle": "none",
     },
 )
-CELLS = ("white", "#f2b69c", "#d5e5f3", "#8a8a8a")
-"""Neither separates; only as published; only by Eq. (17), hatched; both. They differ in grey print."""
+CELLS = {
+    "neither": Look("with neither", "#ffffff"),
+    "published": Look("only as published", "#f2b69c"),
+    "orthonormal": Look("only by Eq. (17)", "#d5e5f3", 4 * "\\"),
+    "both": Look("with both", "#8a8a8a"),
+}
+"""With which normalization the static start separates. They differ in grey print."""
+RIGHT_OF = ("Fig. 2", "Fig. 7")
+"""Marks whose names stand on their right."""
 
 
-class Scales(Plot):
-    """(a) Squared amplitudes under the slider, (b) where the static start separates on the map over
-    speed and preload, (c) first separations on this and further maps."""
-
-    quantities: ClassVar = ("regions",)
-    needs: ClassVar = ("N", "Omega")
-    several: ClassVar = True
-    roles: ClassVar[Roles] = {
-        f"map_{name}": Role("regions", (other, name), required=True)
-        for name, other in (("D_star", "Omega"), ("c_p", "N"), ("k_p", "Omega"), ("m", "Omega"))
-    }
-    kind: Literal["paper.scales"] = "paper.scales"
-
-    def draw(self, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-        from disc_model.paper import section2
-
-        figure, axes = panels(PAGE, 2.9, 1, 3, width_ratios=(0.8, 1.25, 1.2))
-        points = section2.separating_points({"map_N": study, **overlays})
-        _amplitudes(axes[0], section2.BASE)
-        _regions(
-            axes[1],
-            study,
-            {x: point for x, point in points.items() if section2.SEPARATING[x][0] == "map_N"},
-        )
-        _times(axes[2], points, section2.first_separations(points))
-        drawing.letters(axes)
-        return figure
+def draw(plot: Scales, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+    """Draw amplitudes, regions and times."""
+    width = plot.inches
+    if width == PAGE:
+        figure, axes = drawing.panels(width, 2.9, 1, 3, width_ratios=(0.8, 1.25, 1.2))
+    else:
+        figure, axes = drawing.panels(width, 8.0, 3)
+    amplitudes, regions, times = axes
+    points = section2.separating_points({"map_N": study, **overlays})
+    on_map = {name: point for name, point in points.items() if _map_of(name) == "map_N"}
+    _draw_amplitudes(amplitudes, section2.BASE)
+    _draw_regions(regions, study, on_map)
+    _draw_times(times, points, section2.first_separations(points))
+    drawing.letters(axes)
+    title = "(b) The static start separates"
+    handles = patches(CELLS.values())
+    figure_legend(figure, handles, loc="outside lower center", title=title)
+    return figure
 
 
-def _amplitudes(ax: Axes, p: Parameters) -> None:
+def _map_of(figure: str) -> str:
+    """The map that has the case of a figure of the paper."""
+    return section2.SEPARATING[figure][0]
+
+
+def _draw_amplitudes(ax: Axes, p: Parameters) -> None:
+    """Draw the squared amplitudes of the modes with both normalizations."""
     squares = [
         plate_modes(p.replace(normalization=scale))["psi"].to_numpy() ** 2 for scale in SCALES
     ]
     for values, look in zip(squares, LOOKS, strict=True):
-        ax.plot(range(len(values)), values, markersize=5, **look)
-    ratio = squares[0][1] / squares[1][1]
+        ax.plot(range(len(values)), values, markersize=mark(5), **look)
+    published, orthonormal = (float(values[1]) for values in squares)
     arrow = {"arrowstyle": "-|>", "color": GREY, "linewidth": 1.0, "shrinkA": 4, "shrinkB": 4}
-    ax.annotate("", (1, squares[0][1]), (1, squares[1][1]), arrowprops=arrow)
-    drawing.say(ax, f"× {ratio:.0f}", (1, float(np.sqrt(squares[0][1] * squares[1][1]))), (5, 0))
+    ax.annotate("", (1, published), (1, orthonormal), arrowprops=arrow)
+    middle = float(np.sqrt(published * orthonormal))
+    drawing.say(ax, f"× {published / orthonormal:.0f}", (1, middle), (5, 0))
     label = r"Amplitude under the slider $\Psi_l^2$ (1/kg)"
-    ax.set(yscale="log", xlabel="Nodal diameters l", ylabel=label, xticks=range(5), ylim=(0.7, 110))
+    ax.set_yscale("log")
+    ax.set_xlabel("Nodal diameters l")
+    ax.set_ylabel(label)
+    ax.set_xticks(range(5))
+    ax.set_ylim((0.7, 110))
     ax.margins(x=0.12)
     ax.legend(loc="upper right", bbox_to_anchor=(1.04, 0.88))
 
 
-def _regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset]) -> None:
+def _draw_regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset]) -> None:
+    """Draw with which normalization the static start separates, and the paper's cases, filled if
+    they separate with both."""
     outcome = study["outcome"].sel(normalization=[*SCALES]).transpose("normalization", "N", "Omega")
-    apart = flag_names(outcome) == "separation"
-    cells = apart[0] + 2 * apart[1].astype(int)
-    across, up = (drawing.edges(study[name].values) for name in ("Omega", "N"))
-    ax.pcolormesh(
-        across,
-        up,
-        cells,
-        cmap=mpl.colors.ListedColormap(CELLS),
-        vmin=-0.5,
-        vmax=3.5,
-        rasterized=True,
-    )
-    ax.pcolor(
-        across,
-        up,
-        np.ma.masked_where(cells != 2, cells),
-        facecolor="none",
-        hatch=8 * "/",
-        linewidth=0,
-    )
+    published, orthonormal = flag_names(outcome) == "separation"
+    words = np.where(published, "published", "neither")
+    words = np.where(orthonormal, "orthonormal", words)
+    words = np.where(published & orthonormal, "both", words)
+    paint(ax, edges_of(outcome[0]), words, CELLS)
     for name, point in points.items():
-        x, y = float(point["Omega"]), float(point["N"])
-        fill = SEPARATED if np.all(flag_names(point["outcome"]) == "separation") else "white"
-        ax.plot(x, y, "o", color=BLACK, markerfacecolor=fill, markersize=5, clip_on=False)
-        side = (5 if name in ("Fig. 2", "Fig. 7") else -5, 0)
-        drawing.say(ax, name, (x, y), side, fontsize=7, path_effects=drawing.halo())
-    ax.text(0.68, 0.62, "both", transform=ax.transAxes, ha="center", va="center", fontsize=7)
-    line: dict[str, Any] = {
-        "arrowstyle": "-",
-        "shrinkA": 0,
-        "shrinkB": 0,
-        "path_effects": drawing.halo(3),
-    }
-    look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 7, "arrowprops": line}
-    for words, area, corner in (
-        ("only by\nEq. (17)", (0.26, 0.76), (0.12, 0.71)),
-        ("only as published", (0.37, 0.18), (0.27, 0.06)),
-    ):
-        ax.annotate(words, area, corner, "axes fraction", "axes fraction", **look)
-    ax.set(xlabel=drawing.label_of(study["Omega"])[0], ylabel=drawing.label_of(study["N"])[0])
+        place = (float(point["Omega"]), float(point["N"]))
+        both = bool(np.all(flag_names(point["outcome"]) == "separation"))
+        ax.plot(
+            *place,
+            "o",
+            markerfacecolor=SEPARATED if both else "white",
+            color=BLACK,
+            markersize=mark(5),
+            clip_on=False,
+        )
+        side = (5 if name in RIGHT_OF else -5, 0)
+        drawing.say(ax, name, place, side, fontsize=large(7), path_effects=drawing.halo())
+    ax.set_xlabel(SPEED)
+    ax.set_ylabel(LOAD)
 
 
-def _times(ax: Axes, points: Mapping[str, xr.Dataset], firsts: pd.DataFrame) -> None:
+def _draw_times(ax: Axes, points: Mapping[str, xr.Dataset], firsts: pd.DataFrame) -> None:
+    """Draw the first separation with both normalizations, a row for each figure of the paper; an
+    arrow up to the horizon where there is none by Eq. (17)."""
     horizons = {
         name: float(stated_in(point, "options")["horizon"]) for name, point in points.items()
     }
     times = firsts.sort_values("as_published", ascending=False)
+    line = {"color": GREY, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
     for height, (name, row) in enumerate(times.iterrows()):
         was, now = (float(row[scale]) for scale in SCALES)
-        none = np.isnan(now)
-        arrow = {
-            "arrowstyle": "-|>" if none else "-",
-            "color": GREY,
-            "linewidth": 1.0,
-            "shrinkA": 0,
-            "shrinkB": 0,
-        }
-        end = max(horizons[str(name)], 1.3 * was) if none else now
+        style = "-"
+        end = now
+        if np.isnan(now):
+            style = "-|>"
+            end = max(horizons[str(name)], 1.3 * was)
+        arrow = {"arrowstyle": style, **line}
         ax.annotate("", (end, height), (was, height), arrowprops=arrow)
         for time, look in zip((was, now), LOOKS, strict=True):
-            ax.plot([time], [height], markersize=5, **look)
+            ax.plot([time], [height], markersize=mark(5), **look)
         drawing.say(
-            ax, str(name), (0, height), (-3, 0), xycoords=("axes fraction", "data"), fontsize=7
+            ax,
+            str(name),
+            (0, height),
+            (-3, 0),
+            xycoords=("axes fraction", "data"),
+            fontsize=large(7),
         )
+    ax.set_xscale("log")
+    ax.set_xlabel("First separation (s)")
+    ax.set_xlim((25, 1.6 * max(horizons.values())))
+    ax.set_yticks([])
+    ax.set_ylim((-0.6, len(times) - 0.4))
+    ax.set_ylabel(" ")
     lost = int(times["orthonormal"].isna().sum())
-    ax.set(xscale="log", xlabel="First separation (s)", xlim=(25, 1.6 * max(horizons.values())))
-    ax.set(yticks=[], ylim=(-0.6, len(times) - 0.4), ylabel=" ")
     ax.set_title(f"{lost} of {len(times)}: none by Eq. (17)", loc="right")

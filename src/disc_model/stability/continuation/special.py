@@ -172,10 +172,12 @@ def _hidden_turn(tracer: BranchTracer, three: list[CurvePoint]) -> CurvePoint | 
         if least > NEARLY_FOLDED * slopes[1]:
             return None
         if place < 0:
-            before, after = three[0], three[1]
+            before = three[0]
+            after = three[1]
             share = 1 + place / lengths[0]
         else:
-            before, after = three[1], three[2]
+            before = three[1]
+            after = three[2]
             share = place / lengths[1]
         if not 1e-3 < share < 1 - 1e-3:
             return None

@@ -84,7 +84,7 @@ class Ramps(Quantity):
 def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], Result | None]:
     """Columns, as far as they are known, of one run, with a dwell at both speeds, and its part that
     failed, if any."""
-    from disc_model.engine.event_loop import EVENT_ROW, LOSS_OF_CONTACT
+    from disc_model.engine.record import EVENT_ROW, LOSS_OF_CONTACT
     from disc_model.simulation.api import simulate
 
     time = EVENT_ROW.index("time")

@@ -1,0 +1,144 @@
+"""The law of contact as a stage of the recurrences: forces of one order of the series, and their
+changes.
+
+With the coefficient of friction q (with the sign of the path) and beta = B / r_0, the contact force
+R makes friction T, the vertical force V and the force H that brakes the slider (docs/model.md,
+Other laws of contact):
+
+    slip:   T = q R               V = R - beta T        H = T + beta R
+    stick:  T = r_0 F - beta R    V = R - beta T
+
+Under the vertical force, the paper's, beta counts as zero here. The coefficient k of a product is
+the product of the first coefficient of one factor and the k-th of the other, and terms that lower
+orders determine, here called known:
+
+    T_k = q_0 R_k + known,    V_k = share_V R_k - known,    H_k = share_H R_k + known
+
+These are linear in what is known and in R_k, and so the same functions serve coefficients, which
+are numbers, and changes of coefficients, which are lanes (`tangent`).
+"""
+
+from typing import NamedTuple
+
+from .jit import inlined
+from .laws import friction_coefficient, slip_denominator, slip_shares
+from .modes import slope
+
+
+@inlined
+def leverage(lever, force, k):
+    """Coefficient k of a product without ``lever[0] * force[k]``, in two sums: neither waits."""
+    odd = 0.0
+    even = 0.0
+    for j in range(1, k, 2):
+        odd += lever[j] * force[k - j]
+        even += lever[j + 1] * force[k - j - 1]
+    if k % 2 == 1:
+        odd += lever[k] * force[0]
+    return odd + even
+
+
+# ---- Slip
+
+
+class SlipLaw(NamedTuple):
+    """The law of slip at the start of a step."""
+
+    friction: float  # q_0
+    beta: float
+    share_V: float
+    share_H: float
+    denominator: float  # of R
+
+
+class Known(NamedTuple):
+    """What lower orders determine of the forces of an order: numbers, or lanes of changes."""
+
+    T: object
+    V: object
+    H: object
+
+
+@inlined
+def slip_law(model, direction, f, dw_dtheta):
+    """Return the law of slip at the rate f on the slope ``dw_dtheta``."""
+    friction = friction_coefficient(model, direction, f)
+    beta = dw_dtheta / model.r_0
+    share_V, share_H = slip_shares(model, friction, beta)
+    denominator = slip_denominator(model, model.m, friction, dw_dtheta)
+    return SlipLaw(friction, beta, share_V, share_H, denominator)
+
+
+@inlined
+def known_forces(model, series, law, k, direction):
+    """Return what lower orders determine of the forces of order k in slip. Enters the coefficient
+    of falling friction of order k, for which f is needed up to this order."""
+    T = 0.0
+    leaning_R = 0.0
+    leaning_T = 0.0
+    if model.has_falling_friction:
+        put_coefficient(model, series, k, direction)
+        T = leverage(series.coefficient, series.P, k)
+    if model.has_normal_force:
+        series.slope[k] = slope(model, series, k) / model.r_0
+        leaning_R = leverage(series.slope, series.P, k)
+        leaning_T = law.friction * leaning_R
+        if model.has_falling_friction:
+            leaning_T = leverage(series.slope, series.friction, k)
+    return known_of(model, law, T, leaning_R, leaning_T)
+
+
+@inlined
+def known_of(model, law, T, leaning_R, leaning_T):
+    """Return `Known` from the known parts of T, beta R and beta T, numbers or lanes."""
+    if model.has_normal_force:
+        return Known(T, law.beta * T + leaning_T, T + leaning_R)
+    return Known(T, 0.0 * T, T)
+
+
+@inlined
+def known_numerator(model, law, known):
+    """Return what the known forces add to the numerator of R in rigid contact, numbers or lanes."""
+    braked = 0.0 - law.beta * known.H
+    if model.has_normal_force:
+        mobility = 1.0 + model.m * model.inverse_effective_mass
+        return mobility * known.V + braked
+    return braked
+
+
+@inlined
+def put_coefficient(model, series, k, direction):
+    """Enter order k of the coefficient q of falling friction: with s = ``direction`` and the
+    model's ``decay`` d, (1 + d s f) (q - s mu_k) = s (mu_s - mu_k)."""
+    if k == 0:
+        series.coefficient[0] = friction_coefficient(model, direction, series.f[0])
+    else:
+        change = leverage(series.f, series.coefficient, k)
+        change -= series.f[k] * direction * model.mu_k
+        fall = direction * model.decay
+        series.coefficient[k] = -fall / (1.0 + fall * series.f[0]) * change
+
+
+@inlined
+def put_weakening(model, series, k, direction):
+    """Enter order k of R dq/df, the change of T with f at the same R where friction falls with the
+    speed: (1 + d s f) dq/df = -d s (q - s mu_k), in the letters of `put_coefficient`."""
+    fall = direction * model.decay
+    excess = series.friction[k] - direction * model.mu_k * series.P[k]
+    excess += leverage(series.f, series.weakening, k)
+    series.weakening[k] = -fall * excess / (1.0 + fall * series.f[0])
+
+
+# ---- Stick
+
+
+@inlined
+def stick_forces(beta, pull, V, known_R, known_T):
+    """Return R and T of one order in stick, or their changes, numbers or lanes.
+
+    pull : r_0 F
+    known_R, known_T : of beta R and beta T, what lower orders determine; 0 without a slope
+    """
+    R = V + known_T
+    T = (pull - known_R - beta * R) * (1.0 / (1.0 + beta * beta))
+    return R + beta * T, T

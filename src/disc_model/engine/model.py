@@ -1,0 +1,352 @@
+"""Constants of one case, as kernels read them: flat arrays of doubles, in blocks of eight lanes.
+
+Pairs of diametral modes (l >= 1) fill blocks as (a, a, a, a, b, b, b, b); unused lanes are zero.
+Axisymmetric modes (l = 0) are few, and stored one by one in the arrays whose names end in 0.
+"""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .jit import inlined
+from .jit.packing import packed
+from .jit.simd import WIDTH, aligned, load
+from .state import (
+    DRIVE,
+    HALF,
+    LOAD,
+    PHASE,
+    STICK,
+    TIME,
+    TIME_LOW,
+    EngineState,
+    U,
+    disc_size,
+    lanes_for,
+    mode_places,
+    pair_lanes,
+    views_of_disc,
+)
+from .stick_modes import Components, StickModes, build_stick_modes, no_modes
+
+ROWS = 48  # number of coefficients of a series
+MOST_FREE = 1e4  # longest ``Model.free_unit``: the highest power of eight of them must not overflow
+
+# Rows of ``Model.lanes``. Sums over lanes of a row times the displacements z, or the velocities e:
+# AMPLITUDE (psi_l in lanes of a) gives w and, with e, its velocity; SLOPE (l psi_l in lanes of b)
+# B = dw/dtheta; BEND (-l^2 psi_l in lanes of a) d2w/dtheta2, all under the slider. FORCES: psi_l in
+# lanes of a, on which V acts, and in lanes of b the arm of friction, on which T acts; ARM: the
+# latter alone. From SLOPE_RATE on, a row for each order k: SLOPE, and in lanes of a the same times
+# (k + 1) / unit.
+(
+    SHIFT,
+    STIFFNESS,
+    DAMPING,
+    AMPLITUDE,
+    SLOPE,
+    BEND,
+    MINUS_AMPLITUDE_DAMPING,
+    MINUS_AMPLITUDE_STIFFNESS,
+    FORCES,
+    ARM,
+    SLOPE_RATE,
+) = range(11)
+
+
+@packed()
+class Model(NamedTuple):
+    """Constants of one case. Arrays of lanes have shape (lanes of pairs,), those whose names end in
+    0 have shape (modes without nodal diameter,).
+
+    Flags are () for no and (True,) for yes: a length is part of the type, so that numba compiles no
+    branch of a law that the case does not have.
+    """
+
+    lanes: np.ndarray  # all rows: hot kernels use one pointer. The next five are views of it
+    shift: np.ndarray  # +l in lanes of a, -l in lanes of b
+    stiffness: np.ndarray  # omega^2
+    damping: np.ndarray  # 2 xi omega
+    mode_amplitude: np.ndarray  # psi_l in lanes of a, 0 in lanes of b
+    dw_dtheta: np.ndarray  # l psi_l in lanes of b, 0 in lanes of a
+    stiffness0: np.ndarray
+    damping0: np.ndarray
+    mode_amplitude0: np.ndarray
+    N: float
+    Omega: float
+    k: float
+    c: float
+    m: float
+    k_p: float
+    c_p: float
+    mu_s: float
+    mu_k: float
+    r_0: float
+    u_0: float  # static displacement of the slider, m
+    inverse_effective_mass: float  # S = sum psi_l^2, 1/kg
+    damped_inverse_mass: float  # sum 2 xi_l omega_l psi_l^2, 1/(kg s)
+    unit: float  # of the time of series, s: one radian of the fastest motion
+    free_unit: float  # one radian of the fastest motion out of compliant contact, in units of time
+    velocity_scale: float  # m/s times sqrt(kg): what a modal velocity is compared with
+    slider_scale: float  # m/s: what u' is compared with where it is not the disc's
+    bonded: bool  # whether contact is bilateral
+    compliance: float  # of the contact, m/N; 0 if it is rigid
+    couple: np.ndarray  # arm of friction T on a mode in lanes of b, 0 in lanes of a
+    couple_swing: float  # sum l psi_l couple_l, 1/kg
+    decay: float  # of friction, r_0 times ``friction_decay``, s/rad
+    modes: StickModes  # closed form of stick
+    has_more_blocks: tuple[bool, ...]  # whether there is more than one block of lanes
+    has_compliance: tuple[bool, ...]  # whether the contact is compliant
+    has_normal_force: tuple[bool, ...]  # whether the contact force is normal to the bent disc
+    has_couple: tuple[bool, ...]  # whether friction acts on the disc's surface, and so bends it
+    has_falling_friction: tuple[bool, ...]  # whether friction in slip falls with the speed
+    has_ramp: tuple[bool, ...] = ()  # whether Omega and N may change with time
+    ramp_begin: float = 0.0  # s
+    ramp_angle: float = 0.0  # rad, of the drive point at the ramp's begin
+    Omega_rate: float = 0.0  # rad/s^2
+    N_rate: float = 0.0  # N/s
+
+
+class DiscModes(NamedTuple):
+    """The modes kept, each an array of shape (n_modes,); none for a rigid disc."""
+
+    diameters: np.ndarray  # l
+    omega: np.ndarray  # rad/s
+    psi: np.ndarray  # amplitude under the slider, kg^-1/2
+    damping: np.ndarray  # 2 xi omega, 1/s
+    tangential: np.ndarray  # amplitude at the surface on which friction acts, kg^-1/2
+
+
+class Contact(NamedTuple):
+    """The law of contact."""
+
+    bonded: bool = False  # whether contact is bilateral
+    compliance: float = 0.0  # m/N; 0 if it is rigid
+    normal: bool = False  # whether the contact force is normal to the bent disc, not vertical
+    friction_decay: float = np.inf  # s/m; inf for the coefficient mu_k at any speed
+
+
+def _flag(yes) -> tuple[bool, ...]:
+    return (True,) if yes else ()
+
+
+def build_model(modes: DiscModes, slider: Mapping[str, Any], contact: Contact) -> Model:
+    """Return the constants of a case; ``slider`` has N, Omega, k, c, m, k_p, c_p, mu_s, mu_k and
+    r_0 by name."""
+    N = slider["N"]
+    m = slider["m"]
+    psi = modes.psi
+    omega = modes.omega
+    compliance = contact.compliance
+    single = np.flatnonzero(modes.diameters == 0)
+    falls = np.isfinite(contact.friction_decay) and slider["mu_s"] > slider["mu_k"]
+
+    # scales of time
+    S = float(np.sum(psi**2))
+    contact_rate = (1 / m + S) / compliance if compliance else 0.0
+    slider_rate = max(slider["k"], slider["k_p"]) / m
+    unit = _time_unit(omega, contact_rate, slider_rate)
+    free_unit = _time_unit(omega, 0.0, slider_rate) / unit
+
+    lanes = _lanes(modes, unit)
+    rows = lanes.reshape(SLOPE_RATE + ROWS, -1)
+    return Model(
+        lanes=lanes,
+        shift=rows[SHIFT],
+        stiffness=rows[STIFFNESS],
+        damping=rows[DAMPING],
+        mode_amplitude=rows[AMPLITUDE],
+        dw_dtheta=rows[SLOPE],
+        stiffness0=omega[single] ** 2,
+        damping0=modes.damping[single],
+        mode_amplitude0=psi[single],
+        **slider,
+        u_0=-N * (float(np.sum(psi**2 / omega**2)) + compliance),
+        inverse_effective_mass=S,
+        damped_inverse_mass=float(np.sum(modes.damping * psi**2)),
+        unit=unit,
+        free_unit=min(free_unit, MOST_FREE),
+        velocity_scale=N * float(np.max(np.abs(psi) / omega, initial=0.0)),
+        slider_scale=N * (float(np.sum(psi**2 / omega)) + compliance / unit),
+        bonded=contact.bonded,
+        compliance=compliance,
+        couple=rows[ARM],
+        couple_swing=float(np.sum(rows[SLOPE] * rows[ARM])),
+        decay=slider["r_0"] * float(contact.friction_decay) if falls else 0.0,
+        # under the normal force friction in stick is no linear function of the state
+        modes=no_modes() if contact.normal else _stick_modes(modes, slider, compliance, unit),
+        has_more_blocks=_flag(rows.shape[1] > WIDTH),
+        has_compliance=_flag(compliance),
+        has_normal_force=_flag(contact.normal),
+        has_couple=_flag(np.any(rows[ARM])),
+        has_falling_friction=_flag(falls),
+    )
+
+
+def _time_unit(omega, contact, slider) -> float:
+    """Return one radian of the fastest motion, s; contact, slider: squares of the contact's and the
+    slider's rates, 1/s^2."""
+    if len(omega) == 0 and contact == 0.0:  # a rigid disc, and only the slider moves
+        return slider**-0.5 if slider > 0.0 else 1.0
+    return 1.0 / max(float(np.max(omega, initial=0.0)), contact**0.5)
+
+
+def _lanes(modes: DiscModes, unit: float) -> np.ndarray:
+    """Return ``Model.lanes`` for a unit of time, s."""
+    pairs = np.flatnonzero(modes.diameters > 0)
+    l = modes.diameters[pairs]
+    psi = modes.psi[pairs]
+    of_a = pair_lanes(len(pairs))
+    of_b = of_a + HALF
+    of_both = np.concatenate([of_a, of_b])
+    width = lanes_for(len(pairs))
+    lanes = aligned((SLOPE_RATE + ROWS) * width)
+    rows = lanes.reshape(-1, width)
+    rows[SHIFT, of_a] = l
+    rows[SHIFT, of_b] = -l
+    rows[STIFFNESS, of_both] = np.tile(modes.omega[pairs] ** 2, 2)
+    rows[DAMPING, of_both] = np.tile(modes.damping[pairs], 2)
+    rows[AMPLITUDE, of_a] = psi
+    rows[SLOPE, of_b] = l * psi
+    rows[BEND, of_a] = -(l**2) * psi
+    rows[MINUS_AMPLITUDE_DAMPING] = -rows[AMPLITUDE] * rows[DAMPING]
+    rows[MINUS_AMPLITUDE_STIFFNESS] = -rows[AMPLITUDE] * rows[STIFFNESS]
+    rows[ARM, of_b] = -modes.tangential[pairs]
+    rows[FORCES] = rows[AMPLITUDE] + rows[ARM]
+    rows[SLOPE_RATE:, of_b] = l * psi
+    rows[SLOPE_RATE:, of_a] = np.outer(np.arange(1.0, ROWS + 1.0) / unit, l * psi)
+    return lanes
+
+
+def _stick_modes(
+    modes: DiscModes, slider: Mapping[str, Any], compliance: float, unit: float
+) -> StickModes:
+    """Return the closed form of stick under the vertical force."""
+    along, across, along_velocity, across_velocity = mode_places(modes.diameters)
+    pairs = np.flatnonzero(modes.diameters > 0)
+    single = np.flatnonzero(modes.diameters == 0)
+    # components a of the pairs, modes without nodal diameter, components b
+    upright = np.concatenate([pairs, single])
+    each = np.concatenate([upright, pairs])
+    is_b = np.arange(len(each)) >= len(upright)
+    components = Components(
+        omega=modes.omega[each],
+        damping=modes.damping[each],
+        shape=np.where(is_b, 0.0, modes.psi[each]),
+        arm=np.where(is_b, -modes.tangential[each], 0.0),
+    )
+    displacements = np.concatenate([along[upright], across[pairs]])
+    velocities = np.concatenate([along_velocity[upright], across_velocity[pairs]])
+    width = lanes_for(len(pairs))
+    return build_stick_modes(
+        components,
+        np.stack([displacements, velocities]),
+        slider,
+        u=2 * (width + len(single)),
+        length=disc_size(width, len(single), compliance > 0.0),
+        unit=unit,
+        compliance=compliance,
+    )
+
+
+def build_state(model: Model) -> EngineState:
+    """Return the static start: equilibrium under the preload, in stick, spring relaxed."""
+    width = len(model.mode_amplitude)
+    n_single = len(model.mode_amplitude0)
+    state = views_of_disc(width, n_single, bool(model.has_compliance))
+    exists = model.stiffness > 0
+    np.divide(-model.N * model.mode_amplitude, model.stiffness, out=state.z, where=exists)
+    exists0 = model.stiffness0 > 0
+    np.divide(-model.N * model.mode_amplitude0, model.stiffness0, out=state.y, where=exists0)
+    state.x[U] = model.u_0
+    state.x[PHASE] = STICK
+    return state
+
+
+def flags_of(model: Model) -> tuple[Any, ...]:
+    """Return the flags of a model, which alone decide how kernels are compiled for it."""
+    return tuple(entry for entry in model if type(entry) is tuple)
+
+
+def blocks_of(model: Model) -> int:
+    """Return the number of blocks of lanes, to which the cost of a step is proportional."""
+    return len(model.shift) // WIDTH
+
+
+def slope_under_slider(model: Model, state: EngineState) -> float:
+    """Return B = dw/dtheta, m."""
+    return float(np.dot(model.dw_dtheta, state.z))
+
+
+# ---- Ramps
+
+
+def on_ramp(model: Model, begin: float, angle: float, **course: Any) -> Model:
+    """Return a model whose Omega and N change steadily from ``begin`` (s) on; the slider's spring
+    is held where it was.
+
+    angle : rad, of the drive point at ``begin``
+    course : Omega and N there, Omega_rate and N_rate
+    """
+    share = course["N"] / model.N
+    return model._replace(
+        **course,
+        velocity_scale=share * model.velocity_scale,
+        slider_scale=share * model.slider_scale,
+        has_ramp=_flag(True),
+        ramp_begin=begin,
+        ramp_angle=angle,
+        modes=no_modes(),  # the closed form of stick knows no ramps
+    )
+
+
+@inlined
+def drive_now(model, state):
+    """Return Omega at the state's time."""
+    return state.x[DRIVE] if model.has_ramp else model.Omega
+
+
+@inlined
+def load_now(model, state):
+    """Return N at the state's time."""
+    return state.x[LOAD] if model.has_ramp else model.N
+
+
+@inlined
+def set_course(model, state):
+    """Set Omega and N to those of the state's time, on a ramp."""
+    if model.has_ramp:
+        x = state.x
+        since = (x[TIME] - model.ramp_begin) + x[TIME_LOW]
+        x[DRIVE] = model.Omega + model.Omega_rate * since
+        x[LOAD] = model.N + model.N_rate * since
+
+
+@inlined
+def drive_angle(model, time):
+    """Return the angle of the drive point at a time (s), rad."""
+    if model.has_ramp:
+        since = time - model.ramp_begin
+        return model.ramp_angle + (model.Omega + 0.5 * model.Omega_rate * since) * since
+    return model.Omega * time
+
+
+# ---- Flags and rows of lanes
+
+
+@inlined
+def is_rigid(model):
+    """Return whether contact is rigid; numba has no ``not`` of a flag as a value."""
+    return len(model.has_compliance) == 0
+
+
+@inlined
+def lane_count(model):
+    """Return the number of lanes; a constant for the compiler if there is one block."""
+    return len(model.shift) if model.has_more_blocks else WIDTH
+
+
+@inlined
+def constants(model, row, b):
+    """Return the block of a row that begins at lane b."""
+    return load(model.lanes, row * lane_count(model) + b)

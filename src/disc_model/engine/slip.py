@@ -1,0 +1,137 @@
+"""Taylor coefficients of slip (docs/model.md, Slip), with the law of contact as a stage.
+
+In rigid contact the slider moves with the disc under it: with u'' = A + B f' - S V, its equation of
+motion gives the contact force of order k (see `contact` for the letters),
+
+    R_k denominator = (N + k (u - u_0) + c u' + m A + B F)_k + known
+
+On a compliant contact u, u' are states, and R_k denominator = V_k + known with V = (w - u) / C.
+"""
+
+from typing import NamedTuple
+
+from .contact import known_forces, known_numerator, slip_law
+from .jit import inlined
+from .jit.simd import WIDTH, load, store, total
+from .modes import begin_turning, deflection, next_turning, put_last_forces, rest_on_disc, slope
+
+
+class _Factors(NamedTuple):
+    """Constants of a step, by which terms are multiplied."""
+
+    spring: float  # psi in F / m
+    damper: float  # the rate of psi in F / m
+    lever: float  # H in -f'
+    brake: float  # R in -f', by its share of H
+    recoil: float  # R in -u'', by its shares of V and H
+    inverse: float  # the numerator in R; the others are those of its terms in rigid contact:
+    by_acceleration: float
+    by_u: float
+    by_v: float
+    by_pull: float  # F / m
+    twist: float  # change of T from one order to the next in -A: 2 l f_0 beta_l
+
+
+@inlined
+def slip_series(model, series, order, direction):
+    """Fill ``series``, whose coefficients 0 are given, up to degree ``order`` with slip in the
+    sense of ``direction``; P, which is R, up to ``order - 1``, and the event function direction *
+    f. Returns the denominator of R, whose zero is Painleve's paradox, or a jammed contact."""
+    f = series.f[0]
+    psi = series.psi[0]
+    B = slope(model, series, 0)
+    law = slip_law(model, direction, f, B)
+    factors = _factors(model, law, f, B)
+    rest_on_disc(model, series, B)
+    u = series.u[0]
+    v = series.v[0]
+    disc = begin_turning(model, series)
+    acceleration = disc.acceleration
+    pending = disc.pending
+    V_impulse = 0.0
+    T_impulse = 0.0
+    for k in range(order):
+        # u'' of the disc without the forces of this order, and F / m
+        if k > 0:
+            pairs, single, pending = next_turning(
+                model, series, k, f, V_impulse, T_impulse, pending
+            )
+            by_speed = disc.by_f + disc.by_f_rate * series.down[k]
+            rest = single + f * by_speed + V_impulse * model.damped_inverse_mass
+            if model.has_couple:
+                rest -= factors.twist * T_impulse
+            acceleration = total(pairs) + rest
+        # in this order: only the last term waits for f
+        pull = factors.spring * psi + factors.damper * series.drive[k] - factors.damper * f
+
+        # the law of contact
+        known = known_forces(model, series, law, k, direction)
+        if model.has_compliance:
+            V = (deflection(model, series, k) - u) / model.compliance
+            R = factors.inverse * (V + known.V)
+        else:
+            rest = factors.inverse * series.preload[k] + factors.by_u * u + factors.by_v * v
+            rest += factors.by_pull * pull
+            R = factors.by_acceleration * acceleration + rest
+            if model.has_normal_force or model.has_falling_friction:
+                R += factors.inverse * known_numerator(model, law, known)
+        series.P[k] = R
+        V = law.share_V * R
+        T = law.friction * R
+        rate_f = pull - factors.brake * R
+        rate_v = acceleration + B * pull - factors.recoil * R
+        if model.has_normal_force or model.has_falling_friction:
+            V -= known.V
+            T += known.T
+            braked = factors.lever * known.H
+            rate_f -= braked
+            rate_v += model.inverse_effective_mass * known.V - B * braked
+            series.friction[k] = T
+        if model.has_compliance:
+            series.V[k] = V
+            rate_v = (V - (series.preload[k] + model.k * u + model.c * v)) / model.m
+
+        # the slider
+        up = series.up[k]
+        V_impulse = V * up
+        T_impulse = T * up
+        psi = (series.drive[k] - f) * up
+        f = rate_f * up
+        u = v * up
+        v = rate_v * up
+        series.psi[k + 1] = psi
+        series.f[k + 1] = f
+        series.u[k + 1] = u
+        series.v[k + 1] = v
+
+    put_last_forces(model, series, order, V_impulse, T_impulse)
+    for j in range(0, order + 1, WIDTH):
+        store(series.switch, j, direction * load(series.f, j))
+    # remains of an earlier step in another phase
+    series.switch[order + 1] = 0.0
+    series.P[order] = 0.0
+    return law.denominator
+
+
+@inlined
+def _factors(model, law, f, B):
+    """`_Factors` of a step that begins at the rate f on the slope B."""
+    S = model.inverse_effective_mass
+    lightness = 1.0 / model.m
+    lever = lightness / model.r_0
+    brake = lever * law.share_H
+    inverse = 1.0 / law.denominator
+    by_acceleration = inverse * model.m
+    return _Factors(
+        spring=model.k_p * lightness,
+        damper=model.c_p * lightness,
+        lever=lever,
+        brake=brake,
+        recoil=S * law.share_V + B * brake,
+        inverse=inverse,
+        by_acceleration=by_acceleration,
+        by_u=inverse * model.k,
+        by_v=inverse * model.c,
+        by_pull=by_acceleration * B,
+        twist=2.0 * f * model.couple_swing,
+    )

@@ -1,0 +1,172 @@
+"""Outcomes of many starts: their shares, the attractors, and the critical energy of separation."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from disc_model.data.variables import flag_names, stated_in
+from disc_model.figures import drawing
+from disc_model.figures.arrays import Array
+from disc_model.figures.cells import entries
+from disc_model.figures.classes import LOOKS
+from disc_model.figures.drawing import BLACK, GREY, SEPARATED, large, mark, wide
+from disc_model.figures.kinds.motions import BasinShares
+from disc_model.figures.legends import figure_legend, legend_above
+from disc_model.figures.selection import failed
+from disc_model.figures.sizes import PAGE
+from disc_model.figures.words import measured
+
+STACKED = (
+    "quiet",
+    "other_cycle",
+    "separating",
+    "quasi_periodic",
+    "irregular",
+    "steady_sliding",
+    "at_rest",
+    "undecided",
+    "failed",
+)
+"""Order in which shares of outcomes are stacked."""
+LARGEST = 36.0  # area of the mark of an attractor that all starts reach, square points
+AREAS = {"10 %": 0.1, "50 %": 0.5, "all starts": 1.0}
+"""Shares of starts that the legend shows."""
+BAR = 0.9  # width of a bar over the least distance of two
+
+
+def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+    """Draw the fractions for each energy; below, attractors by range, as large as their
+    fractions, and energies."""
+    study = study.transpose(plot.x, ...)
+    across = measured(study[plot.x])
+    energies = study["energy"].values
+    figure, axes = _panels(plot.inches, len(energies))
+    *shares, attractors, kicks = axes
+
+    classes = outcomes_in(study["basin_fraction"])
+    for ax, energy in zip(shares, energies, strict=True):
+        of_energy = study["basin_fraction_by_energy"].sel(energy=energy)
+        draw_shares(ax, of_energy, classes, across.values)
+        ax.label_outer()
+    shares[0].set_ylabel(f"Fraction of {study.sizes['start']} starts")
+    _draw_attractors(attractors, study, across.values)
+    _draw_kicks(kicks, study, across.values)
+
+    drawing.letters(axes, [f"{energy:g} J" for energy in energies])
+    for ax in axes:
+        ax.margins(x=0.04)
+        ax.set_xlabel(across.label)
+        drawing.mark_failed(ax, across.values[failed(study).values])
+    horizon = stated_in(study, "options")["horizon"]
+    undecided = LOOKS["undecided"]._replace(label=f"undecided after {horizon:g} s")
+    handles = entries(classes, {**LOOKS, "undecided": undecided})
+    figure_legend(figure, handles, loc="outside lower center")
+    return figure
+
+
+def _panels(width: float, count: int) -> tuple[Figure, list[Axes]]:
+    """A figure with a panel of shares for each energy, and two below; in one column, all below each
+    other."""
+    if width != PAGE:
+        figure = drawing.new_figure(width, 1.0 + 1.5 * count + 4.0)
+        grid = figure.add_gridspec(count + 2, 1, height_ratios=[1.0] * count + [1.3, 1.3])
+        return figure, [figure.add_subplot(grid[i]) for i in range(count + 2)]
+    figure = drawing.new_figure(width, 4.6)
+    above, below = np.asarray(figure.subfigures(2, 1))
+    shares = above.subplots(1, count, sharey=True, squeeze=False)[0]
+    return figure, [*shares, *below.subplots(1, 2)]
+
+
+# ---- Shares
+
+
+def outcomes_in(shares: xr.DataArray) -> list[str]:
+    """The outcomes that occur among the starts, in the order in which their shares are stacked."""
+    known = {str(word) for word in shares["attractor_class"].values}
+    return [
+        word for word in STACKED if word in known and (shares.sel(attractor_class=word) > 0).any()
+    ]
+
+
+def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: Array) -> None:
+    """Draw the shares of outcomes along another dimension, stacked, as bars at the places
+    `along`."""
+    width = BAR * np.diff(along).min(initial=1.0)
+    shares = shares.sel(attractor_class=[*classes]).transpose("attractor_class", ...)
+    below = shares.cumsum("attractor_class") - shares.fillna(0)
+    for word, heights, bottoms in zip(classes, shares, below, strict=True):
+        look = LOOKS[word]
+        ax.bar(
+            along,
+            heights,
+            width,
+            bottoms,
+            lw=wide(0.4),
+            fc=look.face,
+            hatch=look.hatch,
+            ec=look.ink,
+        )
+    ax.set_ylim((0, 1))
+
+
+# ---- Attractors
+
+
+def _draw_attractors(ax: Axes, study: xr.Dataset, along: Array) -> None:
+    """Draw the range of the slider on each attractor, mm, with marks as large as its share of all
+    starts; diamonds stand for classes with a pattern."""
+    study = study.transpose(..., "attractor")
+    kinds = flag_names(study["attractor_kind"])
+    starts = study["attractor_starts"].values
+    ranges = 1e3 * study["attractor_range"].values
+    total = study.sizes["energy"] * study.sizes["start"]
+    edge: dict[str, Any] = {"edgecolor": BLACK, "linewidth": wide(0.4)}
+    for word in STACKED:
+        look = LOOKS[word]
+        point, number = np.nonzero((kinds == word) & (starts > 0))
+        areas = LARGEST * starts[point, number] / total
+        shape = "D" if look.hatch else "o"
+        heights = ranges[point, number]
+        ax.scatter(along[point], heights, areas, color=look.face, marker=shape, zorder=3, **edge)
+    for text, share in AREAS.items():
+        ax.scatter([], [], LARGEST * share, facecolor="none", label=text, **edge)
+    legend_above(ax)
+    ax.set_ylabel("Slider range (mm)")
+    if np.any(ranges > 0):
+        ax.set_yscale("log")
+
+
+# ---- Energies
+
+
+def _draw_kicks(ax: Axes, study: xr.Dataset, along: Array) -> None:
+    """Draw the critical energy by bisection, the lowest separating energy of the starts, and all
+    their energies."""
+    label = "energies of the starts"
+    for energy in study["energy"].values:
+        ax.axhline(energy, color=GREY, linestyle=":", linewidth=wide(0.6), zorder=0, label=label)
+        label = "_nolegend_"
+    sample = study["critical_energy_sampled"].values
+    bound = study["critical_energy"].values
+    ax.plot(along, sample, "_", color=BLACK, markersize=mark(6), label="least that separates")
+    shown = np.where(bound > 0, bound, np.nan)
+    ax.plot(along, shown, "v-", color=SEPARATED, markersize=mark(3.5), label="by bisection")
+    ax.set_ylabel("Critical energy (J)")
+    if np.any(sample > 0):
+        ax.set_yscale("log")
+        # energy 0 has no place on this logarithmic scale
+        for x in along[bound == 0]:
+            drawing.say(
+                ax,
+                "0",
+                (x, 0),
+                (0, 2),
+                color=SEPARATED,
+                xycoords=("data", "axes fraction"),
+                fontsize=large(7),
+            )
+    legend_above(ax, columns=2, columnspacing=0.7, handlelength=1.0, handletextpad=0.4)

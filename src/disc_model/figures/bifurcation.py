@@ -1,0 +1,171 @@
+"""Bifurcation diagrams: samples once a turn or at events, periods, and exponents."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from disc_model.data.variables import axis_of, flag_names, stated_in
+from disc_model.figures import drawing
+from disc_model.figures.arrays import Array, Words
+from disc_model.figures.drawing import BLACK, BLUE, BROWN, GREY, PHASE_COLOURS, mark, wide
+from disc_model.figures.kinds.motions import Bifurcation
+from disc_model.figures.legends import legend_above
+from disc_model.figures.selection import broken, failed
+
+MARKS: dict[str, dict[str, Any]] = {
+    "stick": {"marker": "x", "markersize": 2.0, "mew": 0.4},
+    "slip": {"marker": ".", "markersize": 1.5},
+    "separation": {"marker": ".", "markersize": 1.5},
+}
+"""Marks of phases; in grey print, the colours of stick and separation are alike."""
+UNDECIDED: dict[str, Any] = {
+    "color": GREY,
+    "marker": "o",
+    "markersize": 3.0,
+    "mfc": "none",
+    "mew": 0.5,
+}
+IN_LEGEND = 6.0  # size of the marks there: those of the diagram are too small for it
+EXPONENTS = (BLACK, BLUE, BROWN, GREY)
+"""Colours of exponents, the largest first; none is the colour of a phase."""
+ERRORS = 4  # half-width of the band about an exponent, in standard errors
+ANOTHER = 0.05  # 1/s, step of an exponent beyond which another motion begins
+EVENTS = {"stick": "at release of stick", "separation": "at loss of contact"}
+"""Names of the phases at whose beginning or end samples are taken."""
+IDLE = 0.02  # height of the marks of motions without samples, as a share of the panel
+
+
+def draw(plot: Bifurcation, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+    """Draw samples by phase, hollow where the motion is not shown to have settled, with crosses
+    at failed points, dashes at motions without samples; below periods, and exponents with
+    crosses where the largest is missing."""
+    study = study.transpose(plot.x, "sample", ...)
+    label, factor = axis_of(plot.x)
+    along = study[plot.x].values * factor
+
+    # panels
+    heights = [2.4, 0.9]  # inch
+    if "lyapunov" in overlays:
+        heights.append(1.4)
+    width = plot.inches
+    rows = len(heights)
+    figure, axes = drawing.panels(
+        width, sum(heights) + 0.7, rows, sharex=True, height_ratios=heights
+    )
+    axes[-1].set_xlabel(label)
+
+    _draw_samples(axes[0], study, along)
+    _draw_idle(axes[0], study, along)
+    _draw_periods(axes[1], study, along)
+    if "lyapunov" in overlays:
+        _draw_exponents(axes[2], overlays["lyapunov"], plot.x)
+
+    drawing.letters(axes)
+    for panel in axes:
+        panel.margins(x=0.01)  # no dot is cut at the edge
+    places = {case: value * factor for case, value in plot.paper_cases.items()}
+    drawing.mark_cases(axes, places)
+    legend = legend_above(axes[0])
+    for line in legend.get_lines() if legend else ():
+        line.set_markersize(mark(IN_LEGEND))
+    return figure
+
+
+def phases_of(study: xr.Dataset) -> Words:
+    """The phase of each sample, "none" where it was not reached, or the point failed."""
+    phase = flag_names(study["phase"])
+    return np.where(failed(study).values[:, None], "none", phase)
+
+
+def _draw_samples(ax: Axes, study: xr.Dataset, along: Array) -> None:
+    """Draw the angle of each sample, in mrad, over the parameter."""
+    values = 1e3 * study["psi"].values  # some hundredths of a radian
+    position = np.broadcast_to(along[:, None], values.shape)
+    phase = phases_of(study)
+    settled = (flag_names(study["settled"]) == "settled")[:, None]
+    names = EVENTS if stated_in(study, "options")["section"] == "event" else {}
+    dots = [("not settled, or undecided", ~settled & (phase != "none"), UNDECIDED)]
+    for name, colour in PHASE_COLOURS.items():
+        look = {**MARKS[name], "color": colour}
+        dots.append((names.get(name, name), settled & (phase == name), look))
+    for name, mask, look in dots:
+        if mask.any():
+            sized = {**look, "markersize": mark(look["markersize"])}
+            ax.plot(position[mask], values[mask], linestyle="", label=name, **sized)
+    drawing.mark_failed(ax, along[failed(study).values])
+    ax.set_ylabel(axis_of("psi")[0].replace("rad", "mrad"))
+
+
+def _draw_idle(ax: Axes, study: xr.Dataset, along: Array) -> None:
+    """Mark motions without samples: steady sliding, and those without an event."""
+    moving = (phases_of(study) != "none").any(axis=1)
+    idle = ~moving & ~failed(study).values
+    slides = flag_names(study["kind"]) == "steady_sliding"
+    edge = ax.get_xaxis_transform()
+    for label, shape, mask in (
+        ("steady sliding", "_", idle & slides),
+        ("no event while sampled", "|", idle & ~slides),
+    ):
+        places = along[mask]
+        if places.size:
+            ax.plot(
+                places,
+                np.full(places.size, IDLE),
+                shape,
+                label=label,
+                transform=edge,
+                color=GREY,
+                markersize=mark(4),
+            )
+
+
+def _draw_periods(ax: Axes, study: xr.Dataset, along: Array) -> None:
+    """Draw after how many events motions repeat, and mark those that are not shown to."""
+    moving = (phases_of(study) != "none").any(axis=1)
+    period = study["period_events"].values[moving]
+    repeats = period > 0
+    ax.plot(along[moving][repeats], period[repeats], ".", color=BLACK, markersize=mark(3))
+    ax.set_yscale("log")
+    ax.set_ylabel("Period\n(events)")
+    ax.set_ylim(0.4, None)  # room for crosses below period 1
+    ax.yaxis.set_major_formatter("{x:g}")
+    drawing.mark_failed(ax, along[moving][~repeats], name="not shown to repeat")
+    if not repeats.all():
+        legend_above(ax)
+
+
+def _draw_exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
+    """Draw the largest exponents with their errors; rings of their colours where they have not
+    converged."""
+    lyapunov = lyapunov.transpose("exponent_number", name, ...)
+    known = ~failed(lyapunov)
+    exponent = lyapunov["exponent"].where(known).values
+    error = lyapunov["exponent_error"].where(known).values
+    moving = flag_names(lyapunov["converged"])[: len(EXPONENTS)] == "no"
+    along = lyapunov[name].values * axis_of(name)[1]
+    ax.axhline(0, color=GREY, linewidth=wide(0.8))
+    ring: dict[str, Any] = {
+        "markerfacecolor": "none",
+        "markersize": mark(4),
+        "markeredgewidth": wide(0.6),
+    }
+    for i, colour in zip(range(len(exponent)), EXPONENTS, strict=False):
+        label = f"exponent {i + 1}" if i else "largest exponent"
+        x, y = broken(along, exponent[i], ANOTHER)
+        ax.plot(x, y, ".-", color=colour, markersize=mark(3), linewidth=wide(0.8), label=label)
+        band = ERRORS * np.interp(x, along, error[i])
+        ax.fill_between(x, y - band, y + band, color=colour, alpha=0.15, linewidth=0)
+        late = moving[i]
+        ax.plot(along[late], exponent[i][late], "o", label="_nolegend_", color=colour, **ring)
+    # samples for the legend
+    errors = f"± {ERRORS} standard errors"
+    ax.fill_between([], [], [], color=GREY, alpha=0.3, linewidth=0, label=errors)
+    if moving.any():
+        ax.plot([], [], "o", label="not converged", color=GREY, **ring)
+    drawing.mark_failed(ax, along[np.isnan(exponent[0])])
+    ax.set_ylabel("Lyapunov\nexponents,\nwithout the\ntrivial one (1/s)")
+    legend_above(ax)

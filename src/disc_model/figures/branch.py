@@ -1,0 +1,115 @@
+"""A branch of cycles over its parameter."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from disc_model.data.variables import axis_of
+from disc_model.errors import require
+from disc_model.figures import drawing
+from disc_model.figures.branches import STABLE, THIN, draw_branch
+from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.curve import scale_rates
+from disc_model.figures.drawing import BLACK, BLUE, SEPARATED, mark, wide
+from disc_model.figures.runs import stated
+from disc_model.figures.sizes import COLUMN
+from disc_model.figures.words import label_of
+
+if TYPE_CHECKING:
+    from disc_model.stability.continuation import Branch, SpecialPoint
+
+SPECIAL_MARKS = {
+    "fold": ("s", SEPARATED, "fold"),
+    "period_doubling": ("D", BLUE, "period doubling"),
+    "neimark_sacker": ("o", BLUE, "Neimark-Sacker bifurcation"),
+    "branch_point": ("*", BLACK, "branch point"),
+    "grazing": ("X", SEPARATED, "grazing"),
+}
+"""Kinds of special points, with their mark, colour and name in the legend."""
+
+
+def plot_branch(
+    branch: Branch,
+    y: str,
+    *,
+    ax: Any = None,
+    legend: Any = True,
+    labels: Any = None,
+    title: str | None = None,
+) -> Axes:
+    """Draw a variable of the cycles along a branch over its parameter, or its second parameter over
+    its first; returns the axes."""
+    first, *second = branch.parameters
+    across, factor = axis_of(first)
+    x = branch.values[:, 0] * factor
+    label, values = _heights(branch, y)
+    case = stated(branch.case, *branch.parameters)
+    with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
+        axes = page.ax
+        draw_branch(axes, x, values, branch.growth_rate < 0, BLACK)
+        axes.plot(
+            x, values, ".", color=BLACK, markersize=mark(3)
+        )  # what lies between is not computed
+        if y == "growth_rate" and not second:
+            scale_rates(axes)
+        handles = [
+            drawing.sample(color=BLACK, linewidth=wide(width), label=text)
+            for width, text in ((STABLE, "stable"), (THIN, "unstable"))
+        ]
+        handles += _mark_special_points(axes, branch, y, factor)
+        axes.margins(0.04)
+        axes.set_xlabel(across)
+        axes.set_ylabel(label)
+        page.explain(handles)
+    return page.ax
+
+
+def _heights(branch: Branch, y: str) -> tuple[str, np.ndarray]:
+    """The label of what is drawn upward, and its values in the label's unit."""
+    if len(branch.parameters) > 1:
+        label, factor = axis_of(branch.parameters[1])
+        return label, branch.values[:, 1] * factor
+    known = isinstance(y, str) and y in branch.variables
+    require((known, "y", y, f"must be one of {', '.join(branch.variables)}"))
+    values = getattr(branch, y) * _scale_of(y)
+    attributes = branch.variables[y].attributes
+    if y == "period":
+        attributes["units"] = "ms"
+    label, _ = label_of(xr.DataArray(values, name=y, attrs=attributes))
+    return label, values
+
+
+def _scale_of(y: str) -> float:
+    """The factor from a variable of a branch to what is drawn: periods are drawn in ms."""
+    return 1e3 if y == "period" else 1.0
+
+
+def _height_of(point: SpecialPoint, branch: Branch, y: str) -> float:
+    """How high a special point is drawn, in the unit of the label."""
+    if len(branch.parameters) > 1:
+        _, factor = axis_of(branch.parameters[1])
+        return float(point.values[1] * factor)
+    return float(getattr(point, y) * _scale_of(y))
+
+
+def _mark_special_points(ax: Axes, branch: Branch, y: str, factor: float) -> list[Any]:
+    """Mark the special points of a branch; returns the entries of a legend, with the value of a
+    kind that is there once, or else how many there are."""
+    handles: list[Any] = []
+    for kind, (sign, colour, name) in SPECIAL_MARKS.items():
+        special = [each for each in branch.special if each.kind == kind]
+        if not special:
+            continue
+        places = np.array([each.values[0] for each in special]) * factor
+        heights = [_height_of(each, branch, y) for each in special]
+        text = f"{len(special)} {name}s"
+        if len(special) == 1:
+            text = f"{name} at {places[0]:.5g}"
+        handles += ax.plot(
+            places, heights, sign, label=text, color=colour, markersize=mark(4), markeredgewidth=0.5
+        )
+    return handles

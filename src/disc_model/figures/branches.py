@@ -1,0 +1,183 @@
+"""Branches of cycles: their range of motion against one parameter, and where a sweep jumps."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.legend_handler import HandlerTuple
+
+from disc_model.data.variables import axis_of, flag_names, stated_in
+from disc_model.figures import drawing
+from disc_model.figures.arrays import Array, Mask
+from disc_model.figures.drawing import BLACK, GREY, SEPARATED, large, mark, wide
+from disc_model.figures.kinds.motions import Branches
+from disc_model.figures.legends import figure_legend
+from disc_model.figures.selection import broken, stretches
+from disc_model.figures.sizes import PAGE
+
+LOWEST = 1e-3  # least range that is distinguished from rest, mm
+STABLE = 2.0  # width of lines of stable motions, points,
+THIN = 0.7  # and of unstable ones; dashes of two branches that nearly meet would look like a whole line
+BENDS = 2.5  # factor between the heights of neighbouring points beyond which a branch may bend
+JUMP = 1.0  # decades of the range from which a sweep jumps
+NONE = 1e-9  # mm, stands for no range on a logarithmic scale
+UNSETTLED = "#aaaaaa"  # a sweep's marks where it is not shown that the motion has settled
+
+
+def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+    """Draw one point: a line for each branch, thick where it is stable, and triangles for the
+    sweep up and down."""
+    study = study.squeeze([str(dim) for dim in study["status"].dims])  # keeps a single branch
+    label, factor = axis_of(str(stated_in(study, "options")["parameter"]))
+    along = study["sweep_value"].values * factor
+    width = plot.inches
+    figure, [ax] = drawing.panels(width, 3.6 if width == PAGE else 3.9)
+    ax.set_yscale("log")
+
+    for i in range(int(study["n_branches"])):
+        branch = study.isel(branch=i)
+        colour = SEPARATED if branch["separations"] > 0 else BLACK
+        values = branch["value"].values * factor
+        stable = branch["growth_rate"].values < 0
+        draw_branch(ax, values, 1e3 * branch["range"].values, stable, colour, BENDS)
+    _draw_sliding(ax, study, along)
+    for sweep in sweeps_of(study, along):
+        _draw_sweep(ax, sweep)
+
+    places = {case: value * factor for case, value in plot.paper_cases.items()}
+    drawing.mark_cases([ax], places, 0.05)
+    ax.set_xlabel(label)
+    ax.set_ylabel("Range of the slider's height (mm)")
+    ax.set_xlim((along[0], along[-1]))
+    ax.set_ylim(bottom=0.8 * LOWEST)
+    _legend(figure, study)
+    return figure
+
+
+def draw_branch(
+    ax: Axes, x: Array, y: Array, stable: Mask, color: str, factor: float = np.inf
+) -> None:
+    """Draw a line along a branch, thick where it is stable, with gaps where its height jumps by
+    more than a factor."""
+    known = np.isfinite(x)
+    x = x[known]
+    y = y[known]
+    stable = stable[known]
+    height = np.log(y) if factor < np.inf else None
+    ax.plot(*broken(x, y, np.log(factor), height), color=color, linewidth=wide(THIN))
+    # a segment is stable where both its ends are
+    for first, last in stretches(stable[:-1] & stable[1:]):
+        part = slice(first, last + 1)
+        ax.plot(x[part], y[part], color=color, linewidth=wide(STABLE), solid_capstyle="butt")
+
+
+def _draw_sliding(ax: Axes, study: xr.Dataset, along: Array) -> None:
+    """Draw the stability of steady sliding as a line along the lower edge."""
+    unstable = study["sliding_growth_rate"].values > 0
+    phrase = "stable where the line is thick"
+    if unstable.all():
+        phrase = "unstable"
+    elif not unstable.any():
+        phrase = "stable"
+    draw_branch(ax, along, np.full(along.size, LOWEST), ~unstable, GREY)
+    place = (along[-1], LOWEST)
+    drawing.say(ax, f"steady sliding: {phrase}", place, (-4, 3), fontsize=large(7), color=GREY)
+
+
+# ---- Sweeps
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A sweep of the parameter, in its order.
+
+    x : the parameter, in the unit of the axis
+    heights : range of the slider's height, mm, at least `LOWEST`
+    separates, settled : whether contact is lost, and whether it is shown that the motion has
+        settled
+    shape : the mark that stands for its direction
+    """
+
+    x: Array
+    heights: Array
+    separates: Mask
+    settled: Mask
+    shape: str
+
+
+def sweeps_of(study: xr.Dataset, along: Array) -> list[Sweep]:
+    """The sweeps up and down of a study of branches."""
+    found = []
+    for way, shape in enumerate("^v"):
+        order = slice(None) if shape == "^" else slice(None, None, -1)
+        heights = np.maximum(1e3 * study["sweep_range"].values[way], LOWEST)
+        separates = study["sweep_separation_rate"].values[way] > 0
+        settled = flag_names(study["sweep_settled"])[way] == "settled"
+        found.append(Sweep(along[order], heights[order], separates[order], settled[order], shape))
+    return found
+
+
+def _mark_look() -> dict[str, Any]:
+    """Look of the marks of a sweep."""
+    return {"markersize": mark(2.5), "markerfacecolor": "white", "markeredgewidth": wide(0.5)}
+
+
+def _draw_sweep(ax: Axes, sweep: Sweep) -> None:
+    """Draw the marks of a sweep, and an arrow at each jump, by a factor of more than 10."""
+    for mask, colour in (
+        (sweep.settled & ~sweep.separates, BLACK),
+        (sweep.settled & sweep.separates, SEPARATED),
+        (~sweep.settled, UNSETTLED),
+    ):
+        if mask.any():  # the layout leaves room for marks that are not clipped, even for none
+            look = _mark_look()
+            ax.plot(
+                sweep.x[mask], sweep.heights[mask], sweep.shape, color=colour, clip_on=False, **look
+            )
+    decades = np.log10(np.maximum(sweep.heights, NONE))
+    arrow = {"arrowstyle": "->", "color": GREY, "lw": wide(1.0)}
+    for i in np.flatnonzero(np.abs(np.diff(decades)) > JUMP):
+        start = (sweep.x[i], sweep.heights[i])
+        end = (sweep.x[i + 1], sweep.heights[i + 1])
+        ax.annotate("", end, start, arrowprops=arrow)
+
+
+def _legend(figure: Figure, study: xr.Dataset) -> None:
+    """Name lines and marks below the panel."""
+    separating = bool((study["separations"].values > 0).any())
+    separating |= bool((study["sweep_separation_rate"].values > 0).any())
+    swept = np.isfinite(study["sweep_range"].values)
+    unsettled = bool((flag_names(study["sweep_settled"])[swept] != "settled").any())
+
+    named: dict[str, Any] = {
+        "stable cycle, in contact": drawing.sample(color=BLACK, linewidth=wide(STABLE))
+    }
+    if separating:
+        thick = drawing.sample(color=SEPARATED, linewidth=wide(STABLE))
+        named["stable cycle, separating"] = thick
+    named["unstable cycle"] = drawing.sample(color=BLACK, linewidth=wide(THIN))
+
+    def both(colour: str) -> tuple[Any, Any]:
+        """Marks of both sweeps, up and down."""
+        up, down = (drawing.sample(ls="", marker=way, c=colour, **_mark_look()) for way in "^v")
+        return up, down
+
+    rising, falling = both(BLACK)
+    named["simulated, rising"] = rising
+    named["simulated, falling"] = falling
+    if separating:
+        named["simulated, separating"] = both(SEPARATED)
+    if unsettled:
+        named["simulated, not settled, or undecided"] = both(UNSETTLED)
+    figure_legend(
+        figure,
+        [*named.values()],
+        loc="outside lower center",
+        columns=3,
+        labels=[*named],
+        handler_map={tuple: HandlerTuple(None)},
+    )

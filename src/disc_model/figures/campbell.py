@@ -1,0 +1,210 @@
+"""Campbell diagrams: frequencies and growth rates against the speed."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from disc_model.data.variables import flag_names
+from disc_model.figures import drawing
+from disc_model.figures.arrays import Array, Mask
+from disc_model.figures.curve import LINEAR, scale_rates
+from disc_model.figures.drawing import BLACK, GREY, large, mark, wide
+from disc_model.figures.kinds.motions import Campbell
+from disc_model.figures.mode_names import named_modes
+from disc_model.figures.names import Names
+from disc_model.figures.selection import (
+    NORM,
+    broken,
+    normalizations,
+    parts_along,
+    spans,
+    stretches,
+    titles_of,
+)
+from disc_model.figures.words import SPEED
+
+MOST = 5  # number of peaks that are named at most
+NEAR = 0.01  # share of the speeds shown within which peaks are one, and crossings belong to a peak
+ROOM = 1.06  # highest frequency of the axis over that of the modes
+BESIDE_MEETING = ((4, -1), (-4, -1), (4, 4), (-4, 4))  # points, of names beside crossings,
+BESIDE_PEAK = ((2, 3), (-2, 3), (2, 10), (-2, 10))  # and beside peaks
+NAMES_APART = 0.035  # of the axis, least distance of the names of modes
+
+
+class Peak(NamedTuple):
+    """A peak of the cycle's growth rate: the place of its speed, and the crossing at it, if any."""
+
+    place: int
+    crossing: xr.Dataset | None
+
+
+def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+    """Draw frequencies above growth rates, a column for each value of the compared dimension."""
+    if NORM in study.dims and (plot.normalization is not None or plot.by != NORM):
+        chosen = plot.normalization or normalizations(study)[0]
+        study = study.sel({NORM: chosen})
+    parts = parts_along(study, plot.by, plot.names)
+    width = plot.inches
+    figure, axes = drawing.panels(
+        width, 5.4, 2, len(parts), height_ratios=[3, 2], sharex=True, sharey="row"
+    )
+    above = axes[: len(parts)]
+    below = axes[len(parts) :]
+    for top, bottom, part in zip(above, below, parts, strict=True):
+        _draw_column(top, bottom, part.data.transpose("Omega", ...))
+    highest = max(float(part.data["sliding_frequency"].max()) for part in parts)
+    rates = [part.data["growth_rate"].values for part in parts]
+    low = min(float(np.fmin.reduce(rate, initial=0.0)) for rate in rates)
+    high = max(float(np.fmax.reduce(rate, initial=0.0)) for rate in rates)
+    above[0].set_ylim(0, ROOM * highest)
+    below[0].set_ylim(min(1.3 * low, -LINEAR), max(3 * high, LINEAR))
+    above[0].set_ylabel("Frequency in the slider's frame (Hz)")
+    below[0].set_ylabel("Largest growth rate\nof the cycle (1/s)")
+    drawing.letters(axes, titles_of(parts))
+    for top, bottom, part in zip(above, below, parts, strict=True):
+        _name_peaks(top, bottom, part.data.transpose("Omega", ...))
+    return figure
+
+
+def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
+    """Draw the frequencies of one model, and its growth rates below."""
+    speeds = study["Omega"].values
+    rate = study["growth_rate"].values
+    alone = unjoined(rate)
+    _draw_modes(top, study)
+    _draw_rates(bottom, speeds, rate, alone)
+    for peak in peaks(study):
+        _draw_peak(top, bottom, study, peak, bool(alone[peak.place]))
+    for ax in (top, bottom):
+        for start, end in spans(speeds, ~np.isfinite(rate)):  # without a cycle
+            ax.axvspan(start, end, color=GREY, alpha=0.25, linewidth=0)
+    top.set_xlim(speeds[0], speeds[-1])
+    bottom.set_xlabel(SPEED)
+
+
+def _draw_modes(ax: Axes, study: xr.Dataset) -> None:
+    """Draw the frequencies of steady sliding's modes, with names at their right ends."""
+    frequency = study["sliding_frequency"]
+    ax.plot(study["Omega"], frequency, color=BLACK, linewidth=wide(0.9))
+    ends = study.isel(Omega=-1)
+    of_disc = np.where(flag_names(ends["mode_kind"]) == "disc", ends["diameters"].values, -1)
+    apart = NAMES_APART * ROOM * float(frequency.max())
+    heights = ends["sliding_frequency"].values
+    for part in named_modes(of_disc, heights, apart):
+        height = float(heights[part.modes].mean())
+        drawing.say_beside(ax, height, part.name, 3, fontsize=large(7))
+
+
+def _dot(alone: bool) -> dict[str, Any]:
+    """Look of a dot; hollow for a point that is joined to none beside it."""
+    look: dict[str, Any] = {"color": BLACK, "linestyle": "", "marker": "o", "markersize": mark(3.5)}
+    if alone:
+        look["markerfacecolor"] = "white"
+        look["markeredgewidth"] = wide(0.7)
+    return look
+
+
+def _draw_rates(ax: Axes, speeds: Array, rate: Array, alone: Mask) -> None:
+    """Draw growth rates: a line where neighbours belong together, and hollow dots elsewhere."""
+    ax.plot(*broken(speeds, rate, LINEAR), "-", color=BLACK, linewidth=wide(0.8))
+    joined = _dot(alone=False)
+    joined["markersize"] = mark(1.0)
+    ax.plot(speeds[~alone], rate[~alone], **joined)
+    ax.plot(speeds[alone], rate[alone], **_dot(alone=True))
+    scale_rates(ax)
+
+
+def _draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, alone: bool) -> None:
+    """Mark a peak of the growth rate, and the crossing of a mode with a multiple of a frequency."""
+    speed = study["Omega"].values[peak.place]
+    rate = study["growth_rate"].values[peak.place]
+    for ax in (top, bottom):
+        ax.axvline(speed, color=GREY, linewidth=wide(0.4), zorder=0)
+    bottom.plot(speed, rate, **_dot(alone))
+    if peak.crossing is None:
+        return
+
+    by_slips = flag_names(peak.crossing["crossing_line"]) == "stick_slip"
+    line = study["stick_slip_frequency" if by_slips else "rotation_frequency"]
+    multiple = float(peak.crossing["crossing_multiple"])
+    top.plot(
+        study["Omega"],
+        multiple * line,
+        color=GREY,
+        linewidth=wide(0.8),
+        linestyle=(0, (4, 2)),
+        zorder=0,
+    )
+    top.plot(*_meeting(peak.crossing), **_dot(alone=False))
+
+
+def _meeting(crossing: xr.Dataset) -> tuple[float, float]:
+    """Speed and frequency at which a mode meets a multiple, rad/s and Hz."""
+    return float(crossing["crossing_Omega"]), float(crossing["crossing_frequency"])
+
+
+def _name_peaks(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
+    """Write the multiples at peaks and at crossings, where there is room."""
+    above = Names(top)
+    below = Names(bottom)
+    halo = drawing.halo()
+    for peak in peaks(study):
+        if peak.crossing is None:
+            continue
+        name = _multiple(peak.crossing)
+        meeting = _meeting(peak.crossing)
+        above.add(name, meeting, BESIDE_MEETING, fontsize=large(6), path_effects=halo)
+        place = (study["Omega"].values[peak.place], study["growth_rate"].values[peak.place])
+        below.add(name, place, BESIDE_PEAK, fontsize=large(7), path_effects=halo)
+
+
+def _multiple(crossing: xr.Dataset) -> str:
+    """The multiple of a frequency that a mode meets."""
+    by_slips = flag_names(crossing["crossing_line"]) == "stick_slip"
+    symbol = "f_s" if by_slips else "f_Ω"
+    return f"{float(crossing['crossing_multiple']):g} ${symbol}$"
+
+
+# ---- Selection
+
+
+def peaks(study: xr.Dataset) -> Iterator[Peak]:
+    """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on, with the nearest
+    crossing, of the leading mode if possible; without points by themselves beside gaps, which are
+    of another cycle."""
+    speeds = study["Omega"].values
+    rate = _without_lone_points(study["growth_rate"].values)
+    extent = np.ptp(speeds)
+    beside = np.abs(speeds - speeds[:, None]) <= NEAR * extent
+    highest = np.where(beside, rate, -np.inf).max(axis=1)
+    tops = np.flatnonzero((rate >= LINEAR) & (rate == highest))
+    for i in sorted(tops, key=lambda i: -rate[i])[:MOST]:
+        leading = int(np.nanargmax(study["cycle_growth_rate"].values[i]))
+        apart = np.abs(study["crossing_Omega"].values - speeds[i])
+        # crossings of other modes come after those of the leading one
+        other = np.where(study["crossing_mode"] == study["mode"][leading], 0.0, extent)
+        distance = np.where(apart <= NEAR * extent, apart + other, np.inf)
+        crossing = None
+        if np.isfinite(distance).any():
+            crossing = study.isel(crossing=int(distance.argmin()))
+        yield Peak(int(i), crossing)
+
+
+def _without_lone_points(rate: Array) -> Array:
+    """Growth rates, minus infinity where there is none and at lone points beside gaps."""
+    rate = rate.copy()
+    for first, after in stretches(unjoined(rate)):
+        around = [max(first - 1, 0), min(after, rate.size - 1)]
+        if np.isnan(rate[around]).any():
+            rate[first:after] = np.nan
+    return np.nan_to_num(rate, nan=-np.inf)
+
+
+def unjoined(rate: Array) -> Mask:
+    """Points whose growth rate differs by more than `LINEAR` from those of both neighbours."""
+    joined = np.concatenate([[False], np.abs(np.diff(rate)) <= LINEAR, [False]])
+    return np.isfinite(rate) & ~(joined[:-1] | joined[1:])

@@ -1,0 +1,186 @@
+"""The page of a picture that a result draws of itself: a figure of its own, or a reader's axes, and
+what the reader asks of its legend, labels and title."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from inspect import signature
+from typing import Any, Literal
+
+import numpy as np
+from matplotlib import pyplot
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.legend import Legend
+
+from disc_model.errors import Fault, ParameterError, require, suggestion
+from disc_model.figures.drawing import large, readers_style
+from disc_model.figures.labels import break_labels
+from disc_model.figures.legends import figure_legend, legend_below, legend_inside
+from disc_model.figures.words import head_text
+
+Place = Literal["inside", "below"]
+LEGEND_OPTIONS = [*signature(Legend).parameters][3:]  # after its axes, handles and labels
+LEGEND_RULE = "must be True, False, or options of a legend of matplotlib"
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """What a reader asks of a picture.
+
+    ax : axes to draw on, one or several; None for a new figure
+    legend : whether there is a legend; or options of `Axes.legend`, such as its place
+    labels : other words for labels of axes, which are called "x" and "y", and for entries of the
+        legend, which are called as they are without
+    title : another title; "" for none, None for the usual one
+    """
+
+    ax: Any = None
+    legend: bool | Mapping[str, Any] = True
+    labels: Mapping[str, str] | None = None
+    title: str | None = None
+
+    def check(self) -> None:
+        """Raise `ParameterError` if a wish cannot be understood."""
+        options = self.legend if isinstance(self.legend, Mapping) else {}
+        unknown = [name for name in options if name not in LEGEND_OPTIONS]
+        wrong = next(iter(unknown), None)
+        like = suggestion(wrong, LEGEND_OPTIONS, all_of_them=False)
+        labels = {} if self.labels is None else self.labels
+        require(
+            (isinstance(self.legend, bool | Mapping), "legend", self.legend, LEGEND_RULE),
+            (not unknown, "legend", wrong, f"{LEGEND_RULE}{like}"),
+            (_are_texts(labels), "labels", labels, "must be texts by x, y, or what they replace"),
+            (isinstance(self.title, str | None), "title", self.title, "must be a text"),
+        )
+
+
+def _are_texts(labels: object) -> bool:
+    """Whether these are texts by texts."""
+    if not isinstance(labels, Mapping):
+        return False
+    return all(isinstance(text, str) for text in (*labels, *labels.values()))
+
+
+@dataclass
+class Page:
+    """Axes that a picture is drawn on, and the entries of its legend.
+
+    axes : one for each panel, row by row
+    own : whether the figure is a new one
+    handles : entries of the legend; none if there is none
+    beside : where the legend stands on a reader's axes
+    heading : title of the legend
+    note : what stands above the first panel, unless the reader asks for another title
+    """
+
+    axes: list[Axes]
+    own: bool
+    handles: Sequence[Artist] = field(default_factory=list)
+    beside: Place = "inside"
+    heading: str = ""
+    note: str = ""
+
+    @property
+    def ax(self) -> Axes:
+        """The first panel."""
+        return self.axes[0]
+
+    @property
+    def figure(self) -> Any:
+        return self.ax.get_figure()
+
+    def explain(self, handles: Sequence[Artist], beside: Place = "inside", title: str = "") -> None:
+        """Set the entries of the legend, its title, and where it stands on a reader's axes."""
+        self.handles = handles
+        self.beside = beside
+        self.heading = title
+
+
+@contextmanager
+def page_for(
+    wishes: Wishes,
+    width: float,
+    height: float,
+    rows: int = 1,
+    columns: int = 1,
+    *,
+    title: str = "",
+    **shared: Any,
+) -> Iterator[Page]:
+    """The page of a picture, which is finished by its legend, labels and title.
+
+    A new figure has a size in inches, the style of this package where the reader has none, and a
+    title with the values of a case. A reader's axes keep their figure's title.
+    """
+    wishes.check()
+    if wishes.ax is not None:
+        page = Page(_given(wishes.ax, rows * columns), own=False)
+        figure: Any = page.ax.get_figure(root=True)
+        before = set(figure.axes)
+        yield page
+        _finish(page, wishes)
+        bars = [ax for ax in figure.axes if ax not in before]
+        break_labels(figure, [*page.axes, *bars])
+        return
+    with readers_style():
+        figure = pyplot.figure(figsize=(width, height), layout="constrained")
+        page = Page(list(figure.subplots(rows, columns, squeeze=False, **shared).flat), own=True)
+        try:
+            yield page
+            usual = head_text(width, "", title) if wishes.title is None else wishes.title
+            if usual:
+                figure.suptitle(usual, fontsize=large(8))
+            _finish(page, wishes)
+            break_labels(figure)
+        except BaseException:
+            pyplot.close(figure)  # a notebook would show it, half drawn
+            raise
+
+
+def _given(ax: Any, count: int) -> list[Axes]:
+    """The axes of a reader, if they are as many as panels; raises `ParameterError`."""
+    given = list(np.ravel(np.asarray(ax, dtype=object)))
+    fit = len(given) == count and all(isinstance(each, Axes) for each in given)
+    require((fit, "ax", given, f"must be {count} axes of matplotlib, one for each panel"))
+    return given
+
+
+def _finish(page: Page, wishes: Wishes) -> None:
+    """Write the title, labels and legend that a reader asks for."""
+    if wishes.title is None:
+        if page.note:
+            page.ax.set_title(page.note, loc="left")
+    elif not page.own:
+        page.ax.set_title(wishes.title)
+    _relabel(page, wishes.labels or {})
+    if page.handles and wishes.legend is not False:
+        _write_legend(page, wishes.legend)
+
+
+def _relabel(page: Page, labels: Mapping[str, str]) -> None:
+    """Give axes and entries of the legend other words."""
+    for ax in page.axes:
+        if ax.get_xlabel() and "x" in labels:
+            ax.set_xlabel(labels["x"])
+        if ax.get_ylabel() and "y" in labels:
+            ax.set_ylabel(labels["y"])
+    for handle in page.handles:
+        usual = str(handle.get_label())
+        handle.set_label(labels.get(usual, usual))
+
+
+def _write_legend(page: Page, legend: bool | Mapping[str, Any]) -> None:
+    """Write the legend: in the place that the reader's options give, below a new figure, or inside
+    a reader's axes or below them."""
+    if isinstance(legend, Mapping):
+        try:
+            page.ax.legend(**{"handles": list(page.handles), "title": page.heading, **legend})
+        except (TypeError, ValueError) as error:
+            raise ParameterError(Fault.of(("legend",), legend, str(error))) from None
+    elif page.own:
+        figure_legend(page.figure, page.handles, title=page.heading)
+    elif page.beside == "below":
+        legend_below(page.ax, page.handles, title=page.heading)
+    else:
+        legend_inside(page.ax, page.handles, title=page.heading)

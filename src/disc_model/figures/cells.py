@@ -1,0 +1,159 @@
+"""Cells of maps: where their edges lie, and how classes and marks are painted into them."""
+
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
+from matplotlib.patches import Patch, PathPatch
+from matplotlib.path import Path
+
+from disc_model.data.variables import Outcome, flag_names
+from disc_model.figures import selection
+from disc_model.figures.arrays import Array, Mask, Words
+from disc_model.figures.classes import LOOKS, UNRESOLVED, WEIGHTS, Look, looks_of
+from disc_model.figures.drawing import DECADES, GREY, wide
+from disc_model.figures.words import measured
+
+Colours = Array  # red, green, blue and opacity along the last dimension
+
+DECADES_FROM = 15
+"""Ratio of the largest to the least positive value from which a scale may be logarithmic."""
+MARKED = {**LOOKS, UNRESOLVED.label: UNRESOLVED}
+"""Looks of classes, and of the mark of unresolved ones."""
+
+
+class Edges(NamedTuple):
+    """Edges of the cells of a map, in the units of its axes: across, shape (columns + 1,), and up,
+    shape (rows + 1,)."""
+
+    across: Array
+    up: Array
+
+
+# ---- Scales and edges
+
+
+def scale_of(name: str, values: Array) -> str:
+    """Scale of the axis of a parameter: "log" for values over decades, most at the lower end,
+    "symlog" if they begin at 0, or "linear"."""
+    positive = values[values > 0]
+    if name in ("N", "Omega") or positive.size < 2:
+        return "linear"
+    over_decades = positive[-1] / positive[0] > DECADES_FROM
+    mostly_low = np.median(values) - values[0] <= 0.25 * (values[-1] - values[0])
+    if not (over_decades and mostly_low):
+        return "linear"
+    return "log" if values[0] > 0 else "symlog"
+
+
+def edges_of(plane: xr.DataArray) -> Edges:
+    """Edges of the cells around the points of a plane of dimensions (up, across), halfway between
+    neighbours."""
+    up, across = (_edges_along(plane[str(name)]) for name in plane.dims)
+    return Edges(across, up)
+
+
+def _edges_along(coordinate: xr.DataArray) -> Array:
+    values = measured(coordinate).values
+    if scale_of(str(coordinate.name), values) == "log":
+        return np.exp(selection.edges(np.log(values)))
+    return selection.edges(values)
+
+
+def decades_between(values: Array) -> list[float]:
+    """Ticks of a logarithmic axis from the least positive to the greatest value."""
+    least = values[values > 0][0]
+    return [tick for tick in DECADES if 0.999 * least <= tick <= 1.001 * values[-1]]
+
+
+# ---- Painting
+
+
+def unresolved(words: Words) -> Mask:
+    """Cells between two that have one other word: single ones, and strips that are one cell
+    wide."""
+    around = np.pad(words, 1)
+    vertical = (around[:-2, 1:-1], around[2:, 1:-1])
+    horizontal = (around[1:-1, :-2], around[1:-1, 2:])
+    found = np.zeros(words.shape, dtype=bool)
+    for before, after in (vertical, horizontal):
+        found |= (before == after) & (before != words) & (before != "")
+    return found
+
+
+def paint(ax: Axes, edges: Edges, words: Words, looks: Mapping[str, Look]) -> Colours:
+    """Paint each cell in the look of its word, if it has one; returns the colours."""
+    colours = np.zeros((*words.shape, 4))
+    for word, look in looks.items():
+        colours[words == word] = to_rgba(look.face)
+    if colours.any():
+        ax.pcolormesh(*edges, colours, rasterized=True)
+    for word, look in looks.items():
+        if look.hatch:
+            _hatch(ax, edges, words == word, look.hatch, look.ink)
+    return colours
+
+
+def lay_over(ax: Axes, edges: Edges, cells: Mask, mark: Look, below: Colours) -> None:
+    """Hatch some cells with a mark, in black or white, whichever is seen on the colours `below`."""
+    lightness = below[..., :3] @ np.array(WEIGHTS)
+    light = (lightness >= 0.5) | (below[..., 3] == 0)  # nothing is painted on the white page
+    _hatch(ax, edges, cells & light, mark.hatch, "#000000")
+    _hatch(ax, edges, cells & ~light, mark.hatch, "#ffffff")
+
+
+def _hatch(ax: Axes, edges: Edges, cells: Mask, hatch: str, ink: str) -> None:
+    """Hatch cells, all as one path, since a path for each takes a hundred times as long."""
+    row, column = np.nonzero(cells)
+    if not row.size:
+        return
+    x = edges.across[column[:, None] + np.array([0, 1, 1, 0])]
+    y = edges.up[row[:, None] + np.array([0, 0, 1, 1])]
+    outline = Path.make_compound_path_from_polys(np.stack([x, y], axis=-1))
+    ax.add_patch(PathPatch(outline, fill=False, hatch=hatch, ec=ink, lw=0, zorder=1.1))
+
+
+def class_cells(ax: Axes, plane: xr.DataArray, looks: Mapping[str, Look]) -> set[str]:
+    """Paint cells in the look of their class. Those of motions are hatched, too, where they are
+    unresolved; returns the classes and marks that occur."""
+    words = flag_names(plane)
+    edges = edges_of(plane)
+    colours = paint(ax, edges, words, looks)
+    used = set(words.flat)
+    single = unresolved(words)
+    if single.any() and used & {*Outcome}:
+        lay_over(ax, edges, single, UNRESOLVED, colours)
+        used.add(UNRESOLVED.label)
+    return used
+
+
+# ---- Legends
+
+
+def looks_in(flag: xr.DataArray) -> dict[str, Look]:
+    """Looks of all words that a flag can have; of those that occur if it holds words."""
+    meanings = flag.attrs.get("flag_meanings", "").split()
+    return looks_of(meanings or np.unique(flag_names(flag)))
+
+
+def patch_of(look: Look) -> Artist:
+    """The legend entry of a class or mark."""
+    edge = look.ink if look.hatch else GREY
+    return Patch(
+        facecolor=look.face, hatch=look.hatch, edgecolor=edge, linewidth=wide(0.4), label=look.label
+    )
+
+
+def patches(looks: Iterable[Look]) -> list[Artist]:
+    """Legend entries of classes and marks."""
+    return [patch_of(look) for look in looks]
+
+
+def entries(used: Iterable[str], looks: Mapping[str, Look] = LOOKS) -> list[Artist]:
+    """Legend entries of the looks among used words, in the order of the looks."""
+    words = set(used)
+    return patches(look for word, look in looks.items() if word in words)

@@ -1,0 +1,55 @@
+"""Growth of the cycle along a parameter, and where the motion is unstable."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from matplotlib.axes import Axes
+
+from disc_model.data.variables import axis_of
+from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.curve import scale_rates
+from disc_model.figures.drawing import BLACK, SEPARATED, mark, wide
+from disc_model.figures.runs import stated
+from disc_model.figures.sizes import COLUMN
+
+if TYPE_CHECKING:
+    from disc_model.stability.curves import Critical
+
+
+def plot_critical(
+    critical: Critical,
+    *,
+    ax: Any = None,
+    legend: Any = True,
+    labels: Any = None,
+    title: str | None = None,
+) -> Axes:
+    """Draw the growth rate of the cycle over the parameter; shaded: the motion near the start is
+    unstable. Returns the axes."""
+    label, factor = axis_of(critical.name)
+    x = critical.values * factor
+    case = stated(critical.parameters, critical.name)
+    with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
+        axes = page.ax
+        entry = "unstable near the static start"
+        for ends in critical.unstable * factor:
+            axes.axvspan(
+                *ends, zorder=0, label=entry, color=SEPARATED, alpha=0.3, linewidth=wide(0.8)
+            )
+            entry = "_nolegend_"
+        axes.plot(
+            x,
+            critical.growth_rate,
+            ".-",
+            color=BLACK,
+            label="cycles computed",
+            markersize=mark(3),
+            linewidth=wide(0.7),
+        )
+        scale_rates(axes)
+        axes.set_xlabel(label)
+        axes.set_ylabel("Growth rate of the cycle (1/s)")
+        axes.set_xlim((x[0], x[-1]))
+        page.explain(axes.get_legend_handles_labels()[0])
+    return page.ax

@@ -1,0 +1,226 @@
+"""Curves: any variable against one dimension."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from cmcrameri import cm
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from disc_model.data.variables import stated_in
+from disc_model.figures import drawing
+from disc_model.figures.drawing import BLACK, GREY, large, mark, wide
+from disc_model.figures.heat_map import as_classes, scale
+from disc_model.figures.kinds.general import CurvePlot
+from disc_model.figures.legends import figure_legend
+from disc_model.figures.selection import (
+    Part,
+    broken,
+    gaps,
+    parts_along,
+    picked,
+    remaining,
+    titles_of,
+)
+from disc_model.figures.words import as_numbers, measured
+
+LINEAR = 0.1
+"""Growth rate up to which its scale is linear, 1/s; a greater step breaks the line, or finds another
+cycle."""
+RATE = "growth_rate"
+"""Growth rate of a motion, with narrow peaks of tens beside hundredths."""
+MARKS = "os^Dv<>"
+"""Marks of the lines; they are open, so that lines on top of each other show."""
+MARKED = 12  # points of a line without gaps that have a mark, about
+MOST_BESIDE = 4  # names of lines from which the legend stands beside the panel
+LONGEST_BESIDE = 25  # characters of a name that fits there
+ABOVE = 1.03  # height of the first row of missing values, as a share of the panel
+APART = 0.05  # least distance of the ends of lines that are named there, as a share of the panel
+
+
+def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+    """Draw a line, or one for each value of a second dimension, in one panel or several."""
+    panels = panels_of(plot, picked(study, plot.at))
+    width = plot.inches_of(len(panels))
+    figure, axes = drawing.row_of_panels(width, len(panels), 2.9, 2.2, sharey=True)
+    marks: dict[str, str] = {}
+    for ax, part in zip(axes, panels, strict=True):
+        draw_lines(ax, part.data, plot.variable, plot.x, plot.log, marks)
+        ax.label_outer()
+    if plot.limits is not None:
+        axes[0].set_ylim(plot.limits)
+    pad = None
+    if plot.panels == "each":  # for the rows of missing values
+        pad = 20
+    drawing.letters(axes, titles_of(panels), pad=pad)
+    _name_lines(figure, axes, several=bool(plot.panels))
+    return figure
+
+
+def panels_of(plot: CurvePlot, study: xr.Dataset) -> list[Part[xr.Dataset]]:
+    """The part of a study in each panel."""
+    if plot.panels == "each":
+        return parts_along(study, plot.by, plot.names)
+    chosen = [study.sel({plot.by: [*values]}) for values in plot.panels] or [study]
+    if plot.names:
+        words = [str(value) for value in study[plot.by].values]
+        renamed = {word: plot.names.get(word, word) for word in words}
+        chosen = [
+            part.assign_coords({plot.by: [renamed[str(x)] for x in part[plot.by].values]})
+            for part in chosen
+        ]
+    return [Part("", "", part) for part in chosen]
+
+
+def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool) -> None:
+    """Name lines at their ends, if there is room, or in a legend."""
+    unnamed: dict[str, Artist] = {}
+    for ax in axes:
+        handles, names = ax.get_legend_handles_labels()
+        if names and not name_ends(ax):
+            unnamed.update(zip(names, handles, strict=True))
+    longest = max(map(len, unnamed), default=0)
+    if len(unnamed) > MOST_BESIDE and longest < LONGEST_BESIDE and not several:
+        figure_legend(figure, [*unnamed.values()], columns=1, loc="outside right upper")
+    else:
+        figure_legend(figure, [*unnamed.values()], columns=3)
+
+
+# ---- Lines
+
+
+def draw_lines(
+    ax: Axes,
+    study: xr.Dataset,
+    variable: str,
+    x: str,
+    log: bool = False,
+    marks: dict[str, str] | None = None,
+) -> None:
+    """Draw a line, or one for each value of a second dimension; its marks above the panel stand for
+    missing values.
+
+    Panels of a figure share `marks`, by the names of lines, so that a line has the same mark in all
+    of them.
+    """
+    if marks is None:
+        marks = {}
+    names, array = as_numbers(as_classes(study[variable]))
+    label, values = measured(array)
+    array = array.copy(data=values)
+    by = remaining(array, [x])
+    across = measured(array[x])
+    rates = variable == RATE and not log
+
+    # lines, in the colours of their order
+    parts = parts_along(array, by)
+    every = 1
+    if not (names or rates or array.isnull().any()):
+        every = max(1, across.values.size // MARKED)
+    jump = LINEAR if rates else np.inf
+    line = "" if names else "-"
+    for colour, part, title in zip(_colours(parts), parts, titles_of(parts), strict=True):
+        shape = marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
+        points = broken(across.values, part.data.values, jump)
+        ax.plot(
+            *points, f"{shape}{line}", color=colour, label=title or None, markevery=every, **_look()
+        )
+
+    # scales and labels
+    if log:
+        ax.set_yscale("log")
+    if rates:
+        scale_rates(ax)
+    ax.set_xscale(scale(array[x]))
+    ax.set_xlabel(across.label)
+    ax.set_ylabel(label)
+    if names:
+        ax.set_yticks(range(len(names)), labels=names)
+    ax.margins(0.03)
+    _mark_gaps(ax, study, array, x, marks)
+
+
+def _colours(parts: Sequence[Part[Any]]) -> list[Any]:
+    """Colours of lines in their order; a single one is black."""
+    if len(parts) == 1:
+        return [BLACK]
+    return [cm.batlow(i / len(parts)) for i in range(len(parts))]
+
+
+def _look() -> dict[str, Any]:
+    """Look of lines and of marks of missing values."""
+    return {
+        "markersize": mark(3),
+        "markerfacecolor": "none",
+        "markeredgewidth": wide(0.6),
+        "linewidth": wide(0.7),
+    }
+
+
+def _mark_gaps(
+    ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, marks: Mapping[str, str]
+) -> None:
+    """Mark points without a value above the panel, a row for each line and each reason."""
+    by = remaining(array, [x])
+    across = measured(array[x]).values
+    top = ABOVE
+    for name, gone in gaps(study, array).items():
+        parts = parts_along(gone, by)
+        for colour, part in zip(_colours(parts), parts, strict=True):
+            mask = part.data.values
+            if not mask.any():
+                continue
+            shape = "x"
+            if by is not None:
+                shape = marks[part.name]
+            row = np.full(int(mask.sum()), top)
+            ax.plot(
+                across[mask],
+                row,
+                shape,
+                color=colour,
+                transform=ax.get_xaxis_transform(),
+                clip_on=False,
+                **_look(),
+            )
+            top += 0.05
+        if array.name == "first_separation" and name == "no value":
+            name = f"none within {stated_in(study, 'options')['horizon']:g} s"
+        drawing.say(ax, name, (0, top - 0.02), (1, 1), xycoords="axes fraction", fontsize=large(7))
+        top += 0.1
+
+
+def scale_rates(ax: Axes) -> None:
+    """Scale an axis of growth rates, as peaks of tens occur beside hundredths, and mark zero. Where
+    all rates drawn are small, the scale is linear."""
+
+    def between(rate: float, _: float) -> str:
+        """Within about a decade, labels of some ticks between its ends, so that nobody reads the
+        scale as linear."""
+        leading = f"{rate:e}".lstrip("-")[0]
+        near = max(map(abs, ax.get_ylim())) < 20 * LINEAR
+        return f"{rate:g}" if leading in "25" and near else ""
+
+    if max(map(abs, ax.dataLim.intervaly)) > LINEAR:
+        ax.set_yscale("symlog", linthresh=LINEAR, subs=range(2, 10))
+        ax.yaxis.set_major_formatter("{x:g}")
+        ax.yaxis.set_minor_formatter(between)
+    ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
+
+
+def name_ends(ax: Axes) -> bool:
+    """Write the names of lines beside their right ends, if all end there and apart from each other;
+    else do nothing."""
+    low, high = ax.get_ylim()
+    lines: list[Any] = ax.get_legend_handles_labels()[0]
+    ends = np.array([line.get_ydata()[-1] for line in lines])
+    apart = np.diff(np.sort(ends)) / (high - low)
+    if len(lines) < 2 or not (apart > APART).all() or ax.get_yscale() != "linear":
+        return False
+    for line, end in zip(lines, ends, strict=True):
+        line.set_color(BLACK)
+        drawing.say_beside(ax, end, line.get_label(), fontsize=large(7))
+    return True

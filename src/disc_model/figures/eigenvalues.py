@@ -1,0 +1,61 @@
+"""Eigenvalues of steady sliding: frequency over growth rate."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from disc_model.errors import Fault, ParameterError
+from disc_model.figures import drawing
+from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.drawing import BLACK, BLUE, SEPARATED, large, mark, wide
+from disc_model.figures.sizes import COLUMN
+from disc_model.figures.words import head_text
+
+if TYPE_CHECKING:
+    from disc_model.stability.sliding import SteadySliding
+
+ROOM = 1.25  # end of the axis of growth rates over the greatest
+
+
+def plot_eigenvalues(
+    sliding: SteadySliding,
+    *,
+    ax: Any = None,
+    legend: Any = True,
+    labels: Any = None,
+    title: str | None = None,
+) -> Axes:
+    """Draw frequency over growth rate of the eigenvalues of steady sliding; unstable ones with
+    their frequency."""
+    if not sliding.eigenvalues.size:
+        rule = f"there are no eigenvalues: {sliding.message}"
+        raise ParameterError(Fault(("status",), sliding.status.value, rule))
+    values = sliding.eigenvalues[sliding.eigenvalues.imag >= 0]
+    rate = values.real
+    frequency = values.imag / (2 * np.pi)
+    grows = np.isin(values, sliding.growing)
+    with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0) as page:
+        axes = page.ax
+        axes.axvline(0, color=BLACK, linewidth=wide(0.6))
+        for mask, shape, colour, name in (
+            (~grows, "o", BLUE, "decays"),
+            (grows, "D", SEPARATED, "grows"),
+        ):
+            axes.plot(
+                rate[mask], frequency[mask], shape, color=colour, markersize=mark(4), label=name
+            )
+        for x, y in zip(rate[grows], frequency[grows], strict=True):
+            drawing.say(axes, f"{y:.0f} Hz", (x, y), (4, 0), fontsize=large(7), color=SEPARATED)
+        span = max(map(abs, axes.get_xlim())) * ROOM
+        axes.set_xlabel("Growth rate (1/s)")
+        axes.set_ylabel("Frequency (Hz)")
+        axes.set_xlim((-span, span))
+        axes.set_ylim(bottom=0)
+        axes.margins(y=0.08)
+        handles = [line for line in axes.lines if line.get_label() in ("decays", "grows")]
+        page.explain([line for line in handles if np.size(line.get_xdata())])
+        page.note = head_text(COLUMN, "", sliding.message)
+    return page.ax

@@ -1,0 +1,88 @@
+"""Measurements beside what a fitted case computes of them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.drawing import BLACK, GREY, SEPARATED, large, mark, wide
+from disc_model.figures.sizes import PAGE
+
+if TYPE_CHECKING:
+    from disc_model.fitting.fit import Fit
+
+EXPECTED = 2.0  # standard deviations, within which most deviations are if the model is right
+LEAST_SPAN = 3.0  # standard deviations that are shown at least, on both sides
+ROW = 0.18  # inch, height of a measurement
+
+
+def plot_fit(
+    fit: Fit, *, ax: Any = None, legend: Any = True, labels: Any = None, title: str | None = None
+) -> np.ndarray:
+    """Draw computed over measured values, both relative to the measured ones, and their deviations
+    in standard deviations; two panels with a row for each measurement, the first on top."""
+    wishes = Wishes(ax, legend, labels, title)
+    height = 1.2 + ROW * len(fit.measurements)
+    with page_for(wishes, PAGE, height, 1, 2, sharey=True) as page:
+        left, right = page.axes
+        _draw_differences(left, fit)
+        _draw_deviations(right, fit)
+        page.explain(left.get_legend_handles_labels()[0])
+    return np.array([left, right], dtype=object)
+
+
+def _draw_differences(ax: Axes, fit: Fit) -> None:
+    """Draw measured values with their uncertainties, and computed ones, in % of what was
+    measured."""
+    value = np.array([each.value for each in fit.measurements])
+    error = np.array([each.uncertainty for each in fit.measurements])
+    size = np.where(value == 0, error, np.abs(value))
+    rows = _rows(fit)
+    ax.errorbar(
+        np.zeros(rows.size),
+        rows,
+        xerr=100 * error / size,
+        fmt="o",
+        color=BLACK,
+        markersize=mark(3.5),
+        capsize=mark(3),
+        linewidth=wide(0.8),
+        label="measured, standard deviation",
+    )
+    shift = 100 * (fit.computed - value) / size
+    ax.plot(shift, rows, label="computed", **_computed())
+    ax.set_xlabel("Difference from the measured value (%)")
+    ax.set_yticks(rows)
+    ax.set_yticklabels([each.name for each in fit.measurements], fontsize=large(7))
+    ax.set_ylim(-0.7, rows.size - 0.3)
+    ax.margins(x=0.08)
+
+
+def _draw_deviations(ax: Axes, fit: Fit) -> None:
+    """Draw computed minus measured values, in standard deviations."""
+    ax.axvspan(-EXPECTED, EXPECTED, color=GREY, alpha=0.15, linewidth=0)
+    ax.axvline(0, color=GREY, linewidth=wide(0.6))
+    ax.plot(fit.deviations, _rows(fit), **_computed())
+    span = max(LEAST_SPAN, 1.1 * float(np.abs(fit.deviations).max()))
+    ax.set_xlabel("Deviation (standard deviations)")
+    ax.set_xlim(-span, span)
+    ax.set_title(f"chi squared {fit.chi_squared:.3g}, {fit.freedom} degrees of freedom")
+
+
+def _rows(fit: Fit) -> np.ndarray:
+    """Heights of the measurements, the first on top."""
+    return np.arange(len(fit.measurements))[::-1]
+
+
+def _computed() -> dict[str, Any]:
+    """Look of the marks of computed values."""
+    return {
+        "marker": "D",
+        "linestyle": "",
+        "color": SEPARATED,
+        "markersize": mark(3.5),
+        "markerfacecolor": "none",
+    }

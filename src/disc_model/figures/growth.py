@@ -1,0 +1,109 @@
+"""Maps of growth rates: one scale of colours, marks of sign and resolution, and the classes of
+points that have no rate."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+from cmcrameri import cm
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.colors import AsinhNorm
+from matplotlib.figure import FigureBase
+
+from disc_model.data.variables import flag_names
+from disc_model.figures.arrays import Array, Mask, Words
+from disc_model.figures.cells import edges_of, entries, lay_over, paint, unresolved
+from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED
+from disc_model.figures.selection import class_of_gap, statuses_like
+from disc_model.figures.words import label_of
+
+GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates are larger
+LINEAR_SHARE = 1 / 30  # of the greatest rate, up to which the scale is nearly linear
+NEGATIVE = "negative"
+MAP_LOOKS = {**LOOKS, NEGATIVE: STABLE, UNRESOLVED.label: UNRESOLVED}
+"""Looks of all that a map of growth rates shows beside its colours."""
+
+
+def is_growth(name: object) -> bool:
+    """Whether a variable is a growth rate, by its name."""
+    return str(name).endswith("growth_rate")
+
+
+def growth_norm(rates: Array) -> AsinhNorm:
+    """A colour scale that is nearly linear near 0 and nearly logarithmic beyond a thirtieth of its
+    end."""
+    sizes = np.abs(rates[np.isfinite(rates)])
+    greatest = GREATEST
+    if sizes.size and np.median(sizes) > GREATEST:
+        greatest = float(sizes.max())
+    return AsinhNorm(linear_width=LINEAR_SHARE * greatest, vmin=-greatest, vmax=greatest)
+
+
+def growth_panels(
+    figure: FigureBase,
+    axes: Sequence[Axes],
+    planes: Sequence[xr.Dataset],
+    name: str = "growth_rate",
+) -> list[Artist]:
+    """Draw a growth rate (1/s) on one scale of colours, a panel for each plane.
+
+    Cells are dotted where it is negative and hatched where it is unresolved. A point without a rate
+    has the look of its class. Returns entries of a legend.
+    """
+    norm = growth_norm(np.concatenate([plane[name].values.ravel() for plane in planes]))
+    used: set[str] = set()
+    for ax, plane in zip(axes, planes, strict=True):
+        edges = edges_of(plane[name])
+        rates = plane[name].values
+        words = classes_without_rate(plane, name)
+        mesh = ax.pcolormesh(
+            *edges, np.ma.masked_invalid(rates), cmap=cm.vik, norm=norm, rasterized=True
+        )
+        painted = paint(ax, edges, words, MAP_LOOKS)
+        colours = np.where(np.isfinite(rates)[..., None], mesh.to_rgba(rates), painted)
+        used |= set(words.flat)
+        for mark, cells in ((NEGATIVE, rates < 0), (UNRESOLVED.label, isolated(plane, name))):
+            if cells.any():
+                lay_over(ax, edges, cells, MAP_LOOKS[mark], colours)
+                used.add(mark)
+    bar = figure.colorbar(mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30)
+    bar.set_label(label_of(planes[0][name])[0])
+    largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
+    bar.set_ticks([-largest, -largest / 10, 0, largest / 10, largest])
+    bar.minorticks_off()
+    return entries(used, MAP_LOOKS)
+
+
+def stability_of(plane: xr.Dataset) -> Words:
+    """Stability of the followed cycle, "stable" or "unstable", or the class of the quantity
+    `regions` where there is none."""
+    rate = plane["growth_rate"].values
+    words = flag_names(plane["cycle"]).astype(object)
+    words[rate < 0] = "stable"
+    words[rate > 0] = "unstable"
+    return words.astype(str)
+
+
+def classes_without_rate(plane: xr.Dataset, name: str = "growth_rate") -> Words:
+    """Classes of points that have no growth rate, keys of `MAP_LOOKS`; "" where there is a rate."""
+    rate = plane[name].values
+    if name == "growth_rate" and "cycle" in plane:
+        words = flag_names(plane["cycle"])
+    else:
+        words = np.vectorize(class_of_gap, otypes=[str])(statuses_like(plane, plane[name]))
+    return np.where(np.isfinite(rate), "", words)
+
+
+def isolated(plane: xr.Dataset, name: str = "growth_rate") -> Mask:
+    """Cells whose growth rate (of another cycle, or a narrow resonance) or stability differs from
+    that around them."""
+    rate = plane[name].values
+    places = np.where(np.isfinite(rate), growth_norm(rate)(np.nan_to_num(rate)), np.nan).clip(0, 1)
+    padded = np.pad(places, 1, constant_values=np.nan)
+    around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
+    like = np.abs(places[..., None, None] - around) < 0.1  # of the scale; a cell is like itself
+    alone = (like.sum((2, 3)) == 1) & (np.isfinite(around).sum((2, 3)) > 1)
+    if name == "growth_rate" and "cycle" in plane:
+        alone |= unresolved(stability_of(plane))
+    return alone

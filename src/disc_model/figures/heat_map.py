@@ -1,0 +1,222 @@
+"""Heat maps: any variable in colour over two dimensions."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from cmcrameri import cm
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize, from_levels_and_colors
+from matplotlib.figure import Figure, FigureBase
+
+from disc_model.data.variables import EXCLUDED, flag_names
+from disc_model.figures import drawing
+from disc_model.figures.cells import (
+    MARKED,
+    class_cells,
+    edges_of,
+    entries,
+    looks_in,
+    paint,
+    scale_of,
+)
+from disc_model.figures.classes import LOOKS, UNRESOLVED
+from disc_model.figures.growth import growth_panels, is_growth
+from disc_model.figures.kinds.general import General, HeatMap
+from disc_model.figures.legends import Key, figure_legend
+from disc_model.figures.selection import (
+    Part,
+    class_of_gap,
+    parts_along,
+    picked,
+    remaining,
+    statuses,
+    statuses_like,
+    titles_of,
+)
+from disc_model.figures.sizes import COLUMN
+from disc_model.figures.words import label_of, measured
+
+FEW = 12  # counts below which each has a colour of its own
+IN_A_ROW = 4  # panels on a page
+
+
+def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+    """Draw a panel for each value of a third dimension, on one scale of colours."""
+    parts = parts_of(plot, study)
+    width = plot.inches_of(len(parts))
+    columns = 1
+    if width != COLUMN:
+        lines = math.ceil(len(parts) / IN_A_ROW)
+        columns = math.ceil(len(parts) / lines)
+    rows = math.ceil(len(parts) / columns)
+    figure, axes = drawing.panels(width, 2.9 * rows, rows, columns, sharex=True, sharey=True)
+    for ax in axes[len(parts) :]:
+        ax.remove()
+    axes = axes[: len(parts)]
+    planes = [part.data.transpose(plot.y, plot.x, ...) for part in parts]
+    key = draw_maps(figure, axes, planes, plot.variable, plot.log)
+
+    titles = titles_of(parts)
+    if len(axes) > 1:
+        for ax, letter, title in zip(axes, "abcdef", titles, strict=False):
+            unbroken = title.replace(" = ", "\u00a0=\u00a0")  # a value stays beside its name
+            drawing.letter(ax, letter, unbroken)
+    for ax in axes:
+        ax.label_outer()
+    for ax in axes[-columns:]:  # below some of them there is none
+        ax.set_xlabel(axes[-1].get_xlabel())
+        ax.tick_params(labelbottom=True)
+    figure_legend(figure, key.handles, title=key.title)
+    return figure
+
+
+def parts_of(plot: General, study: xr.Dataset) -> list[Part[xr.Dataset]]:
+    """The parts of a study in the panels of a general figure."""
+    chosen = picked(study, plot.at)
+    by = remaining(chosen[plot.variable], [*plot.axes.values()])
+    return parts_along(chosen, by, plot.names)
+
+
+# ---- A variable in colour
+
+
+def draw_maps(
+    figure: FigureBase,
+    axes: Sequence[Axes],
+    planes: Sequence[xr.Dataset],
+    variable: str,
+    log: bool = False,
+) -> Key:
+    """Draw a variable of each plane, of dimensions (up, across), in colour on a panel; returns what
+    a legend says, which names the variable if no bar does."""
+    arrays = [as_classes(plane[variable]) for plane in planes]
+    first = arrays[0]
+    if is_growth(variable) and not log:
+        key = Key(growth_panels(figure, axes, planes, variable))
+    elif first.dtype.kind in "UO" or "flag_meanings" in first.attrs:
+        entries_of_classes = class_panels(axes, arrays, [statuses(plane) for plane in planes])
+        key = Key(entries_of_classes, label_of(planes[0][variable])[0])
+    else:
+        key = Key(number_panels(figure, axes, planes, variable, log))
+    up, across = (first[str(name)] for name in first.dims)
+    axes[0].set_xscale(scale(across))
+    axes[0].set_yscale(scale(up))
+    for ax in axes:
+        drawing.set_label(ax, "x", across)
+        drawing.set_label(ax, "y", up)
+    return key
+
+
+def as_classes(array: xr.DataArray) -> xr.DataArray:
+    """The variable, with the words "no" and "yes" for False and True."""
+    if array.dtype.kind != "b":
+        return array
+    return array.copy(data=np.where(array.values, "yes", "no"))
+
+
+def scale(coordinate: xr.DataArray) -> str:
+    """Scale of an axis, as in maps of regions, but linear from 0 on."""
+    known = scale_of(str(coordinate.name), coordinate.values)
+    return "linear" if known == "symlog" else known
+
+
+def class_panels(
+    axes: Sequence[Axes], panels: Sequence[xr.DataArray], conditions: Sequence[xr.DataArray]
+) -> list[Artist]:
+    """Draw a flag in the colours and patterns of its classes, but what a study's rule leaves out;
+    returns entries of a legend."""
+    looks = {**looks_in(panels[0]), EXCLUDED: LOOKS[EXCLUDED]}
+    used: set[str] = set()
+    for ax, panel, status in zip(axes, panels, conditions, strict=True):
+        words = panel.copy(data=flag_names(panel).astype(object))
+        shown = words.where(status != EXCLUDED, EXCLUDED).astype(str).transpose(*panel.dims)
+        used |= class_cells(ax, shown, looks)
+    return entries(used, {**looks, UNRESOLVED.label: UNRESOLVED})
+
+
+@dataclass(frozen=True)
+class Scale:
+    """Colours of numbers: a map and a scale of matplotlib, and the ticks of its bar if each number
+    has a colour of its own."""
+
+    cmap: Colormap
+    norm: Normalize
+    ticks: Sequence[str] = ()
+
+
+def number_panels(
+    figure: FigureBase, axes: Sequence[Axes], planes: Sequence[xr.Dataset], variable: str, log: bool
+) -> list[Artist]:
+    """Draw numbers on one scale of colours, a panel for each plane, and classes where there is
+    none; returns entries of a legend."""
+    label, factor = label_of(planes[0][variable])
+    arrays = [plane[variable] for plane in planes]
+    numbers = factor * np.concatenate([array.values.ravel() for array in arrays])
+    colours = _scale_of(numbers, arrays[0], log)
+    used: set[str] = set()
+    for ax, plane, array in zip(axes, planes, arrays, strict=True):
+        edges = edges_of(array)
+        values = measured(array).values.astype(float)
+        mesh = ax.pcolormesh(*edges, values, cmap=colours.cmap, norm=colours.norm, rasterized=True)
+        missing = _classes_of_gaps(plane, array)
+        paint(ax, edges, missing, LOOKS)
+        used |= set(missing.flat)
+
+    bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=label)
+    if colours.ticks:
+        bar.set_ticks(range(len(colours.ticks)), labels=list(colours.ticks))
+        bar.minorticks_off()
+    elif log and within_a_decade(colours.norm):
+        bar.ax.yaxis.set_minor_formatter("{x:g}")
+    return entries(used, MARKED)
+
+
+def within_a_decade(norm: Normalize) -> bool:
+    """Whether a logarithmic scale has no two powers of ten, and needs further ticks."""
+    return norm.vmin is not None and norm.vmax is not None and norm.vmax < 10 * norm.vmin
+
+
+def _classes_of_gaps(plane: xr.Dataset, array: xr.DataArray) -> np.ndarray:
+    """The class of each point without a number, "" where there is one."""
+    status = statuses_like(plane, array)
+    gone = array.isnull().values | (status == EXCLUDED)
+    classes = np.vectorize(class_of_gap, otypes=[str])(status)
+    return np.where(gone, classes, "")
+
+
+def _scale_of(numbers: np.ndarray, array: xr.DataArray, log: bool) -> Scale:
+    """Colours of all numbers of a figure: each of few counts, logarithmic, around zero, or between
+    the least and the greatest."""
+    if array.dtype.kind == "i" and numbers.max() < FEW:
+        return counted(int(numbers.max()) + 1)
+    values = numbers[np.isfinite(numbers)]
+    if log:
+        return _logarithmic(values, is_growth(array.name))
+    if not values.size:
+        return Scale(cm.batlow, Normalize(0.0, 1.0))
+    low = float(values.min())
+    high = float(values.max())
+    if low < 0 < high:
+        most = max(-low, high)
+        return Scale(cm.vik, Normalize(-most, most))
+    return Scale(cm.batlow, Normalize(low, high))
+
+
+def counted(count: int) -> Scale:
+    """A colour for each of the numbers 0, 1, ... below a count."""
+    colours = [cm.batlow(i / count) for i in range(count)]
+    cmap, norm = from_levels_and_colors((np.arange(count + 1) - 0.5).tolist(), colours)
+    return Scale(cmap, norm, [str(i) for i in range(count)])
+
+
+def _logarithmic(values: np.ndarray, growth: bool) -> Scale:
+    """Colours of positive numbers; growth rates have the red half of the scale of their maps."""
+    above = values[values > 0]
+    low, high = (above.min(), above.max()) if above.size else (1.0, 10.0)
+    cmap: Any = ListedColormap(cm.vik(np.linspace(0.55, 1, 256))) if growth else cm.batlow
+    return Scale(cmap, LogNorm(low, high if high > low else 10 * low))

@@ -1,0 +1,118 @@
+"""Histories: variables against time, over stick and separation."""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from disc_model.data import dataset
+from disc_model.data.dataset import Missing
+from disc_model.data.variables import PHASES
+from disc_model.errors import require
+from disc_model.figures import drawing
+from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.drawing import GREY, PHASE_COLOURS
+from disc_model.figures.kinds.cases import History
+from disc_model.figures.legends import figure_legend
+from disc_model.figures.phases import spans_in
+from disc_model.figures.runs import stated, window_of
+from disc_model.figures.sizes import COLUMN, PAGE
+
+MOST_SHADED = 60
+"""Largest number of stretches of one phase that are shaded; more would be as dense as a fill."""
+SHADES: dict[str, dict[str, Any]] = {
+    "stick": {"color": PHASE_COLOURS["stick"], "alpha": 0.22},
+    "separation": {"color": PHASE_COLOURS["separation"], "alpha": 0.5},
+}
+"""Behind a history, told apart by darkness in grey print; slip is left white."""
+
+
+def draw(plot: History, case: xr.DataTree) -> Figure:
+    """Draw variables of a case in a window, one above the other."""
+    rows = len(plot.variables)
+    width = plot.inches
+    figure, axes = drawing.panels(width, 0.8 + 1.3 * rows, rows, sharex=True)
+    end = math.inf if plot.until is None else plot.until
+    shown = dataset.group(case, plot.window).sel(time=slice(None, end))
+    if shown.sizes["time"] < 2:  # the run ended before it
+        raise Missing(f"has {shown.sizes['time']} samples in {plot.window}, at least 2 are needed")
+    drawing.letters(axes)
+    figure_legend(figure, draw_history(axes, case, shown, plot.variables))
+    figure.align_ylabels()
+    return figure
+
+
+def plot_run(
+    case: xr.DataTree,
+    windows: Sequence[str],
+    variables: Sequence[str],
+    *,
+    ax: Any = None,
+    legend: Any = True,
+    labels: Any = None,
+    title: str | None = None,
+) -> Any:
+    """Draw variables of a run, a row each, in windows, a column each; returns the axes."""
+    several = isinstance(variables, list | tuple) and len(variables) > 0
+    rule = "must be a list of one or more"
+    require((several, "variables", variables, rule), (len(windows) > 0, "windows", windows, rule))
+    named = [("variables", variable) for variable in variables]
+    shown = [window_of(case, name, *named, which="windows") for name in windows]
+
+    rows = len(variables)
+    columns = len(windows)
+    width = PAGE if columns > 1 else COLUMN
+    wishes = Wishes(ax, legend, labels, title)
+    height = 0.7 + 1.25 * rows
+    with page_for(
+        wishes,
+        width,
+        height,
+        rows,
+        columns,
+        title=stated(case),
+        sharex="col",
+        sharey="row" if columns > 1 else False,
+    ) as page:
+        grid: Any = np.array(page.axes, dtype=object).reshape(rows, columns)
+        for column, window in zip(grid.T, shown, strict=True):
+            handles = draw_history(column, case, window, variables)
+            page.explain(handles or page.handles)
+        if page.own:
+            page.figure.align_ylabels()
+    return grid if rows * columns > 1 else grid[0, 0]
+
+
+def draw_history(
+    axes: Sequence[Axes], case: xr.DataTree, window: xr.Dataset, variables: Sequence[str]
+) -> list[Artist]:
+    """Draw variables against time, over shaded phases unless these are too dense; returns entries
+    of a legend."""
+    for ax, name in zip(axes, variables, strict=True):
+        drawing.show(ax, case, window, name, named=ax is axes[0])
+        ax.label_outer()
+    axes[-1].locator_params(axis="x", nbins=6)
+    axes[-1].ticklabel_format(axis="x", useOffset=False)
+
+    spans = spans_in(case, window)
+    if not 0 < max(len(spans[name]) for name in SHADES) <= MOST_SHADED:
+        return []
+    for name, look in SHADES.items():
+        bars = [(start, stop - start) for start, stop in spans[name]]
+        for ax in axes:
+            whole = ax.get_xaxis_transform()
+            ax.broken_barh(bars, (0, 1), transform=whole, linewidth=0, zorder=0, **look)
+    return [_shade(name) for name in PHASES if spans[name]]
+
+
+def _shade(phase: str) -> Artist:
+    """The legend entry of a phase."""
+    if phase in SHADES:
+        return Patch(label=phase, **SHADES[phase])
+    return Patch(label=phase, facecolor="white", edgecolor=GREY, linewidth=0.5)

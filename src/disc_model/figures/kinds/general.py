@@ -1,0 +1,115 @@
+"""Kinds that show any variable of any quantity: heat maps and curves."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import Field
+
+from disc_model.errors import Fault, as_text, suggestion
+from disc_model.figures.kinds.base import Plot, Values, unknown
+from disc_model.figures.selection import NORM
+from disc_model.units import UNITS, Finite, Unit
+
+Dims = Mapping[str, Sequence[Any]]
+"""Values along the dimensions of one variable."""
+
+
+class General(Plot):
+    """Any variable of any quantity over dimensions of the study, those of the quantity's own
+    included.
+
+    at : values along dimensions that are not shown
+    by : a dimension with a panel, or a line, for each of its values; normalization if it varies
+    log : whether the scale of the variable is logarithmic
+    names : words for values of `by`
+    """
+
+    several = True
+    room: ClassVar[int] = 6
+    """Greatest number of values of `by`."""
+
+    variable: str
+    x: str
+    at: Annotated[dict[str, Finite | str], Unit(UNITS)] = Field({})
+    by: str | None = None
+    log: bool = False
+    names: dict[str, str] = Field({})
+
+    def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
+        """Faults by the values along each dimension (tuples for a zip, none if it has faults), and
+        each variable's dimensions."""
+        yield from self.wrong_overlays()
+        if self.variable not in variables:
+            rule = f"unknown variable{suggestion(self.variable, variables)}"
+            yield Fault.of(("variable",), self.variable, rule)
+            return
+        own = {name: dims[name] for name in variables[self.variable] if name in dims}
+        yield from self.wrong_axes(own, self.variable)
+        for axis, name in self.axes.items():
+            if len(own.get(name, ())) == 1:
+                yield Fault.of((axis,), name, "must have two values or more")
+        yield from self._wrong_by(own)
+        yield from self._wrong_places(own)
+        yield from unknown("names", self.names, "by", dims.get(self.by or "", ()))
+
+    def _wrong_by(self, own: Dims) -> Iterator[Fault]:
+        """Faults of the dimension of panels or lines."""
+        if self.by is None:
+            return
+        count = len(own.get(self.by, ()))
+        if self.by not in own or self.by in self.axes.values():
+            rule = f"must be another dimension of {self.variable}{suggestion(self.by, own)}"
+            yield Fault.of(("by",), self.by, rule)
+        elif count > self.room:
+            rule = f"has {count} values, and there is room for {self.room}"
+            yield Fault.of(("by",), self.by, rule)
+
+    def _wrong_places(self, own: Dims) -> Iterator[Fault]:
+        """Values along dimensions that are not shown: none that the study lacks, and one for each
+        that varies."""
+        shown = {*self.axes.values(), self.by}
+        free = {name: values for name, values in own.items() if name not in shown}
+        for name, value in self.at.items():
+            if name not in free:
+                rule = f"is no dimension that remains{suggestion(name, free)}"
+                yield Fault.of(("at", name), value, rule)
+            elif free[name] and not any(_same(value, known) for known in free[name]):
+                yield Fault.of(("at", name), value, f"must be one of {as_text([*free[name]])}")
+        for name, values in free.items():
+            has_panels = self.by is None and name == NORM and len(values) <= self.room
+            if name not in self.at and len(values) > 1 and not has_panels:
+                rule = f"is required, or by: {name}; one of {as_text([*values])}"
+                yield Fault(("at", name), "", rule)
+
+
+def _same(value: Any, other: Any) -> bool:
+    if isinstance(value, float) and isinstance(other, float):
+        return math.isclose(value, other, rel_tol=1e-12)
+    return bool(value == other)
+
+
+class HeatMap(General):
+    """A variable in colour over two dimensions; a panel for each value of a third, if wanted."""
+
+    kind: Literal["heat_map"] = "heat_map"
+    y: str
+
+
+class CurvePlot(General):
+    """A variable against one dimension; a line for each value of a second, if wanted.
+
+    limits : ends of the variable's axis, so that figures can be compared
+    panels : values of `by` in each panel, or a panel for each
+    """
+
+    room = 12
+    kind: Literal["curve"] = "curve"
+    limits: tuple[Finite, Finite] | None = None
+    panels: Literal["each"] | tuple[tuple[Finite | str, ...], ...] = ()
+
+    def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
+        yield from super().faults_among(dims, variables)
+        if self.panels != "each":
+            yield from unknown("panels", chain(*self.panels), "by", dims.get(self.by or "", ()))

@@ -1,0 +1,126 @@
+"""Kinds that show motions, outcomes and modes over a parameter."""
+
+import math
+from collections.abc import Iterator
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from disc_model.data.variables import SAMPLE
+from disc_model.errors import Fault, suggestion
+from disc_model.figures.kinds.base import Compared, Plot, Role, Roles, Values, unknown
+from disc_model.figures.selection import NORM
+from disc_model.units import Finite, Positive, Unit
+
+MOST_POINTS = 4  # greatest number of points that a figure of sensitivity shows
+
+
+class Bifurcation(Plot):
+    """The angle ψ once a turn against a parameter, and after how many switches the motion repeats.
+
+    paper_cases : values of x by the paper's name of the case
+    """
+
+    roles: ClassVar[Roles] = {"lyapunov": Role("lyapunov")}
+    kind: Literal["bifurcation"] = "bifurcation"
+    x: str
+    paper_cases: Annotated[dict[str, Finite], Unit(of="x")] = Field({})
+
+
+class Branches(Plot):
+    """Range of motion of all cycles found against one parameter, stable and unstable, and where a
+    sweep jumps.
+
+    paper_cases : values of the parameter by the paper's name of the case
+    """
+
+    kind: Literal["branches"] = "branches"
+    paper_cases: dict[str, Finite] = Field({})
+
+
+class LateRange(Plot):
+    """Peak-to-peak displacement of the slider against the speed, with separation and with it
+    ignored.
+
+    by : dimension with a panel for each value
+    thickness : of the disc, m; that of the paper unless given
+    not_valid : points at which the law of friction does not hold
+    names : words for values of `by`
+    """
+
+    quantities = ("outcome",)
+    kind: Literal["late_range"] = "late_range"
+    by: str = "disc"
+    thickness: Positive = 0.002
+    not_valid: tuple[dict[str, tuple[Finite | str, ...]], ...] = ()
+    names: dict[str, str] = Field({})
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        return ("Omega", "N", "contact", self.by)
+
+    def faults(self, values: Values) -> Iterator[Fault]:
+        yield from super().faults(values)
+        yield from unknown("names", self.names, self.by, values.get(self.by, ()))
+        for part in self.not_valid:
+            for dim, words in part.items():
+                along = values.get(dim, ()) if dim in self.dims else ()
+                yield from unknown("not_valid", words, dim, along)
+
+
+class BasinShares(Plot):
+    """Outcomes of many starts, the attractors, and the critical energy of separation, against a
+    parameter."""
+
+    kind: Literal["basins"] = "basins"
+    x: str
+
+
+class Sensitivity(Plot):
+    """Probability of instability in the lowest and in the highest third of each parameter; for up
+    to four points."""
+
+    several = True
+    kind: Literal["sensitivity"] = "sensitivity"
+
+    def wrong_dims(self, values: Values) -> Iterator[Fault]:
+        points = math.prod(len(along) for name, along in values.items() if name != SAMPLE)
+        if points > MOST_POINTS:
+            rule = f"has room for {MOST_POINTS} points beside their samples, not {points}"
+            yield Fault.of(("kind",), self.kind, rule)
+
+
+class Campbell(Compared):
+    """Frequencies and growth rates against the speed, and where modes meet multiples of the
+    stick-slip frequency.
+
+    normalization : the one shown, where the study has several
+    """
+
+    needs = ("Omega",)
+    kind: Literal["campbell"] = "campbell"
+    normalization: Literal["as_published", "orthonormal"] | None = None
+
+    def wrong_dims(self, values: Values) -> Iterator[Fault]:
+        chosen = self.normalization
+        yield from super().wrong_dims(values if chosen is None else {**values, NORM: ()})
+        known = values.get(NORM, ())
+        if chosen is not None and known and chosen not in known:
+            yield Fault.of((NORM,), chosen, f"is not computed{suggestion(chosen, known)}")
+
+
+class SlidingModes(Compared):
+    """Frequencies and growth rates of steady sliding's modes along a parameter; where two meet,
+    they coalesce."""
+
+    quantities = ("sliding",)
+    kind: Literal["sliding_modes"] = "sliding_modes"
+    highest: Annotated[Positive, Unit("Hz")] | None = None
+
+
+class RootLocus(Compared):
+    """Eigenvalues of steady sliding in the plane of growth rate and frequency, coloured along the
+    parameter."""
+
+    quantities = ("sliding",)
+    kind: Literal["root_locus"] = "root_locus"

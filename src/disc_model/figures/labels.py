@@ -1,0 +1,103 @@
+"""Labels and titles that are no longer than their axes."""
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+BEYOND = 1.15  # length of a label over that of its axis, at most
+MARKUP = re.compile(r"\\\w+|[${}_^]")  # of mathematical text; a symbol for a command
+
+
+class Breakable(NamedTuple):
+    """A text that may be broken, and along which side of its axes it stands."""
+
+    text: Text
+    ax: Axes
+    direction: str
+    beyond: float
+
+
+def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
+    """Break labels and titles of axes, all those of a figure unless some are given, into lines where
+    they are longer than the axes."""
+    found = [each for ax in (figure.axes if axes is None else axes) for each in _texts_of(ax)]
+    words = [each.text.get_text() for each in found]
+    # the layout makes axes narrow under a long title, so that it is set with short ones
+    for each in found:
+        each.text.set_text("x")
+    figure.draw_without_rendering()  # sets the sizes
+    for each, said in zip(found, words, strict=True):
+        each.text.set_text(said)
+        room = each.beyond * getattr(each.ax.get_window_extent(), each.direction)
+        _break(each.text, each.direction, room)
+
+
+def _texts_of(ax: Axes) -> Iterator[Breakable]:
+    """Labels and titles of axes that say something."""
+    for label, direction in ((ax.xaxis.label, "width"), (ax.yaxis.label, "height")):
+        if label.get_text().strip():
+            yield Breakable(label, ax, direction, BEYOND)
+    for title in titles_of(ax):
+        yield Breakable(title, ax, "width", 1.0)
+
+
+def titles_of(ax: Axes) -> list[Text]:
+    """The titles of axes, that have a text, at the left, in the middle and at the right."""
+    texts = {ax.get_title(loc) for loc in ("left", "center", "right")} - {""}
+    return [
+        child
+        for child in ax.get_children()
+        if isinstance(child, Text) and child not in ax.texts and child.get_text() in texts
+    ]
+
+
+def _break(label: Any, direction: str, room: float) -> None:
+    """Break a label into as few lines as fit a room in pixels, or as its longest word leaves."""
+    text = label.get_text()
+    length = getattr(label.get_window_extent(), direction)
+    if length <= room or "\n" in text:
+        return
+    words = text.split(" ")
+    longest_word = max(map(seen, words))
+    for count in range(math.ceil(length / room), len(words) + 1):
+        lines = in_lines(text, count)
+        label.set_text(lines)
+        no_shorter = max(map(seen, lines.split("\n"))) <= longest_word
+        if no_shorter or getattr(label.get_window_extent(), direction) <= room:
+            return
+
+
+def in_lines(text: str, count: int) -> str:
+    """The text in at most so many lines, the longest of which is as short as it can be."""
+    words = text.split(" ")
+    longest = max(map(seen, words))
+    lines = [text]
+    for length in range(longest, sum(map(seen, words)) + 1):
+        lines = _filled(words, length)
+        if len(lines) <= count:
+            break
+    return "\n".join(lines)
+
+
+def _filled(words: Sequence[str], length: int) -> list[str]:
+    """Words in lines of at most a length, as it is seen."""
+    lines = [words[0]]
+    taken = seen(words[0])
+    for word in words[1:]:
+        taken += seen(word)
+        if taken <= length:
+            lines[-1] = f"{lines[-1]} {word}"
+        else:
+            lines.append(word)
+            taken = seen(word)
+    return lines
+
+
+def seen(word: str) -> int:
+    """Number of characters of a word that are seen, and the blank after it."""
+    return len(MARKUP.sub(lambda found: "x" if found[0].startswith("\\") else "", word)) + 1

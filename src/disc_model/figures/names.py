@@ -1,0 +1,65 @@
+"""Names of points in a panel: written where there is room, whatever size the figure gets."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.text import Annotation
+
+from disc_model.figures.drawing import say
+
+GAP = 1  # points around a name that no other one covers
+
+
+class Names(Artist):
+    """Names of points, each beside its own: inside the panel, and where it covers no other.
+
+    Those that are added first come first; those that find no room are left out. Places are chosen
+    whenever the figure is drawn, since axes change their size until then.
+    """
+
+    def __init__(self, ax: Axes, most: int | None = None) -> None:
+        super().__init__()
+        self._most = most
+        self._candidates: list[list[Annotation]] = []
+        self.set_zorder(-1)  # chosen before they are drawn
+        self.set_in_layout(False)
+        ax.add_artist(self)
+
+    def add(
+        self,
+        text: str,
+        point: tuple[float, float],
+        offsets: Iterable[tuple[float, float]],
+        **look: Any,
+    ) -> None:
+        """Add the name of a point, by the offsets in points at which it may stand, best first."""
+        ax: Any = self.axes
+        names = [say(ax, text, point, offset, **look) for offset in offsets]
+        for name in names:
+            name.set_in_layout(False)
+        self._candidates.append(names)
+
+    def draw(self, renderer: Any) -> None:
+        """Choose the places of all names, which are drawn after it."""
+        taken: list[Any] = []
+        for names in self._candidates:
+            for name in names:
+                name.set_visible(False)
+            if self._most is None or len(taken) < self._most:
+                self._place(names, taken, renderer)
+        self.stale = False
+
+    def _place(self, names: Sequence[Annotation], taken: list[Any], renderer: Any) -> None:
+        """Show the first of a point's names that finds room; its box is added to those taken."""
+        panel: Any = self.axes
+        frame = panel.get_window_extent(renderer)
+        for name in names:
+            name.set_visible(True)  # an invisible one has no extent
+            box = name.get_window_extent(renderer).padded(GAP)
+            inside = frame.count_contains(box.corners()) == len(box.corners())
+            if inside and not box.count_overlaps(taken):
+                taken.append(box)
+                return
+            name.set_visible(False)

@@ -1,0 +1,101 @@
+"""Pictures of studies and of modes: what a reader calls, without matplotlib before something is
+drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from disc_model.display import draw
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from disc_model.parameters import Parameters
+
+
+def plot_sweep(
+    study: xr.Dataset | xr.DataTree,
+    variable: str = "",
+    x: str = "",
+    *,
+    log: bool = False,
+    ax: Axes | None = None,
+    legend: bool | Mapping[str, Any] = True,
+    labels: Mapping[str, str] | None = None,
+    title: str | None = None,
+) -> Axes:
+    """Draw a variable of a sweep or of a grid study: a line along one dimension, or colours over
+    two.
+
+    A second dimension of words, such as the direction of a sweep, gives a line for each. What
+    starts come to is drawn as bars of their shares, at each energy or along a parameter. A hatched
+    cell is "unresolved": its value is right, but all neighbours differ from it by a tenth of the
+    scale or more, so that the grid misses what lies between.
+
+    Parameters
+    ----------
+    study : such as `disc_model.sweep`, `run_study`, `hysteresis` and `basins` return; of one or two dimensions of
+        several values
+    variable : the shares of starts, the growth rate, the outcome or the first number there is if not given
+    x : the dimension along the horizontal axis; the first of numbers if not given
+    log : whether the scale of the variable is logarithmic
+    ax, legend, labels, title : as in `Result.plot`
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule, or more than two dimensions vary.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> growth = dm.sweep(dm.floquet, dm.Parameters(N=300, Omega=15), Omega=[10, 12, 14])
+    >>> dm.plot_sweep(growth).get_xlabel()
+    'Speed Ω (rad/s)'
+    """
+    return draw(
+        "plot_sweep", study, variable, x, log=log, ax=ax, legend=legend, labels=labels, title=title
+    )
+
+
+def plot_modes(
+    p: Parameters,
+    most: int = 15,
+    *,
+    ax: Axes | NDArray[Any] | None = None,
+    labels: Mapping[str, str] | None = None,
+    title: str | None = None,
+) -> NDArray[Any]:
+    """Draw the shapes of the modes of a case from above, with their nodal lines and frequencies.
+
+    Parameters
+    ----------
+    p : the case; a disc that is given by its modes needs shapes at two radii or more
+    most : number of modes that are drawn, by ascending frequency
+    ax : axes to draw on, one for each mode
+    labels : as in `Result.plot`
+    title : of a new figure; "" for none
+
+    Returns
+    -------
+    array of Axes
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule, or the disc has no shapes.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> dm.plot_modes(dm.Parameters(N=385, Omega=15.1)).size
+    5
+    """
+    return draw("plot_modes", p, most, ax=ax, labels=labels, title=title)

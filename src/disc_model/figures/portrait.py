@@ -1,0 +1,70 @@
+"""Phase portraits: one variable over another, coloured by phase."""
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from disc_model.data import dataset
+from disc_model.data.variables import PHASES, flag_names
+from disc_model.figures import drawing
+from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.drawing import PHASE_COLOURS, wide
+from disc_model.figures.kinds.cases import Portrait
+from disc_model.figures.legends import figure_legend
+from disc_model.figures.runs import stated, window_of
+from disc_model.figures.sizes import COLUMN
+
+LINES = {"stick": 0.5, "slip": 0.5, "separation": 1.2}
+"""Widths of the lines of phases, distinct in grey print, points."""
+
+
+def draw(plot: Portrait, case: xr.DataTree) -> Figure:
+    """Draw a portrait of the samples in a window."""
+    figure, [ax] = drawing.panels(plot.inches, 2.7)
+    samples = dataset.samples(case, plot.window)
+    figure_legend(figure, draw_portrait(ax, samples, plot.x, plot.y))
+    return figure
+
+
+def plot_phase_portrait(
+    case: xr.DataTree,
+    window: str,
+    x: str,
+    y: str,
+    *,
+    ax: Any = None,
+    legend: Any = True,
+    labels: Any = None,
+    title: str | None = None,
+) -> Axes:
+    """Draw a portrait of a run; returns the axes."""
+    samples = window_of(case, window, ("x", x), ("y", y), samples=True)
+    with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.9, title=stated(case)) as page:
+        page.explain(draw_portrait(page.ax, samples, x, y))
+    return page.ax
+
+
+def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> list[Artist]:
+    """Draw one variable over another, coloured by phase; returns entries of a legend."""
+    across, in_x, _ = drawing.sampled(x, samples)
+    up, in_y, _ = drawing.sampled(y, samples)
+    words = flag_names(samples["phase"])
+    handles = []
+    for name in PHASES:
+        inside = words == name
+        if not inside.any():
+            continue
+        # broken where the phase changes, so that no chord is drawn across others
+        height = np.where(inside, samples[y].values * in_y, np.nan)
+        look: dict[str, Any] = {"color": PHASE_COLOURS[name], "label": name}
+        width = wide(LINES[name])
+        ax.plot(samples[x].values * in_x, height, linewidth=width, rasterized=True, **look)
+        handles.append(drawing.sample(linewidth=width + 0.5, **look))
+    ax.margins(0.04)
+    ax.set_xlabel(across)
+    ax.set_ylabel(up)
+    return handles

@@ -1,0 +1,85 @@
+"""Root loci: eigenvalues of steady sliding, coloured along a parameter."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from cmcrameri import cm
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from disc_model.figures import drawing
+from disc_model.figures.drawing import BLACK, large, mark, wide
+from disc_model.figures.kinds.motions import RootLocus
+from disc_model.figures.mode_names import named_modes
+from disc_model.figures.selection import parts_along, titles_of
+from disc_model.figures.words import measured
+
+NAMES_APART = 0.01  # of the highest frequency, least distance of names
+CHARACTER = 0.0136  # of the extent of growth rates, width of a character of a name
+
+
+def draw(plot: RootLocus, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+    """Draw the plane of growth rate and frequency, for each value of the compared dimension."""
+    parts = parts_along(study, plot.by, plot.names)
+    width = plot.inches
+    figure, axes = drawing.row_of_panels(width, len(parts), 4.8, 3.4, sharex=True, sharey=True)
+    for ax, part in zip(axes, parts, strict=True):
+        points = _draw_panel(ax, part.data.squeeze())
+        ax.label_outer()
+    drawing.letters(axes, titles_of(parts))
+    label = measured(parts[0].data["value"]).label
+    figure.colorbar(points, ax=axes, label=label, pad=0.01, aspect=30)
+    return figure
+
+
+def _draw_panel(ax: Axes, study: xr.Dataset) -> Any:
+    """Draw points, with a ring where a mode begins, and its name on the side from which it leads
+    away."""
+    along = measured(study["value"]).values
+    for _, mode in study.groupby("mode"):
+        rate = mode["mode_growth_rate"].values
+        frequency = mode["frequency"].values
+        points = ax.scatter(
+            rate,
+            frequency,
+            c=along,
+            s=mark(5),
+            zorder=2,
+            cmap=cm.batlow,
+            vmin=along[0],
+            vmax=along[-1],
+        )
+
+    first = study.isel(value=0)
+    rates = first["mode_growth_rate"].values
+    heights = first["frequency"].values
+    ax.plot(rates, heights, "o", color=BLACK, markersize=mark(4), markerfacecolor="white")
+    apart = NAMES_APART * float(study["frequency"].max())
+    for part in named_modes(first["diameters"].values, heights, apart):
+        side, ring = _side_of_name(study, part.modes, len(part.name))
+        place = (ring, float(heights[part.modes].mean()))
+        drawing.say(
+            ax, part.name, place, (4 * side, 0), fontsize=large(7), path_effects=drawing.halo()
+        )
+    ax.axvline(0, color=BLACK, linewidth=wide(0.6))
+    ax.margins(x=0.02)
+    ax.set_xlabel("Growth rate (1/s)")
+    ax.set_ylabel("Frequency in the slider's frame (Hz)")
+    return points
+
+
+def _side_of_name(study: xr.Dataset, modes: np.ndarray, length: int) -> tuple[int, float]:
+    """The side of the rings of some modes on which their name stands, -1 for the left, and the
+    growth rate beside which it does."""
+    every = study["mode_growth_rate"]
+    rates = every.isel(value=0).values
+    ahead = every.isel(value=1).values - rates
+    if ahead[modes].mean() > 0:
+        return -1, float(rates[modes].min())
+    ring = float(rates[modes].max())
+    width = CHARACTER * float(every.max() - every.min()) * length
+    if -width < ring < 0:  # the name would cross the line of zero growth
+        return -1, float(every.isel(mode=modes).min())
+    return 1, ring

@@ -1,0 +1,231 @@
+"""Selection of what a figure shows from a study or a case. Nothing here draws."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Generic, NamedTuple, TypeVar
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data import dataset
+from disc_model.data.variables import EXCLUDED, flag_names, stated_in
+from disc_model.figures.arrays import Array, Words
+from disc_model.figures.classes import name_of
+from disc_model.figures.words import named_value, rank_of, value_text
+
+NORM = "normalization"  # the dimension that a study may have beside those that a figure requires
+WITHOUT_CYCLE = (
+    "no_cycle",
+    "separates",
+    "no_stick_slip",
+    "steady_sliding",
+    "unstable_sliding",
+    "at_rest",
+)
+"""Statuses of points that were computed, and have no stick-slip cycle."""
+
+
+Data = TypeVar("Data", xr.Dataset, xr.DataArray)
+
+
+class Part(NamedTuple, Generic[Data]):
+    """A part of a study or of a variable, in a panel or a line of its own: what sets it apart, with
+    the name of the dimension and without, and its data."""
+
+    name: str
+    value: str
+    data: Data
+
+
+# ---- Parts of a study
+
+
+def picked(study: xr.Dataset, values: Mapping[str, float | str]) -> xr.Dataset:
+    """A grid study at values of some dimensions; dimensions of one value are dropped."""
+    words = {dim: value for dim, value in values.items() if isinstance(value, str)}
+    numbers = {dim: value for dim, value in values.items() if dim not in words}
+    return study.sel(words).sel(numbers, method="nearest").squeeze()
+
+
+def normalizations(study: xr.Dataset) -> list[str]:
+    """Normalizations for which a grid study has values."""
+    if NORM in study.coords:
+        return [str(name) for name in np.atleast_1d(study[NORM].values)]
+    base = stated_in(study, "base")
+    if base.get("disc"):
+        return ["given"]
+    return [base[NORM]]
+
+
+def of(study: xr.Dataset, normalization: str) -> xr.Dataset:
+    """Values of a grid study for one normalization."""
+    if NORM in study.dims:
+        return study.sel({NORM: normalization})
+    return study
+
+
+def parts_along(
+    study: Data, by: str | None, words: Mapping[str, str] | None = None
+) -> list[Part[Data]]:
+    """The parts of a study, or of a variable, along a dimension, in order: words as in `WORDS`, or
+    by the number that they begin with. The whole without a dimension.
+
+    words : other words for values along the dimension
+    """
+    if by is None or by not in study.dims:
+        return [Part("", "", study)]
+    # a zip has several coordinates
+    names = [str(name) for name, values in study.coords.items() if values.dims == (by,)]
+    slices = [study.isel({by: i}) for i in range(study.sizes[by])]
+    parts = [_part(data, by, names, words or {}) for data in slices]
+    return sorted(parts, key=lambda part: _rank(part.data, by, names, words or {}))
+
+
+def _part(data: Data, by: str, names: Sequence[str], words: Mapping[str, str]) -> Part[Data]:
+    """A part with its names, by its values along some coordinates; words stand for themselves."""
+    name = ", ".join(_word(data, one, by, words) or named_value(data, one) for one in names)
+    value = ", ".join(_word(data, one, by, words) or value_text(data, one) for one in names)
+    return Part(name, value, data)
+
+
+def _rank(data: Data, by: str, names: Sequence[str], words: Mapping[str, str]) -> list[Any]:
+    """The place of a part among others."""
+    return [rank_of(_word(data, one, by, words) or data[one].item()) for one in names]
+
+
+def _word(data: Data, name: str, by: str, words: Mapping[str, str]) -> str:
+    """The word that a file gives for the value along a dimension, "" without one."""
+    return words.get(str(data[by].item()), "") if name == by else ""
+
+
+def titles_of(parts: Sequence[Part[Any]]) -> list[str]:
+    """Titles of the panels of parts: the dimension is named in the first one only. A single part
+    has none, since it stands in the figure's title."""
+    if len(parts) < 2:
+        return [""]
+    first, *others = parts
+    return [first.name, *(part.value for part in others)]
+
+
+def alike(data: xr.Dataset, part: xr.Dataset, by: str) -> xr.Dataset:
+    """A further study with the value of a dimension, and the normalization, that a part of the
+    first study has."""
+    for dim in dict.fromkeys([by, NORM]):
+        if dim not in data.dims:
+            continue
+        known = part.coords.get(dim)
+        data = data.sel({dim: normalizations(part)[0] if known is None else known.item()})
+    return data
+
+
+def common_points(data: xr.Dataset, other: xr.Dataset, names: Sequence[str]) -> list[xr.Dataset]:
+    """Two studies at the values of some dimensions that both have."""
+    for name in names:
+        same = np.isclose(data[name].values[:, None], other[name].values, rtol=1e-9, atol=0)
+        data = data.isel({name: same.any(axis=1)})
+        other = other.isel({name: same.any(axis=0)})
+    return [data, other]
+
+
+def remaining(array: xr.DataArray, axes: Sequence[str]) -> str | None:
+    """The dimension that is on no axis, if there is one."""
+    return next((str(name) for name in array.dims if name not in axes), None)
+
+
+# ---- Points without a value
+
+
+def statuses(study: xr.Dataset) -> xr.DataArray:
+    """The status of each point of a grid study, as a word; "ok" without one.
+
+    A motion that never sticks again is "steady_sliding" or "unstable_sliding" where the study knows
+    the growth rate of steady sliding.
+    """
+    if "status" not in study:
+        return xr.DataArray("ok")
+    words = study["status"].copy(data=flag_names(study["status"]).astype(object))
+    if "sliding_growth_rate" in study:
+        rate = study["sliding_growth_rate"]
+        largest = rate.max([dim for dim in rate.dims if dim not in words.dims])
+        slides = words == "no_stick_slip"
+        words = words.where(~(slides & (largest < 0)), "steady_sliding")
+        words = words.where(~(slides & (largest >= 0)), "unstable_sliding")
+    return words.astype(str)
+
+
+def statuses_like(study: xr.Dataset, array: xr.DataArray) -> Words:
+    """The status of each point, in the shape of a variable of the study."""
+    words = statuses(study).broadcast_like(array).transpose(*array.dims)
+    return np.asarray(words.values, dtype=str)
+
+
+def failed(study: xr.Dataset) -> xr.DataArray:
+    """Points of a grid study that failed."""
+    return statuses(study) != "ok"
+
+
+def class_of_gap(status: str) -> str:
+    """The class of a point without a value: its status, "failed" for a failure of the computation,
+    and "no_value" for a point that was computed."""
+    if status == "ok":
+        return "no_value"
+    if status in (*WITHOUT_CYCLE, EXCLUDED):
+        return status
+    return "failed"
+
+
+def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
+    """Points where a variable has no value, by the name of their class; without those that a rule
+    excludes."""
+    words = statuses(study)
+    gone = variable.isnull()
+    masks: dict[str, xr.DataArray] = {}
+    for word in map(str, np.unique(words)):
+        here = gone & (words == word)
+        if word == EXCLUDED or not here.any():
+            continue
+        name = name_of(class_of_gap(word))
+        masks[name] = here | masks.get(name, False)
+    return masks
+
+
+# ---- Stretches along an axis
+
+
+def edges(values: Array) -> Array:
+    """Edges of cells around ascending values: halfway between neighbours, and the first and last
+    value."""
+    between = 0.5 * (values[1:] + values[:-1])
+    return np.concatenate([values[:1], between, values[-1:]])
+
+
+def stretches(mask: np.ndarray) -> list[tuple[int, int]]:
+    """Runs of True: index of the first element, and the index after the last."""
+    borders = np.flatnonzero(np.diff(np.concatenate([[0], mask, [0]])))
+    return [(first, after) for first, after in borders.reshape(-1, 2).tolist()]
+
+
+def spans(along: Array, mask: np.ndarray) -> list[tuple[float, float]]:
+    """Ranges of ascending values in which a mask holds, up to halfway to their neighbours."""
+    borders = edges(along).tolist()
+    return [(borders[first], borders[after]) for first, after in stretches(mask)]
+
+
+def broken(x: Array, y: Array, jump: float, height: Array | None = None) -> list[Array]:
+    """A line with gaps where its height, y unless given, changes by more than `jump`."""
+    heights = y
+    if height is not None:
+        heights = height
+    places = np.flatnonzero(np.abs(np.diff(heights)) > jump) + 1
+    return [np.insert(values.astype(float), places, np.nan) for values in (x, y)]
+
+
+# ---- Windows of a case
+
+
+def history(case: xr.DataTree, window: str = "history", until: float | None = None) -> xr.Dataset:
+    """Ranges in a window, up to a time in s; two bins define the bin width."""
+    ranges = dataset.samples(case, window, envelope=True)
+    shown = ranges.sel(time=slice(until))
+    if shown.sizes["time"] < 2:
+        return ranges
+    return shown

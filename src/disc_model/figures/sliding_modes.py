@@ -1,0 +1,161 @@
+"""Modes of steady sliding along a parameter: frequencies and growth rates."""
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from disc_model.figures import drawing
+from disc_model.figures.arrays import Array
+from disc_model.figures.drawing import BLACK, GREY, large, mark, wide
+from disc_model.figures.kinds.motions import SlidingModes
+from disc_model.figures.mode_names import name_of, named_modes
+from disc_model.figures.selection import parts_along, stretches, titles_of
+from disc_model.figures.sliding_outcome import ROUNDING
+from disc_model.figures.words import measured
+
+DECAYS = 0.8  # width of the line of a mode that decays, points,
+GROWS = 2.4  # and of one that grows
+FREE = 0.25  # of the largest growth rate, room above a line that is enough for its name
+NAMES_APART = 0.04  # of the axis of frequencies, least distance of names
+RATES_APART = 0.1  # of that of growth rates
+LEAST = 0.1  # 1/s, upper end of the axis of growth rates at least
+
+
+class Line(NamedTuple):
+    """The line of a mode, as long as its nodal diameters stay: frequency in Hz and growth rate in
+    1/s along the parameter, nan elsewhere."""
+
+    name: str
+    frequency: Array
+    rate: Array
+
+
+def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+    """Draw frequencies above growth rates, a column for each value of the compared dimension; lines
+    are thick where a mode grows."""
+    parts = parts_along(study, plot.by, plot.names)
+    count = len(parts)
+    width = plot.inches
+    figure, axes = drawing.panels(
+        width, 5.6, 2, count, height_ratios=[5, 4], sharex=True, sharey="row"
+    )
+    tops = axes[:count]
+    bottoms = axes[count:]
+    columns = [part.data.squeeze() for part in parts]
+    limits = [_limits(column) for column in columns]
+    greatest = max(high for _, high in limits)
+    for top, bottom, column in zip(tops, bottoms, columns, strict=True):
+        _draw_lines(top, bottom, column)
+    highest = plot.highest or tops[0].get_ylim()[1]
+    across = measured(columns[0]["value"])
+    tops[0].set_ylabel("Frequency in the slider's frame (Hz)")
+    tops[0].set_ylim((0, highest))
+    tops[0].set_xlim(across.values[0], across.values[-1])
+    bottoms[0].set_ylabel("Growth rate (1/s)")
+    bottoms[0].set_ylim(min(low for low, _ in limits), 1.1 * greatest)
+    for top, bottom, column in zip(tops, bottoms, columns, strict=True):
+        bottom.set_xlabel(across.label)
+        _name_frequencies(top, column, highest)
+        _name_decays(bottom, column, greatest)
+    drawing.letters(axes, titles_of(parts))
+    return figure
+
+
+def _limits(study: xr.Dataset) -> tuple[float, float]:
+    """Ends of the axis of growth rates, 1/s. The sign matters: decay of high modes may be much
+    faster than growth."""
+    low = float(study["mode_growth_rate"].min())
+    high = max(float(study["largest_growth_rate"].max()), LEAST)
+    return max(1.1 * low, -high), high
+
+
+# ---- Selection
+
+
+def lines_of(study: xr.Dataset) -> list[Line]:
+    """The lines of all modes, cut where their nodal diameters change, and that of growth at 0 Hz,
+    which is of no mode, where it is the largest."""
+    lines = []
+    for _, mode in study.groupby("mode"):
+        mode = mode.squeeze("mode")
+        frequency = mode["frequency"].values
+        rate = mode["mode_growth_rate"].values
+        diameters = np.where(np.isfinite(frequency), mode["diameters"], np.nan)
+        for number in np.unique(diameters[np.isfinite(diameters)]):
+            here = diameters == number
+            name = name_of(int(number))
+            lines.append(
+                Line(name, np.where(here, frequency, np.nan), np.where(here, rate, np.nan))
+            )
+    largest = study["largest_growth_rate"]
+    of_modes = study["mode_growth_rate"].max("mode")
+    diverging = (largest > of_modes + ROUNDING).values
+    at_zero = np.where(diverging, 0.0, np.nan)
+    lines.append(Line("0 Hz", at_zero, np.where(diverging, largest.values, np.nan)))
+    return lines
+
+
+# ---- Drawing
+
+
+def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
+    """Draw the lines of all modes, thick where they grow, with their names there."""
+    along = measured(study["value"]).values
+    lines = lines_of(study)
+    largest = float(study["largest_growth_rate"].max())
+    for line in lines:
+        grows = np.nan_to_num(line.rate) > ROUNDING
+        for ax, values in ((top, line.frequency), (bottom, line.rate)):
+            ax.plot(along, values, ".-", color=GREY, linewidth=wide(DECAYS), markersize=mark(1.2))
+            ax.plot(
+                along,
+                np.where(grows, values, np.nan),
+                ".-",
+                color=BLACK,
+                linewidth=wide(GROWS),
+                markersize=mark(3),
+            )
+        for start, after in stretches(grows[:-1] & grows[1:]):
+            shown = slice(start, after + 1)
+            i = start + _place_of_name(line.rate[shown], [x.rate[shown] for x in lines], largest)
+            offset = (3, 0) if i == along.size - 1 else (0, 3)
+            place = (along[i], line.rate[i])
+            drawing.say(
+                bottom, line.name, place, offset, fontsize=large(7), path_effects=drawing.halo()
+            )
+    bottom.axhline(0, color=BLACK, linewidth=wide(0.5))
+
+
+def _place_of_name(rate: Array, others: Sequence[Array], largest: float) -> int:
+    """Index in a stretch of a line at which its name stands: where there is room above, and else at
+    the largest rate."""
+    above = np.array(others) - rate
+    room = np.where(above > 0, above, np.inf).min(axis=0, initial=FREE * largest)
+    return int(np.lexsort((rate, room))[-1])
+
+
+def _name_frequencies(ax: Axes, study: xr.Dataset, highest: float) -> None:
+    """Write the names of modes at the left ends of their frequencies."""
+    first = study.isel(value=0)
+    left = measured(study["value"]).values[0]
+    heights = first["frequency"].values
+    white = {"fc": "white", "lw": 0, "pad": 1}
+    for part in named_modes(first["diameters"].values, heights, NAMES_APART * highest):
+        place = (left, float(heights[part.modes].mean()))
+        if place[1] <= highest:
+            drawing.say(ax, part.name, place, (3, 0), fontsize=large(7), bbox=white)
+
+
+def _name_decays(ax: Axes, study: xr.Dataset, greatest: float) -> None:
+    """Write the names of decaying modes beside the right ends of their growth rates."""
+    last = study.isel(value=-1)
+    rates = last["mode_growth_rate"].values
+    shown = (rates < -ROUNDING) & (rates > -greatest)
+    decay = np.where(shown, rates, np.nan)
+    for part in named_modes(last["diameters"].values, decay, RATES_APART * greatest):
+        height = float(decay[part.modes].mean())
+        drawing.say_beside(ax, height, part.name, 3, fontsize=large(7), color=GREY)

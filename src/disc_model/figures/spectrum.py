@@ -1,0 +1,122 @@
+"""Spectra: the amplitude of a variable over the frequency."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from disc_model.analysis.spectra import RESOLVED, amplitude_spectrum, highest_line, lines
+from disc_model.data import dataset
+from disc_model.data.dataset import Missing
+from disc_model.errors import Fault, ParameterError, require
+from disc_model.figures import drawing
+from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.drawing import large, wide
+from disc_model.figures.kinds.cases import Spectrum
+from disc_model.figures.names import Names
+from disc_model.figures.runs import span_of, stated, window_of
+from disc_model.figures.sizes import COLUMN
+from disc_model.units import is_number
+
+FLOOR = -100.0  # least amplitude shown, dB below the greatest
+WEAKEST = 0.01  # amplitude over that of the strongest line, of lines that have to be on the axis
+ROOM_BEYOND = 1.15  # highest frequency shown over that of the highest such line
+HEADROOM = 6.0  # upper end of the axis over the greatest amplitude: room for its name
+MOST_NAMED = 5  # lines whose frequencies are written
+BESIDE = ((3, 2), (-3, 2))  # points, of the names beside their peaks
+ROUNDING = 1e-9  # relative, of half the rate of a window
+
+
+def draw(plot: Spectrum, case: xr.DataTree) -> Figure:
+    """Draw the spectrum of a variable in the whole of a window."""
+    figure, [ax] = drawing.panels(plot.inches, 2.4)
+    draw_spectrum(ax, dataset.samples(case, plot.window), plot.variable, plot.highest)
+    return figure
+
+
+def plot_spectrum(
+    case: xr.DataTree,
+    window: str,
+    variable: str,
+    highest: float | None,
+    *,
+    ax: Any = None,
+    legend: Any = True,
+    labels: Any = None,
+    title: str | None = None,
+) -> Axes:
+    """Draw the spectrum of a variable of a run; returns the axes."""
+    known = highest is None or (is_number(highest) and highest > 0)
+    require((known, "highest", highest, "must be a number > 0, in Hz"))
+    samples = window_of(case, window, ("variable", variable), samples=True)
+    _check_range(samples, highest)
+    try:
+        wishes = Wishes(ax, legend, labels, title)
+        with page_for(wishes, COLUMN, 2.6, title=stated(case)) as page:
+            draw_spectrum(page.ax, samples, variable, highest)
+    except Missing as reason:
+        raise ParameterError(Fault.of(("window",), window, str(reason))) from None
+    return page.ax
+
+
+def _check_range(samples: xr.Dataset, highest: float | None) -> None:
+    """Raise `ParameterError` unless a window shows frequencies up to the highest, Hz."""
+    span = span_of(samples)
+    if highest is None or not span:
+        return
+    half_rate = (samples["time"].size - 1) / (2 * span)
+    resolution = 1 / span
+    rule = (
+        f"must be within {resolution:.3g} Hz, the resolution, and {half_rate:.6g} Hz, half the"
+        " rate of the window"
+    )
+    within = resolution <= highest <= half_rate * (1 + ROUNDING)
+    require((within, "highest", highest, rule))
+
+
+def draw_spectrum(
+    ax: Axes, samples: xr.Dataset, variable: str, highest: float | None = None
+) -> None:
+    """Draw the amplitude of a variable over the frequency, up to one in Hz, or to where its lines
+    end; raises `Missing` if it does not vibrate."""
+    time = samples["time"].values
+    values = samples[variable].values
+    least = 4 * RESOLVED
+    if time.size < least:
+        raise Missing(
+            f"recorded {time.size} samples, and a spectrum takes {least}: a line is"
+            f" {least // 2} bins wide"
+        )
+
+    # what is shown
+    label, factor, colour = drawing.sampled(variable, samples)
+    frequency, amplitude = amplitude_spectrum(time, values)
+    if highest is None:
+        highest = min(ROOM_BEYOND * highest_line(time, values, WEAKEST), float(frequency[-1]))
+    shown = (frequency > 0) & (frequency <= highest)
+    frequency = frequency[shown]
+    amplitude = factor * amplitude[shown]
+    if not amplitude.any():
+        raise Missing(f"did not vibrate at up to {highest:g} Hz")
+
+    # its drawing
+    ax.semilogy(frequency, amplitude, color=colour, linewidth=wide(0.7))
+    name, _, unit = label.rpartition(" (")
+    ylabel = f"{name}, amplitude ({unit}" if name else f"{label}, amplitude"
+    ax.set_xlabel("Frequency (Hz)")
+    ax.set_ylabel(ylabel)
+    ax.set_xlim((0, frequency[-1]))
+    greatest = amplitude.max()
+    lowest = max(amplitude.min(), 10 ** (FLOOR / 20) * greatest)
+    ax.set_ylim(lowest / 2, HEADROOM * greatest)
+    found = lines(time, values, below=highest)
+    name_lines(ax, [(line.frequency, factor * line.amplitude) for line in found])
+
+
+def name_lines(ax: Axes, peaks: Sequence[tuple[float, float]]) -> None:
+    """Write the frequencies, Hz, of the strongest lines beside their peaks."""
+    names = Names(ax, MOST_NAMED)
+    for frequency, height in sorted(peaks, key=lambda peak: -peak[1]):
+        names.add(f"{frequency:.1f} Hz", (frequency, height), BESIDE, fontsize=large(7))

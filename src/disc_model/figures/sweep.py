@@ -1,0 +1,169 @@
+"""Pictures of sweeps and of grid studies: lines along one dimension, colours over two."""
+
+import json
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+
+from disc_model.errors import require, suggestion
+from disc_model.figures.basins import draw_shares, outcomes_in
+from disc_model.figures.canvas import Page, Wishes, page_for
+from disc_model.figures.cells import entries
+from disc_model.figures.curve import draw_lines
+from disc_model.figures.heat_map import draw_maps
+from disc_model.figures.sizes import COLUMN
+from disc_model.figures.words import label_of, measured, what_case
+
+SHARES = ("basin_fraction_by_energy", "basin_fraction")
+PREFERRED = (
+    *SHARES,
+    "growth_rate",
+    "outcome",
+    "critical_speed",
+    "separation_rate",
+    "scan_first_separation",
+    "kind",
+)
+"""Variables that are drawn unless another one is asked for, the first that there is."""
+COUNTED = ("branch", "branch_point")
+"""Dimensions whose values only count something."""
+
+
+def plot_sweep(
+    study: xr.Dataset | xr.DataTree,
+    variable: str = "",
+    x: str = "",
+    *,
+    log: bool = False,
+    ax: Any = None,
+    legend: Any = True,
+    labels: Any = None,
+    title: str | None = None,
+) -> Axes:
+    """Draw a sweep or a grid study, as `disc_model.plot_sweep` describes."""
+    require(
+        (isinstance(study, xr.Dataset), "study", study, "must be an xarray.Dataset"),
+        (isinstance(variable, str | None), "variable", variable, "must be a name"),
+        (isinstance(x, str | None), "x", x, "must be a name"),
+        (isinstance(log, bool), "log", log, "must be True or False"),
+    )
+    varying = _varying(study)  # type: ignore[arg-type]  # checked
+    drawn = _chosen_axes(varying, _chosen_variable(varying, variable), x)
+    with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.9, title=_case_of(varying)) as page:
+        _draw(page, varying, drawn, log)
+    return page.ax
+
+
+# ---- What is drawn
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A variable, and its dimensions: along the horizontal axis, and up or by line, if any.
+
+    mapped : whether the second dimension goes up, in a map
+    """
+
+    variable: str
+    across: str
+    second: str | None
+    mapped: bool
+
+
+def _varying(study: xr.Dataset) -> xr.Dataset:
+    """The study without dimensions of one value; but shares of starts of one case stay along their
+    energies."""
+    alone = (
+        "basin_fraction" in study and study["basin_fraction"].size == study.sizes["attractor_class"]
+    )
+    kept = ("energy",) if alone else ()
+    return study.squeeze(
+        [dim for dim, size in study.sizes.items() if size == 1 and dim not in kept]
+    )
+
+
+def _numeric_dims(study: xr.Dataset) -> list[str]:
+    """Dimensions of a study whose values are numbers of a quantity."""
+    return [
+        str(dim)
+        for dim in study.dims
+        if dim in study.coords and dim not in COUNTED and study[dim].dtype.kind in "fi"
+    ]
+
+
+def _chosen_variable(study: xr.Dataset, variable: str) -> str:
+    """The variable that is drawn; raises `ParameterError`."""
+    numbers = {*_numeric_dims(study)}
+    over = {str(name): {*values.dims} for name, values in study.items()}
+    choices = [name for name, dims in over.items() if dims & numbers and dims <= {*study.coords}]
+    flat = [name for name in choices if len(over[name]) < 3]
+    preferred = [name for name in PREFERRED if name in flat]
+    numeric = [name for name in flat if study[name].dtype.kind in "fi"]
+    usual = next(iter([*preferred, *numeric, *choices]), "")
+    named = variable or usual
+    rule = f"must be one over the grid{suggestion(named, choices)}"
+    require((named in choices, "variable", named, rule))
+    return named
+
+
+def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
+    """The dimensions along which a variable is drawn; raises `ParameterError`."""
+    dims = [str(dim) for dim in study[variable].dims]
+    numbers = [dim for dim in dims if dim in _numeric_dims(study)]
+    across = x or numbers[0]
+    rule = f"varies along {', '.join(dims)}: select values of all but two"
+    require((len(dims) < 3, "variable", variable, rule))
+    require((across in numbers, "x", across, f"must be one of {', '.join(numbers)}"))
+    second = next((dim for dim in dims if dim != across), None)
+    return Drawn(variable, across, second, mapped=len(numbers) == 2)
+
+
+def _case_of(study: xr.Dataset) -> str:
+    """The values of the case that do not vary in a study."""
+    case = json.loads(study.attrs.get("base", study.attrs.get("parameters", "{}")))
+    shown = {str(name).removeprefix("sweep_").removeprefix("scan_") for name in study.coords}
+    fixed = {name: value for name, value in case.items() if name not in shown}
+    for name, values in study.coords.items():
+        if not values.ndim or values.size == 1:
+            fixed[str(name)] = values.item()
+    return what_case(fixed)
+
+
+# ---- Drawing
+
+
+def _draw(page: Page, study: xr.Dataset, drawn: Drawn, log: bool) -> None:
+    """Draw bars of shares, lines, or a map."""
+    if drawn.variable in SHARES and not log:
+        page.explain(_draw_bars(page.ax, study, drawn), beside="below")
+    elif not drawn.mapped:
+        draw_lines(page.ax, study, drawn.variable, drawn.across, log)
+        page.explain(page.ax.get_legend_handles_labels()[0])
+    else:
+        plane = study.transpose(drawn.second, drawn.across, ...)
+        key = draw_maps(page.figure, [page.ax], [plane], drawn.variable, log)
+        page.explain(key.handles, beside="below", title=key.title)
+        whole = study[drawn.second].dtype.kind == "i"
+        if whole and page.ax.get_yscale() == "linear":
+            page.ax.locator_params(axis="y", integer=True)
+
+
+def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
+    """Draw the shares of starts as bars; returns entries of a legend."""
+    shares = study[drawn.variable]
+    classes = outcomes_in(shares)
+    across = measured(study[drawn.across])
+    places = across.values
+    if drawn.across == "energy":  # equally far apart, as one may be 0
+        places = np.arange(places.size)
+    draw_shares(ax, shares, classes, places)
+    if drawn.across == "energy":
+        ax.set_xticks(places, [f"{energy:g}" for energy in across.values])
+    ax.set_xlabel(across.label)
+    ax.set_ylabel(label_of(shares)[0])
+    ax.set_xmargin(0.04)
+    return entries(classes)

@@ -1,0 +1,180 @@
+"""Words of figures: labels of variables, names of values, and what a figure's head says. Nothing here
+draws."""
+
+import re
+from collections.abc import Mapping
+from contextvars import ContextVar
+from textwrap import fill
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data import variables
+from disc_model.data.variables import EXCLUDED, SHOWN, axis_of, flag_names, typeset
+from disc_model.figures.classes import name_of
+
+MODES = {
+    "as_published": "modes as published",
+    "orthonormal": "orthonormal modes",
+    "given": "modes of a table",
+}
+WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}
+"""Names of words along a dimension, in the order in which they are drawn: those of the paper first."""
+MODELS = {
+    "normal": WORDS["normal"],
+    "residual": "residual flexibility",
+    "surface": "friction on the surface",
+    "bilateral": "bilateral contact",
+    "bonded": "bilateral contact",  # its name in older files of results
+}
+AT_ZERO = {"contact_compliance": "rigid contact", "friction_offset": "friction in the middle plane"}
+"""What parameters mean that are zero: they name themselves."""
+UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
+"""Units of the reader and the factors from SI to them, by parameter or sampled variable, while a
+figure is drawn."""
+UNIT_POWER = re.compile(r"([^\W\d]+|1|%)(-?)(\d*)")
+"""A part of a unit in datasets: its name, the sign and the size of its power."""
+POWERS = {"": "", "1": "", "2": "²", "3": "³"}
+CHARACTER = 0.06  # inch, mean width of a character of a figure's head
+
+
+class Measured(NamedTuple):
+    """A variable for an axis: its label with a unit, and its values in this unit."""
+
+    label: str
+    values: np.ndarray
+
+
+# ---- Labels of variables
+
+SPEED, _ = axis_of("Omega")
+LOAD, _ = axis_of("N")
+
+
+def label_of(variable: xr.DataArray) -> tuple[str, float]:
+    """Axis label of any variable or coordinate, and the factor from SI to its unit."""
+    words = str(variable.attrs.get("long_name", variable.name)).partition(", nan ")[0]
+    # a scanned parameter is the long name of its dimension
+    for name in (str(variable.name), words):
+        if name in SHOWN:
+            return axis_of(name)
+    # disturbances have one name in all figures
+    words = words.replace("disturbances of ", "")
+    phrase = words[0].upper() + words[1:]
+    unit = unit_text(str(variable.attrs.get("units", "1")))
+    if unit:
+        phrase = f"{phrase} ({unit})"
+    return phrase, 1.0
+
+
+def unit_text(units: str) -> str:
+    """A unit of a dataset, such as ``kg m s-2``, as labels have it: ``kg m/s²``; "" for none."""
+    above: list[str] = []
+    below: list[str] = []
+    for part in units.split():
+        found = UNIT_POWER.fullmatch(part)
+        if found is None:  # not in the notation of datasets
+            return units
+        name, sign, power = found.groups()
+        raised = name + POWERS.get(power, f"^{power}")
+        (below if sign else above).append(raised)
+    if above in ([], ["1"]) and not below:
+        return ""
+    return "/".join([" ".join(above) or "1", *below])
+
+
+def measured(variable: xr.DataArray) -> Measured:
+    """The label of a variable, and its values in the label's unit."""
+    label, factor = label_of(variable)
+    if factor == 1.0:  # words stay, and whole numbers
+        return Measured(label, variable.values)
+    return Measured(label, variable.values * factor)
+
+
+def plain_name(variable: xr.DataArray) -> str:
+    """What figures call a variable, without a unit and in plain text."""
+    shown = SHOWN.get(str(variable.name))
+    if shown is not None:
+        return f"{shown.name} {shown.symbol}".strip()
+    return quantity_of_label(label_of(variable)[0])
+
+
+def quantity_of_label(label: str) -> str:
+    """What a label says before its unit."""
+    return label.rpartition(" (")[0] or label
+
+
+def as_numbers(variable: xr.DataArray) -> tuple[list[str], xr.DataArray]:
+    """Names of a flag's classes, none for other variables; and the variable with numbers for words,
+    their places."""
+    if variable.dtype.kind in "UO":
+        distinct, places = np.unique(flag_names(variable), return_inverse=True)
+        numbers = variable.copy(data=places.reshape(variable.shape).astype(float))
+        return [name_of(word) for word in distinct], numbers
+    words = variable.attrs.get("flag_meanings", "").split()
+    return [name_of(word) for word in words if word != EXCLUDED], variable
+
+
+# ---- Names of values
+
+
+def value_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
+    """A value along a dimension with its unit, or its word."""
+    value = data[by].item()
+    if isinstance(value, str):
+        return WORDS.get(value, value)
+    if by in AT_ZERO and not value:
+        return AT_ZERO[by]
+    if by == "contact_compliance":
+        return f"compliance {value * SHOWN[by].factor:.3g} µm/N"
+    if by == "friction_offset":
+        return f"friction {value * SHOWN[by].factor:g} mm above the middle plane"
+    label, factor = label_of(data[by])
+    unit = label.rpartition(" (")[2].rstrip(")") if " (" in label else ""
+    unit, factor = UNITS.get().get(by, (unit, factor))
+    return f"{value * factor:g} {unit}".strip()
+
+
+def named_value(data: xr.DataArray | xr.Dataset, by: str) -> str:
+    """The name of a dimension, and a value along it; a word stands for itself."""
+    text = value_text(data, by)
+    value = data[by].item()
+    if isinstance(value, str) or by in AT_ZERO:
+        return text
+    return f"{quantity_of_label(label_of(data[by])[0])} = {text}"
+
+
+def rank_of(value: Any) -> Any:
+    """Place of a value in an order: words as in `WORDS`, or by the number that they begin with."""
+    if not isinstance(value, str):
+        return value
+    known = {word: place for place, word in enumerate(WORDS)}
+    leading = re.match(r"\d+", value)
+    number = np.inf
+    if leading:
+        number = float(leading[0])
+    return known.get(value, 0), number
+
+
+# ---- Heads of figures
+
+
+def what_case(values: Mapping[str, Any]) -> str:
+    """Values of parameters for titles: N, Omega, and those that differ from Table 1."""
+    words = [
+        MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS
+    ]
+    if values.get("normalization") == "orthonormal":
+        words.append(MODES["orthonormal"])
+    numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
+    return ", ".join(filter(None, [variables.values_text(numbers, UNITS.get()), *words]))
+
+
+def head_text(width: float, title: str, values: str) -> str:
+    """A title and values of parameters, in lines that fit a width in inches; a value stays on the
+    line of its name."""
+    unbroken = [value.replace(" ", "\u00a0") for value in typeset(values).split(", ")]
+    texts = [text for text in (title, ", ".join(unbroken)) if text]
+    lines = [fill(text, round(width / CHARACTER)) for text in texts]
+    return "\n".join(lines).replace("\u00a0", " ")

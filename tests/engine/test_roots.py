@@ -1,0 +1,162 @@
+"""The root finder: no root missed, none invented, the first one taken."""
+
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from disc_model.engine.jit.simd import aligned
+from disc_model.engine.model import ROWS
+from disc_model.engine.roots import NO_ROOT, dot, first_root, set_powers
+
+DEGREE = 24
+
+
+def first(coefficients, x_end: float = 1.0, low: int = 0) -> float:
+    c, powers = aligned(ROWS), aligned(ROWS)
+    c[: len(coefficients)] = coefficients
+    set_powers(powers, x_end, DEGREE)
+    return first_root(c, low, DEGREE, x_end, powers, np.zeros((56, ROWS)))
+
+
+def from_roots(roots) -> np.ndarray:
+    """Coefficients, lowest first, positive at 0."""
+    c = np.polynomial.polynomial.polyfromroots(roots)
+    return c if c[0] > 0 else -c
+
+
+# ------------------------------------------------------------------------------------ against an
+# exact count
+ROUNDING = Fraction(2, 10**15)
+"""Of the sum of the moduli of all terms: what the module promises."""
+
+
+def value(c: list[Fraction], x: Fraction) -> Fraction:
+    return sum((a * x**i for i, a in enumerate(c)), Fraction())
+
+
+def times(c: list[Fraction], d: list[Fraction]) -> list[Fraction]:
+    found = [Fraction()] * (len(c) + len(d) - 1)
+    for i, a in enumerate(c):
+        for j, b in enumerate(d):
+            found[i + j] += a * b
+    return found
+
+
+def remainder(c: list[Fraction], d: list[Fraction]) -> list[Fraction]:
+    """Of c over d, without leading zeros."""
+    c = c[:]
+    while len(c) >= len(d):
+        factor = c[-1] / d[-1]
+        for i in range(len(d)):
+            c[len(c) - len(d) + i] -= factor * d[i]
+        while c and c[-1] == 0:
+            c.pop()
+    return c
+
+
+def number_of_roots(c: list[Fraction], x: Fraction) -> int:
+    """Different real roots in (0, x], by Sturm's theorem; none of them at 0."""
+    chain = [c, [i * a for i, a in enumerate(c)][1:]]
+    while len(chain[-1]) > 1 and (rest := remainder(chain[-2], chain[-1])):
+        chain.append([-a for a in rest])
+
+    def changes(x: Fraction) -> int:
+        signs = [v > 0 for v in (value(each, x) for each in chain) if v != 0]
+        return sum(one != two for one, two in pairwise(signs))
+
+    return changes(Fraction()) - changes(x)
+
+
+@st.composite
+def hidden_roots(draw: st.DrawFn) -> tuple[list[float], float]:
+    """A polynomial and the end of a step; roots on halving points, other dyadic places, ends,
+    double, nearly double."""
+    x_end = Fraction(draw(st.sampled_from([0.5, 1.0, 2.0, 3.25]) | st.floats(0.1, 8)))
+    k = draw(st.integers(1, 12))
+    roots = [
+        x_end
+        * draw(st.sampled_from([Fraction(1, 2**k), Fraction(draw(st.integers(0, 2**k)), 2**k)]))
+    ]
+    for _ in range(draw(st.integers(0, 3))):
+        shift = Fraction(draw(st.sampled_from([0.0, 2.0 ** -draw(st.integers(5, 45))])))
+        ends = x_end * draw(st.integers(1, 16)) / 16, x_end * Fraction(draw(st.floats(-2, 2)))
+        roots.append(draw(st.sampled_from([roots[0] * (1 + shift), *ends])))
+    c = [Fraction(draw(st.sampled_from([-1, 1])))]
+    for root in roots:
+        c = times(c, [-root, Fraction(1)])
+    if draw(st.booleans()):  # a factor without real roots
+        a, b = (x_end * Fraction(draw(st.floats(0.0, 1.0))) for _ in range(2))
+        c = times(c, [a**2 + b**2 + x_end / 64, -2 * a, Fraction(1)])
+    if c[0] < 0:
+        c = [-a for a in c]
+    return [float(a) for a in c], float(x_end)
+
+
+@given(hidden_roots())
+@example(([1.0, 0.0, -1.0], 2.0))
+@example(([1.0, 0.5, -1.5], 2.0))
+@example(([0.0, -1.0, 1.0], 2.0))
+@example(([0.0, 1.0, -1.0], 2.0))
+# an excursion that is over at the end of the step
+@example(
+    (
+        from_roots([2.4523032796565007, 4.131641397443826, 6.296469522248217]).tolist(),
+        4.9046065593130015,
+    )
+)
+def test_no_root_is_hidden(drawn: tuple[list[float], float]) -> None:
+    """Roots on halving points were passed over with whole steps: the end of what was searched read
+    as positive."""
+    coefficients, x_end = drawn
+    got = first(coefficients, x_end)
+    c = [Fraction(a) for a in coefficients]
+    while c[0] == 0:
+        c.pop(0)
+    if c[0] < 0:
+        assert got == 0.0
+        return
+    until = Fraction(x_end if got == NO_ROOT else got)
+    rounding = ROUNDING * sum(abs(a) * Fraction(x_end) ** i for i, a in enumerate(c))
+    assert until > 0
+    assert number_of_roots([c[0] + rounding, *c[1:]], until) == 0
+    if got != NO_ROOT:
+        assert value(c, until) <= rounding
+
+
+def test_powers_beyond_the_order_are_zero_and_leave_what_stands_behind_a_series_out() -> None:
+    powers, c = np.full(24, np.nan), np.arange(1.0, 25.0)
+    set_powers(powers, 1.3, 18)
+    # a power of 18 is the product of up to six rounded ones
+    np.testing.assert_allclose(powers[:19], 1.3 ** np.arange(19), rtol=2e-15)
+    assert (powers[19:] == 0).all()
+    assert dot(c, 0, powers, 18) == pytest.approx(np.polyval(c[18::-1], 1.3), rel=1e-14)
+
+
+def test_the_last_step_to_a_root_is_small_enough() -> None:
+    # half a bounce, sin(x) / x, which ends at pi; 24 terms of it are right to 4^25 / 25! = 7e-11
+    k = np.arange(DEGREE)
+    c = np.where(k % 2 == 0, (-1.0) ** (k // 2), 0.0) / np.cumprod(k + 1.0)
+    root = first(c, 3.5)
+    assert root == pytest.approx(np.pi, abs=1e-10)
+    # a step of 1e-5 over which the slope changes by 1e-4 of itself leaves 1e-13 at most
+    slope = np.polynomial.polynomial.polyval(root, np.polynomial.polynomial.polyder(c))
+    assert abs(np.polynomial.polynomial.polyval(root, c) / slope) < 1e-13 * root
+
+
+def test_known_root_at_the_start_is_divided_out() -> None:
+    c = from_roots([0.5, 2.0])
+    gap = np.concatenate(([0.0, 0.0, 0.0], c))  # x^3 (x - 1/2) (x - 2)
+    assert first(gap, 1.0, low=3) == pytest.approx(0.5, abs=1e-14)
+    assert first(gap, 0.4, low=3) == NO_ROOT
+
+
+@pytest.mark.parametrize(
+    ("coefficients", "root"), [([-1.0, 3.0], 0.0), ([0.0], NO_ROOT), ([1.0, -1.0], 1.0)]
+)
+def test_roots_at_either_end_of_a_step_belong_to_it(coefficients: list[float], root: float) -> None:
+    """Negative at the start is a root there; zero throughout is none."""
+    assert first(coefficients) == pytest.approx(root, abs=1e-15)

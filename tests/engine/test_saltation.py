@@ -1,0 +1,292 @@
+"""Small changes of state and parameters, along a motion and through every kind of switch: against
+differences."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters, plate_modes
+from disc_model.data.variables import PHASES
+from disc_model.engine import columns, saltation, transitions
+from disc_model.engine.state import phase_of
+from disc_model.simulation.states import engine_case
+from disc_model.stability.return_map import PARAMETERS, parameter_change
+from tests.contact_laws import COMPILES, COUPLED, FALLING, LAWS
+from tests.engine.full_system import Full
+from tests.references import stored, taylor
+from tests.references.printed import MOTIONS, P, lively
+
+
+def differences(function, h: float):
+    """Derivative at 0, to fourth order."""
+    return (function(-2 * h) - 8 * function(-h) + 8 * function(h) - function(2 * h)) / (12 * h)
+
+
+# ------------------------------------------------------------------------------------ through one switch
+#: What ends a phase, and which: (phase, direction, kinds of events).
+SWITCHES = {
+    "at rest": ("slip", 1, ["slip_to_stick"]),
+    "at rest, slip backwards": ("slip", -1, ["slip_to_stick"]),
+    "reversal": ("slip", 1, ["slip_reversal"]),
+    "contact lost": ("slip", 1, ["separation"]),
+    "contact lost, slip backwards": ("slip", -1, ["separation"]),
+    "contact lost in stick": ("stick", 0, ["separation"]),
+    "release": ("stick", 0, ["stick_to_slip"]),
+    "release backwards": ("stick", 0, ["stick_to_slip"]),
+    "impact": ("separation", 0, ["reattachment"]),
+    "impact, left in tension": ("separation", 0, ["reattachment", "separation"]),
+}
+#: Two laws are residual: their compliance changes with Young's modulus.
+RESIDUAL = {"contact_compliance": "residual", "normalization": "orthonormal"}
+CONTACTS = {
+    "vertical": {}, **LAWS, "compliant": RESIDUAL, "residual_normal": RESIDUAL | {"contact_force": "normal"}, **COUPLED,
+    **FALLING, "residual_normal_falling": RESIDUAL | {"contact_force": "normal", "friction_decay": 2.0},
+}  # fmt: skip
+#: Where nothing pulls the reference meets two switches at once; a compliant contact begins without tension.
+NOT_THERE = [
+    *(
+        (law, "contact lost in stick")
+        for law in CONTACTS
+        if law.removeprefix("residual_").startswith("normal")
+    ),
+    *(
+        (law, "impact, left in tension")
+        for law in CONTACTS
+        if "compliant" in law or "residual" in law
+    ),
+]
+THROUGH = [
+    pytest.param(law, switch, marks=COMPILES if law != "vertical" else ())
+    for law in CONTACTS
+    for switch in SWITCHES
+    if (law, switch) not in NOT_THERE
+]
+
+
+def solved(function: Callable[[float], float]) -> float:
+    """Where a linear function is zero."""
+    return function(0.0) / (function(0.0) - function(1.0))
+
+
+def about_to(
+    switch: str, law: str, pressed: float | None = None
+) -> tuple[Parameters, stored.State]:
+    """A case, and a state on a slope of a third that soon meets the switch, with the contact force
+    ``pressed`` (N)."""
+    (phase, direction, _), backwards = SWITCHES[switch], "backwards" in switch
+    # with a circle there are two modes without nodal diameter, each with its own share of an
+    # impulse
+    p = P.replace(n_diameters=1, **CONTACTS[law])
+    if switch == "contact lost in stick":
+        # it is not friction that ends stick: it holds on the slope, or nothing pulls
+        p = p.replace(
+            **({"mu_s": 4.0} if law.startswith("compliant_normal") else {"k_p": 0.0, "c_p": 0.0})
+        )
+    start, q = stored.reference_state(lively(phase, direction, p), p), taylor.problem_of(p)
+    level, flies, thrown = (
+        np.array(start.a),
+        phase == "separation",
+        "lost" in switch or "release" in switch,
+    )
+    start.b, start.alpha = (
+        np.array(start.b) * (-60 if backwards else 60),
+        start.alpha + 6 * thrown * q.s / q.S2,
+    )
+    if direction and not thrown:
+        start.f, start.psi = 0.03 * direction, -0.15 if switch == "reversal" else 0.004
+    start.u_velocity = q.s @ (start.alpha + q.l * start.f * start.b) + (
+        0 if q.rigid or flies else thrown
+    )
+
+    def forces(bent: float) -> tuple[float, float]:
+        """R and T (in flight those of slip) where the disc, or the contact, is bent by so much."""
+        start.a = level + (bent if q.rigid else 0) * q.s / q.w2
+        start.u = q.s @ start.a - bent * q.C
+        return taylor.Reference(q, start).forces(*(("slip", 1) if flies else (phase, direction)))
+
+    def margin(psi: float) -> float:
+        """Of friction, less 1 N."""
+        start.psi = psi
+        R, T = forces(bent)
+        return p.mu_s * R + (T if backwards else -T) - 1
+
+    if pressed is None:
+        pressed = 5.0 if "lost" in switch else -100.0 if "tension" in switch else 400.0
+    bent = 0.0 if flies and not q.rigid else solved(lambda x: forces(x)[0] - pressed)
+    forces(bent)
+    if "release" in switch:
+        margin(solved(margin))
+    if flies:
+        start.u, start.u_velocity = start.u + 1e-5, start.u_velocity - 0.5
+    return p, start
+
+
+def flat(state: stored.State) -> np.ndarray:
+    """psi, f, u, u', then a, b, alpha, beta of all modes."""
+    return np.concatenate([np.atleast_1d(x) for x in list(vars(state).values())[3:]])
+
+
+def moved_to(start: stored.State, y: np.ndarray) -> stored.State:
+    """The same phase at other coordinates, as `flat` has them."""
+    return stored.State(0.0, start.phase, start.direction, *y[:4], *y[4:].reshape(4, -1).tolist())
+
+
+class Disturbances:
+    """Two random disturbances of all coordinates of a start, and two of all parameters, in columns;
+    their sizes."""
+
+    def __init__(self, p: Parameters, start: stored.State) -> None:
+        self.p, self.start, rng = p, start, np.random.default_rng(2)
+        slow, pair = (
+            1500 / plate_modes(p)["omega"].to_numpy(),
+            plate_modes(p)["diameters"].to_numpy() > 0,
+        )
+        self.sizes = np.concatenate(
+            [[1e-4, 0.3, 1e-6, 0.03], *2 * [1e-5 * slow], np.full(2 * len(slow), 0.03)]
+        )
+        turns, free = (
+            start.phase != "stick",
+            start.phase == "separation" or p.contact_compliance != 0,
+        )
+        there = np.concatenate([[True, turns, free, free], pair | True, pair, pair | True, pair])
+        self.moved = (self.sizes * there)[:, None] * rng.normal(size=(len(there), 2))
+        self.values = np.array([getattr(p, name) for name in PARAMETERS])
+        self.changed = self.values[:, None] * rng.normal(size=(len(PARAMETERS), 2))
+
+    def expected(
+        self, function: Callable[[taylor.Problem, stored.State], np.ndarray]
+    ) -> np.ndarray:
+        """Derivatives of what follows from a case and a start, by each disturbance: one row
+        each."""
+
+        def changed(change: np.ndarray) -> taylor.Problem:
+            return taylor.problem_of(
+                self.p.replace(**dict(zip(PARAMETERS, self.values + change, strict=True)))
+            )
+
+        y, q, h = flat(self.start), taylor.problem_of(self.p), np.longdouble(1e-4)
+        found = [
+            differences(lambda h, d=d: function(q, moved_to(self.start, y + h * d)), h)
+            for d in self.moved.T
+        ]
+        found += [
+            differences(lambda h, d=d: function(changed(float(h) * d), self.start), h)
+            for d in self.changed.T
+        ]
+        return np.array(found, float)
+
+    def run(self) -> Full:
+        """The engine with these columns: in the first block those of the start, in the second those
+        of parameters."""
+        start = moved_to(self.start, flat(self.start))
+        run, case = Full(self.p, stored.engine_state(start, self.p)), engine_case(self.p)
+        t = run.tangent = columns.build_tangent(run.model, 8, run.order, 8)
+        now = t.now.reshape(2, -1, 8)[0, :, :2]
+        now[case.places], now[-4:] = (self._signs * self.moved[4:])[case.present], self.moved[:4]
+        by = np.array([parameter_change(self.p, run.model, name) for name in PARAMETERS])
+        t.inputs.reshape(2, -1, 8)[1, :, :2] = by.T @ self.changed
+        return run
+
+    def read(self, run: Full) -> np.ndarray:
+        """The columns, one row each."""
+        case, now = engine_case(self.p), run.tangent.now.reshape(2, -1, 8)[:, :, :2]
+        found = np.zeros((2, *self.moved.shape))
+        found[:, 4 + case.present], found[:, :4] = (
+            self._signs[case.present] * now[:, case.places],
+            now[:, -4:],
+        )
+        return np.concatenate(found, axis=1).T
+
+    @property
+    def _signs(self) -> np.ndarray:
+        """Of the modes' amplitudes, which the reference makes positive."""
+        return np.tile(np.sign(plate_modes(self.p)["psi"]), 4)[:, None]
+
+
+@pytest.mark.parametrize(("law", "switch"), THROUGH)
+def test_derivatives_through_a_switch(law: str, switch: str) -> None:
+    p, start = about_to(switch, law)
+    kinds, disturbances = SWITCHES[switch][2], Disturbances(p, start)
+    run = taylor.Reference(taylor.problem_of(p), start)
+    while not run.events:
+        run.run(2 * run.time + 1e-7)
+    span = 1.5 * run.events[0]["time"]
+
+    def end(q: taylor.Problem, start: stored.State) -> np.ndarray:
+        run = taylor.Reference(q, start).run(span)
+        assert [event["kind"] for event in run.events] == kinds
+        return flat(run.state())
+
+    engine, sizes = disturbances.run(), disturbances.sizes
+    assert engine.fly(float(span)) == transitions.TIME_OVER
+    ends = {"at rest": columns.STICKS, "reversal": columns.REVERSALS, "release": columns.RELEASES}
+    ends |= {"release backwards": columns.BACK_RELEASES, "impact": None}
+    counted = ends.get(switch.removesuffix(", slip backwards"), columns.SEPARATIONS)
+    log = engine.tangent.log
+    assert [i for i in range(columns.RELEASES, columns.STICKS + 1) if log[i]] == [counted] * (
+        counted is not None
+    )
+    assert log[columns.RELEASES : columns.STICKS + 1].sum() == (counted is not None)
+    first, spent = PHASES.index(SWITCHES[switch][0]), np.zeros(len(PHASES))
+    spent[first] = switched = float(run.events[0]["time"])
+    spent[phase_of(engine.state)] += float(span) - switched
+    times = log[columns.DURATION : columns.RELEASES]
+    np.testing.assert_allclose(times, [float(span), *spent], rtol=0, atol=1e-9 * float(span))
+    assert log[columns.N_STEPS] >= len(kinds)
+    if not p.contact_compliance and kinds[-1] != "separation":
+        sizes[2:4] = np.inf  # u and u' are the disc's
+    got, expected = disturbances.read(engine) / sizes, disturbances.expected(end) / sizes
+    # frequencies of other Young's moduli are rounded: 1e-11 was found
+    assert np.all(np.abs(got - expected) <= 1e-9 * np.abs(expected).max(axis=1, keepdims=True))
+
+
+@pytest.mark.parametrize("pressed", [5.0, 0.0])
+@pytest.mark.parametrize("switch", [switch for switch in SWITCHES if "lost" in switch])
+def test_when_contact_is_lost(switch: str, pressed: float) -> None:
+    """No motion shows that, because no rate jumps there: the change of what vanishes, the numerator
+    of P.
+
+    What does not vanish where a phase ends at once was past zero already: neighbouring motions end
+    it there, too.
+    """
+    phase, direction, _ = SWITCHES[switch]
+    p, start = about_to(switch, "vertical", pressed)
+    disturbances = Disturbances(p, start)
+
+    def numerator(q: taylor.Problem, start: stored.State) -> np.ndarray:
+        run = taylor.Reference(q, start)
+        return run.forces(phase, direction)[0] * (
+            1 + q.m * q.S2 + direction * q.mu_k * run.disc()[2] / q.r_0
+        )
+
+    engine = disturbances.run()
+    t = engine.tangent
+    saltation.rates(engine.model, engine.state, t.before)
+    expected = disturbances.expected(numerator)
+    for at_once in (False, True):
+        rate = saltation.event_times(
+            engine.model, engine.state, t, transitions.CONTACT_LOST, at_once
+        )
+        wanted = 0 * expected if at_once and pressed else expected
+        np.testing.assert_allclose(-rate * t.tau.reshape(2, 8)[:, :2].ravel(), wanted, rtol=1e-8)
+
+
+# ------------------------------------------------------------------------------------ rates
+@pytest.mark.parametrize("law", CONTACTS)
+@pytest.mark.parametrize(("phase", "direction"), MOTIONS)
+def test_rates_are_those_of_the_reference(law: str, phase: str, direction: int) -> None:
+    """Five pairs of modes fill one block of lanes and begin another."""
+    p = P.replace(n_diameters=5, **CONTACTS[law])
+    start, case, q = lively(phase, direction, p), engine_case(p), taylor.problem_of(p)
+    if phase != "separation":
+        start = start.replace(u=start.u - 500 * float(q.C))
+    run = Full(p, start, scalars=4 if phase == "separation" or not q.rigid else 2)
+    step = taylor.Step(q, phase, direction, stored.reference_state(start, p))
+    sign = np.sign(plate_modes(p)["psi"].to_numpy())
+    modal = np.concatenate([sign * x[1] for x in (step.a, step.b, step.alpha, step.beta)])
+    expected = np.zeros(run.n_rows)
+    expected[case.places] = modal[case.present]
+    expected[-4:] = step.psi[1], step.f[1], step.u[1], step.v[1]
+    # sums of terms that cancel: rounding of velocities' rates
+    np.testing.assert_allclose(run.rates, expected[run.rows], rtol=1e-9, atol=1e-9)

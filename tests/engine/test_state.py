@@ -1,0 +1,137 @@
+"""Where the numbers of a state and of columns stand: each has a place of its own, and is found
+there again."""
+
+import numpy as np
+import pytest
+
+from disc_model import Parameters
+from disc_model.engine import columns, state
+from disc_model.engine.model import Model, build_state
+from disc_model.engine.series import build_series
+from disc_model.simulation.states import engine_case
+
+SIZES = [(0, 0), (2, 1), (5, 0)]  # diameters, circles: no pairs; several single modes; two blocks
+
+
+def in_python(function):
+    """A kernel's helper as a function of Python."""
+    return getattr(function, "py_func", function)
+
+
+def model_of(n_diameters: int, n_circles: int, compliance: float = 1e-7) -> Model:
+    p = Parameters(
+        N=300, Omega=20, n_diameters=n_diameters, n_circles=n_circles, contact_compliance=compliance
+    )
+    return engine_case(p).model
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_every_component_of_a_mode_has_a_place_of_its_own(size: tuple[int, int]) -> None:
+    diameters = np.tile(np.arange(size[0] + 1), size[1] + 1)
+    model = model_of(*size)
+    places = state.mode_places(diameters)
+    assert ((places < 0) == (diameters == 0) * [[False], [True], [False], [True]]).all()
+    there = places[places >= 0]
+    assert len(np.unique(there)) == len(there)
+
+    # displacements of pairs are z, velocities e; those of the others y and g
+    here = build_state(model)
+    here.disc[:] = 0.0
+    here.disc[there] = 1.0
+    pairs = int((diameters > 0).sum())
+    assert [int(part.sum()) for part in (here.z, here.e)] == 2 * [2 * pairs]
+    assert (here.y == 1.0).all()
+    assert (here.g == 1.0).all()
+    # a and b of a pair, and their velocities, stand where the kernels look for them
+    of_a, of_b, of_alpha, of_beta = places[:, diameters > 0]
+    assert [in_python(state.other_lane)(int(a)) for a in of_a] == of_b.tolist()
+    assert [in_python(state.other_lane)(int(b)) for b in of_b] == of_a.tolist()
+    assert (of_alpha - of_a == len(here.z)).all()
+    assert (of_beta - of_b == len(here.z)).all()
+    assert model.shift[of_a].tolist() == diameters[diameters > 0].tolist()
+
+
+def test_scalars_come_back_under_their_names() -> None:
+    here = build_state(model_of(1, 0))
+    values = dict(zip(state.SCALAR_NAMES, np.arange(1.0, 7.0).tolist(), strict=True))
+    state.put_scalars(here, values.values())
+    state.put_phase(here, state.SLIP, -1, (2, 1))
+    assert state.scalars_of(here) == values
+    assert state.time_of(here) == values["time"]
+    assert (state.phase_of(here), state.direction_of(here)) == (state.SLIP, -1)
+    assert state.known_roots(here) == (2, 1)
+    other = build_state(model_of(1, 0))
+    state.copy_state(here, other)
+    assert (other.x == here.x).all()
+    state.clear(other)
+    assert not other.x.any()
+    assert not other.disc.any()
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_a_column_of_a_state_gives_the_state_back(size: tuple[int, int]) -> None:
+    model = model_of(*size)
+    here, there = build_state(model), build_state(model)
+    column = np.random.default_rng(1).normal(size=columns.n_rows(model))
+    columns.put_column(here, model, column)
+    np.testing.assert_array_equal(columns.column_of(here, model), column)
+    assert state.phase_of(here) == state.STICK
+    columns.put_column(there, model, columns.column_of(here, model))
+    np.testing.assert_array_equal(there.x, here.x)
+
+
+def test_columns_stand_side_by_side_in_blocks_of_eight() -> None:
+    model = model_of(2, 1)
+    tangent = columns.build_tangent(model, 11, 20, inputs=3)
+    assert (tangent.plain, tangent.columns) == (16, 24)
+    place = in_python(columns.column_entry)
+    places = [place(tangent, c, r) for c in range(24) for r in range(tangent.rows)]
+    assert sorted(places) == list(range(len(tangent.now)))
+    for column, row in ((0, 0), (7, 3), (8, 5), (23, tangent.rows - 1)):
+        tangent.now[:] = 0.0
+        tangent.now[place(tangent, column, row)] = 1.0
+        block = columns.block_of_columns(tangent, column // 8)
+        assert np.argwhere(block).tolist() == [[row, column % 8]]
+
+
+def test_a_change_of_a_parameter_stands_in_its_column_only() -> None:
+    model = model_of(2, 1)
+    tangent = columns.build_tangent(model, 11, 20, inputs=9)
+    lanes, single = len(model.shift), len(model.stiffness0)
+    stiffness = np.arange(1.0, lanes + 1), np.arange(-1.0, -single - 1, -1.0)
+    change = columns.input_column(model, {"m": 2.0, "compliance": 3.0}, stiffness)
+    assert change[: columns.N_INPUTS].tolist() == [0, 0, 0, 2, 0, 0, 0, 3]
+    # in the order of a column: displacements, velocities, then those of single modes
+    expected = [*stiffness[0], *np.zeros(lanes), *stiffness[1], *np.zeros(single)]
+    assert change[columns.N_INPUTS :].tolist() == expected
+    columns.put_input_column(tangent, 8, change)
+    inputs = tangent.inputs.reshape(-1, tangent.input_rows, 8)
+    np.testing.assert_array_equal(inputs[3, :, 0], change)
+    assert np.count_nonzero(tangent.inputs) == np.count_nonzero(change)
+
+
+def test_rows_of_a_column_name_its_coordinates() -> None:
+    model = model_of(2, 1)
+    rows = columns.coordinate_rows(model, ("u",))
+    l = columns.diameters_of_rows(model)[rows]
+    # two diameters with no and one circle: four pairs, a and b, displacements and velocities; l = 0
+    assert [int((l == each).sum()) for each in (0, 1, 2)] == [5, 8, 8]
+    assert rows[-1] == columns.n_rows(model) - 2
+    # an oscillation of a mode has as much energy in its displacement as in its velocity
+    scale = columns.energy_scale(model)
+    omega = np.sqrt(model.stiffness[model.stiffness > 0])
+    of_z, of_e = scale[: len(model.shift)], scale[len(model.shift) : 2 * len(model.shift)]
+    np.testing.assert_allclose(of_z[model.stiffness > 0], omega * of_e[model.stiffness > 0])
+    of_psi, of_f, of_u, of_v = scale[-4:]
+    assert of_psi / of_f == pytest.approx(np.sqrt(model.k_p / model.m))
+    assert of_u / of_v == pytest.approx(np.sqrt((model.k + 1 / model.compliance) / model.m))
+
+
+def test_the_parts_of_a_series_lie_in_one_array() -> None:
+    """Kernels take them from there, without their own addresses."""
+    series = build_series(model_of(2, 1), 20)
+    for name, part in series._parts.items() if hasattr(series, "_parts") else ():
+        whole = getattr(series, part.whole)
+        getattr(series, name)[0] = 7.0
+        assert whole[part.start] == 7.0
+        assert len(getattr(series, name)) == part.length

@@ -1,0 +1,45 @@
+"""Labels and titles in as few lines as their axes have room for."""
+
+import pytest
+from matplotlib import pyplot
+
+from disc_model.figures.labels import break_labels, in_lines
+
+
+@pytest.mark.parametrize(
+    ("text", "count", "lines"),
+    [
+        ("Speed Ω (rad/s)", 1, ["Speed Ω (rad/s)"]),
+        ("Growth rate of the stick-slip cycle (1/s)", 2, ["Growth rate of the", "stick-slip cycle (1/s)"]),
+        ("a bb cccccccc", 2, ["a bb", "cccccccc"]),
+        ("one two", 5, ["one", "two"]),
+        (r"$\theta$ first second", 2, [r"$\theta$ first", "second"]),
+    ],
+)  # fmt: skip
+def test_the_longest_line_is_as_short_as_it_can_be(text: str, count: int, lines: list[str]) -> None:
+    assert in_lines(text, count).split("\n") == lines
+
+
+def test_titles_take_no_more_lines_than_they_need() -> None:
+    """A title for which one long word set the width had a line for each word."""
+    figure, axes = pyplot.subplots(1, 4, figsize=(174 / 25.4, 2.9), layout="constrained")
+    for ax in axes:
+        ax.set_title("(a) tangential motion left out, damping ratio 0.0001", loc="left", fontsize=8)
+        ax.set_ylabel("Load")
+    break_labels(figure)
+    for ax in axes:
+        text = ax.get_title(loc="left")
+        assert text.count("\n") <= 4
+    pyplot.close(figure)
+
+
+def test_labels_that_fit_stay_as_they_are() -> None:
+    figure, ax = pyplot.subplots(figsize=(4, 3), layout="constrained")
+    ax.set_xlabel("Speed Ω (rad/s)")
+    ax.set_ylabel("Growth rate of disturbances of the cycle that the static start follows (1/s)")
+    break_labels(figure)
+    assert ax.get_xlabel() == "Speed Ω (rad/s)"
+    assert ax.get_ylabel().count("\n") >= 1
+    figure.draw_without_rendering()
+    assert ax.yaxis.label.get_window_extent().height <= 1.15 * ax.get_window_extent().height
+    pyplot.close(figure)

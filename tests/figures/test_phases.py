@@ -1,0 +1,53 @@
+"""Stretches of stick, slip and separation between events."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model.data.dataset import Missing
+from disc_model.data.variables import PHASES
+from disc_model.figures.phases import spans_between, spans_in
+
+TIMES = [0.0, 1.0, 2.0, 2.5, 4.0]  # s
+WORDS = ["slip", "stick", "slip", "slip", "separation"]
+"""A reversal of slip at 2.5 s is no border."""
+FLAGS = {"flag_meanings": " ".join(PHASES), "flag_values": [*range(len(PHASES))]}
+
+
+def run(**kept: float) -> xr.DataTree:
+    """A case with events, each with the phase that it begins, and a window of samples."""
+    phase = [PHASES.index(word) for word in WORDS]
+    events = xr.Dataset(
+        {"time": ("event", TIMES), "phase": ("event", np.array(phase, np.int8), FLAGS)}, attrs=kept
+    )
+    time = np.arange(0.5, 4.6, 1.0)
+    words = [WORDS[np.searchsorted(TIMES, each, "right") - 1] for each in time]
+    codes = np.array([PHASES.index(word) for word in words], np.int8)
+    window = xr.Dataset({"phase": ("time", codes, FLAGS)}, {"time": time})
+    return xr.DataTree.from_dict({"/": xr.Dataset(), "/events": events, "/window": window})
+
+
+def test_borders_are_events_and_the_first_phase_is_that_before() -> None:
+    spans = spans_between(run(), 0.5, 4.5)
+    assert spans["slip"] == [(0.5, 1.0), (2.0, 4.0)]
+    assert spans["stick"] == [(1.0, 2.0)]
+    assert spans["separation"] == [(4.0, 4.5)]
+    inside = spans_between(run(), 1.2, 1.8)
+    assert inside["stick"] == [(1.2, 1.8)]
+    assert inside["slip"] == inside["separation"] == []
+
+
+@pytest.mark.parametrize(
+    ("kept", "start"), [({"kept_from": 1.0}, 0.5), ({"kept_until": 4.0}, 0.5), ({}, -1.0)]
+)
+def test_events_that_were_not_kept_are_missed(kept: dict[str, float], start: float) -> None:
+    with pytest.raises(Missing, match="keeps no events"):
+        spans_between(run(**kept), start, 4.5)
+
+
+def test_samples_stand_in_for_events_that_were_not_kept() -> None:
+    case = run(kept_from=3.0)
+    spans = spans_in(case, case["window"].to_dataset())
+    assert spans["stick"] == [(1.0, 2.0)], "halfway between samples"
+    assert spans["slip"] == [(0.5, 1.0), (2.0, 4.0)]
+    assert spans["separation"] == [(4.0, 4.5)]

@@ -1,0 +1,174 @@
+"""Every variable of a sweep of every function is drawn under its own name, in its unit, and with
+its values."""
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib import pyplot
+
+import disc_model as dm
+from disc_model.figures.classes import name_of
+from disc_model.figures.words import unit_text
+from tests.figures.measured import Shown, assert_shows
+
+CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
+SPEEDS = [10.0, 12.0, 14.0]  # rad/s
+LOADS = [300.0, 385.0]  # N
+KNOWN = {"psi": "Angle ψ"}
+"""Words of variables that have a symbol."""
+
+
+def own(case: dm.Parameters) -> xr.Dataset:
+    """A function of a user's own: with names and units, and without."""
+    attributes = {"units": "mm", "long_name": "range of my slider"}
+    word = "large" if case.Omega > 11 else "small"
+    values = {"reach": ((), 0.02 * case.Omega, attributes), "count": ((), 3 + case.N), "size": word}
+    return xr.Dataset(values)
+
+
+FUNCTIONS: dict[Callable[..., Any], dict[str, Any]] = {
+    dm.floquet: {},
+    dm.steady_sliding: {},
+    dm.outcome: {"horizon": 3},
+    dm.critical_speed: {"scan": (10, 12), "horizon": 3, "precision": 1.0},
+    dm.basins: {"energies": [1e-4, 0.1], "horizon": 2},
+    dm.hysteresis: {"scan": (14, 15), "dwell": 2, "max_dwell": 2, "evaluation_time": 1},
+    dm.lyapunov_exponents: {"duration": 0.5},
+    dm.simulate: {"t_end": 0.5},
+    dm.critical: {"name": "mu_s", "bounds": (0.3, 0.5), "points": 3},
+    dm.continue_cycle: {"name": "mu_s", "bounds": (0.399, 0.401)},
+    own: {},
+}
+
+
+@functools.cache
+def swept(function: Callable[..., Any]) -> xr.Dataset:
+    return dm.sweep(function, CASE, Omega=SPEEDS, N=LOADS, **FUNCTIONS[function])
+
+
+def words_of(variable: xr.DataArray) -> str:
+    """What a label has to say: the long name, or the name, without what nan means."""
+    name = str(variable.name)
+    words = str(variable.attrs.get("long_name", name)).split(", nan ")[0]
+    words = words.replace("disturbances of ", "")
+    return KNOWN.get(name, words[0].upper() + words[1:])
+
+
+def unit_of(variable: xr.DataArray) -> str:
+    """The unit of a dataset in the notation of labels."""
+    unit = str(variable.attrs.get("units", "1"))
+    return {"1": "", "s-1": "1/s", "rad s-1": "rad/s"}.get(unit, unit)
+
+
+def numbers_over_the_grid(study: xr.Dataset) -> list[str]:
+    return [
+        str(name)
+        for name, values in study.items()
+        if {*values.dims} == {"Omega", "N"} and values.dtype.kind == "f"
+    ]
+
+
+@pytest.mark.parametrize("function", FUNCTIONS, ids=lambda function: function.__name__)
+def test_numbers_have_their_name_and_unit_on_the_axis(function: Callable[..., Any]) -> None:
+    study = swept(function)
+    names = numbers_over_the_grid(study)
+    assert names or function is dm.continue_cycle
+    for name in names:
+        line = study.sel(N=385)
+        if not np.isfinite(line[name]).any():
+            line = line.assign({name: (("Omega",), [1.0, 2.0, 4.0], line[name].attrs)})
+        _, ax = pyplot.subplots()
+        dm.plot_sweep(line, name, ax=ax)
+        assert_shows(
+            ax.figure, Shown(0, "y", words_of(study[name]), line[name], unit_of(study[name]))
+        )
+        assert_shows(ax.figure, Shown(0, "x", "Speed Ω", SPEEDS, "rad/s"))
+        pyplot.close("all")
+
+
+UNASKED = {
+    dm.floquet: "Growth rate of the stick-slip cycle (1/s)",
+    dm.steady_sliding: "Growth rate of steady sliding (1/s)",
+    dm.outcome: "What the motion comes to, or whether it separates",
+    dm.critical_speed: "Lowest speed computed with separation within the horizon (rad/s)",
+    dm.basins: "Share of the starts",
+    dm.hysteresis: "Speed at which separation first is found on the way up (rad/s)",
+    dm.lyapunov_exponents: "Time over which exponents are taken (s)",
+    dm.simulate: "Number of steps",
+    dm.critical: "Critical value of coefficient of static friction",
+    dm.continue_cycle: "Status",
+    own: "Range of my slider (mm)",
+}
+"""Labels of what is drawn if no variable is asked for."""
+
+
+@pytest.mark.parametrize("function", FUNCTIONS, ids=lambda function: function.__name__)
+def test_what_is_drawn_unasked_is_named(function: Callable[..., Any]) -> None:
+    ax = dm.plot_sweep(swept(function).sel(N=385))
+    assert " ".join(ax.get_ylabel().split()) == UNASKED[function]
+    assert ax.get_xlabel() == "Speed Ω (rad/s)"
+    assert ax.figure.get_suptitle() == "N = 385 N, n_diameters = 2", "what does not vary"
+    pyplot.close("all")
+
+
+MAPS = {
+    dm.floquet: ("growth_rate", "releases", "stable", "bifurcation_type"),
+    dm.steady_sliding: ("contact_force", "stable"),
+    dm.outcome: ("u_max", "outcome", "status"),
+    dm.basins: ("separating_fraction",),
+    dm.simulate: ("n_events", "status"),
+    own: ("reach", "count", "size"),
+}
+"""Numbers and words of sweeps that are drawn as maps."""
+
+
+@pytest.mark.parametrize(
+    ("function", "name"), [(function, name) for function, names in MAPS.items() for name in names]
+)
+def test_maps_have_a_bar_for_numbers_and_a_legend_for_words(
+    function: Callable[..., Any], name: str
+) -> None:
+    study = swept(function)
+    ax = dm.plot_sweep(study, name)
+    figure = ax.figure
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Speed Ω (rad/s)", "Preload N (N)")
+    [legend] = figure.legends or [None]
+    entries = {text.get_text() for text in legend.get_texts()} if legend else set()
+    if study[name].dtype.kind == "f":
+        values = study[name].values
+        expected = Shown(1, "bar", words_of(study[name]), values, unit_of(study[name]))
+        assert_shows(figure, expected)
+        assert entries <= {"no cycle found", "stable", "unresolved", "no value"}
+    else:
+        assert len(figure.axes) == 1, "no bar"
+        said = {"False": "no", "True": "yes"}
+        found = map(str, np.unique(study[name].values))
+        words = {said.get(word, name_of(word)) for word in found}
+        assert words <= entries <= words | {"unresolved"}
+        title = " ".join(legend.get_title().get_text().split())
+        assert title == words_of(study[name])
+    pyplot.close("all")
+
+
+def test_units_of_datasets_become_those_of_labels() -> None:
+    written = {"s-1": "1/s", "N s m-1": "N s/m", "rad s-2": "rad/s²", "m2": "m²", "1": "", "": ""}
+    assert {unit: unit_text(unit) for unit in written} == written
+    assert unit_text("m/s") == "m/s", "a user's own"
+
+
+def test_a_sweep_in_other_units_is_drawn_in_those_of_its_label() -> None:
+    """A displacement in m, which labels give in mm."""
+
+    def height(case: dm.Parameters) -> dict[str, float]:
+        return {"u": 1e-6 * case.Omega}
+
+    study = dm.sweep(height, CASE, Omega=SPEEDS)
+    study["u"].attrs["units"] = "m"
+    ax = dm.plot_sweep(study, "u")
+    assert ax.get_ylabel() == "Slider u (mm)"
+    np.testing.assert_allclose(ax.lines[0].get_ydata(), 1e-3 * np.array(SPEEDS))
+    pyplot.close("all")

@@ -1,0 +1,173 @@
+"""What a reader asks of pictures: own axes, legend, labels, title and settings of matplotlib."""
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+from matplotlib import pyplot
+from matplotlib.axes import Axes
+
+import disc_model as dm
+from disc_model.figures.sizes import COLUMN, PAGE
+from tests.figures.reading import assert_fit_for_print
+
+CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
+SEPARATING = dm.Parameters(N=385, Omega=15.1)
+Draw = Callable[..., Any]
+
+
+@functools.cache
+def run() -> dm.Result:
+    windows = {"late": dm.Window(last=0.5, rate=1e4)}
+    return dm.simulate(CASE, 8, windows)
+
+
+@functools.cache
+def growth() -> Any:
+    return dm.sweep(dm.floquet, CASE, Omega=[10.0, 12.0, 14.0], N=[300.0, 385.0, 400.0])
+
+
+@functools.cache
+def exponents() -> Any:
+    return dm.lyapunov_exponents(CASE, 0.5, count=2)
+
+
+DRAWN: dict[str, Draw] = {
+    "run": lambda **wishes: run().plot("late", variables=["P"], **wishes),
+    "portrait": lambda **wishes: run().plot_phase_portrait("late", **wishes),
+    "spectrum": lambda **wishes: run().plot_spectrum("late", **wishes),
+    "multipliers": lambda **wishes: dm.floquet(CASE).plot(**wishes),
+    "eigenvalues": lambda **wishes: dm.steady_sliding(CASE).plot(**wishes),
+    "exponents": lambda **wishes: exponents().plot(**wishes),
+    "line": lambda **wishes: dm.plot_sweep(growth().sel(N=385), **wishes),
+    "map": lambda **wishes: dm.plot_sweep(growth(), **wishes),
+    "words": lambda **wishes: dm.plot_sweep(growth(), "stable", **wishes),
+}
+"""Pictures of one panel."""
+WITH_LEGEND = ("portrait", "multipliers", "eigenvalues", "map", "words")
+
+
+@pytest.fixture(autouse=True)
+def _closed() -> object:
+    yield
+    pyplot.close("all")
+
+
+def one(drawn: Any) -> Axes:
+    return np.ravel(np.asarray(drawn, dtype=object))[0]
+
+
+def legend_texts(ax: Axes) -> list[str]:
+    legends = [*ax.figure.legends, *filter(None, [ax.get_legend()])]
+    return [text.get_text() for legend in legends for text in legend.get_texts()]
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_labels_and_titles_can_be_replaced(name: str) -> None:
+    usual = one(DRAWN[name]())
+    said = legend_texts(usual)
+    labels = {"x": "abscissa", "y": "ordinate"} | {text: f"my {text}" for text in said}
+    ax = one(DRAWN[name](labels=labels, title="My title"))
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("abscissa", "ordinate")
+    assert legend_texts(ax) == [f"my {text}" for text in said]
+    assert ax.figure.get_suptitle() == "My title"
+    assert one(DRAWN[name](title="")).figure.get_suptitle() == ""
+
+
+@pytest.mark.parametrize("name", WITH_LEGEND)
+def test_a_legend_can_be_left_out_or_placed(name: str) -> None:
+    assert legend_texts(one(DRAWN[name]()))
+    assert legend_texts(one(DRAWN[name](legend=False))) == []
+    placed = one(DRAWN[name](legend={"loc": "upper left", "ncols": 2}))
+    assert placed.figure.legends == []
+    assert placed.get_legend()._loc == mpl.legend.Legend.codes["upper left"]
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_own_axes_are_used_and_their_figure_keeps_its_title(name: str) -> None:
+    figure, ax = pyplot.subplots(layout="constrained")
+    figure.suptitle("mine")
+    assert one(DRAWN[name](ax=ax)) is ax
+    assert figure.get_suptitle() == "mine"
+    assert ax.get_xlabel()
+    assert figure.legends == [], "which would be that of other panels too"
+    DRAWN[name](ax=figure.add_subplot(), title="panel title")
+    assert figure.axes[1 if name != "map" else 2].get_title() == "panel title"
+
+
+@pytest.mark.parametrize("name", [name for name in DRAWN if name not in ("map", "words")])
+def test_widths_of_lines_and_marks_and_fonts_follow_the_settings(name: str) -> None:
+    """Line widths were fixed."""
+
+    def sizes(scale: float) -> dict[str, np.ndarray]:
+        settings = {"lines.linewidth": scale, "lines.markersize": 6 * scale, "font.size": 8 * scale}
+        with mpl.rc_context(settings):
+            _, ax = pyplot.subplots()
+            DRAWN[name](ax=ax)
+        lines = [line for line in ax.lines if line.get_linestyle() != "None"]
+        marks = [line for line in ax.lines if line.get_marker() not in ("", "None", None)]
+        return {
+            "lines": np.array([line.get_linewidth() for line in lines]),
+            "marks": np.array([line.get_markersize() for line in marks]),
+            "texts": np.array([text.get_fontsize() for text in ax.texts]),
+        }
+
+    usual = sizes(1.0)
+    doubled = sizes(2.0)
+    assert sum(values.size for values in usual.values()) > 0
+    for what, values in usual.items():
+        np.testing.assert_allclose(doubled[what], 2 * values, rtol=1e-12, err_msg=what)
+
+
+def test_a_new_figure_has_the_readers_font_and_otherwise_the_usual_style() -> None:
+    usual = one(DRAWN["line"]())
+    assert not usual.spines["top"].get_visible()
+    with mpl.rc_context({"font.family": "serif", "lines.linewidth": 3}):
+        ax = one(DRAWN["line"]())
+    assert ax.xaxis.label.get_fontfamily() == ["serif"]
+    assert ax.lines[0].get_linewidth() == 3 * usual.lines[0].get_linewidth()
+    assert not ax.spines["top"].get_visible()
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_new_figures_fit_a_column_or_a_page_with_all_that_they_say(name: str) -> None:
+    figure = one(DRAWN[name]()).figure
+    assert figure.get_figwidth() in (COLUMN, PAGE)
+    assert_fit_for_print(figure)
+
+
+WRONG = {
+    "legend": ({"lok": "best"}, "did you mean loc"),
+    "labels": ({"x": 1}, "must be texts"),
+    "title": (3, "must be a text"),
+    "ax": ("axes", "must be 1 axes"),
+}
+
+
+@pytest.mark.parametrize("wish", WRONG)
+def test_a_wish_that_cannot_be_understood_is_named(wish: str) -> None:
+    value, rule = WRONG[wish]
+    before = pyplot.get_fignums()
+    with pytest.raises(dm.ParameterError, match=f"{wish}.*{rule}"):
+        DRAWN["portrait"](**{wish: value})
+    assert pyplot.get_fignums() == before, "no figure stays behind, half drawn"
+
+
+def test_a_place_that_matplotlib_does_not_know_is_named_and_leaves_no_figure() -> None:
+    with pytest.raises(dm.ParameterError, match=r"legend=.*nowhere"):
+        DRAWN["portrait"](legend={"loc": "nowhere"})
+    assert pyplot.get_fignums() == []
+
+
+def test_pictures_of_several_panels_take_as_many_axes() -> None:
+    _, axes = pyplot.subplots(1, 2)
+    drawn = dm.simulate(SEPARATING, 3).plot_poincare(ax=axes, title="first", legend=False)
+    assert list(drawn) == list(axes)
+    modes = len(dm.plate_modes(CASE))
+    _, axes = pyplot.subplots(2, -(-modes // 2))
+    dm.plot_modes(CASE, ax=axes.flat[:modes], title="not over a mode's own name")
+    assert "Hz" in axes.flat[0].get_title()
+    assert one(dm.plot_modes(CASE, title="Shapes")).figure.get_suptitle() == "Shapes"
