@@ -108,8 +108,7 @@ class CriticalSpeed(Quantity):
             result = find_outcome(case, self.horizons[-1], tol=self.tol, early=self.early_end)
             # return maps would take megabytes each for a disc of many modes
             motions[i] = replace(result, near=None)
-            none = math.isnan(result.first_separation) and result.status == "ok"
-            known[i] = math.inf if none else result.first_separation
+            known[i] = _first_separation(result)
 
         scanned = [i * round(self.ratio) for i in range(self.scan.intervals + 1)]
         for i in scanned:
@@ -137,6 +136,13 @@ class CriticalSpeed(Quantity):
     def _speed(self, i: int) -> float:
         """Speed, rad/s, of a place on the lattice of the precision."""
         return float(f"{self.scan.start + i * self.precision:.12g}")
+
+
+def _first_separation(result: OutcomeResult) -> float:
+    """Time of the first separation, s: infinite if there is none, nan if that is not known."""
+    if math.isnan(result.first_separation) and result.status == "ok":
+        return math.inf
+    return result.first_separation
 
 
 def _middles(known: dict[int, float], horizon: float) -> list[int]:
