@@ -29,7 +29,6 @@ ASIDE = {  # modules that are not followed where they are imported, since they d
     "disc.plausibility": "warns",
     "studies.costs": "estimates",
     "display": "shows to a reader",
-    "simulation.pictures": "draws for a reader",
 }
 
 
