@@ -41,6 +41,8 @@ STEP = 1e-4
 """Step of central differences, relative to a parameter's scale."""
 TOLERANCE = 1e-10
 """Relative change of parameters, cost and gradient at which the search ends."""
+MARGIN = 0.01
+"""Distance of the first step from limits, relative to a parameter's scale."""
 SINGULAR = 1e-7
 """Least ratio of singular values of the Jacobian; below it, differences no longer tell parameters
 apart."""
@@ -408,7 +410,7 @@ def fit(
         warnings.simplefilter("ignore", ImplausibleValue)
         search = least_squares(
             deviations,
-            start / problem.scale,
+            _inside(problem, start, limits) / problem.scale,
             jac=slopes,
             bounds=ends / problem.scale,
             xtol=TOLERANCE,
@@ -416,6 +418,18 @@ def fit(
             gtol=TOLERANCE,
         )
     return _result(problem, search, confidence)
+
+
+def _inside(problem: _Problem, start: Array, limits: Mapping[str, Interval]) -> Array:
+    """Return the start of the search, (n,), away from its limits: the first steps of the search are
+    as long as the way to a limit, and the effect of one that short may be lost in rounding."""
+    moved = start.copy()
+    for i, name in enumerate(problem.names):
+        if name in limits:
+            low, high = limits[name]
+            margin = min(MARGIN * problem.scale[i], 0.5 * (high - low))
+            moved[i] = min(max(start[i], low + margin), high - margin)
+    return moved
 
 
 def _result(problem: _Problem, search: Any, confidence: float) -> Fit:
