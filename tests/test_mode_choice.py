@@ -10,8 +10,8 @@ import pytest
 from disc_model import Parameters, choose_modes, mode_choice
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import RICH, choose_when_run, frequency_error
-from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
+from disc_model.simulation.named_case import run_case
 from disc_model.studies.study import parse_study
 
 P = Parameters(N=385.0, Omega=15.1)

@@ -27,6 +27,7 @@ PHYSICS = (
     "disc",
     "engine",
     "errors.py",
+    "modal_disc.py",
     "mode_choice.py",
     "parameters.py",
     "simulation",

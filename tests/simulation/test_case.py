@@ -9,7 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from disc_model import ParameterError, Parameters, Poincare, Ramp, Window, simulate
-from disc_model.simulation import api
+from disc_model.simulation import collector
 from disc_model.simulation.case import CaseSpec, Start, resolved_windows
 from disc_model.simulation.states import perturb, static_start
 
@@ -147,7 +147,7 @@ GREEDY = {
 @pytest.mark.parametrize("what", GREEDY)
 def test_what_no_memory_holds_is_refused_before_anything_runs(what, monkeypatch):
     """Bins, samples of a step and sections were not counted: they ended in a MemoryError."""
-    monkeypatch.setattr(api, "_memory", lambda: 5e5)
+    monkeypatch.setattr(collector, "_memory", lambda: 5e5)
     windows = {f"w{i}": window for i, window in enumerate(GREEDY[what])}
     p = P.replace(Omega=1e300) if what == "sections" else P
     with pytest.raises(

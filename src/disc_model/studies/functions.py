@@ -23,8 +23,8 @@ from disc_model.data.variables import SCALARS, Variable, flag_names
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
 from disc_model.mode_choice import choose_when_run
 from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
-from disc_model.simulation.api import run_case
 from disc_model.simulation.case import SomeParameters, Start
+from disc_model.simulation.named_case import run_case
 from disc_model.simulation.result import Result
 from disc_model.studies.merge import merge_batches, merge_cases
 from disc_model.studies.quantity import NUMERICAL, Point

@@ -133,7 +133,7 @@ class AttractorBasins(Start, Quantity):
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Failed starts have a fraction of their own, and the point fails if all starts do."""
-        from disc_model.simulation.api import make_initial_state
+        from disc_model.simulation.starts import make_initial_state
         from disc_model.simulation.states import static_start
         from disc_model.stability.attractors import Basins, random_perturbation
 

@@ -98,7 +98,7 @@ class Bifurcation(Start, Quantity):
         )
 
     def state_at(self, point: Point) -> State:
-        from disc_model.simulation.api import state_after
+        from disc_model.simulation.starts import state_after
 
         return state_after(point.parameters, point.start, self.transient, self.tol)
 
@@ -106,7 +106,8 @@ class Bifurcation(Start, Quantity):
 def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
     """Sample at t = i 2 pi / Omega after the transient; samples that the run does not reach are
     missing."""
-    from disc_model.simulation.api import make_initial_state, simulate
+    from disc_model.simulation.api import simulate
+    from disc_model.simulation.starts import make_initial_state
     from disc_model.stability.attractors import Arrival, arrival
 
     p = point.parameters
@@ -140,7 +141,8 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
 
 
 def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
-    from disc_model.simulation.api import make_initial_state, simulate
+    from disc_model.simulation.api import simulate
+    from disc_model.simulation.starts import make_initial_state
     from disc_model.stability.attractors import arrival
     from disc_model.stability.outcome import shares
     from disc_model.stability.thresholds import FIRST_LEG

@@ -84,6 +84,6 @@ class Lyapunov(Start, Quantity):
         return values, message
 
     def state_at(self, point: Point) -> State:
-        from disc_model.simulation.api import state_after
+        from disc_model.simulation.starts import state_after
 
         return state_after(point.parameters, point.start, self.transient, self.tol)

@@ -119,7 +119,7 @@ def _late(
     point: Point, options: HorizonOutcome
 ) -> tuple[OutcomeResult, Result | None, Segment | None]:
     """The outcome, the run beyond it, if any, and the late stretch."""
-    from disc_model.simulation.api import make_initial_state
+    from disc_model.simulation.starts import make_initial_state
     from disc_model.stability.outcome import final_segment, find_outcome
 
     p = point.parameters
