@@ -19,6 +19,7 @@ PACKAGE = Path(__file__).resolve().parent
 
 PHYSICS = (
     "analysis",
+    "attachable.py",
     "data/dataset.py",
     "data/files.py",
     "data/tables.py",

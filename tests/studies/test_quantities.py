@@ -97,7 +97,6 @@ def test_a_quantity_says_what_it_costs_and_what_its_motions_show(name: str) -> N
         == (quantity.state_at is not Quantity.state_at)
     )
     assert bool(quantity.SUMMARY_COLUMNS) == ("summarise" in vars(quantity))
-    assert parse_grid(grid(name)).sources == (f"studies.quantities.{name}",)
 
 
 P, Q = (Point(Parameters(N=N, Omega=1)) for N in (1, 0))
