@@ -15,7 +15,6 @@ from disc_model.studies.costs import PAPER
 from disc_model.studies.quantity import STATUS, STATUSES, Point, Quantity
 from disc_model.studies.registry import quantity_names, quantity_of
 from tests.studies.conftest import compute, computed
-from tests.studies.refused import parse_grid
 
 SCAN = {"start": 10, "stop": 20, "count": 2}
 SWEEP = {"dwell": 0.5, "max_dwell": 1, "evaluation_time": 0.2}
