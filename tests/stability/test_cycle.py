@@ -9,7 +9,7 @@ from disc_model import Parameters, floquet, simulate
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.errors import DiscModelError
 from disc_model.stability.cycle import CycleError, find_cycle, run_through_once
-from disc_model.stability.linear_motion import find_cycle_near
+from disc_model.stability.linear_motion import CloseReturn, find_cycle_near
 from disc_model.stability.return_map import RETURNED, Counts, Flight, Passage, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
 from tests.validation.test_random_cases import drawn_case
@@ -123,7 +123,7 @@ def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
     assert result.stable
     x = map_.point(result.state)
     away = x + 1e-4 * np.linalg.norm(x) * np.eye(len(x))[0]
-    found = find_cycle_near(map_, Passage(RETURNED, 0.0, away), (1e-4, 6))
+    found = find_cycle_near(map_, Passage(RETURNED, 0.0, away), CloseReturn(1e-4, 6))
     assert found.follows_cycle
     assert found.cycle.releases == 1  # not six times around
     assert found.kind is Outcome.QUIET
@@ -131,13 +131,14 @@ def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
     assert not floquet(P).stable
     map_ = ReturnMap(P)
     x = map_.point(floquet(P).state)
-    assert not find_cycle_near(map_, Passage(RETURNED, 0.0, x), (0.0, 1)).follows_cycle
+    again = CloseReturn(0.0, 1)
+    assert not find_cycle_near(map_, Passage(RETURNED, 0.0, x), again).follows_cycle
     # nor one that leaves it as the multipliers predict, unless that is asked for
     values, vectors = np.linalg.eig(map_.evaluate(x).jacobian)
     leaving = np.real(vectors[:, np.argmax(abs(values))])
     away = x + 0.001 * np.linalg.norm(map_.static) * leaving / np.linalg.norm(leaving)
     for waits, follows in (((), False), ((0.0,), True)):
-        near = find_cycle_near(map_, Passage(RETURNED, 2.0, away), (0.0, 1), unstable=waits)
+        near = find_cycle_near(map_, Passage(RETURNED, 2.0, away), again, unstable=waits)
         assert near.follows_cycle is follows
         assert near.time == 2.0
 

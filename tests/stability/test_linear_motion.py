@@ -13,8 +13,8 @@ from disc_model.stability.linear_motion import (
     NearCycle,
     approaches_sliding,
     cycle_of_static_start,
+    find_close_return,
     find_cycle_near,
-    find_near_return,
 )
 from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.sliding import steady_sliding
@@ -78,7 +78,7 @@ def test_a_cycle_near_a_later_release_has_the_time_of_that_release() -> None:
     run = simulate(p, 40.1, initial_state=end, tol=1e-13)
     wanted = run.events["time"][run.events["kind"] == "stick_to_slip"].iloc[0]
     assert release.time == pytest.approx(wanted, abs=1e-9)
-    near = find_cycle_near(map_, release, find_near_return(map_, release.x))
+    near = find_cycle_near(map_, release, find_close_return(map_, release.x))
     assert near is not None
     assert near.follows_cycle
     assert near.time >= release.time

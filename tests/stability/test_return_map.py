@@ -13,7 +13,6 @@ from disc_model import Parameters, floquet, simulate
 from disc_model.engine import section, transitions
 from disc_model.stability import return_map
 from disc_model.stability.cycle import bifurcation_type, cycle_of
-from disc_model.stability.linear_motion import first_release
 from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Flight, ReturnMap, newton
 from tests.contact_laws import ALL_LAWS, COMPILES, COUPLE, LAWS
 from tests.engine.test_saltation import differences
@@ -150,7 +149,6 @@ def test_a_search_begins_where_the_simulated_static_start_is_first_released(law,
     assert apart < 1e-9 * map_.deflection
     bent = np.linalg.norm(release.x - map_.static) > 1e-6 * map_.deflection
     assert bent == ("friction_offset" in law)
-    assert first_release(p) == release.time
 
 
 def test_a_slider_that_is_pulled_loose_at_once_is_not_on_the_section() -> None:
@@ -162,12 +160,12 @@ def test_a_slider_that_is_pulled_loose_at_once_is_not_on_the_section() -> None:
     assert run.events["kind"].tolist() == ["stick_to_slip"]
     assert run.events["time"].tolist() == [0.0]
     assert not ReturnMap(p).first_release.reached
-    assert math.isnan(first_release(p))
     assert floquet(p).status == "no_stick_slip"
     # a damper that pulls a thousandth less leaves that to the spring
     limit = p.mu_s * p.N / p.r_0
     barely = p.replace(c_p=0.999 * limit / p.Omega)
-    assert first_release(barely) == pytest.approx(0.001 * limit / (p.k_p * p.Omega), rel=1e-9)
+    expected = 0.001 * limit / (p.k_p * p.Omega)
+    assert ReturnMap(barely).first_release.time == pytest.approx(expected, rel=1e-9)
 
 
 def test_a_flight_in_pieces_is_the_same_flight(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -51,6 +52,7 @@ class NearCycle:
 
     @cached_property
     def leading(self) -> ComplexArray:
+        """Left eigenvector of the leading multiplier, (n,)."""
         return _left_vector(self.jacobian)
 
     @property
@@ -65,10 +67,10 @@ class NearCycle:
             if apart <= thresholds.NEAR * self.map.deflection:
                 return Outcome.QUIET
         cycle = find_cycle(self.cycle.parameters)
-        same = math.isclose(cycle.period, self.cycle.period, rel_tol=thresholds.ARRIVED)
-        return (
-            Outcome.QUIET if same and cycle.releases == self.cycle.releases else Outcome.OTHER_CYCLE
-        )
+        same_period = math.isclose(cycle.period, self.cycle.period, rel_tol=thresholds.ARRIVED)
+        if same_period and cycle.releases == self.cycle.releases:
+            return Outcome.QUIET
+        return Outcome.OTHER_CYCLE
 
     @property
     def lingers(self) -> bool:
@@ -110,7 +112,8 @@ class NearCycle:
         # the leading part alone excludes most motions
         right = _left_vector(self.jacobian.T)
         part = float(abs(self.leading @ self.distance)) / float(abs(self.leading @ right))
-        grown = math.log(max(part, 1e-300)) + periods * math.log(abs(self.cycle.multipliers[0]))
+        growth = periods * math.log(abs(self.cycle.multipliers[0]))
+        grown = math.log(max(part, 1e-300)) + growth
         if not grown <= math.log(2 * near):
             return False
         distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
@@ -131,7 +134,9 @@ class NearCycle:
         multipliers predict."""
         cycle = self.cycle
         deflection = self.map.deflection
-        least = thresholds.ARRIVED * deflection if cycle.stable else 0.0
+        least = 0.0
+        if cycle.stable:
+            least = thresholds.ARRIVED * deflection
         # the errors of coarse flights would matter at a smaller distance
         coarse = bool(np.linalg.norm(distance) > thresholds.SAME_POINT * deflection)
         expected = distance
@@ -152,7 +157,8 @@ class NearCycle:
         matters only near borders, is ignored."""
         right = _left_vector(self.jacobian.T)
         right = right / (self.leading @ right)
-        real = self.cycle.multipliers[0].imag == 0
+        is_real = self.cycle.multipliers[0].imag == 0
+        eigenspace = right if is_real else 2 * right  # with that of the conjugate multiplier
         part = self.leading @ distance
         count = 0
         before = float(abs(part))
@@ -160,16 +166,13 @@ class NearCycle:
             if not flight.returned:
                 return None
             apart = flight.end - self.x
-            count = count + periods
+            count += periods
             part = self.leading @ apart
-            plane = np.real(part * right) * (1 if real else 2)
-            if not np.linalg.norm(apart - plane) <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(
-                apart
-            ):
+            outside = float(np.linalg.norm(apart - np.real(part * eigenspace)))
+            if not outside <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(apart):
                 return None
-        return float(
-            math.log(abs(part) / before) / (count * self.cycle.period) / self.cycle.growth_rate - 1
-        )
+        rate = math.log(abs(part) / before) / (count * self.cycle.period)
+        return float(rate / self.cycle.growth_rate - 1)
 
 
 def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
@@ -179,47 +182,51 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
         return find_cycle(p)
     map_ = ReturnMap(p)
     cycle = cycle_from_rest(map_)
-    return _relate(map_, cycle, map_.first_release) if cycle.status is CycleStatus.OK else cycle
+    if cycle.status is not CycleStatus.OK:
+        return cycle
+    return _relate(map_, cycle, map_.first_release)
+
+
+class CloseReturn(NamedTuple):
+    """The return of a motion to the section at which it repeats best: its change since a release,
+    over the static deflection, and the number of releases between them."""
+
+    change: float
+    releases: int
 
 
 def find_cycle_near(
     map_: ReturnMap,
     release: Passage,
-    near_return: tuple[float, int] | None,
+    close_return: CloseReturn | None,
     unstable: Sequence[float] = (),
 ) -> NearCycle | None:
     """The cycle near a motion at one of its releases, and whether the motion follows it. If the
     cycle is unstable, tests for that begin at the times `unstable`, s after the release."""
-    change, releases = near_return or (math.inf, 0)
-    if not change <= thresholds.NEAR / 2:
+    if close_return is None or not close_return.change <= thresholds.NEAR / 2:
         return None
-    flight = newton(map_, release.x, releases=releases, may_separate=map_.patient)
+    flight = newton(map_, release.x, releases=close_return.releases, may_separate=map_.patient)
     if flight is None:
         return None
     if np.linalg.norm(flight.start - release.x) > thresholds.NEAR * map_.deflection:
         return None
     cycle = cycle_of(map_, run_through_once(map_, flight))
-    return _relate(map_, cycle, release, thresholds.WAITS if cycle.stable else unstable)
+    waits = thresholds.WAITS if cycle.stable else unstable
+    return _relate(map_, cycle, release, waits)
 
 
-def find_near_return(
+def find_close_return(
     map_: ReturnMap, x: Array, most: int = thresholds.LARGEST_PERIOD
-) -> tuple[float, int] | None:
-    """Least change from a release of a motion to a later one, over the static deflection, and the
-    number of releases between them; None if the motion does not return to the section at all."""
+) -> CloseReturn | None:
+    """The first of the next returns of a motion from a release at `x`, at most `most`, that changes
+    about least; None if the motion does not return to the section at all."""
     later = map_.returns(x, most, may_separate=map_.patient, coarse=True)
     changes = [float(np.linalg.norm(point - x) / map_.deflection) for point in later]
-    # the shortest of those with about the least change
-    return next(
-        ((change, i) for i, change in enumerate(changes, 1) if change <= 2 * min(changes)), None
-    )
-
-
-def first_release(p: Parameters) -> float:
-    """Time at which the motion from the static start is first released from stick, s; nan if it
-    never is, or loses contact before."""
-    release = ReturnMap(p).first_release
-    return release.time if release.reached else math.nan
+    least = min(changes, default=math.nan)
+    for i, change in enumerate(changes, 1):
+        if change <= 2 * least:
+            return CloseReturn(change, i)
+    return None
 
 
 def _relate(
@@ -246,7 +253,7 @@ def _relate(
             if not flight.returned:
                 break
             x = flight.end
-            waited = waited + flight.period
+            waited += flight.period
         if near.follows_multipliers(x):
             time = release.time + waited
             return replace(near, follows_cycle=True, distance=x - fixed_point, time=time)
@@ -258,9 +265,8 @@ def _grows_at_rate(parts: Sequence[float], time: float, rate: float, least: floa
     `least`."""
     if not min(parts) > 0 or parts[1] <= least:
         return parts[1] <= least
-    return abs(math.log(parts[1] / parts[0]) / time - rate) <= thresholds.LARGEST_RATE_ERROR * abs(
-        rate
-    )
+    error = math.log(parts[1] / parts[0]) / time - rate
+    return abs(error) <= thresholds.LARGEST_RATE_ERROR * abs(rate)
 
 
 def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs) -> ComplexArray:
@@ -270,7 +276,7 @@ def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs
     return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
 
 
-_sliding = lru_cache(maxsize=1)(steady_sliding)  # asked at the end of each leg of a motion
+_sliding = lru_cache(maxsize=1)(steady_sliding)  # needed at the end of each leg of a motion
 
 
 def approaches_sliding(p: Parameters, state: State) -> bool:
@@ -280,19 +286,23 @@ def approaches_sliding(p: Parameters, state: State) -> bool:
     It is followed with `TEST_TOL`, because errors of coarser simulations keep it away: at 1e-10, by
     7e-7 of the static deflection on a disc whose modes of 2 kHz decay at 0.4/s.
     """
-    if state.phase != "slip" or p.n_diameters < 0 or not (sliding := _sliding(p)).stable:
+    if state.phase != "slip" or p.n_diameters < 0:
         return False
-    modes, scale = (
-        mode_arrays(p),
-        np.sqrt(energy_weights(p)),
-    )  # by it the norm of rows is that of the energy
+    sliding = _sliding(p)
+    if not sliding.stable:
+        return False
+
+    modes = mode_arrays(p)
+    scale = np.sqrt(energy_weights(p))  # by it the norm of rows is that of the energy
     jacobian = scale[:, None] * sliding.jacobian / scale
     expected = scale * _from_sliding(p, sliding, state)
     static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
     least = thresholds.ARRIVED * static
     if not np.linalg.norm(expected) <= thresholds.NEAR * static:
         return False
-    from scipy.linalg import expm  # as in plate
+
+    # slow to import, and few motions come so near
+    from scipy.linalg import expm
 
     leading = _left_vector(jacobian, np.real)
     parts = list[float]()
@@ -316,11 +326,17 @@ def approaches_sliding(p: Parameters, state: State) -> bool:
 def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:
     """Distance from steady sliding, in the rows of its Jacobian."""
     modes = mode_arrays(p)
-    give = contact_compliance(p)
-    disc = [getattr(state, name) - getattr(sliding, name) for name in ("a", "alpha", "b", "beta")]
-    # the contact's force is that of the slider's spring: (w - u) / give = N + k (u - u_0)
-    rest = (modes.psi @ sliding.a - give * (p.N - p.k * engine_case(p).model.u_0)) / (
-        1 + p.k * give
+    compliance = contact_compliance(p)
+    disc = (
+        state.a - sliding.a,
+        state.alpha - sliding.alpha,
+        state.b - sliding.b,
+        state.beta - sliding.beta,
     )
-    height = [float(state.u - rest), float(state.u_velocity)] if give else []
+    height = []
+    if compliance:
+        # the contact's force is that of the slider's spring: (w - u) / compliance = N + k (u - u_0)
+        load = p.N - p.k * engine_case(p).model.u_0
+        rest = (modes.psi @ sliding.a - compliance * load) / (1 + p.k * compliance)
+        height = [float(state.u - rest), float(state.u_velocity)]
     return join_rows(modes, disc, (state.psi - sliding.psi, state.f - p.Omega), height)
