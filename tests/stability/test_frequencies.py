@@ -10,7 +10,7 @@ from scipy.optimize import linear_sum_assignment
 
 from disc_model import Parameters, coupled_natural_frequencies, plate_modes
 from disc_model.analysis.spectra import modes_at_rest, nearest_resonance
-from disc_model.stability.cycle import frequencies
+from disc_model.stability.frequencies import frequencies
 
 BASE = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1)
