@@ -10,7 +10,7 @@ from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.errors import DiscModelError
 from disc_model.stability.cycle import CycleError, find_cycle, run_through_once
 from disc_model.stability.linear_motion import CloseReturn, find_cycle_near
-from disc_model.stability.return_map import RETURNED, Counts, Flight, Passage, ReturnMap
+from disc_model.stability.return_map import RETURNED, Counts, Orbit, Passage, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
 from tests.validation.test_random_cases import drawn_case
 
@@ -100,7 +100,7 @@ class Logistic:
             slope = self.r * (1 - 2 * x[0]) * slope
             x = self.r * x * (1 - x)
         counts = Counts(releases, 0, 0, 0, releases)
-        return Flight(RETURNED, 0.01 * releases, 0.3, counts, start, x, slope, np.zeros((1, 0)))
+        return Orbit(RETURNED, 0.01 * releases, 0.3, counts, start, x, slope, np.zeros((1, 0)))
 
 
 def test_a_cycle_that_is_run_through_twice_is_told_from_one_of_double_period():
@@ -195,7 +195,7 @@ def test_multipliers_of_random_cases_are_those_of_a_differenced_return_map(seed:
             error = np.abs(rough - fine).max()
             scale = max(1.0, np.abs(fine).max())
             if error <= 1e-3 * scale:
-                # rounding of flights, 3e-13, over the step
+                # rounding of orbits, 3e-13, over the step
                 assert np.abs(got - fine).max() <= 1e-11 / step * scale + 10 * error, (
                     found.parameters
                 )

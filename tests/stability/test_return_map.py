@@ -13,7 +13,7 @@ from disc_model import Parameters, floquet, simulate
 from disc_model.engine import section, transitions
 from disc_model.stability import return_map
 from disc_model.stability.cycle import bifurcation_type, cycle_of
-from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Flight, ReturnMap, newton
+from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Orbit, ReturnMap, newton
 from tests.contact_laws import ALL_LAWS, COMPILES, COUPLE, LAWS
 from tests.engine.test_saltation import differences
 from tests.references.printed import Printed
@@ -63,7 +63,7 @@ class Affine:
         code = RETURNED if self.calls not in self.lost_at else RETURNED + 1
         bent = self.A @ x + self.d + 0.01 * np.sin(x)
         slope = self.wrong + 0.01 * np.diag(np.cos(x))
-        return Flight(
+        return Orbit(
             code, 1.0, 0.3, Counts(1, 0, 0, 0, 1), x, bent, slope, np.zeros((self.size, 0))
         )
 
@@ -168,7 +168,7 @@ def test_a_slider_that_is_pulled_loose_at_once_is_not_on_the_section() -> None:
     assert ReturnMap(barely).first_release.time == pytest.approx(expected, rel=1e-9)
 
 
-def test_a_flight_in_pieces_is_the_same_flight(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_orbit_in_pieces_is_the_same_orbit(monkeypatch: pytest.MonkeyPatch) -> None:
     """Between pieces Ctrl-C is answered: kernels cannot be interrupted, and a mass of 1e12 kg kept
     them busy for minutes."""
     calls = []
@@ -197,7 +197,7 @@ def test_a_flight_in_pieces_is_the_same_flight(monkeypatch: pytest.MonkeyPatch) 
     np.testing.assert_allclose(again.jacobian, whole.jacobian, rtol=0, atol=1e-9)
     np.testing.assert_allclose(release_again.x, release.x, rtol=0, atol=1e-11 * size)
     assert release_again.time == pytest.approx(release.time, rel=1e-12)
-    # the limit of time is that of the whole flight
+    # the limit of time is that of the whole orbit
     slides = ReturnMap(P.replace(c_p=1.0, Omega=9.0, N=2.0))
     assert slides.first_release.outcome == transitions.TIME_OVER
     assert slides.first_release.time == pytest.approx(slides.longest, rel=1e-9)
@@ -254,7 +254,7 @@ def test_the_jacobian_agrees_with_differences_along_a_direction() -> None:
 def check_derivatives(
     map_: ReturnMap, x: np.ndarray, step: Callable[[str], float], names=PARAMETERS
 ) -> None:
-    """Derivatives of where a flight ends by parameters, against differences of steps relative to
+    """Derivatives of where an orbit ends by parameters, against differences of steps relative to
     their values."""
     p = map_.parameters
     how = {"may_separate": True}
@@ -297,8 +297,8 @@ def test_a_multiplier_tells_the_bifurcation() -> None:
 def test_the_leading_multiplier_gives_the_growth_rate(multiplier, rate) -> None:
     """A return map without slope forgets its start at once."""
     map_ = ReturnMap(P)
-    flight = replace(map_.evaluate(map_.static), jacobian=multiplier * np.eye(map_.size))
-    assert cycle_of(map_, flight).growth_rate * flight.period == pytest.approx(
+    orbit = replace(map_.evaluate(map_.static), jacobian=multiplier * np.eye(map_.size))
+    assert cycle_of(map_, orbit).growth_rate * orbit.period == pytest.approx(
         rate
     )  # rounding is 1e-15
 

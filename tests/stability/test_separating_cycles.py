@@ -78,7 +78,7 @@ def test_its_multipliers_are_those_of_differences_of_the_map(cycle) -> None:
     p, _, found, _ = cycle
     map_ = ReturnMap(p, 1e-14, patient=True)
     x = map_.point(found.state)
-    # a hundred times what keeps the order of switches, and far above the rounding of the flight
+    # a hundred times what keeps the order of switches, and far above the rounding of the orbit
     size = 1e-6 * float(np.linalg.norm(map_.static))
     expected = multipliers(
         central_differences(map_, x, size, releases=found.releases, may_separate=True)

@@ -55,7 +55,7 @@ SLIDING = {
     ],
 )
 def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
-    """It stays where it is, and its eigenvalues are those of a flight from there."""
+    """It stays where it is, and its eigenvalues are those of an orbit from there."""
     sliding = steady_sliding(p)
     duration = 1e-3
     assert sliding.status is SlidingStatus.OK
@@ -72,7 +72,7 @@ def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
     assert len(expected := np.exp(sliding.eigenvalues * duration)) == len(flow)
     assert (
         np.max(np.min(np.abs(expected[:, None] - flow[None, :]), axis=1)) < 1e-10
-    )  # roundings of the flight
+    )  # roundings of the orbit
     assert sliding.growth_rate == pytest.approx(np.log(np.abs(flow).max()) / duration, abs=1e-6)
 
 

@@ -24,7 +24,7 @@ from disc_model.stability.return_map import (
     ENDS,
     Array,
     ComplexArray,
-    Flight,
+    Orbit,
     ReturnMap,
     case_faults,
     newton,
@@ -229,10 +229,10 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
     if not start.reached:
         return _without_return(map_, start.outcome, start.time)
     for _ in range(TRANSIENT):
-        flight = map_.evaluate(x, tangent=False)
-        if not flight.returned:
-            return _without_return(map_, flight.outcome, flight.period)
-        x = flight.end
+        orbit = map_.evaluate(x, tangent=False)
+        if not orbit.returned:
+            return _without_return(map_, orbit.outcome, orbit.period)
+        x = orbit.end
     for releases in RETURNS_TRIED:
         solution = newton(map_, x, releases=releases)
         if solution is not None:
@@ -253,21 +253,21 @@ _WITHOUT_RETURN = {
         "the motion from the static start runs into Painleve's paradox",
     ),
 }
-"""Status and message for a transient's flight that ends in these ways; braces stand for its duration."""
+"""Status and message for a transient's orbit that ends in these ways; braces stand for its duration."""
 
 
 def _without_return(map_: ReturnMap, outcome: int, duration: float) -> FloquetResult:
-    """The result for a motion whose flight of that duration (s) does not end on the section."""
+    """The result for a motion whose orbit of that duration (s) does not end on the section."""
     status, why = _WITHOUT_RETURN[ENDS[outcome]]
     return _none(map_.parameters, map_.tol, status, why.format(duration))
 
 
-def run_through_once(map_: ReturnMap, flight: Flight) -> Flight:
+def run_through_once(map_: ReturnMap, orbit: Orbit) -> Orbit:
     """A cycle with its shortest period: one that is traversed several times is reduced to a single
     pass."""
-    times = flight.counts.releases
-    x = flight.start
-    may_separate = flight.counts.separations > 0
+    times = orbit.counts.releases
+    x = orbit.start
+    may_separate = orbit.counts.separations > 0
     divisors = [n for n in range(1, times) if times % n == 0]
     for releases in divisors:
         once = newton(map_, x, releases=releases, may_separate=may_separate)
@@ -276,7 +276,7 @@ def run_through_once(map_: ReturnMap, flight: Flight) -> Flight:
         rounding = 1e-7 * float(np.linalg.norm(once.start))
         if np.allclose(once.start, x, rtol=0, atol=rounding):
             return once
-    return flight
+    return orbit
 
 
 def may_stick_and_slip(p: Parameters) -> bool:
@@ -294,16 +294,16 @@ def _none(p: Parameters, tol: float, status: CycleStatus, reason: str) -> Floque
     return FloquetResult(p, tol, status, f"{status}: {reason}")
 
 
-def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
+def cycle_of(map_: ReturnMap, orbit: Orbit) -> FloquetResult:
     """The result for a cycle that Newton's method has found to the tolerance."""
-    values = multipliers(flight.jacobian)
+    values = multipliers(orbit.jacobian)
     leading = complex(values[0])
     growth_rate = -math.inf
     if leading:
-        growth_rate = math.log(abs(leading)) / flight.period
+        growth_rate = math.log(abs(leading)) / orbit.period
     with np.errstate(divide="ignore", invalid="ignore"):
-        exponents = np.asarray(np.log(values) / flight.period, dtype=complex)
-    counts = flight.counts
+        exponents = np.asarray(np.log(values) / orbit.period, dtype=complex)
+    counts = orbit.counts
     named = {
         "release": counts.releases,
         "backward release": counts.backward_releases,
@@ -315,20 +315,20 @@ def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
         parameters=map_.parameters,
         tol=map_.tol,
         status=CycleStatus.OK,
-        message=f"{CycleStatus.OK}: cycle of {flight.period:.9g} s with {events}",
-        period=flight.period,
+        message=f"{CycleStatus.OK}: cycle of {orbit.period:.9g} s with {events}",
+        period=orbit.period,
         multipliers=values,
         exponents=exponents,
         growth_rate=growth_rate,
-        stick_fraction=flight.stick_time / flight.period,
-        state=map_.state(flight.start),
+        stick_fraction=orbit.stick_time / orbit.period,
+        state=map_.state(orbit.start),
         bifurcation_type=bifurcation_type(leading),
         releases=counts.releases,
         backward_releases=counts.backward_releases,
         reversals=counts.reversals,
         separations=counts.separations,
         sticks=counts.sticks,
-        residual=flight.residual / map_.deflection,
+        residual=orbit.residual / map_.deflection,
     )
 
 

@@ -31,8 +31,8 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, Sl
     if cycle.state is None or not len(modes.frequency):
         return cycle, modes, columns
     map_ = ReturnMap(p, tol)
-    flight = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
-    multipliers, vectors = np.linalg.eig(flight.jacobian)
+    orbit = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
+    multipliers, vectors = np.linalg.eig(orbit.jacobian)
     shapes = _shapes_on_section(map_, cycle.state, modes.shapes[:, disc])
 
     # two multipliers may match a mode: one resembles its shape, one the conjugate

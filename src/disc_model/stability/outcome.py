@@ -26,12 +26,12 @@ from disc_model.stability.cycle import FloquetResult, may_stick_and_slip, never_
 from disc_model.stability.linear_motion import (
     CloseReturn,
     NearCycle,
-    approaches_sliding,
     cycle_of_static_start,
     find_close_return,
     find_cycle_near,
 )
 from disc_model.stability.return_map import Array, Passage, ReturnMap
+from disc_model.stability.sliding_motion import approaches_sliding
 
 
 @dataclass(frozen=True)

@@ -156,7 +156,7 @@ def parameter_change(p: Parameters, model: Model, name: str) -> Array:
 
 
 class Counts(NamedTuple):
-    """Number of events of each kind in a flight, or in a period of a cycle."""
+    """Number of events of each kind in an orbit, or in a period of a cycle."""
 
     releases: int
     backward_releases: int
@@ -166,7 +166,7 @@ class Counts(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Flight:
+class Orbit:
     """The motion between two returns to the section: exit code, durations (s), and derivatives of
     the end by the start, (n, n), and the map's parameters, (n, their number). Without a return, or
     tangents, these mean nothing."""
@@ -284,7 +284,7 @@ class ReturnMap:
         tangent: bool = True,
         may_separate: bool = False,
         coarse: bool = False,
-    ) -> Flight:
+    ) -> Orbit:
         """Follow the motion from `x` to the `releases`-th next release; `coarse` suffices for a
         direction."""
         order = self.order
@@ -317,7 +317,7 @@ class ReturnMap:
         events = log[columns.RELEASES : columns.STICKS + 1].astype(int)
         jacobian = self._section.jacobian
         last = self._first + len(self._names)
-        return Flight(
+        return Orbit(
             outcome=code,
             period=float(log[columns.DURATION]),
             stick_time=float(log[columns.STICK_TIME]),
@@ -385,10 +385,10 @@ class ReturnMap:
         """Points of the motion from `x` at its next releases, at most `most`, as long as it
         returns."""
         for _ in range(most):
-            flight = self.evaluate(x, tangent=False, may_separate=may_separate, coarse=coarse)
-            if not flight.returned:
+            orbit = self.evaluate(x, tangent=False, may_separate=may_separate, coarse=coarse)
+            if not orbit.returned:
                 return
-            x = flight.end
+            x = orbit.end
             yield x
 
 
@@ -400,8 +400,8 @@ def rounding(tol: float, factor: float) -> float:
 
 def newton(
     map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool = False
-) -> Flight | None:
-    """The flight from a fixed point of the map, by Newton's method with a line search; None if it
+) -> Orbit | None:
+    """The orbit from a fixed point of the map, by Newton's method with a line search; None if it
     finds none.
 
     The residual must fall below the map's `tol`, over its deflection. If rounding stops it earlier,
@@ -410,66 +410,66 @@ def newton(
     """
     follow = partial(map_.evaluate, releases=releases, may_separate=may_separate)
     goal = map_.tol * map_.deflection
-    flight = follow(x, coarse=True)
-    if not flight.returned:
+    orbit = follow(x, coarse=True)
+    if not orbit.returned:
         return None
 
-    jacobian = flight.jacobian
+    jacobian = orbit.jacobian
     computed = 1  # Jacobians so far
     fresh = True  # whether the Jacobian is that at the present point
-    while not flight.residual <= goal:
-        if not math.isfinite(flight.residual):
+    while not orbit.residual <= goal:
+        if not math.isfinite(orbit.residual):
             return None
 
         # one step, which a Jacobian from elsewhere must not shorten
         halvings = MOST_HALVINGS if fresh else 1
-        better = _search_along_step(follow, flight, jacobian, halvings)
+        better = _search_along_step(follow, orbit, jacobian, halvings)
         if better is None and fresh:
-            if flight.residual <= rounding(map_.tol, 1e3) * map_.deflection:
+            if orbit.residual <= rounding(map_.tol, 1e3) * map_.deflection:
                 break
             return None
         remaining = 1.0  # share of the residual
         if better is not None:
-            remaining = better.residual / flight.residual
-            flight = better
+            remaining = better.residual / orbit.residual
+            orbit = better
             fresh = False
 
         # a good step is followed by another with its Jacobian
-        if remaining <= SLOW or flight.residual <= goal:
+        if remaining <= SLOW or orbit.residual <= goal:
             continue
         if computed >= MOST_JACOBIANS:
             return None
-        again = follow(flight.start, coarse=computed < COARSE_JACOBIANS)
+        again = follow(orbit.start, coarse=computed < COARSE_JACOBIANS)
         if not again.returned:
             return None
         jacobian = again.jacobian
         computed += 1
         fresh = True
 
-    solution = follow(flight.start)
+    solution = follow(orbit.start)
     return solution if _is_fixed_point(map_, solution) else None
 
 
 def _search_along_step(
-    follow: Callable[..., Flight], flight: Flight, jacobian: Array, halvings: int
-) -> Flight | None:
-    """The flight from the first point along a step of Newton's method that decreases the residual
+    follow: Callable[..., Orbit], orbit: Orbit, jacobian: Array, halvings: int
+) -> Orbit | None:
+    """The orbit from the first point along a step of Newton's method that decreases the residual
     in proportion; the whole step is tried first, then its half, `halvings` times in all."""
     identity = np.eye(len(jacobian))
-    step = newton_step(jacobian - identity, flight.end - flight.start)
+    step = newton_step(jacobian - identity, orbit.end - orbit.start)
     for shrink in range(halvings):
         share = 0.5**shrink
-        trial = follow(flight.start - step * share, tangent=False)
-        if trial.returned and trial.residual < flight.residual * (1 - LEAST_DECREASE * share):
+        trial = follow(orbit.start - step * share, tangent=False)
+        if trial.returned and trial.residual < orbit.residual * (1 - LEAST_DECREASE * share):
             return trial
     return None
 
 
-def _is_fixed_point(map_: ReturnMap, flight: Flight) -> bool:
-    """Whether a flight returns to its start, but for what rounding may leave, with derivatives."""
+def _is_fixed_point(map_: ReturnMap, orbit: Orbit) -> bool:
+    """Whether an orbit returns to its start, but for what rounding may leave, with derivatives."""
     largest = rounding(map_.tol, 1e4) * map_.deflection
-    close = flight.returned and flight.residual <= largest
-    return close and bool(np.all(np.isfinite(flight.jacobian)))
+    close = orbit.returned and orbit.residual <= largest
+    return close and bool(np.all(np.isfinite(orbit.jacobian)))
 
 
 def newton_step(matrix: Array, right: Array) -> Array:
