@@ -40,7 +40,9 @@ class Fault(str):
     def __new__(cls, path: tuple[str, ...], value: str, rule: str) -> Fault:
         head = ".".join(path) + (f"={value}" if value and path else "")
         fault = super().__new__(cls, f"{head}: {rule}" if head else rule)
-        fault.path, fault.value, fault.rule = path, value, rule
+        fault.path = path
+        fault.value = value
+        fault.rule = rule
         return fault
 
     def __getnewargs__(self) -> tuple[tuple[str, ...], str, str]:  # type: ignore[override]
@@ -128,12 +130,10 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
     """The faults that pydantic found in an input. Where a name is unknown, the model's ``_word`` is
     the word for names, and its ``_unknown`` replaces the rule."""
     for item in error.errors(include_url=False):
-        path, kind, value, context = (
-            _path(item, raw),
-            item["type"],
-            item["input"],
-            item.get("ctx", {}),
-        )
+        path = _path(item, raw)
+        kind = item["type"]
+        value = item["input"]
+        context = item.get("ctx", {})
         if isinstance(
             reason := context.get("error"), ParameterError
         ):  # raised by a part that is a model of its own
@@ -215,7 +215,8 @@ def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -
 def _path(item: Any, raw: Any) -> tuple[str, ...]:
     """Path of a fault in the input: the steps of pydantic's path that the input has, so not a
     union's branches."""
-    path, part = list[str](), raw
+    path = list[str]()
+    part = raw
     for step in item["loc"]:
         if step in (
             part
@@ -239,7 +240,8 @@ class StatusBase(enum.StrEnum):
 
     def __new__(cls, word: str, advice: str = "") -> Self:
         member = str.__new__(cls, word)
-        member._value_, member.advice = word, advice
+        member._value_ = word
+        member.advice = advice
         return member
 
 

@@ -82,10 +82,8 @@ class ModeChoice(Summarised):
 
     def to_json(self) -> str:
         """The choice as JSON text, for an attribute of a dataset."""
-        p, record = (
-            self.parameters,
-            {name: getattr(self, name) for name in ("tolerance", "error", "modes")},
-        )
+        p = self.parameters
+        record = {name: getattr(self, name) for name in ("tolerance", "error", "modes")}
         if p.disc is None:
             record |= {"n_diameters": p.n_diameters, "n_circles": p.n_circles}
         else:
@@ -131,7 +129,8 @@ def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
         sizes = sorted(every, key=lambda size: (count_modes(p, size), size[1]))[:-1]
     else:
         sizes = [(count,) for count in counts(p.disc)]
-    modes, right = mode_arrays(p), coupled_frequencies(p, contact_compliance(p))
+    modes = mode_arrays(p)
+    right = coupled_frequencies(p, contact_compliance(p))
     top = BAND * float(modes.omega.min())
     for size in sizes:
         of_size = (
@@ -294,7 +293,8 @@ def chosen_modes(p: Parameters, request: ModeRequest) -> ModeChoice:
             )
         change = max(_change(values[size], values[other]) for other in others or group)
         if change <= request.tolerance:
-            count, chosen = count_modes(p, size), resized(p, size)
+            count = count_modes(p, size)
+            chosen = resized(p, size)
             return ModeChoice(
                 chosen, request.tolerance, change, count, group[-1], request.quantity, values
             )
@@ -309,7 +309,8 @@ def _compared(p: Parameters) -> Iterator[tuple[tuple[int, ...], ...]]:
     if p.disc is None:
         yield from (((l, c), (2 * l, c), (2 * l, c + 1)) for l, c in CANDIDATES)
         return
-    most, count = counts(p.disc)[-1], counts(p.disc)[0]
+    most = counts(p.disc)[-1]
+    count = counts(p.disc)[0]
     while count < most:
         yield tuple(dict.fromkeys([(count,), (min(2 * count, most),), (most,)]))
         count += (count + 1) // 2

@@ -192,7 +192,8 @@ class Disc(Strict):
     @model_validator(mode="after")
     def _consistent(self) -> Self:
         """Check the rules between columns, and refuse modes that are given twice."""
-        count, faults = len(self.diameters), list[str]()
+        count = len(self.diameters)
+        faults = list[str]()
         if not 1 <= count <= MOST_MODES:
             faults.append(
                 Fault(("diameters",), f"{count} modes", f"must be 1 to {MOST_MODES} modes")
@@ -455,7 +456,8 @@ class Disc(Strict):
 
     def with_numbers(self, **changes: float) -> Disc:
         """The disc with some of its `numbers` changed."""
-        values, n = [*(self.numbers | changes).values()], len(self.omega)
+        values = [*(self.numbers | changes).values()]
+        n = len(self.omega)
         return self.replace(
             omega=values[:n], amplitude=values[n : 2 * n], damping_ratio=values[2 * n : 3 * n]
         )
@@ -610,29 +612,29 @@ class Parameters(Strict):
     def _consistent(self) -> Self:
         """Check the rules between parameters, what a disc excludes, and that the plate has one
         damping. A rule on a parameter that is absent, as in `SomeParameters`, does not count."""
-        values, fields = dict(self), type(self).model_fields
+        values = dict(self)
+        fields = type(self).model_fields
         if self.disc is not None and self.friction_offset == SURFACE and not self.disc.tangential:
             need = "must be a number for a disc whose table has no column tangential_per_sqrt_kg"
             raise_faults([Fault.of(("friction_offset",), SURFACE, need)])
-        unused, rule = (
-            [*PLATE, "damping_ratio"],
-            "where a disc is given: it is a parameter of the plate",
-        )
+        unused = [*PLATE, "damping_ratio"]
+        rule = "where a disc is given: it is a parameter of the plate"
         if self.disc is None:
-            unused, rule = (
-                ["D_star"] * (self.damping_ratio is not None),
-                "where damping_ratio is given",
-            )
+            unused = ["D_star"] * (self.damping_ratio is not None)
+            rule = "where damping_ratio is given"
         changed = [
             name for name in sorted(unused) if values[name] not in (fields[name].default, AUTO)
         ]
         faults = [Fault.of((name,), values[name], f"must be left out {rule}") for name in changed]
         # a disc that is given by its modes has other radii than the plate
         for low, sign, holds, high in _ORDER if self.disc is None else _ORDER[:1]:
-            lower, upper = values[low], values[high]
+            lower = values[low]
+            upper = values[high]
             if lower is not None and upper is not None and not holds(lower, upper):
                 faults.append(Fault.of((low,), lower, f"must be {sign} {high}={as_text(upper)}"))
-        E, h, nu = self.E, self.h, self.nu
+        E = self.E
+        h = self.h
+        nu = self.nu
         if E is not None and h is not None and nu is not None:
             rigidity = (
                 E * (h * h * h) / 12 / (1 - nu**2)

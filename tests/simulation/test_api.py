@@ -10,6 +10,7 @@ from disc_model import Execution, Parameters, Result, simulate
 from disc_model.engine import audit
 from disc_model.errors import NonFinite, ParameterError, StepLimit
 from disc_model.simulation import api
+from disc_model.simulation.request import checked_request
 from tests.simulation.equal import same
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -74,7 +75,19 @@ def test_the_tolerance_that_was_used_is_recorded():
 
 
 def test_each_balance_of_energy_has_its_own_terms():
-    run = api._Run(P, 0.01, 1e-10, None, {}, True, None, (), Execution(audit_every_step=True))
+    request = checked_request(
+        P,
+        t_end=0.01,
+        duration=None,
+        windows=None,
+        events=True,
+        tol=1e-10,
+        initial_state=None,
+        stop_at=None,
+        ramps=(),
+        execution=Execution(audit_every_step=True),
+    )
+    run = api._Run(request)
     sums = run.collector.buffers.audit
     sums[:] = 0.0
     sums[[audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER]] = -2.0, 3.0, 5.0

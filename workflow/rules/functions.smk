@@ -72,7 +72,9 @@ def figure_made_of(entry):
     inputs_made_of = grid_made_of if isinstance(figure.plot, Plot) else case_made_of
     of = [figure.plot.model_dump_json(), *map(inputs_made_of, figure.inputs.values())]
     part, _, name = figure.plot.kind.rpartition(".")
-    drawings = [f"{part}.figures.{name}"] if part else []  # found by its name, so not among the imports
+    drawings = (
+        [f"{part}.figures.{name}"] if part else []
+    )  # found by its name, so not among the imports
     return made_of("draw_figure", *drawings, of=of)
 
 

@@ -112,7 +112,8 @@ def load_tables(path: str | Path) -> tuple[str, Tables]:
 
 
 def _load_netcdf(file: Path) -> tuple[object, dict[str, dict[str, Any]]]:
-    tree, tables = read_tree(file, sealed=True), {}
+    tree = read_tree(file, sealed=True)
+    tables = {}
     for name, node in tree.children.items():
         group = node.to_dataset(inherit=False).variables
         # the time first, as in the windows of a run

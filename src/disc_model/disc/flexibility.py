@@ -186,7 +186,8 @@ def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> 
     )
     # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside, r and
     # s are exchanged, so that its powers are the last two
-    near, far = (inner / x) ** n / (8 * n), x**n / (8 * n)
+    near = (inner / x) ** n / (8 * n)
+    far = x**n / (8 * n)
     inside = [near * x**2 / (n - 1), -near * inner**2 / (n + 1)]
     outside = [far / (n - 1), -far * x**2 / (n + 1)]
     at_clamp = [inside[0] + inside[1], (inside[0] * n + inside[1] * (n + 2)) / n]
@@ -231,7 +232,9 @@ def _logarithmic(l: int, r: float) -> Array:
 
 def _with_edges(l: int, inner: float, x: float, nu: float) -> float:
     """Harmonic l = 0 or 1 at the load, where the particular solution is zero."""
-    clamped, free, particular = _logarithmic(l, inner), _logarithmic(l, 1.0), _particular(l, x)
+    clamped = _logarithmic(l, inner)
+    free = _logarithmic(l, 1.0)
+    particular = _particular(l, x)
     matrix = np.array([clamped[0], clamped[1], *_free(l, nu, free)])
     right = -np.array([0.0, 0.0, *_free(l, nu, particular)])
     return float(np.linalg.solve(matrix, right) @ _logarithmic(l, x)[0])

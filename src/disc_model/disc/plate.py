@@ -114,10 +114,8 @@ def tangential_amplitudes(p: Parameters) -> Array:
     0 in that plane."""
     if p.disc is not None and p.friction_offset == SURFACE:
         return np.array(p.disc.tangential)
-    modes, height = (
-        mode_arrays(p),
-        p.h / 2 if p.friction_offset == SURFACE else float(p.friction_offset),
-    )
+    modes = mode_arrays(p)
+    height = p.h / 2 if p.friction_offset == SURFACE else float(p.friction_offset)
     return -height / p.r_0 * modes.diameters * modes.psi
 
 
@@ -153,7 +151,8 @@ def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
     if not disc.radii:
         rule = "must have shapes, in columns such as shape_at_0.08_m: only amplitudes under the slider are known"
         raise ParameterError(Fault(("disc",), "", rule))
-    radii, shapes = np.array([r_0, *disc.radii]), np.column_stack([disc.amplitude, disc.shapes])
+    radii = np.array([r_0, *disc.radii])
+    shapes = np.column_stack([disc.amplitude, disc.shapes])
     _, first = np.unique(
         np.round(radii, 9), return_index=True
     )  # nm, by which two radii are the same
@@ -215,7 +214,8 @@ def _inverse_squares(
     from scipy import linalg  # takes 0.3 s, and most jobs do without
 
     modes = mode_arrays(p)
-    omega, psi = modes.omega[taking_part], modes.psi[taking_part]
+    omega = modes.omega[taking_part]
+    psi = modes.psi[taking_part]
     try:
         with np.errstate(all="ignore"):
             matrices = _coupling(omega, psi, p.m, p.k, compliance)
@@ -426,23 +426,28 @@ def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
 def _refine(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
     """Zeros of n functions in n brackets at once, to rounding: Chandrupatla's method (1997), shape
     (n,)."""
-    x_1, x_2 = low.copy(), high.copy()
-    f_1, f_2 = function(x_1), function(x_2)
+    x_1 = low.copy()
+    x_2 = high.copy()
+    f_1 = function(x_1)
+    f_2 = function(x_2)
     t = np.full_like(low, 0.5)
     for _ in range(100):
         x = x_1 + t * (x_2 - x_1)
         f = function(x)
         same = np.sign(f) == np.sign(f_1)
-        x_3, f_3 = np.where(same, x_1, x_2), np.where(same, f_1, f_2)
+        x_3 = np.where(same, x_1, x_2)
+        f_3 = np.where(same, f_1, f_2)
         x_2, f_2 = np.where(same, x_2, x_1), np.where(same, f_2, f_1)
-        x_1, f_1 = x, f
+        x_1 = x
+        f_1 = f
         best = np.where(np.abs(f_1) < np.abs(f_2), x_1, x_2)
         tolerance = 2e-16 * best
         width = np.abs(x_2 - x_1)
         if np.all((width <= 4 * tolerance) | (f_1 == 0) | (f_2 == 0)):
             break
         with np.errstate(divide="ignore", invalid="ignore"):
-            xi, phi = (x_1 - x_2) / (x_3 - x_2), (f_1 - f_2) / (f_3 - f_2)
+            xi = (x_1 - x_2) / (x_3 - x_2)
+            phi = (f_1 - f_2) / (f_3 - f_2)
             quadratic = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)
             alpha = (x_3 - x_1) / (x_2 - x_1)
             t = f_1 / (f_1 - f_2) * f_3 / (f_3 - f_2) - alpha * f_1 / (f_3 - f_1) * f_2 / (
@@ -460,7 +465,9 @@ def _determinant(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> A
     m, _ = _columns(l, lam, inner, nu)
     # Laplace expansion: minors of the clamped edge (rows 0, 1) times those of the free edge (rows
     # 2, 3).
-    i, j, partner = [0, 2, 0, 1, 0, 1], [1, 3, 2, 3, 3, 2], [1, 0, 3, 2, 5, 4]
+    i = [0, 2, 0, 1, 0, 1]
+    j = [1, 3, 2, 3, 3, 2]
+    partner = [1, 0, 3, 2, 5, 4]
     clamped = m[0, i] * m[1, j] - m[0, j] * m[1, i]
     free = m[2, i] * m[3, j] - m[2, j] * m[3, i]
     sign = np.array([1.0, 1.0, -1.0, -1.0, 1.0, 1.0])[:, None]

@@ -41,6 +41,8 @@ STEP = 1e-4
 """Step of central differences, relative to a parameter's scale."""
 TOLERANCE = 1e-10
 """Relative change of parameters, cost and gradient at which the search ends."""
+MARGIN = 0.01
+"""Distance of the first step from limits, relative to a parameter's scale."""
 SINGULAR = 1e-7
 """Least ratio of singular values of the Jacobian; below it, differences no longer tell parameters
 apart."""
@@ -325,7 +327,8 @@ class _Problem:
         for i, name in enumerate(self.names):
             step = np.zeros(len(values))
             step[i] = STEP * self.scale[i]
-            above, below = self.trial(values + step), self.trial(values - step)
+            above = self.trial(values + step)
+            below = self.trial(values - step)
             if np.isnan(above).any() and np.isnan(below).any():
                 rule = "cannot be varied here: the measured quantities are missing on both sides"
                 raise ParameterError(Fault.of(("vary", name), float(values[i]), rule))
@@ -407,7 +410,7 @@ def fit(
         warnings.simplefilter("ignore", ImplausibleValue)
         search = least_squares(
             deviations,
-            start / problem.scale,
+            _inside(problem, start, limits) / problem.scale,
             jac=slopes,
             bounds=ends / problem.scale,
             xtol=TOLERANCE,
@@ -417,12 +420,25 @@ def fit(
     return _result(problem, search, confidence)
 
 
+def _inside(problem: _Problem, start: Array, limits: Mapping[str, Interval]) -> Array:
+    """Return the start of the search, (n,), away from its limits: the first steps of the search are
+    as long as the way to a limit, and the effect of one that short may be lost in rounding."""
+    moved = start.copy()
+    for i, name in enumerate(problem.names):
+        if name in limits:
+            low, high = limits[name]
+            margin = min(MARGIN * problem.scale[i], 0.5 * (high - low))
+            moved[i] = min(max(start[i], low + margin), high - margin)
+    return moved
+
+
 def _result(problem: _Problem, search: Any, confidence: float) -> Fit:
     """Return the fit at the end of a search. Raises `ParameterError` if the Jacobian is
     singular."""
     from scipy.stats import norm
 
-    names, scale = problem.names, problem.scale
+    names = problem.names
+    scale = problem.scale
     _, sizes, directions = np.linalg.svd(search.jac, full_matrices=False)
     if sizes[-1] <= SINGULAR * sizes[0]:
         weak = [name for name, part in zip(names, directions[-1], strict=True) if abs(part) > 0.1]

@@ -148,7 +148,8 @@ def block_cycle(p: Parameters) -> Cycle:
         releases = events["time"][events["kind"] == "stick_to_slip"].to_numpy()
         stops = events["time"][events["kind"] == "slip_to_stick"].to_numpy()
         if len(releases) >= 3:
-            last, before = releases[-1] - releases[-2], releases[-2] - releases[-3]
+            last = releases[-1] - releases[-2]
+            before = releases[-2] - releases[-3]
             if abs(last - before) <= REPEATS * last:
                 stop = stops[stops > releases[-2]][0]
                 return Cycle(float(last), math.nan, float((releases[-1] - stop) / last), 1)
@@ -176,7 +177,8 @@ def _slip_time(prediction: Prediction) -> float:
 
 def _slip_length(prediction: Prediction) -> float:
     """The slider advances by r_0 Omega T in a period, and only while it slips."""
-    case, cycle = prediction.case, prediction.cycle
+    case = prediction.case
+    cycle = prediction.cycle
     return case.r_0 * case.Omega * cycle.period / cycle.releases
 
 

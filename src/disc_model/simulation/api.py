@@ -9,14 +9,11 @@ import math
 import os
 import time as clock
 from collections.abc import Callable, Mapping
-from contextlib import suppress
-from dataclasses import dataclass
-from functools import lru_cache, partial
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from pydantic import Field
 
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, loop, record, transitions
@@ -39,7 +36,6 @@ from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation import states
 from disc_model.simulation.case import (
     CaseSpec,
-    Poincare,
     Ramp,
     SampleTimes,
     Start,
@@ -50,10 +46,11 @@ from disc_model.simulation.case import (
     ramp_faults,
     resolved_windows,
 )
+from disc_model.simulation.request import Execution, Request, checked_request
 from disc_model.simulation.result import BIN_ROW, FOLDED, SAMPLE_ROW, Result
 from disc_model.simulation.states import Array, State
 from disc_model.sources import git_commit, source_hash, versions
-from disc_model.units import TOLERANCES, Count, Strict, content_key, in_si, limits_faults, number
+from disc_model.units import content_key, in_si
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -70,30 +67,6 @@ _EXITS = (  # in the order of `Status`
     transitions.NON_FINITE,
 )  # fmt: skip
 _STATUS = dict(zip(_EXITS, Status, strict=True))
-
-
-class Execution(Strict):
-    """How a run is carried out. No setting changes the motion, but a run ends early after
-    `max_steps`.
-
-    Attributes
-    ----------
-    audit_every_step : whether to audit both energy balances on every step instead of every 256th
-        (the run takes about ten times as long)
-    progress : function that is called repeatedly with the time reached
-    max_steps : largest number of steps; None sets a generous limit from the highest frequency
-
-    Examples
-    --------
-    >>> import disc_model as dm
-    >>> short = dm.simulate(dm.Parameters(N=385, Omega=15.1), 60, execution=dm.Execution(max_steps=100))
-    >>> short.status.value
-    'step_limit'
-    """
-
-    audit_every_step: bool = False
-    progress: Callable[[float], object] | None = None
-    max_steps: Annotated[Count, Field(ge=1)] | None = None
 
 
 _PLAIN = Execution()
@@ -149,94 +122,40 @@ def simulate(  # noqa: PLR0913
     >>> run["late"]["P"].sizes, run["late"]["P"].attrs["units"]
     (Frozen({'time': 2001}), 'N')
     """
-    ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    span = _span_of(t_end, duration, initial_state)
-    raise_faults(
-        [
-            *foreign_case(p),
-            *limits_faults("tol", tol, TOLERANCES),
-            *span.faults,
-            *_option_faults(events, initial_state, stop_at, execution),
-        ]
-    )
-    sampled = dict(resolved_windows({} if windows is None else windows, span.start, span.end))
-    sections = any(isinstance(window, Poincare) for window in sampled.values())
-    raise_faults([*ramp_faults(p, ramps, poincare=sections)])
-    run = partial(
-        _Run,
-        p=p,
-        t_end=span.end,
-        tol=float(tol),
+    request = checked_request(
+        p,
+        t_end=t_end,
+        duration=duration,
+        windows=windows,
+        events=events,
+        tol=tol,
         initial_state=initial_state,
         stop_at=stop_at,
         ramps=ramps,
         execution=execution,
     )
     if stop_at is not None and windows is not None:
-        sampled |= _windows_to_the_stop(windows, span.start, run)
-    return run(windows=sampled, events=events).complete()
+        request = _with_windows_to_the_stop(request, windows)
+    return _Run(request).complete()
 
 
-class _Span(NamedTuple):
-    """The times of a run, s, and what is wrong with them."""
-
-    start: float
-    end: float
-    faults: list[str]
-
-
-def _span_of(t_end: Any, duration: Any, initial_state: Any) -> _Span:
-    """The times of a run from an end or a duration, one of which must be given. They are plain
-    floats: others would make the engine compile again, and would round differently."""
-    if t_end is None and duration is None:
-        raise ParameterError(Fault(("t_end",), "", "is required, or duration instead of it"))
-    if t_end is not None and duration is not None:
-        rule = f"must be left out beside {duration=!s}"
-        raise ParameterError(Fault.of(("t_end",), t_end, rule))
-    name, value = ("t_end", t_end) if duration is None else ("duration", duration)
-    time = initial_state.time if isinstance(initial_state, State) else 0.0
-    start = float(time) if states.is_finite(time) else 0.0
-    end = math.nan
-    with suppress(ValueError):  # of what is no number
-        end = number(in_si(value, "s", [], ()))
-    if duration is not None:
-        end += start
-    rule = (
-        f"must be finite, in s or as '2 min', and > {as_text(start)}, the time of the initial state"
-    )
-    faults = violations(
-        (states.is_finite(time), "initial_state.time", time, "must be finite"),
-        (start < end < math.inf, name, value, rule),
-    )
-    return _Span(start, end, faults)
-
-
-def _option_faults(
-    events: object, initial_state: object, stop_at: object, execution: object
-) -> list[str]:
-    """Faults of the options of `simulate` by themselves."""
-    stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
-    starts = initial_state is None or isinstance(initial_state, State)
-    return violations(
-        (isinstance(events, bool), "events", events, "must be True or False"),
-        (starts, "initial_state", initial_state, "must be a State"),
-        (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
-        (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
-    )
-
-
-def _windows_to_the_stop(windows: Windows, start: float, run: Callable[..., _Run]) -> Windows:
-    """The windows that count back from the end of a run, with absolute times, if it stops before
-    its end: it is computed once more than else."""
+def _with_windows_to_the_stop(request: Request, windows: Windows) -> Request:
+    """Return the request with absolute times of the windows that count back from the end of a run
+    that may stop earlier. When it stops is found by a run that records nothing."""
     from_the_end = {
         name: window
         for name, window in windows.items()
         if isinstance(window, Window) and window.last is not None
     }
     if not from_the_end:
-        return {}
-    stopped = run(windows={}, events=False).complete().final_state.time
-    return resolved_windows(from_the_end, start, stopped) if stopped > start else {}
+        return request
+
+    unrecorded = dataclasses.replace(request, windows={}, events=False)
+    stopped = _Run(unrecorded).complete().final_state.time
+    if stopped <= request.start:
+        return request
+    resolved = resolved_windows(from_the_end, request.start, stopped)
+    return dataclasses.replace(request, windows={**request.windows, **resolved})
 
 
 def snapshots(
@@ -284,10 +203,10 @@ def snapshots(
     raise_faults(foreign_case(p) + wrong)
     raise_faults([*ramp_faults(p, ramps, poincare=False)])
     wanted: list[float] = [] if numbers is None else numbers.tolist()
-    state, reached = (
-        states.static_start(p) if initial_state is None else initial_state,
-        list[State](),
-    )
+    state = initial_state
+    if state is None:
+        state = states.static_start(p)
+    reached: list[State] = []
     rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
     require(*((time >= state.time, "times", time, rule) for time in wanted[:1]))
     for time in wanted:
@@ -301,73 +220,89 @@ def snapshots(
     return tuple(reached)
 
 
-@dataclass(eq=False)
 class _Run:
-    """One run: the checked arguments of `simulate`, the engine's arrays, and the buffers that
-    collect rows."""
+    """One run: its request, the engine's arrays, and the buffers that collect rows."""
 
-    p: Parameters
-    t_end: float
-    tol: float
-    initial_state: State | None
-    windows: Windows
-    events: bool
-    stop_at: str | None
-    ramps: tuple[Ramp, ...]
-    execution: Execution
+    def __init__(self, request: Request) -> None:
+        p = request.parameters
+        self.request = request
+        self.case = states.engine_case(p)
+        self.key = self.case.key
+        if request.ramps:
+            self.key = content_key(self.case.key + repr(request.ramps))
+        self.compliant = p.contact_compliance != 0
+        self.pieces = pieces(p, request.ramps)
+        self.wall_time = 0.0
 
-    def __post_init__(self) -> None:
-        self.case = case = states.engine_case(self.p)
-        self.key = content_key(case.key + repr(self.ramps)) if self.ramps else case.key
-        self.compliant = self.p.contact_compliance != 0
-        model, order, state = case.model, states.series_order(self.tol), self.initial_state
-        self.state, self.probe, self.series = states.take_workspace(case, order)
-        at_switch = state is not None and states.write_state(case, state, self.state, self.key)
-        most: float | None = self.execution.max_steps
-        start, every_step = self.time, self.execution.audit_every_step
-        self.pieces = pieces(self.p, self.ramps)
+        # the engine's arrays, at the initial state
+        initial = request.initial_state
+        order = states.series_order(request.tol)
+        self.state, self.probe, self.series = states.take_workspace(self.case, order)
+        at_switch = initial is not None and states.write_state(
+            self.case, initial, self.state, self.key
+        )
+        start = self.time
+
         # of the drive over its angle by this run's Omega and ramps alone, after another history
         self.lead = 0.0
-        if state is not None and state.drive_angle is not None:
-            self.lead = float(state.drive_angle) - angle_of_drive(self.pieces, start)
-        if (
-            most is None
-        ):  # twenty for each radian of the highest mode, far more than any of the published cases takes
-            most = 10_000 + 20 * (self.t_end - start) / model.unit
-        longest = LONGEST_STICK * model.unit
-        grids = {
-            name: window.grid(self.p, start, self.t_end) for name, window in self.windows.items()
-        }
-        # the engine knows the angle without the lead
-        grids = {name: grid._replace(theta=grid.theta - self.lead) for name, grid in grids.items()}
-        self.collector = Collector(grids, self.windows, self.events, self.t_end, longest)
-        self.wall_time = 0.0
-        self.limits = loop.Limits(
-            order,
-            states.series_tolerance(self.tol, self.compliant),
-            self.t_end,
-            self.stop_at is None,
-            int(min(most, MOST_STEPS)),
-            # pauses serve progress and Ctrl-C; there are fewer steps between them where a step
-            # costs more
-            max(1, STEPS_PER_PAUSE // (blocks_of(model) * (6 if every_step else 1))),
-            1
-            if every_step
-            else 256,  # a compliant contact takes about four times as many steps per second
-        )
+        if initial is not None and initial.drive_angle is not None:
+            self.lead = float(initial.drive_angle) - angle_of_drive(self.pieces, start)
+        self.collector = self._new_collector()
+        self.limits = self._first_limits(order)
+
         # in reverse order, so that the first piece is current at the end; compiling here keeps it
         # out of the wall time
         for index, piece in reversed(tuple(enumerate(self.pieces))):
-            if start < piece.end and piece.begin < self.t_end:
+            if start < piece.end and piece.begin < request.t_end:
                 self._enter(index)
         if at_switch:
             self._begin_at_switch()
 
+    def _new_collector(self) -> Collector:
+        """Return the buffers for the windows of the request, from the time of the state on."""
+        request = self.request
+        grids: dict[str, SampleTimes] = {}
+        for name, window in request.windows.items():
+            grid = window.grid(request.parameters, self.time, request.t_end)
+            # the engine knows the angle without the lead
+            grids[name] = grid._replace(theta=grid.theta - self.lead)
+        longest = LONGEST_STICK * self.case.model.unit
+        return Collector(grids, request.windows, request.events, request.t_end, longest)
+
+    def _first_limits(self, order: int) -> loop.Limits:
+        """Return the limits of the engine for series of an order, to the end of the run."""
+        request = self.request
+        model = self.case.model
+        execution = request.execution
+        most: float | None = execution.max_steps
+        if most is None:
+            # twenty for each radian of the highest mode, far more than any published case takes
+            most = 10_000 + 20 * (request.t_end - self.time) / model.unit
+
+        # pauses serve progress and Ctrl-C; there are fewer steps between them where a step costs
+        # more. A compliant contact takes about four times as many steps per second
+        step_cost = blocks_of(model)
+        audit_interval = 256
+        if execution.audit_every_step:
+            step_cost *= 6
+            audit_interval = 1
+        return loop.Limits(
+            order,
+            states.series_tolerance(request.tol, self.compliant),
+            request.t_end,
+            request.stop_at is None,
+            int(min(most, MOST_STEPS)),
+            max(1, STEPS_PER_PAUSE // step_cost),
+            audit_interval,
+        )
+
     def _enter(self, index: int) -> None:
         """Continue with another piece of the ramps."""
-        self.index, self.model, piece = index, self.case.model, self.pieces[index]
-        if self.ramps:
-            self.limits = self.limits._replace(t_end=min(self.t_end, piece.end))
+        piece = self.pieces[index]
+        self.index = index
+        self.model = self.case.model
+        if self.request.ramps:
+            self.limits = self.limits._replace(t_end=min(self.request.t_end, piece.end))
         if index > 0:  # the first piece has the Omega and N of the case
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
             self.model = on_ramp(self.model, piece.begin, piece.angle, **rates)
@@ -392,7 +327,7 @@ class _Run:
 
     def complete(self) -> Result:
         """Compute to the end, and tell the progress."""
-        tell = self.execution.progress or (lambda _: None)
+        tell = self.request.execution.progress or (lambda _: None)
         code = self.advance()
         while code == transitions.PAUSED:
             tell(self.time)
@@ -410,7 +345,7 @@ class _Run:
         code."""
         began = clock.perf_counter()
         code = self.engine(*self._arguments())
-        if code == transitions.TIME_OVER and self.limits.t_end < self.t_end:
+        if code == transitions.TIME_OVER and self.limits.t_end < self.request.t_end:
             self._enter(self.index + 1)
             code = transitions.PAUSED
         self.collector.drain()
@@ -423,6 +358,7 @@ class _Run:
     def result(self, status: Status) -> Result:
         """Assemble the result of the run, which ends here: other runs of the case may use its
         arrays."""
+        request = self.request
         phase = PHASES[motion.phase_of(self.state)]
         message = f"{status.value}: at t = {self.time:.9g} s in {phase}"
         if status is Status.PARADOX:
@@ -431,10 +367,10 @@ class _Run:
             message += f", psi = {scalars['psi']:.6g} rad, f = {scalars['f']:.6g} rad/s"
             message += f", slope B = {slope:.6g}"
         result = Result(
-            parameters=self.p,
-            t_end=self.t_end,
-            tol=min(self.tol, states.LOOSEST / states.LOCAL[self.compliant]),
-            windows=self.windows,
+            parameters=request.parameters,
+            t_end=request.t_end,
+            tol=min(request.tol, states.LOOSEST / states.LOCAL[self.compliant]),
+            windows=request.windows,
             status=status,
             message=message,
             event_rows=np.concatenate(self.collector.events),
@@ -446,8 +382,8 @@ class _Run:
             u_0=self.model.u_0,
             statistics=self._statistics(),
             samples={name: samples.arrays() for name, samples in self.collector.samples.items()},
-            ramps=self.ramps,
-            initial_state=self.initial_state,
+            ramps=request.ramps,
+            initial_state=request.initial_state,
         )
         self.case.idle[self.limits.order].append((self.state, self.probe, self.series))
         return result
@@ -458,12 +394,11 @@ class _Run:
             size = total[scale] + total[turnover] if every_step else math.nan
             return abs(total[residual]) / size if size else 0.0
 
-        buffers, every_step, coupled = (
-            self.collector.buffers,
-            self.execution.audit_every_step,
-            bool(self.model.has_couple),
-        )
-        count, total = buffers.counters.tolist(), buffers.audit.tolist()
+        buffers = self.collector.buffers
+        every_step = self.request.execution.audit_every_step
+        coupled = bool(self.model.has_couple)
+        count = buffers.counters.tolist()
+        total = buffers.audit.tolist()
         return {
             "steps": count[record.STEPS],
             "events": count[record.EVENTS],
@@ -515,7 +450,9 @@ class Collector:
     ) -> None:
         # the engine pauses between steps only, so one step's samples must fit above ``capacity``
         longest = longest_step + record.SAME_INSTANT * t_end
-        per_step, folds, rows = 0, dict[str, int](), dict[str, float]()
+        per_step = 0
+        folds: dict[str, int] = {}
+        rows: dict[str, float] = {}
         for name, grid in grids.items():
             per_step += 1 + math.ceil(min(longest / grid.interval, grid.number))
             folds[name] = getattr(windows[name], "envelope", None) or 1
@@ -526,7 +463,8 @@ class Collector:
             raise ParameterError(Fault(("windows", max(rows, key=rows.__getitem__)), "", rule))
         self.samples = {name: _Samples(grid.number, folds[name]) for name, grid in grids.items()}
         self.first_separation = math.nan  # s
-        self.keeps_events, self.events = events, list[Array]()
+        self.keeps_events = events
+        self.events: list[Array] = []
         capacity = BUFFER if grids else 0
         self.buffers = record.RunBuffers(
             np.zeros(record.N_COUNTERS, np.int64),
@@ -560,7 +498,8 @@ class _Samples:
     def __init__(self, count: int, fold: int) -> None:
         names = SAMPLE_ROW if fold == 1 else BIN_ROW
         self.columns = {name: np.empty(count // fold) for name in names}
-        self.fold, self.filled = fold, 0
+        self.fold = fold
+        self.filled = 0
         self.rest = np.empty((0, len(record.SAMPLE_ROW)))  # rows of the bin that is not full
 
     def add(self, rows: Array) -> None:
@@ -608,7 +547,8 @@ def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:
         sizes = [
             (name, getattr(other, name), getattr(p, name)) for name in ("n_diameters", "n_circles")
         ]
-        path, rule = "start.prerun.parameters.", "must be that of the case, "
+        path = "start.prerun.parameters."
+        rule = "must be that of the case, "
         require(
             *(
                 (count == needed, path + name, count, f"{rule}{needed}")
@@ -644,7 +584,8 @@ def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
 
     needed = "must be `disc_model.mode_choice.choose_when_run`, as the case leaves its modes to be chosen"
     require((callable(choose) or not spec.modes, "choose", choose, needed))
-    p, truncation = spec.parameters, ""  # how the number of modes was chosen, as JSON, if it was
+    p = spec.parameters
+    truncation = ""  # how the number of modes was chosen, as JSON, if it was
     try:
         if spec.modes:
             p, truncation = choose(p, spec.modes)
@@ -666,7 +607,9 @@ def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
             result.statistics,
         )
         tree = result.to_tree()
-        events, within, span = tree["events"].to_dataset(), slice(0), {}
+        events = tree["events"].to_dataset()
+        within = slice(0)
+        span: dict[str, float] = {}
         if spec.events is not None:
             within = slice(*events["time"].values.searchsorted(spec.events))
             span = dict(zip(("kept_from", "kept_until"), spec.events, strict=True))

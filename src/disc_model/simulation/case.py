@@ -48,7 +48,8 @@ class Interval(Strict):
     @model_validator(mode="after")
     def _ordered(self) -> Self:
         values = dict(self)
-        start, end = values["start"], "end" if "end" in values else "stop"
+        start = values["start"]
+        end = "end" if "end" in values else "stop"
         require((start < values[end], "start", start, f"must be < {end}={as_text(values[end])}"))
         return self
 

@@ -243,7 +243,9 @@ class Pictures:
     @property
     def _last_cycles(self: Any) -> float:
         """Length of the last cycles, s: from a release of stick on."""
-        kinds, end, lengths = self.events["kind"], float(self.final_state.time), [self._span]
+        kinds = self.events["kind"]
+        end = float(self.final_state.time)
+        lengths = [self._span]
         for kind, number in ("stick_to_slip", CYCLES), ("separation", 4 * CYCLES):
             times = self.events["time"][kinds == kind].to_numpy()
             length = end - float(times[-1 - number]) if len(times) > number else 0.1
@@ -255,8 +257,10 @@ class Pictures:
         simulated once more."""
         if not names:
             return self.to_tree()
-        end, span = float(self.final_state.time), self._span
-        rate, late = max(RATE, BINS / span), min(8.0, span / 2)
+        end = float(self.final_state.time)
+        span = self._span
+        rate = max(RATE, BINS / span)
+        late = min(8.0, span / 2)
         omega = import_module("disc_model.disc.plate").mode_arrays(self.parameters).omega
         highest = float(omega.max(initial=0.0)) / math.tau
         windows = {

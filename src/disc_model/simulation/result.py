@@ -250,7 +250,8 @@ class Result(Summarised, Pictures):
             raise unreadable(path, error) from None
 
     def __repr__(self) -> str:
-        p, first = self.parameters, self.first_separation
+        p = self.parameters
+        first = self.first_separation
         lost = "no separation" if math.isnan(first) else f"first separation at {first:.6f} s"
         windows = counted(len(self.samples), "window")
         ended = f"{self.status.value} at {self.final_state.time:.9g} s"
@@ -259,7 +260,8 @@ class Result(Summarised, Pictures):
         return f"Result(N={p.N:g} N, Omega={p.Omega:g} rad/s{ramped}: {ended}, {lost}, {events} events, {windows})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
-        s, reached = self.statistics, float(self.final_state.time)
+        s = self.statistics
+        reached = float(self.final_state.time)
         yield "case", values_text(dict(self.parameters))
         yield "status", self.message or self.status.value
         yield "advice", "" if self.status.complete else self.status.advice

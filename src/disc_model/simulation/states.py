@@ -252,9 +252,11 @@ def perturb(
     modes = mode_arrays(p)
     give = modes.psi / modes.omega**2
     speed = state.f + f
-    phase, direction = state.phase, state.direction
+    phase = state.phase
+    direction = state.direction
     if f and phase != "separation":
-        phase, direction = ("slip" if speed else "stick"), int(np.sign(speed))
+        phase = "slip" if speed else "stick"
+        direction = int(np.sign(speed))
     return state.replace(
         a=state.a + u * give / (modes.psi @ give),
         alpha=state.alpha + u_velocity * modes.psi / (modes.psi @ modes.psi),
@@ -270,11 +272,13 @@ def transfer_state(p: Parameters, state: State) -> State:
     """A state of another case at time 0 of case `p`, with the same modal coordinates and distance
     of slider and disc, which is zero in rigid contact. A state with another number of modes is
     passed on, and `simulate` refuses it."""
-    psi, amplitudes = mode_arrays(p).psi, state.mode_amplitudes
+    psi = mode_arrays(p).psi
+    amplitudes = state.mode_amplitudes
     if len(psi) != len(state.a):
         return state.replace(time=0.0)
     more = np.zeros_like(psi) if amplitudes is None else psi - amplitudes
-    u, slope = state.u + float(more @ state.a), float(more @ (mode_arrays(p).diameters * state.b))
+    u = state.u + float(more @ state.a)
+    slope = float(more @ (mode_arrays(p).diameters * state.b))
     if state.phase != "separation" and p.contact_compliance == 0:
         u = float(psi @ state.a)
     velocity = state.u_velocity + float(more @ state.alpha) + state.f * slope
@@ -409,7 +413,8 @@ def engine_case(p: Parameters) -> EngineCase:
     )
     pairs = np.flatnonzero(modes.diameters > 0)
     places = motion.mode_places(modes.diameters)
-    present, start = np.flatnonzero(places >= 0), build_state(model)
+    present = np.flatnonzero(places >= 0)
+    start = build_state(model)
     point = np.zeros((3, len(start.disc)))
     point[0, places[0]] = point[1, places[2]] = modes.psi
     point[2, places[1, pairs]] = (modes.diameters * modes.psi)[pairs]
@@ -516,7 +521,8 @@ def _forget_switch(case: EngineCase, state: EngineState) -> bool:
 
 def _check(state: State, case: EngineCase) -> None:
     """Raise `ParameterError` if a state cannot be the initial one of a case."""
-    n_modes, path = len(case.amplitudes), "initial_state."
+    n_modes = len(case.amplitudes)
+    path = "initial_state."
     rule = f"must be {n_modes} finite numbers, one per row of plate_modes"
     known = isinstance(state.phase, str) and state.phase in PHASES
     signed = is_number(state.direction) and (state.direction in (-1, 1) or state.phase != "slip")
@@ -558,7 +564,8 @@ def angle_rule(drive_angle: object, path: str) -> tuple[bool, str, object, str]:
 def amplitude_rule(state: State, amplitudes: Array, path: str) -> tuple[bool, str, object, str]:
     """The rule, for `require`, that a state's `mode_amplitudes` are those of a case, shape
     (n_modes,)."""
-    stated, same = state.mode_amplitudes, True
+    stated = state.mode_amplitudes
+    same = True
     if stated is not None and stated is not amplitudes:
         # modes from two processors differ by at most 1e-13 (measured)
         within = 1e-9 * np.max(np.abs(amplitudes), initial=0.0)

@@ -227,7 +227,8 @@ def _of_triples(places: Array, r_0: float, frame: Frame) -> Iterator[Frame]:
     plane = frame.plane(places)
     drawn = np.random.default_rng(0).integers(len(plane), size=(TRIPLES, 3))
     a, b, c = (plane[drawn[:, i]] for i in range(3))
-    u, v = b - a, c - a
+    u = b - a
+    v = c - a
     area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
         lengths = np.stack([np.sum(u * u, axis=1), np.sum(v * v, axis=1)])

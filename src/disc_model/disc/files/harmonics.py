@@ -74,7 +74,8 @@ def find_wave(motion: Motion, circle: Circle, places: Array) -> tuple[Wave | Non
     """Find the nodal diameters of a mode; the wave, or None and the reason to leave it out."""
     known = np.isfinite(motion.components[:, 2])
     chosen = circle.members & known
-    in_plane, normal = motion.components[chosen, :2], motion.components[chosen, 2]
+    in_plane = motion.components[chosen, :2]
+    normal = motion.components[chosen, 2]
     if np.any(chosen != circle.members):
         part = circle.of_nodes(chosen, places)
         if part is None or not part.covers:
@@ -166,7 +167,8 @@ def _shape(
     if math.isfinite(circle.height):
         at_height &= np.abs(circle.frame.heights(places) - circle.height) < same
     wave = np.cos(l * circle.frame.angles(places) - turn)
-    found, values = [], []
+    found = []
+    values = []
     order = np.unique(np.round(radii[at_height], 6))
     for radius in order[np.diff(order, prepend=-1.0) > same]:
         ring = at_height & (np.abs(radii - radius) < same)

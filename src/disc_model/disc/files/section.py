@@ -193,7 +193,8 @@ def _points(basis: Any, slider: tuple[float, float]) -> Points:
 def _is_below(mesh: Any, slider: tuple[float, float]) -> bool:
     """Whether all elements at the slider are above it, so that it runs on the lower face."""
     corners = mesh.p[:, mesh.t]  # (r and z, corner, element)
-    low, high = corners.min(axis=1), corners.max(axis=1)
+    low = corners.min(axis=1)
+    high = corners.max(axis=1)
     touching = np.all(
         (low <= np.reshape(slider, (2, 1)) + SAME_PLACE)
         & (high >= np.reshape(slider, (2, 1)) - SAME_PLACE),

@@ -217,7 +217,8 @@ def _single_halves(groups: Sequence[Sequence[Wave]]) -> list[str]:
     """Doubts about pairs whose halves are too far apart, so that each half became a mode."""
     doubts = []
     for first, second in itertools.combinations(groups, 2):
-        low, high = first[0], second[0]
+        low = first[0]
+        high = second[0]
         apart = abs(high.omega - low.omega) / max(high.omega, low.omega)
         single = low.diameters > 0 and is_one_half(first) and is_one_half(second)
         if low.diameters != high.diameters or not single or apart > TOLD_APART:

@@ -223,7 +223,8 @@ def directions(nodes: Nodes, systems: dict[int, System], places: Array) -> Array
         if system.kind == CYLINDRICAL:
             local = (places[chosen] - system.origin) @ system.axes.T
             angle = np.arctan2(local[:, 1], local[:, 0])
-            cosine, sine = np.cos(angle)[:, None], np.sin(angle)[:, None]
+            cosine = np.cos(angle)[:, None]
+            sine = np.sin(angle)[:, None]
             x, y, z = system.axes
             rows[chosen] = np.stack(
                 [cosine * x + sine * y, cosine * y - sine * x, np.broadcast_to(z, (len(angle), 3))],

@@ -250,7 +250,8 @@ def _mode(data: DataSet, head: Header) -> FileMode:
         if not abs(ratio) < 1:
             raise data.fault(f"must have a damping ratio below 1, and not {ratio:g}")
         pole = math.tau * frequency * complex(-ratio, math.sqrt(1 - ratio**2))
-        scale, modal_b = complex(mass), 0j
+        scale = complex(mass)
+        modal_b = 0j
     else:
         pole = complex(values[0], values[1])
         scale = complex(values[2], values[3])

@@ -104,7 +104,8 @@ def _end_mark(text: str, start: int) -> re.Match[str] | None:
     """The mark at the end of the dataset that begins at `start`; None if there is none. Data in
     bytes, which may look like anything, are passed over by their number."""
     if binary := _BINARY.match(text, start):
-        lines, count = int(binary[1]), int(binary[2])
+        lines = int(binary[1])
+        count = int(binary[2])
         end = binary.end()
         for _ in range(lines):
             end = text.find("\n", end) + 1
