@@ -270,7 +270,9 @@ class Basins:
             was_steady = motion.steady
             motion.steady = self._is_steady(motion.segments)
             over = state.time >= self.horizon
-            attractor = self._approached(motion, state) if self.near else None
+            attractor = None
+            if self.near:
+                attractor = self._approached(motion, state)
             becomes_steady = motion.steady and not was_steady
             if attractor is None and (over or (self.near and becomes_steady)):
                 attractor = self._settled_on(motion, over)
@@ -383,7 +385,8 @@ class Basins:
         is_proven = attractor.kind is not Outcome.UNDECIDED
         has_settled = over and reached.settled
         if same is not None:
-            return same if is_proven or has_settled or motion.steady else None
+            is_on_it = is_proven or has_settled or motion.steady
+            return same if is_on_it else None
         if not (is_proven or has_settled):
             return None
 

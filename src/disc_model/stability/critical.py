@@ -156,7 +156,9 @@ def critical(
     for value in values:
         p.replace(**{name: value})  # must be a case, which is found before any work is done
 
-    shortest = SHORTEST * (high - low) if precision is None else float(precision)
+    shortest = SHORTEST * (high - low)
+    if precision is not None:
+        shortest = float(precision)
     scan = _Scan(p, name, float(tol))
     for value in values:
         scan.is_stable(value)

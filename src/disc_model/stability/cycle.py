@@ -222,7 +222,9 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
     p = map_.parameters
     tol = map_.tol
     start = map_.first_release
-    x = start.x if start.reached else map_.static
+    x = map_.static
+    if start.reached:
+        x = start.x
     solution = newton(map_, x)
     if solution is not None:
         return cycle_of(map_, solution)

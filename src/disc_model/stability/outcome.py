@@ -155,9 +155,10 @@ def find_outcome(
     elif p.n_diameters >= 0 and may_stick_and_slip(p):
         map_ = ReturnMap(p)
     if early and start is None and map_ is not None:
-        known = cycle_of_static_start(p) if near is None else near
-        if isinstance(known, NearCycle):
-            start_cycle = known
+        if near is None:
+            near = cycle_of_static_start(p)
+        if isinstance(near, NearCycle):
+            start_cycle = near
     options = SearchOptions(horizon, tol, start, early, late)
     return _OutcomeSearch(p, options, map_, start_cycle).run()
 
@@ -271,7 +272,9 @@ class _OutcomeSearch:
 
         # rest, or stable steady sliding
         examined = self.options.early or result.time >= self.options.horizon
-        equilibrium = find_equilibrium(self.p, leg) if examined else None
+        equilibrium = None
+        if examined:
+            equilibrium = find_equilibrium(self.p, leg)
         if equilibrium is not None:
             result.outcome = equilibrium
             result.near = None
@@ -300,7 +303,9 @@ class _OutcomeSearch:
         result = self.result
         horizon = self.options.horizon
         late = self.options.late
-        mark = horizon - late if result.time < horizon - late else horizon
+        mark = horizon
+        if result.time < horizon - late:
+            mark = horizon - late
         stop = min(result.time + self.leg, mark)
         self.leg = min(2 * self.leg, thresholds.LONGEST_LEG)
         windows = {}
@@ -394,7 +399,9 @@ def final_segment(
 ) -> tuple[Result, Segment | None]:
     """Simulate from a state (None: the static start) for a duration (s); its last segment, if it is
     complete."""
-    begin = 0.0 if state is None else state.time
+    begin = 0.0
+    if state is not None:
+        begin = state.time
     stop = begin + duration
     if stop - late > begin:
         result = simulate(p, stop - late, tol=tol, initial_state=state, events=False)

@@ -273,8 +273,12 @@ def continue_border(
     except Rejected as lost:
         raise ParameterError(str(lost)) from None
     slopes = first.tangent[problem.cycles.n :]
-    leading_slope = slopes[0] if abs(slopes[0]) > 1e-12 else slopes[1]
-    onward = first if leading_slope >= 0 else first.reversed()
+    leading_slope = slopes[0]
+    if abs(slopes[0]) <= 1e-12:
+        leading_slope = slopes[1]
+    onward = first
+    if leading_slope < 0:
+        onward = first.reversed()
 
     points, end = _one_way(problem, onward.reversed(), bounds)
     if end.kind != ends.CLOSED:

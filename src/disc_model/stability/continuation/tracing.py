@@ -63,7 +63,9 @@ class BranchTracer:
         """The points of a step of arclength ds beyond the last of some, resonances within it
         included; raises `Rejected` if a shorter step is needed."""
         current = points[-1]
-        former = points[-2] if len(points) > 1 else None
+        former = None
+        if len(points) > 1:
+            former = points[-2]
         guess = predict(former, current, ds)
         row = _plane(current.tangent)
         value = float(guess.z[-1])
