@@ -60,12 +60,12 @@ def test_multipliers_agree_with_central_differences_of_the_return_map(p):
     expected = central_differences(map_, x)
     mine = result.multipliers
     reference = np.linalg.eigvals(expected)
-    distance = np.min(np.abs(mine[:, None] - reference[None, :]), axis=1)
-    assert np.max(distance) < 1e-6
-    assert np.max(np.abs(expected - map_.evaluate(x).jacobian)) < 1e-7
-    assert result.growth_rate == pytest.approx(
-        math.log(np.max(np.abs(reference))) / result.period, abs=1e-4
-    )
+    apart = np.abs(mine[:, None] - reference[None, :])
+    assert apart.min(axis=1).max() < 1e-6
+    jacobian = map_.evaluate(x).jacobian
+    assert np.max(np.abs(expected - jacobian)) < 1e-7
+    rate = math.log(np.max(np.abs(reference))) / result.period
+    assert result.growth_rate == pytest.approx(rate, abs=1e-4)
 
 
 def test_the_cycle_is_found_again_from_a_simulation():
@@ -110,10 +110,9 @@ def test_a_cycle_that_is_run_through_twice_is_told_from_one_of_double_period():
     simple = Logistic(r)
     double = (r + 1 + math.sqrt((r - 3) * (r + 1))) / (2 * r)
     for x, releases in ((1 - 1 / r + 1e-12, 1), (double, 2)):
-        assert (
-            run_through_once(simple, simple.evaluate(np.array([x]), releases=2)).counts.releases
-            == releases
-        )
+        orbit = simple.evaluate(np.array([x]), releases=2)
+        once = run_through_once(simple, orbit)
+        assert once.counts.releases == releases
 
 
 def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
