@@ -17,6 +17,7 @@ WHAT = {
     "benchmarks": "speed against accuracy, other integrators included",
     "paper": "what the paper says, checked against datasets",
     "explorer": "one page to look at datasets, motions, figures",
+    "attached": "methods of discs and results that need the rooms below",
     "studies": "YAML to jobs, jobs to results, results to one dataset",
     "fitting": "parameters of a case from measurements",
     "mode_choice": "number of modes for a quantity of the motion",
@@ -27,10 +28,12 @@ WHAT = {
     "data": "variables, datasets, files, provenance",
     "disc": "modes by theory, tables or finite elements; flexibility",
     "parameters": "one case of disc and slider",
+    "modal_disc": "a disc by its modes, instead of the plate",
     "units": "kinds of numbers, units, strict bases",
     "engine": "equations, series, roots, events: numbers and arrays only",
     "errors": "statuses, exceptions and their messages",
     "display": "tables and pictures in notebooks, progress",
+    "attachable": "the bases that have these methods",
     "sources": "files on which a result depends",
 }
 """A few words for each part of a layer."""

@@ -14,6 +14,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+import disc_model.attached
+
 __version__ = "0.3.0"
 
 _NAMES = {

@@ -6,7 +6,10 @@ import math
 from collections.abc import Iterable, Mapping
 from html import escape
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from disc_model.attached.drawing import draw  # which `disc_model.attached` puts here
 
 
 def html_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
@@ -48,13 +51,6 @@ def brought(module: str, extra: str) -> Any:
         raise ModuleNotFoundError(
             f"there is no module {module}: pip install 'disc_model[{extra}]'"
         ) from None
-
-
-def draw(picture: str, *inputs: Any, **options: Any) -> Any:
-    """Draw by a function of `disc_model.figures.results`, imported by its name, so that no result
-    depends on it."""
-    brought("matplotlib", "plot")
-    return getattr(import_module("disc_model.figures.results"), picture)(*inputs, **options)
 
 
 class Drawn:

@@ -13,8 +13,8 @@ import xarray as xr
 from disc_model import Disc, Parameters, Poincare, Window
 from disc_model.data.dataset import WriteError, load, save
 from disc_model.data.variables import STATUSES, flag_names
-from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
+from disc_model.simulation.named_case import run_case
 from disc_model.studies.merge import merge_cases
 
 P = Parameters(N=385, Omega=15.1)

@@ -26,11 +26,11 @@ OPTIONS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 RETURNED = [
     "mode_choice.ModeChoice",
-    "simulation.pictures.Pictures",
+    "attached.run_pictures",
     "stability.continuation.Branch",
     "display.Drawn",
 ]
-"""Classes of what functions return, whose methods draw, and those that others have them from."""
+"""Classes of what functions return, whose methods draw, and where others have such methods from."""
 
 
 def page_name(page: Path) -> str:
@@ -86,7 +86,7 @@ def test_study_files_on_pages_are_right(text: str, tmp_path: Path) -> None:
 # ---- Docstrings
 
 
-@pytest.mark.parametrize("name", [*disc_model.__all__, *RETURNED])
+@pytest.mark.parametrize("name", [*disc_model.__all__, *RETURNED, "attached.disc_files"])
 def test_examples_of_docstrings_print_what_they_say(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

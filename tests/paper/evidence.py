@@ -19,7 +19,7 @@ from disc_model.data.dataset import series_dataset
 from disc_model.data.variables import EVENT_KINDS, PHASES
 from disc_model.paper.measures import CaseView
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import run_case
+from disc_model.simulation.named_case import run_case
 from disc_model.studies.study import load_study
 
 ROOT = Path(__file__).parents[2]

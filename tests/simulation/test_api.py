@@ -9,8 +9,8 @@ import pytest
 from disc_model import Execution, Parameters, Result, simulate
 from disc_model.engine import audit
 from disc_model.errors import NonFinite, ParameterError, StepLimit
-from disc_model.simulation import api
 from disc_model.simulation.request import checked_request
+from disc_model.simulation.run import Run
 from tests.simulation.equal import same
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -87,7 +87,7 @@ def test_each_balance_of_energy_has_its_own_terms():
         ramps=(),
         execution=Execution(audit_every_step=True),
     )
-    run = api._Run(request)
+    run = Run(request)
     sums = run.collector.buffers.audit
     sums[:] = 0.0
     sums[[audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER]] = -2.0, 3.0, 5.0

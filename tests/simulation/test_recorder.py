@@ -42,7 +42,7 @@ def test_pauses_change_nothing(
 ) -> None:
     undisturbed = simulate(P, 55.6, initial_state=separating, **options)
     monkeypatch.setattr(
-        importlib.import_module("disc_model.simulation.api"), "STEPS_PER_PAUSE", 120
+        importlib.import_module("disc_model.simulation.run"), "STEPS_PER_PAUSE", 120
     )
     same(simulate(P, 55.6, initial_state=separating, **options), undisturbed)
 

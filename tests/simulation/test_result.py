@@ -14,6 +14,7 @@ import pytest
 from disc_model import ParameterError, Parameters, Poincare, Ramp, Result, State, Window, simulate
 from disc_model.data.dataset import MissingFile, UnreadableFile
 from disc_model.data.tables import load_tables, save_tables
+from disc_model.simulation.shown import simulated_again
 from tests.simulation.equal import same
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
@@ -132,11 +133,11 @@ def test_a_run_that_overflowed_is_saved_but_its_last_state_is_not(tmp_path: Path
 def test_pictures_of_a_run_begin_where_it_begins() -> None:
     run = simulate(P, duration=0.02, initial_state=simulate(P, 0.05).final_state)
     for name in ("run", "late"):
-        time = run._case(name)[name]["time"].values
+        time = simulated_again(run, name)[name]["time"].values
         assert 0.05 <= time[0] <= time[-1] <= 0.07
-    whole = run._case("run")["run"]["time"].values
+    whole = simulated_again(run, "run")["run"]["time"].values
     assert np.ptp(whole) == pytest.approx(0.02, rel=0.01)
-    half = run._case("late")["late"]["time"].values
+    half = simulated_again(run, "late")["late"]["time"].values
     assert half[[0, -1]] == pytest.approx([0.06, 0.07], abs=1e-3)
 
 

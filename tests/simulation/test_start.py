@@ -15,8 +15,9 @@ from disc_model.data.variables import PHASES, flag_names
 from disc_model.disc.plate import mode_arrays
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import make_initial_state, simulate
+from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Start
+from disc_model.simulation.starts import make_initial_state
 from disc_model.simulation.states import State, perturb, static_start, transfer_state
 from tests.contact_laws import LAWS
 from tests.studies.conftest import computed

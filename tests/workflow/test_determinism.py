@@ -31,7 +31,7 @@ import sys
 from disc_model import Parameters, Poincare, Window, simulate
 from disc_model.benchmarks.scenes import problem
 from disc_model.data.dataset import save
-from disc_model.simulation.api import run_case
+from disc_model.simulation.named_case import run_case
 from disc_model.simulation.case import CaseSpec
 
 windows = (("history", Window(start=0, stop=1, rate=1000)),)

@@ -6,8 +6,8 @@ from pathlib import Path
 from disc_model.data.dataset import save
 from disc_model.errors import script
 from disc_model.mode_choice import choose_when_run
-from disc_model.simulation.api import run_case
 from disc_model.simulation.case import CaseSpec
+from disc_model.simulation.named_case import run_case
 
 
 @script

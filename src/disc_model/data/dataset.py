@@ -61,7 +61,7 @@ def scalars_dataset(
         if name in CHOICES:
             value = np.int8(CHOICES[name].index(value))
         data[name] = ((), value, attributes(name))
-    attrs = {"Conventions": CONVENTIONS, "parameters": p.json_in_words, "parameters_key": p.key}
+    attrs = {"Conventions": CONVENTIONS, "parameters": p.canonical_json, "parameters_key": p.key}
     return xr.Dataset(data, attrs=attrs | {"status": status, "message": message})
 
 

@@ -43,7 +43,7 @@ def unreadable(path: str | Path, reason: object) -> UnreadableFile:
 # ---- Names and writing
 
 
-def regular_file(path: str | Path) -> Path:
+def regular_file(path: str | os.PathLike[str]) -> Path:
     """A path that leads to a file or to nothing; raises `ParameterError` otherwise."""
     rule = "must be the name of a file"
     possible = isinstance(path, str | os.PathLike) and "\0" not in str(path)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from disc_model import errors
+from disc_model.attachable import RunPictures
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, values_text
 from disc_model.display import Summarised, counted, number_text
 from disc_model.engine import record
@@ -21,7 +22,6 @@ from disc_model.engine.record import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status, require, suggestion
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, line
-from disc_model.simulation.pictures import Pictures
 from disc_model.simulation.states import Array, State, StateValues, is_finite_array, stored_state
 from disc_model.units import Count, Finite, Real, Strict, in_si
 
@@ -47,7 +47,7 @@ _PLAIN = ("t_end", "tol", "status", "message", "first_separation", "u_0")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Result(Summarised, Pictures):
+class Result(Summarised, RunPictures):
     """A finished simulation, or the part of it that could be computed; see `status`.
 
     Attributes

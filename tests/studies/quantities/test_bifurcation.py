@@ -7,8 +7,9 @@ import pytest
 
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import make_initial_state, simulate
+from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Start
+from disc_model.simulation.starts import make_initial_state
 from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.quantity import Point
 from tests.stability.test_attractor import SMALL

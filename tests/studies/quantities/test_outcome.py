@@ -23,7 +23,7 @@ def outcomes(cases: list[Parameters], **options: float) -> tuple[dict[str, np.nd
 
 def test_steps_that_run_out_are_a_status(monkeypatch: pytest.MonkeyPatch) -> None:
     # the package shows the function under the module's name
-    monkeypatch.setattr(sys.modules["disc_model.simulation.api"], "MOST_STEPS", 100)
+    monkeypatch.setattr(sys.modules["disc_model.simulation.run"], "MOST_STEPS", 100)
     arrays, words = outcomes([Parameters(N=300, Omega=20)], horizon=20)
     assert words == ["failed"]
     assert STATUSES[arrays["status"][0]] == "step_limit"

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from disc_model.disc.files.universal_sets import DataSet, integers, numbers_in, reals
 from disc_model.errors import require
-from disc_model.parameters import FREQUENCIES
+from disc_model.modal_disc import FREQUENCIES
 
 NORMAL_MODE = 2
 COMPLEX_MODE = 3  # of equations of the first order

@@ -1,0 +1,212 @@
+"""Methods of a `disc_model.Result` that draw.
+
+Where no window is named, the run is simulated once more, with the samples that the picture needs,
+which takes as long as the run itself. All return matplotlib axes, in a new figure or those given as
+`ax`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from disc_model.attached.drawing import drawings
+
+if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+    from disc_model.simulation.result import Result
+
+
+def plot(
+    self: Result,
+    windows: str | Sequence[str] | None = None,
+    *,
+    variables: Sequence[str] = ("P", "w", "psi_velocity"),
+    ax: Axes | Sequence[Axes] | None = None,
+    legend: bool | Mapping[str, Any] = True,
+    labels: Mapping[str, str] | None = None,
+    title: str | None = None,
+) -> Axes | NDArray[Any]:
+    """Draw variables against time: the range in the whole run, and its last cycles over stick
+    and separation.
+
+    Parameters
+    ----------
+    windows : names of recorded windows, to draw these instead, a column each
+    variables : of P, u, w, w_point, psi, psi_velocity; a window without an envelope has u_velocity and
+        w_point_velocity too
+    ax : axes to draw on, one for each variable and column; settings of matplotlib (rcParams)
+        hold there, and in a new figure those that are not the usual ones
+    legend : False for none, or options of `Axes.legend`, such as ``{"loc": "upper left"}``
+    labels : other words for labels of axes, by "x" and "y", and for entries of the legend, by
+        the usual ones
+    title : another title; "" for none
+
+    Returns
+    -------
+    Axes, or array of Axes
+        Of shape (variables, columns) if there are several.
+
+    Raises
+    ------
+    ParameterError
+        If a window was not recorded, lacks a variable, or `ax` does not fit.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot().shape
+    (3, 2)
+    """
+    from disc_model.simulation.shown import shown_windows
+
+    pictures = drawings()
+    case, names = shown_windows(self, windows)
+    return pictures.plot_run(
+        case, names, variables, ax=ax, legend=legend, labels=labels, title=title
+    )
+
+
+def plot_phase_portrait(
+    self: Result,
+    window: str | None = None,
+    *,
+    x: str = "psi",
+    y: str = "psi_velocity",
+    ax: Axes | None = None,
+    legend: bool | Mapping[str, Any] = True,
+    labels: Mapping[str, str] | None = None,
+    title: str | None = None,
+) -> Axes:
+    """Draw one variable over another, coloured by phase; of the last cycles if no window is
+    named.
+
+    `ax`, `legend`, `labels` and `title` are as in `plot`. Returns the axes. Raises
+    `ParameterError` as `plot`, and for a window that holds ranges instead of samples.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot_phase_portrait().get_xlabel()
+    'Angle ψ (rad)'
+    """
+    from disc_model.simulation.shown import shown_window
+
+    pictures = drawings()
+    case, name = shown_window(self, window, "end")
+    return pictures.plot_phase_portrait(
+        case, name, x, y, ax=ax, legend=legend, labels=labels, title=title
+    )
+
+
+def plot_spectrum(
+    self: Result,
+    window: str | None = None,
+    *,
+    variable: str = "w_point",
+    highest: float | None = None,
+    ax: Axes | None = None,
+    legend: bool | Mapping[str, Any] = True,
+    labels: Mapping[str, str] | None = None,
+    title: str | None = None,
+) -> Axes:
+    """Draw the amplitude of a variable over the frequency, up to `highest` in Hz, or to where
+    its lines fall below a hundredth of the strongest.
+
+    Without a named window it is that of the last 8 s, or of the second half of a shorter run,
+    with 16 samples in a period of the highest mode. What vibrates faster than half a window's
+    rate appears at wrong frequencies. `ax`, `legend`, `labels` and `title` are as in `plot`.
+    Returns the axes. Raises `ParameterError` as `plot_phase_portrait`, and if the window is too
+    short or nothing vibrates in it.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 10).plot_spectrum(highest=500).get_xlabel()
+    'Frequency (Hz)'
+    """
+    from disc_model.simulation.shown import shown_window
+
+    pictures = drawings()
+    case, name = shown_window(self, window, "late")
+    return pictures.plot_spectrum(
+        case, name, variable, highest, ax=ax, legend=legend, labels=labels, title=title
+    )
+
+
+def plot_poincare(
+    self: Result,
+    *,
+    ax: Sequence[Axes] | None = None,
+    legend: bool | Mapping[str, Any] = True,
+    labels: Mapping[str, str] | None = None,
+    title: str | None = None,
+) -> NDArray[Any]:
+    """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes,
+    which it returns.
+
+    `legend`, `labels` and `title` are as in `plot`. Raises `ParameterError` unless `ax` is two
+    axes.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 10).plot_poincare().shape
+    (2,)
+    """
+    from disc_model.simulation.shown import simulated_again
+
+    pictures = drawings()
+    case = simulated_again(self, "poincare")
+    return pictures.plot_poincare(case, ax=ax, legend=legend, labels=labels, title=title)
+
+
+def animate(
+    self: Result,
+    path: str | Path | None = None,
+    *,
+    window: str | None = None,
+    frames: int = 60,
+    fps: int = 12,
+) -> FuncAnimation:
+    """Make a film of the disc from above, its deflection under the slider, and the contact
+    force beside it.
+
+    Parameters
+    ----------
+    path : file to write, such as ``cycle.gif``, or ``cycle.mp4`` by ffmpeg; None writes nothing
+    window : name of a recorded window; otherwise the last cycles
+    frames, fps : number of pictures, and how many are shown in a second
+
+    Returns
+    -------
+    matplotlib.animation.FuncAnimation
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule, or the file has another suffix or no folder.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> film = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1).animate("cycle.gif", frames=2)
+    """
+    from disc_model.errors import require
+    from disc_model.simulation.shown import shown_window, states_between
+    from disc_model.units import is_whole
+
+    pictures = drawings()
+    # what cannot be written is refused before anything is computed
+    require((is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1"))
+    pictures.film_writer(path, fps)
+
+    case, name = shown_window(self, window, "end")
+    samples = pictures.window_of(case, name)
+    time = samples["time"]
+    states = states_between(self, float(time[0]), float(time[-1]), frames)
+    return pictures.animate(self.parameters, states, samples, path, fps)

@@ -1,0 +1,229 @@
+"""A disc that is given by its modes, checked, in SI units."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from itertools import combinations, pairwise
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
+
+import pydantic
+from pydantic import Field, field_validator, model_validator
+
+from disc_model.attachable import DiscFiles
+from disc_model.display import html_table
+from disc_model.errors import Fault, raise_faults
+from disc_model.units import Count, Finite, Positive, Strict, limits_faults, within
+
+if TYPE_CHECKING:
+    from disc_model.disc.given import DiscReport
+
+MOST_MODES = 1000  # largest number of modes in the table of a disc
+# of natural frequencies, rad/s; above them a cycle would take minutes to compute
+FREQUENCIES = (1e-3, 1e7)
+# of the largest modal amplitude, kg^-1/2: the modal mass is 1e-12 to 1e12 kg
+AMPLITUDES = (1e-6, 1e6)
+SAME_FREQUENCY = 0.05  # relative distance below which modes of as many diameters are one pair
+
+Quantity = float | str  # a number, or a text that stands for one, with or without its unit
+Column = Iterable[float | str]  # numbers of the modes of a table
+
+
+class Disc(DiscFiles, Strict):
+    """An axisymmetric disc given by its modes, from finite elements or a modal test.
+
+    Modes with nodal diameters are pairs (cosine and sine), each given once. `from_csv`, `from_uff`
+    and `from_section` make one.
+
+    Parameters
+    ----------
+    diameters : number of nodal diameters of each mode (whole numbers, 0 to 60)
+    omega : natural frequencies (rad/s, 1e-3 to 1e7)
+    amplitude : mass-normalised displacement under the slider, at an antinode of the pair (kg^-1/2)
+    damping_ratio : of each mode (0 to 1; 0 if left out)
+    circles : number of nodal circles of each mode; if left out, modes of as many diameters are counted by frequency
+    tangential : displacement of the friction surface along the slider's path, under the slider, of the half of each
+        pair that has its node there (kg^-1/2); in a plate, at the height z, -(z/r_0) diameters amplitude. Needed for
+        ``friction_offset="surface"`` alone
+    static_compliance : of the whole disc at the slider (m/N, > 0), from which the compliance of the modes that are left
+        out follows; None if it is not known
+    radii : where shapes are known (m, ascending, two or more); none if they are not
+    shapes : of each mode, its displacement at these radii, in sign and scale that of the amplitude (kg^-1/2)
+
+    Raises
+    ------
+    ParameterError
+        Naming everything that breaks a rule, its value and the rule, in one message.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> disc = dm.Disc(diameters=[0, 1], omega=[1490, 1515], amplitude=[1.53, 2.16], damping_ratio=[1e-3] * 2)
+    >>> dm.simulate(dm.Parameters(N=385, Omega=15.1, disc=disc, r_0=0.1), 0.1).status.value
+    'ok'
+    """
+
+    diameters: tuple[Annotated[Count, Field(ge=0, le=60)], ...]
+    omega: tuple[Annotated[Finite, within(FREQUENCIES)], ...]
+    amplitude: tuple[Finite, ...]
+    damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = Field(
+        (), validate_default=True
+    )
+    circles: tuple[Annotated[Count, Field(ge=0)], ...] = Field((), validate_default=True)
+    tangential: tuple[Finite, ...] = ()
+    static_compliance: Positive | None = None
+    radii: tuple[Positive, ...] = ()
+    shapes: tuple[tuple[Finite, ...], ...] = ()
+
+    _report: DiscReport | None = pydantic.PrivateAttr(None)
+    _columns: ClassVar = (
+        "diameters",
+        "omega",
+        "amplitude",
+        "damping_ratio",
+        "circles",
+        "tangential",
+        "shapes",
+    )
+
+    if TYPE_CHECKING:  # for type checkers: any sequence of numbers will do
+
+        def __init__(  # noqa: PLR0913
+            self, *, diameters: Column, omega: Column, amplitude: Column, damping_ratio: Column = ...,
+            circles: Column = ..., tangential: Column = ..., static_compliance: Quantity | None = ...,
+            radii: Column = ..., shapes: Iterable[Column] = ...,
+        ) -> None: ...  # fmt: skip
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        """Check the rules between columns, and refuse modes that are given twice."""
+        raise_faults([*self._column_faults(), *self._radii_faults()])
+        largest = max(map(abs, self.amplitude))
+        raise_faults(limits_faults("largest amplitude", largest, AMPLITUDES))
+        self._refuse_repeated_modes()
+        return self
+
+    def _column_faults(self) -> Iterator[Fault]:
+        """Yield the faults of the number of modes, and of columns of another length."""
+        count = len(self.diameters)
+        if not 1 <= count <= MOST_MODES:
+            rule = f"must be 1 to {MOST_MODES} modes"
+            yield Fault(("diameters",), f"{count} modes", rule)
+        for name in self._columns:
+            column = getattr(self, name)
+            needed = name in ("omega", "amplitude")
+            if len(column) != count and (column or needed):
+                rule = f"must be as many as diameters, {count}"
+                yield Fault((name,), f"{len(column)} values", rule)
+
+    def _radii_faults(self) -> Iterator[Fault]:
+        """Yield the fault of radii that do not ascend, or do not fit the shapes."""
+        radii = len(self.radii)
+        lengths = {len(shape) for shape in self.shapes}
+        fitting: set[int] = set()
+        if radii:
+            fitting = {radii}
+        if lengths != fitting or radii == 1:
+            rule = "must be two or more, with a value of the shape of every mode at each"
+            yield Fault(("radii",), f"{radii} radii", rule)
+        elif any(inner >= outer for inner, outer in pairwise(self.radii)):
+            yield Fault.of(("radii",), [*self.radii], "must ascend")
+
+    def _refuse_repeated_modes(self) -> None:
+        """Raise `ParameterError` if a mode is given twice, or as the two halves of a pair."""
+        counted = "circles" not in self.model_fields_set  # by frequency: no two are alike
+        for i, j in combinations(range(len(self.diameters)), 2):
+            if self.diameters[i] != self.diameters[j]:
+                continue
+            highest = max(self.omega[i], self.omega[j])
+            apart = abs(self.omega[j] - self.omega[i]) / highest
+            same = self.circles[i] == self.circles[j]
+            if counted:
+                same = apart < SAME_FREQUENCY
+            if same:
+                rule = (
+                    f"modes {i + 1} and {j + 1} have as many diameters and are "
+                    f"{100 * apart:.2g} % apart: the disc must be axisymmetric, with each pair of "
+                    "modes given once, by its mean frequency "
+                    "(Disc.from_csv averages halves with pairs='mean')"
+                )
+                raise_faults([Fault.of(("omega", str(j)), self.omega[j], rule)])
+
+    @field_validator("damping_ratio", "circles")
+    @classmethod
+    def _complete(cls, column: tuple[float, ...], info: Any) -> tuple[float, ...]:
+        """Fill in a column that is left out: no damping, and circles counted by frequency."""
+        diameters = info.data.get("diameters", ())
+        omega = info.data.get("omega", ())
+        if column or len(omega) != len(diameters) or len(omega) > MOST_MODES:
+            return column
+        if info.field_name == "damping_ratio":
+            return (0.0,) * len(diameters)
+        return _circles_by_frequency(diameters, omega)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all numbers are equal; reports do not count."""
+        return isinstance(other, Disc) and dict(self) == dict(other)
+
+    @property
+    def report(self) -> DiscReport | None:
+        """What was used of the file from which the disc was read, and what was left out: a
+        `disc_model.disc.given.DiscReport`; None of a disc that was made of numbers."""
+        return self._report
+
+    def with_report(self, report: DiscReport) -> Disc:
+        """The same disc with a report on its file."""
+        disc = self.model_copy()
+        disc._report = report
+        return disc
+
+    def __repr__(self) -> str:
+        low = min(self.omega) / math.tau
+        high = max(self.omega) / math.tau
+        return f"Disc({len(self.omega)} modes, {low:.0f} to {high:.0f} Hz)"
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        """The table of modes in a notebook."""
+        columns = {
+            "diameters": self.diameters,
+            "circles": self.circles,
+            "frequency (Hz)": [f"{omega / math.tau:.5g}" for omega in self.omega],
+            "amplitude (kg^-1/2)": [f"{amplitude:.5g}" for amplitude in self.amplitude],
+            "damping ratio": [f"{damping:.3g}" for damping in self.damping_ratio],
+        }
+        return html_table(columns, zip(*columns.values(), strict=True))
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """Numbers of the modes that may be uncertain, by names such as omega_2_0: two nodal
+        diameters, no circle."""
+        numbers: dict[str, float] = {}
+        for column in ("omega", "amplitude", "damping_ratio"):
+            modes = zip(self.diameters, self.circles, getattr(self, column), strict=True)
+            numbers |= {f"{column}_{l}_{c}": value for l, c, value in modes}
+        return numbers
+
+    def with_numbers(self, **changes: float) -> Disc:
+        """The disc with some of its `numbers` changed."""
+        values = [*(self.numbers | changes).values()]
+        n = len(self.omega)
+        return self.replace(
+            omega=values[:n], amplitude=values[n : 2 * n], damping_ratio=values[2 * n : 3 * n]
+        )
+
+    def first(self, count: int) -> Disc:
+        """The disc with only the first `count` modes of its table."""
+        return self.replace(**{name: getattr(self, name)[:count] for name in self._columns})
+
+
+def _circles_by_frequency(diameters: tuple[int, ...], omega: tuple[float, ...]) -> tuple[int, ...]:
+    """Return the numbers of circles of modes: those of as many diameters below its frequency."""
+    circles = [0] * len(omega)
+    below: Counter[int] = Counter()  # modes met so far, by their diameters
+    for i in sorted(range(len(omega)), key=omega.__getitem__):
+        circles[i] = below[diameters[i]]
+        below[diameters[i]] += 1
+    return tuple(circles)

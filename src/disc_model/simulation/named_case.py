@@ -1,0 +1,79 @@
+"""A named case of a study: from its specification to a dataset."""
+
+from __future__ import annotations
+
+import logging
+from typing import TYPE_CHECKING, Any
+
+from disc_model.errors import DiscModelError, require
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import CaseSpec, Start
+from disc_model.simulation.request import Execution
+from disc_model.simulation.starts import make_initial_state
+from disc_model.sources import PHYSICS, git_commit, source_hash, versions
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+log = logging.getLogger(__name__)
+
+
+def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
+    """Simulate a named case of a study, in the layout of `disc_model.data.dataset`; a failure is
+    recorded as a status. `choose` is `disc_model.mode_choice.choose_when_run`, which only a case
+    with `modes` needs."""
+    import xarray as xr
+
+    from disc_model.data.dataset import json_attribute, scalars_dataset
+
+    needed = "must be `disc_model.mode_choice.choose_when_run`, as the case leaves its modes to be chosen"
+    require((callable(choose) or not spec.modes, "choose", choose, needed))
+    p = spec.parameters
+    truncation = ""  # how the number of modes was chosen, as JSON, if it was
+    try:
+        if spec.modes:
+            p, truncation = choose(p, spec.modes)
+            log.info("modes chosen: %s", truncation)
+        start = make_initial_state(p, spec.start, spec.tol)
+        result = simulate(
+            p,
+            spec.t_end,
+            spec.sections,
+            events=spec.events is not None,
+            tol=spec.tol,
+            initial_state=start,
+            stop_at=spec.stop_at,
+            ramps=spec.ramps,
+            execution=Execution(audit_every_step=spec.audit_every_step),
+        )
+    except DiscModelError as error:
+        log.error("no result: %s", error)
+        known = {"t_end": spec.t_end, "tol": spec.tol}
+        tree = xr.DataTree(scalars_dataset(p, known, "failed", f"{type(error).__name__}: {error}"))
+    else:
+        log.info(
+            "%s, first separation %s s, %s",
+            result.status.value,
+            result.first_separation,
+            result.statistics,
+        )
+        tree = result.to_tree()
+        events = tree["events"].to_dataset()
+        within = slice(0)
+        span: dict[str, float] = {}
+        if spec.events is not None:
+            within = slice(*events["time"].values.searchsorted(spec.events))
+            span = dict(zip(("kept_from", "kept_until"), spec.events, strict=True))
+        tree["events"].dataset = events.isel(event=within).assign_attrs(span)
+    if spec.start != Start():
+        tree.attrs["start"] = json_attribute(spec.start.model_dump())
+    if truncation:
+        tree.attrs["truncation"] = truncation
+    tree.attrs |= {
+        "source_hash": source_hash(*PHYSICS),
+        "git_commit": git_commit(),
+        "versions": json_attribute(versions()),
+        "specification": spec.beside,
+        "specification_key": spec.key,
+    }
+    return tree
