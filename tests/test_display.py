@@ -9,7 +9,7 @@ from disc_model import Parameters, simulate
 from disc_model.display import html_table
 from disc_model.errors import Status
 from disc_model.mode_choice import ModeChoice
-from disc_model.stability.curves import Critical
+from disc_model.stability.critical import Critical
 from disc_model.stability.lyapunov import Lyapunov
 
 P = Parameters(N=385, Omega=15)

@@ -36,7 +36,8 @@ _NAMES = {
     "simulation.states": "State deflection",
     "studies.functions": "outcome critical_speed basins hysteresis sweep run_study",
     "stability.continuation": "continue_cycle",
-    "stability.curves": "neutral_curves critical",
+    "stability.critical": "critical",
+    "stability.curves": "neutral_curves",
     "stability.cycle": "floquet",
     "stability.lyapunov": "lyapunov_exponents",
     "stability.sliding": "steady_sliding",
@@ -71,7 +72,8 @@ if TYPE_CHECKING:
     from disc_model.simulation.result import Result
     from disc_model.simulation.states import State, deflection
     from disc_model.stability.continuation import continue_cycle
-    from disc_model.stability.curves import critical, neutral_curves
+    from disc_model.stability.critical import critical
+    from disc_model.stability.curves import neutral_curves
     from disc_model.stability.cycle import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding

@@ -1,6 +1,7 @@
 """What motions come to: multipliers and early judgement against long simulations."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -91,15 +92,14 @@ def test_shortcuts_agree_with_brute_force() -> None:
     for number, plane in enumerate(PLANES):
         varied = {name: bounds for name, bounds in plane.items() if isinstance(bounds, tuple)}
         for share in qmc.Halton(len(varied), seed=number).random(10):
-            at = {
-                name: a + s * (b - a)
-                for (name, (a, b)), s in zip(varied.items(), share, strict=True)
-            }
+            lows, highs = np.array(list(varied.values())).T
+            values = lows + share * (highs - lows)
+            at = dict(zip(varied, values.tolist(), strict=True))
             p = Parameters(**{**plane, **at})
             found = find_outcome(p, horizon)
             whole = find_outcome(p, horizon, early=False)
-            points = points + 1
-            simulated = simulated + found.simulated
+            points += 1
+            simulated += found.simulated
             if math.isfinite(whole.first_separation) != (found.outcome is Outcome.SEPARATION):
                 disagree.append((at, found, whole.first_separation))
             if found.outcome is Outcome.QUIET and found.simulated == 0.0:
@@ -118,8 +118,9 @@ def kick_energy(p: Parameters, state: State, start: State) -> float:
         state.alpha - start.alpha,
         state.beta - start.beta,
     ]
-    slider = p.k * (state.u - start.u) ** 2 + p.m * (state.u_velocity - start.u_velocity) ** 2
-    return 0.5 * (float(np.sum(np.square(modal))) + slider)
+    spring = p.k * (state.u - start.u) ** 2
+    mass = p.m * (state.u_velocity - start.u_velocity) ** 2
+    return 0.5 * (float(np.sum(np.square(modal))) + spring + mass)
 
 
 def test_a_kick_has_the_energy_asked_for_and_its_direction_hangs_on_its_key_alone() -> None:
@@ -146,9 +147,8 @@ def test_a_periodic_attractor_is_known_by_its_fixed_point() -> None:
     quiet, separating = Basins(P14, 100.0).known
     assert (separating.kind, separating.releases) == (Outcome.SEPARATING, 1)
     # one separation more or less in a leg of five seconds
-    assert separating.period * separating.segment.separation_rate == pytest.approx(
-        1, abs=1 / (5 * 135)
-    )
+    in_a_period = separating.period * separating.segment.separation_rate
+    assert in_a_period == pytest.approx(1, abs=1 / (5 * 135))
     assert separating.growth_rate < 0
     assert (quiet.kind, quiet.segment.separation_rate) == (Outcome.QUIET, 0)
     assert quiet.growth_rate == pytest.approx(-0.0674, rel=1e-2)
@@ -166,13 +166,17 @@ def test_a_torus_is_an_attractor_once_the_record_shows_that_the_motion_has_settl
 
 def stretch(**changes: float) -> Segment:
     """Of a separating motion, for tests of what is said of one."""
-    shares = {
-        "stick_fraction": 0.25,
-        "slip_fraction": 0.65,
-        "separation_fraction": 0.10,
-        "separation_rate": 135.0,
-    }
-    return Segment(**{"P_min": 0.0, "P_max": 1.0, "u_min": -0.01, "u_max": 0.01} | shares | changes)
+    segment = Segment(
+        P_min=0.0,
+        P_max=1.0,
+        u_min=-0.01,
+        u_max=0.01,
+        stick_fraction=0.25,
+        slip_fraction=0.65,
+        separation_fraction=0.10,
+        separation_rate=135.0,
+    )
+    return replace(segment, **changes)
 
 
 # ------------------------------------------------------------------------ Sweeps
@@ -201,10 +205,11 @@ def test_a_stay_is_doubled_until_it_has_settled_and_no_further(
     monkeypatch.setattr(attractors, "arrival", settles)
     monkeypatch.setattr(attractors, "final_segment", last)
     p = Parameters(N=1, Omega=1)
-    steps = [step for step, *_ in attractors.sweep(p, "Omega", [10, 11, 12], 2.0, 20.0, 0.5, 1e-8)]
+    swept = attractors.sweep(p, "Omega", [10, 11, 12], 2.0, 20.0, 0.5, 1e-8)
+    steps = [step for step, *_ in swept]
     assert steps == [(0, 0), (0, 1), (0, 2), (1, 2), (1, 1), (1, 0)]
     stays = {10.0: [2.0], 11.0: [2.0, 2.0, 4.0], 12.0: [2.0, 2.0, 4.0, 8.0]}
-    wanted = [(speed, stay) for speed in (10.0, 11.0, 12.0) for stay in stays[speed]]
-    down = [(speed, stay) for speed in (12.0, 11.0, 10.0) for stay in stays[speed]]
-    assert simulated == wanted + down
-    assert [speed for speed, _ in described] == [10.0, 11.0, 12.0, 12.0, 11.0, 10.0]
+    speeds = [10.0, 11.0, 12.0, 12.0, 11.0, 10.0]
+    wanted = [(speed, stay) for speed in speeds for stay in stays[speed]]
+    assert simulated == wanted
+    assert [speed for speed, _ in described] == speeds

@@ -9,8 +9,8 @@ from disc_model import Parameters, floquet, simulate
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.errors import DiscModelError
 from disc_model.stability.cycle import CycleError, find_cycle, run_through_once
-from disc_model.stability.linear_motion import find_cycle_near
-from disc_model.stability.return_map import RETURNED, Counts, Flight, Passage, ReturnMap
+from disc_model.stability.linear_motion import CloseReturn, find_cycle_near
+from disc_model.stability.return_map import RETURNED, Counts, Orbit, Passage, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
 from tests.validation.test_random_cases import drawn_case
 
@@ -60,12 +60,12 @@ def test_multipliers_agree_with_central_differences_of_the_return_map(p):
     expected = central_differences(map_, x)
     mine = result.multipliers
     reference = np.linalg.eigvals(expected)
-    distance = np.min(np.abs(mine[:, None] - reference[None, :]), axis=1)
-    assert np.max(distance) < 1e-6
-    assert np.max(np.abs(expected - map_.evaluate(x).jacobian)) < 1e-7
-    assert result.growth_rate == pytest.approx(
-        math.log(np.max(np.abs(reference))) / result.period, abs=1e-4
-    )
+    apart = np.abs(mine[:, None] - reference[None, :])
+    assert apart.min(axis=1).max() < 1e-6
+    jacobian = map_.evaluate(x).jacobian
+    assert np.max(np.abs(expected - jacobian)) < 1e-7
+    rate = math.log(np.max(np.abs(reference))) / result.period
+    assert result.growth_rate == pytest.approx(rate, abs=1e-4)
 
 
 def test_the_cycle_is_found_again_from_a_simulation():
@@ -100,7 +100,7 @@ class Logistic:
             slope = self.r * (1 - 2 * x[0]) * slope
             x = self.r * x * (1 - x)
         counts = Counts(releases, 0, 0, 0, releases)
-        return Flight(RETURNED, 0.01 * releases, 0.3, counts, start, x, slope, np.zeros((1, 0)))
+        return Orbit(RETURNED, 0.01 * releases, 0.3, counts, start, x, slope, np.zeros((1, 0)))
 
 
 def test_a_cycle_that_is_run_through_twice_is_told_from_one_of_double_period():
@@ -110,10 +110,9 @@ def test_a_cycle_that_is_run_through_twice_is_told_from_one_of_double_period():
     simple = Logistic(r)
     double = (r + 1 + math.sqrt((r - 3) * (r + 1))) / (2 * r)
     for x, releases in ((1 - 1 / r + 1e-12, 1), (double, 2)):
-        assert (
-            run_through_once(simple, simple.evaluate(np.array([x]), releases=2)).counts.releases
-            == releases
-        )
+        orbit = simple.evaluate(np.array([x]), releases=2)
+        once = run_through_once(simple, orbit)
+        assert once.counts.releases == releases
 
 
 def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
@@ -123,7 +122,7 @@ def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
     assert result.stable
     x = map_.point(result.state)
     away = x + 1e-4 * np.linalg.norm(x) * np.eye(len(x))[0]
-    found = find_cycle_near(map_, Passage(RETURNED, 0.0, away), (1e-4, 6))
+    found = find_cycle_near(map_, Passage(RETURNED, 0.0, away), CloseReturn(1e-4, 6))
     assert found.follows_cycle
     assert found.cycle.releases == 1  # not six times around
     assert found.kind is Outcome.QUIET
@@ -131,13 +130,14 @@ def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
     assert not floquet(P).stable
     map_ = ReturnMap(P)
     x = map_.point(floquet(P).state)
-    assert not find_cycle_near(map_, Passage(RETURNED, 0.0, x), (0.0, 1)).follows_cycle
+    again = CloseReturn(0.0, 1)
+    assert not find_cycle_near(map_, Passage(RETURNED, 0.0, x), again).follows_cycle
     # nor one that leaves it as the multipliers predict, unless that is asked for
     values, vectors = np.linalg.eig(map_.evaluate(x).jacobian)
     leaving = np.real(vectors[:, np.argmax(abs(values))])
     away = x + 0.001 * np.linalg.norm(map_.static) * leaving / np.linalg.norm(leaving)
     for waits, follows in (((), False), ((0.0,), True)):
-        near = find_cycle_near(map_, Passage(RETURNED, 2.0, away), (0.0, 1), unstable=waits)
+        near = find_cycle_near(map_, Passage(RETURNED, 2.0, away), again, unstable=waits)
         assert near.follows_cycle is follows
         assert near.time == 2.0
 
@@ -194,7 +194,7 @@ def test_multipliers_of_random_cases_are_those_of_a_differenced_return_map(seed:
             error = np.abs(rough - fine).max()
             scale = max(1.0, np.abs(fine).max())
             if error <= 1e-3 * scale:
-                # rounding of flights, 3e-13, over the step
+                # rounding of orbits, 3e-13, over the step
                 assert np.abs(got - fine).max() <= 1e-11 / step * scale + 10 * error, (
                     found.parameters
                 )

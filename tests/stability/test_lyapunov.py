@@ -16,8 +16,10 @@ def test_exponents_of_stick_are_those_of_the_coupled_mode():
     """Stick is linear: the exponents are 0, of the spring that is wound up, and the decay rate of
     one coupled mode."""
     p = STICK
-    omega, psi = (float(plate_modes(p)[name].iloc[0]) for name in ("omega", "psi"))
-    decay = (p.D_star / p.D * omega**2 + p.c * psi**2) / (2 * (1 + p.m * psi**2))
+    mode = plate_modes(p).iloc[0]
+    damping = p.D_star / p.D * mode["omega"] ** 2 + p.c * mode["psi"] ** 2
+    mass = 1 + p.m * mode["psi"] ** 2
+    decay = float(damping / (2 * mass))
     found = lyapunov_exponents(p, 0.1, count=3, interval=0.005)
     assert found.status is Status.OK
     assert found.duration == pytest.approx(0.1)
@@ -38,9 +40,8 @@ def test_exponents_that_do_not_exist_were_zero_and_converged():
     assert not found.converged[3:].any()
     assert np.isnan(found.errors[3:]).all()
     for count, left_out in ((7, False), (6, True)):
-        with pytest.raises(
-            ParameterError, match=f"^count={count}: must be a whole number from 1 to {count - 1}$"
-        ):
+        rule = f"must be a whole number from 1 to {count - 1}"
+        with pytest.raises(ParameterError, match=f"^count={count}: {rule}$"):
             lyapunov_exponents(STICK, 0.1, count=count, leave_out_trivial=left_out)
 
 
@@ -60,8 +61,10 @@ def test_exponents_of_steady_sliding_are_its_eigenvalues(
         p, 2.0, count=4, interval=interval, initial_state=state_of(p, sliding)
     )
     # either of a pair oscillates, which leaves a fraction of 2 s
-    pairs = sliding.eigenvalues.real[:4].reshape(2, 2).sum(axis=1)
-    np.testing.assert_allclose(found.exponents.reshape(2, 2).sum(axis=1), pairs, atol=0.05)
+    rates = sliding.eigenvalues.real[:4]
+    expected = rates.reshape(2, 2).sum(axis=1)
+    of_pairs = found.exponents.reshape(2, 2).sum(axis=1)
+    np.testing.assert_allclose(of_pairs, expected, atol=0.05)
 
 
 def test_a_motion_that_cannot_go_on_has_no_exponents():
@@ -86,11 +89,13 @@ def test_on_a_cycle_they_are_its_exponents_and_zero():
     assert found.exponents[0] == pytest.approx(0, abs=1e-3)
     pair = lyapunov_exponents(p, 10.0, count=3, initial_state=cycle.state)
     # a complex pair has one rate: the two following zero are equal in the mean
-    assert np.mean(pair.exponents[1:]) == pytest.approx(np.mean(expected[1:3]), rel=1e-3)
+    rate = np.mean(expected[1:3])
+    assert np.mean(pair.exponents[1:]) == pytest.approx(rate, rel=1e-3)
     # the exponent along the motion can be left out; the multipliers leave the 1 along the orbit out
     # as well
     found = lyapunov_exponents(p, 10.0, count=2, initial_state=cycle.state, leave_out_trivial=True)
     # the rate of the motion is what it was after a period; a fraction of one is left over: ln of
     # its range over 10 s
     assert found.trivial_exponent == pytest.approx(0, abs=0.1)
-    assert np.mean(found.exponents) == pytest.approx(np.mean(cycle.exponents.real[:2]), rel=1e-3)
+    rate = np.mean(cycle.exponents.real[:2])
+    assert np.mean(found.exponents) == pytest.approx(rate, rel=1e-3)

@@ -78,14 +78,14 @@ def test_its_multipliers_are_those_of_differences_of_the_map(cycle) -> None:
     p, _, found, _ = cycle
     map_ = ReturnMap(p, 1e-14, patient=True)
     x = map_.point(found.state)
-    # a hundred times what keeps the order of switches, and far above the rounding of the flight
+    # a hundred times what keeps the order of switches, and far above the rounding of the orbit
     size = 1e-6 * float(np.linalg.norm(map_.static))
-    expected = multipliers(
-        central_differences(map_, x, size, releases=found.releases, may_separate=True)
-    )
-    apart = np.abs(found.multipliers[:, None] - expected[None, :]).min(axis=1)
-    assert apart.max() < 1e-5
-    assert found.growth_rate == pytest.approx(math.log(abs(expected[0])) / found.period, abs=1e-4)
+    jacobian = central_differences(map_, x, size, releases=found.releases, may_separate=True)
+    expected = multipliers(jacobian)
+    apart = np.abs(found.multipliers[:, None] - expected[None, :])
+    assert apart.min(axis=1).max() < 1e-5
+    rate = math.log(abs(expected[0])) / found.period
+    assert found.growth_rate == pytest.approx(rate, abs=1e-4)
     assert found.stable
 
 
@@ -93,8 +93,10 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
     """N = 385 N, two releases: up to 15.9717 rad/s, where a stop is grazed and left out."""
     p, time, *_ = LOCKED["2 releases"]
     late = settled(p, time)
-    how = {"guess": late, "releases": 2, "direction": 1, "steps": StepControl(step=1e-2)}
-    branch = continue_cycle(p, "Omega", (14.0, 18.0), **how)
+    steps = StepControl(step=1e-2)
+    branch = continue_cycle(
+        p, "Omega", (14.0, 18.0), guess=late, releases=2, direction=1, steps=steps
+    )
     end = float(branch.values[-1, 0])
     assert end == pytest.approx(15.97174, abs=1e-4)
     assert branch.ended == "stick vanishes: the cycle touches zero slip speed"
@@ -105,9 +107,8 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
     for point, shift, found in ((middle, 0.0, True), (-1, -0.01, True), (-1, 0.01, False)):
         there = p.replace(Omega=float(branch.values[point, 0]) + shift)
         x = branch.points[point]
-        beside = x + 1e-3 * np.linalg.norm(x) * np.random.default_rng(0).normal(
-            size=x.size
-        ) / np.sqrt(x.size)
+        direction = np.random.default_rng(0).normal(size=x.size) / np.sqrt(x.size)
+        beside = x + 1e-3 * np.linalg.norm(x) * direction
         end_of_it = settled(there, 300.0, ReturnMap(there).state(beside))
         times = releases_of(there, end_of_it, 0.1)
         repeats = np.ptp(times[2:] - times[:-2]) < 1e-9

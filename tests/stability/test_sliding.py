@@ -27,24 +27,37 @@ def state_of(p: Parameters, sliding: SteadySliding) -> State:
     """The equilibrium as a state."""
     modes = plate_modes(p)
     w = float(modes["psi"] @ sliding.a)
-    slope = float((modes["diameters"] * modes["psi"]) @ sliding.b)
-    mu = p.mu_k + (p.mu_s - p.mu_k) / (1 + p.friction_decay * p.r_0 * p.Omega)
-    share = 1 - mu * slope / p.r_0 if p.contact_force == "normal" else 1.0
+    share = 1.0
+    if p.contact_force == "normal":
+        weights = modes["diameters"] * modes["psi"]
+        slope = float(weights @ sliding.b)
+        falls = 1 + p.friction_decay * p.r_0 * p.Omega
+        mu = p.mu_k + (p.mu_s - p.mu_k) / falls
+        share = 1 - mu * slope / p.r_0
     height = w - p.contact_compliance * share * sliding.contact_force
-    modal = {name: getattr(sliding, name) for name in ("a", "b", "alpha", "beta")}
-    return State(0.0, "slip", 1, sliding.psi, p.Omega, height, 0.0, **modal)
+    return State(
+        time=0.0,
+        phase="slip",
+        direction=1,
+        psi=sliding.psi,
+        f=p.Omega,
+        u=height,
+        u_velocity=0.0,
+        a=sliding.a,
+        b=sliding.b,
+        alpha=sliding.alpha,
+        beta=sliding.beta,
+    )
 
 
 SLIDING = {
     "base": Parameters(N=200, Omega=20),
     "damped": Parameters(N=300, Omega=50, c_p=0.7, c=0.3),
     "orthonormal": Parameters(N=100, Omega=40, normalization="orthonormal"),
-    # two nodal diameters, and damping that counts beside l Omega and omega
-    **{
-        name: P.replace(n_diameters=2, c=0.3, c_p=0.7, D_star=5e-3, **law)
-        for name, law in ALL_LAWS.items()
-    },
 }
+for _name, _law in ALL_LAWS.items():
+    # two nodal diameters, and damping that counts beside l Omega and omega
+    SLIDING[_name] = P.replace(n_diameters=2, c=0.3, c_p=0.7, D_star=5e-3, **_law)
 
 
 @pytest.mark.parametrize(
@@ -55,25 +68,27 @@ SLIDING = {
     ],
 )
 def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
-    """It stays where it is, and its eigenvalues are those of a flight from there."""
+    """It stays where it is, and its eigenvalues are those of an orbit from there."""
     sliding = steady_sliding(p)
     duration = 1e-3
     assert sliding.status is SlidingStatus.OK
     name = "R" if p.contact_force == "normal" else "P"
     verdict = "stable" if sliding.growth_rate < 0 else "not stable"
-    assert (
-        sliding.message == f"steady sliding with {name} = {sliding.contact_force:.6g} N, {verdict}"
-    )
+    force = f"{sliding.contact_force:.6g} N"
+    assert sliding.message == f"steady sliding with {name} = {force}, {verdict}"
     run = Full(p, state_of(p, sliding), scalars=4 if p.contact_compliance else 2)
     before = run.coordinates
     assert run.fly(duration) == transitions.TIME_OVER
-    np.testing.assert_allclose(run.coordinates, before, rtol=0, atol=1e-12 * np.max(np.abs(before)))
+    size = np.max(np.abs(before))
+    np.testing.assert_allclose(run.coordinates, before, rtol=0, atol=1e-12 * size)
+
     flow = np.linalg.eigvals(run.columns)
-    assert len(expected := np.exp(sliding.eigenvalues * duration)) == len(flow)
-    assert (
-        np.max(np.min(np.abs(expected[:, None] - flow[None, :]), axis=1)) < 1e-10
-    )  # roundings of the flight
-    assert sliding.growth_rate == pytest.approx(np.log(np.abs(flow).max()) / duration, abs=1e-6)
+    expected = np.exp(sliding.eigenvalues * duration)
+    assert len(expected) == len(flow)
+    apart = np.abs(expected[:, None] - flow[None, :])
+    assert apart.min(axis=1).max() < 1e-10  # roundings of the orbit
+    rate = np.log(np.abs(flow).max()) / duration
+    assert sliding.growth_rate == pytest.approx(rate, abs=1e-6)
 
 
 @pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])
@@ -93,7 +108,7 @@ def test_without_friction_sliding_is_stable_up_to_the_critical_speed_of_the_movi
         assert (sliding.growth_rate > 1e-6) == grows == sliding.growing.size, share
 
 
-EQUILIBRIA = {"base": {}, "surface": {"friction_offset": "surface"}} | ALL_LAWS
+EQUILIBRIA = {"base": {}, "surface": {"friction_offset": "surface"}, **ALL_LAWS}
 
 
 @pytest.mark.parametrize("law", EQUILIBRIA.values(), ids=EQUILIBRIA)
@@ -184,10 +199,11 @@ def test_a_real_eigenvalue_counts_as_an_unstable_mode():
     docs/verification.md."""
     disc = Disc(diameters=[2], omega=[1823.881], amplitude=[2.1491])
     p = Parameters(N=1, Omega=900, mu_s=0, mu_k=0, contact="bilateral", disc=disc)
-    counts = [steady_sliding(p.replace(Omega=Omega)).growing.size for Omega in (900, 930, 950)]
+    cases = [p.replace(Omega=Omega) for Omega in (900, 930, 950)]
+    counts = [steady_sliding(case).growing.size for case in cases]
     assert counts == [0, 1, 0]
     # the two modes of the pair meet at the frequency 0, and part again
-    found = follow_modes([p.replace(Omega=Omega) for Omega in (900, 930, 950)])
+    found = follow_modes(cases)
     assert [sorted(one.numbers) for one in found] == [[0, 1, 2], [1, 2], [0, 1, 2]]
 
 
@@ -196,29 +212,30 @@ def test_modes_keep_their_numbers_where_frequencies_cross():
     one, which rise."""
     disc = Disc(diameters=[1, 2], omega=[1000, 1100], amplitude=[1e-3, 1e-3])
     p = Parameters(N=1, Omega=1, mu_s=0, mu_k=0, contact="bilateral", disc=disc)
-    speeds = [1.0, 60.0]
-    first, last = follow_modes([p.replace(Omega=Omega) for Omega in speeds])
-    lines = []
-    for one in (first, last):
-        rows = zip(
-            one.numbers,
-            one.modes.diameters,
-            np.round(one.modes.forward),
-            one.modes.frequency,
-            strict=True,
-        )
-        lines.append(
-            {number: (l, wave if l > 0 else 0, frequency) for number, l, wave, frequency in rows}
-        )
-    assert [*lines[0]] == [0, 1, 2, 3, 4]
-    assert [*lines[1]] != [*lines[0]]
-    assert {number: line[:2] for number, line in lines[0].items()} == {
-        n: line[:2] for n, line in lines[1].items()
-    }
-    for l, wave, frequency in lines[1].values():
-        shift = -l * 60.0 * (2 * wave - 1)  # with the slider the wave seems slower
-        expected = {-1: math.sqrt(p.k_p / p.m), 1: 1000 + shift, 2: 1100 + shift}[l] / (2 * math.pi)
-        assert frequency == pytest.approx(expected, abs=1e-3)
+    first, last = follow_modes([p.replace(Omega=1.0), p.replace(Omega=60.0)])
+    assert first.numbers.tolist() == [0, 1, 2, 3, 4]
+    assert last.numbers.tolist() != [0, 1, 2, 3, 4]
+    assert waves_by_number(last) == waves_by_number(first)
+    at_rest = {1: 1000.0, 2: 1100.0}
+    modes = last.modes
+    for i, l in enumerate(modes.diameters.tolist()):
+        if l == -1:
+            expected = math.sqrt(p.k_p / p.m)
+        else:
+            # with the slider the wave seems slower
+            sense = 2 * round(modes.forward[i]) - 1
+            expected = at_rest[l] - sense * l * 60.0
+        assert math.tau * modes.frequency[i] == pytest.approx(expected, abs=6e-3)
+
+
+def waves_by_number(followed):
+    """Nodal diameters of each mode by its number, and whether its wave turns with the slider."""
+    modes = followed.modes
+    waves = {}
+    for i, number in enumerate(followed.numbers.tolist()):
+        turns_with_it = modes.diameters[i] > 0 and modes.forward[i] > 0.5
+        waves[number] = (int(modes.diameters[i]), bool(turns_with_it))
+    return waves
 
 
 def roots_of_energies(p, shapes):
@@ -229,8 +246,11 @@ def roots_of_energies(p, shapes):
     (a, alpha, b, beta), (psi, f), height = split_rows(modes, shapes)
     disc = np.concatenate([omega * a, alpha, omega * b, beta])
     slider = r_0 * np.array([math.sqrt(p.k_p) * psi, math.sqrt(p.m) * f])
-    contact = math.sqrt(p.k + 1 / p.contact_compliance) * height[0], math.sqrt(p.m) * height[1]
-    return disc, slider, np.array(contact), omega * (a + 1j * b), omega * (a - 1j * b)
+    stiffness = p.k + 1 / p.contact_compliance
+    contact = np.array([math.sqrt(stiffness) * height[0], math.sqrt(p.m) * height[1]])
+    forward = omega * (a + 1j * b)
+    backward = omega * (a - 1j * b)
+    return disc, slider, contact, forward, backward
 
 
 @pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
@@ -242,36 +262,46 @@ def test_modes_are_named_and_compared_by_their_energies():
     )
     l = mode_arrays(base).diameters
     kinds = set()
-    heavy = base.replace(
-        N=3e4, m=100.0, k_p=3.468e8
-    )  # here not |f| but its square tells whose motion it is
-    for last in (
-        *(base.replace(k_p=k_p) for k_p in np.geomspace(1.8e5, 3.6e5, 25).tolist()),
-        heavy,
-    ):
-        cases = [last.replace(k_p=0.999 * last.k_p), last]
-        _, (_, modes, numbers, mac) = found = follow_modes(cases)
-        each = [roots_of_energies(p, one.modes.shapes) for p, one in zip(cases, found, strict=True)]
-        disc, slider, _, forward, backward = (np.abs(rows) ** 2 for rows in each[1])
-        by_l = np.array([disc[np.tile(l, 4) == number].sum(axis=0) for number in range(5)])
-        expected = np.where(slider.sum(axis=0) > disc.sum(axis=0), -1, by_l.argmax(axis=0))
-        np.testing.assert_array_equal(modes.diameters, expected)
-        of_l = l[:, None] == by_l.argmax(axis=0)
-        waves = [np.sum(wave, axis=0, where=of_l) for wave in (forward, backward)]
-        np.testing.assert_allclose(modes.forward, waves[0] / sum(waves), rtol=1e-9)
-        before, after = (np.concatenate(rows[:3]) for rows in each)
-        overlap = np.abs(np.sum(before[:, numbers].conj() * after, axis=0)) ** 2
-        sizes = [np.sum(np.abs(rows) ** 2, axis=0) for rows in (before[:, numbers], after)]
-        np.testing.assert_allclose(mac, overlap / (sizes[0] * sizes[1]), rtol=1e-9)
+    lasts = [base.replace(k_p=k_p) for k_p in np.geomspace(1.8e5, 3.6e5, 25).tolist()]
+    # here not |f| but its square tells whose motion it is
+    lasts.append(base.replace(N=3e4, m=100.0, k_p=3.468e8))
+    for last in lasts:
+        first = last.replace(k_p=0.999 * last.k_p)
+        known, found = follow_modes([first, last])
+        roots_before = roots_of_energies(first, known.modes.shapes)
+        roots = roots_of_energies(last, found.modes.shapes)
+
+        # the name is that of most energy
+        disc, slider, _, forward, backward = (np.abs(rows) ** 2 for rows in roots)
+        diameters = np.tile(l, 4)
+        by_l = np.array([disc[diameters == number].sum(axis=0) for number in range(5)])
+        most = by_l.argmax(axis=0)
+        in_plane = slider.sum(axis=0) > disc.sum(axis=0)
+        expected = np.where(in_plane, -1, most)
+        np.testing.assert_array_equal(found.modes.diameters, expected)
         kinds.add(tuple(expected))
+
+        # and so is the sense of the waves
+        of_l = l[:, None] == most
+        with_slider = np.sum(forward, axis=0, where=of_l)
+        against = np.sum(backward, axis=0, where=of_l)
+        share = with_slider / (with_slider + against)
+        np.testing.assert_allclose(found.modes.forward, share, rtol=1e-9)
+
+        # likeness is the squared cosine of shapes whose squares are energies
+        before = np.concatenate(roots_before[:3])[:, found.numbers]
+        after = np.concatenate(roots[:3])
+        overlap = np.abs(np.sum(before.conj() * after, axis=0)) ** 2
+        size_before = np.sum(np.abs(before) ** 2, axis=0)
+        size_after = np.sum(np.abs(after) ** 2, axis=0)
+        np.testing.assert_allclose(found.mac, overlap / (size_before * size_after), rtol=1e-9)
     assert len(kinds) > 2, "the energy does not pass on"
 
 
 def test_a_step_that_changes_modes_much_is_halved():
     """Of a slider ten times as light; matched at once, three modes of the disc change places."""
     p = Parameters(N=385, Omega=20, normalization="orthonormal")
-    wide, narrow = (
-        follow_modes([p.replace(m=m) for m in np.linspace(0.1, 0.01, count).tolist()])[-1]
-        for count in (2, 120)
-    )
-    np.testing.assert_array_equal(wide.numbers, narrow.numbers)
+    wide = follow_modes([p.replace(m=0.1), p.replace(m=0.01)])
+    masses = np.linspace(0.1, 0.01, 120).tolist()
+    narrow = follow_modes([p.replace(m=m) for m in masses])
+    np.testing.assert_array_equal(wide[-1].numbers, narrow[-1].numbers)

@@ -18,16 +18,16 @@ PAD: dict[str, Any] = {
     "mu_s": 0.45,
     "mu_k": 0.35,
 }
-LIGHT: dict[str, Any] = PAD | {"k": 5e4, "m": 0.02, "k_p": 1e6, "c_p": 20, "N": 2e4}
+LIGHT: dict[str, Any] = {**PAD, "k": 5e4, "m": 0.02, "k_p": 1e6, "c_p": 20, "N": 2e4}
 
 
 def case(pad: dict[str, Any], damping: float = 1e-3, **changes: Any) -> dm.Parameters:
     """A brake-like disc of one pair under a pad."""
-    modes: dict[str, Any] = {
-        "diameters": [2], "omega": [3000.0], "amplitude": [0.54], "tangential": [-0.13], "damping_ratio": [damping]
-    }  # fmt: skip
-    base = {"N": 8000, "Omega": 80, "disc": dm.Disc(**modes), "friction_offset": "surface"}
-    return dm.Parameters(**base | pad | changes)
+    disc = dm.Disc(
+        diameters=[2], omega=[3000.0], amplitude=[0.54], tangential=[-0.13], damping_ratio=[damping]
+    )
+    base = {"N": 8000, "Omega": 80, "disc": disc, "friction_offset": "surface"}
+    return dm.Parameters(**{**base, **pad, **changes})
 
 
 def by_integration(p: dm.Parameters, split: float) -> float:
@@ -36,13 +36,18 @@ def by_integration(p: dm.Parameters, split: float) -> float:
     jacobian = dm.steady_sliding(p).jacobian
     omega = 3000.0
     size = len(jacobian)  # a, alpha, b, beta, psi, f
-    halves = np.diag([(omega * (1 + split / 2)) ** 2, (omega * (1 - split / 2)) ** 2])
+    upper = omega * (1 + split / 2)
+    lower = omega * (1 - split / 2)
+    halves = np.diag([upper**2, lower**2])
 
     def rate(t: float, x: Any) -> Any:
         angle = 2 * p.Omega * t
-        turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+        cosine = np.cos(angle)
+        sine = np.sin(angle)
+        turn = np.array([[cosine, sine], [-sine, cosine]])
+        added = turn @ halves @ turn.T - omega**2 * np.eye(2)
         changed = jacobian.copy()
-        changed[np.ix_([1, 3], [0, 2])] -= turn @ halves @ turn.T - omega**2 * np.eye(2)
+        changed[np.ix_([1, 3], [0, 2])] -= added
         return (changed @ x.reshape(size, size)).ravel()
 
     end = np.pi / (2 * p.Omega)  # a quarter of a turn brings two diameters back
@@ -65,13 +70,15 @@ def test_a_light_pad_couples_both_waves_as_averaging_has_it(split: float) -> Non
     the first order, whose eigenvalues have a closed form; its error is of the second order."""
     p = case(LIGHT, damping=5e-5)
     values = dm.steady_sliding(p).eigenvalues
-    waves = sorted(values[(values.imag > 2000) & (values.imag < 4000)], key=lambda x: x.imag)
+    of_pair = values[(values.imag > 2000) & (values.imag < 4000)]
+    waves = of_pair[np.argsort(of_pair.imag)]
     with_slider = waves[0] + 2j * p.Omega
     against = waves[1] - 2j * p.Omega
     root = np.sqrt(((with_slider - against) / 2) ** 2 - (3000 * split / 2) ** 2)
     expected = ((with_slider + against) / 2).real + abs(root.real)
     found = dm.split_growth(p, split)
-    assert found.growth_rate == pytest.approx(expected, abs=0.02 * (found.together - found.apart))
+    scale = found.together - found.apart
+    assert found.growth_rate == pytest.approx(expected, abs=0.02 * scale)
 
 
 def test_both_limits_are_reached() -> None:

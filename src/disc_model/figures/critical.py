@@ -14,7 +14,7 @@ from disc_model.figures.runs import stated
 from disc_model.figures.sizes import COLUMN
 
 if TYPE_CHECKING:
-    from disc_model.stability.curves import Critical
+    from disc_model.stability.critical import Critical
 
 
 def plot_critical(

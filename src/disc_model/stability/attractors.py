@@ -8,9 +8,9 @@ without exponents.
 import math
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from itertools import chain, pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -35,8 +35,8 @@ from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.linear_motion import (
     NearCycle,
     cycle_of_static_start,
+    find_close_return,
     find_cycle_near,
-    find_near_return,
 )
 from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
 from disc_model.stability.outcome import (
@@ -44,7 +44,7 @@ from disc_model.stability.outcome import (
     OutcomeResult,
     Segment,
     final_segment,
-    find_calm,
+    find_equilibrium,
     segment_of,
     switch_angles,
 )
@@ -69,16 +69,20 @@ def arrival(p: Parameters, legs: Sequence[Result], most: int = sys.maxsize) -> A
     multipliers of a cycle of up to `most` releases prove; otherwise what the record of angles at
     releases and separations shows."""
     leg = legs[-1]
-    if (calm := find_calm(p, leg)) is not None:
-        return Arrival(Settling(Settled.SETTLED, least=0.0, since=leg.final_state.time), calm)
+    now = leg.final_state.time
+    equilibrium = find_equilibrium(p, leg)
+    if equilibrium is not None:
+        return Arrival(Settling(Settled.SETTLED, least=0.0, since=now), equilibrium)
+
     near = cycle_reached(p, leg, most)
     if near is not None and near.follows_cycle:  # of stable cycles only
-        return Arrival(
-            Settling(Settled.SETTLED, near.cycle.growth_rate, 0.0, leg.final_state.time), near=near
-        )
+        proof = Settling(Settled.SETTLED, near.cycle.growth_rate, least=0.0, since=now)
+        return Arrival(proof, near=near)
     if near is not None and near.lingers:
-        return Arrival(Settling(Settled.CHANGING, near.cycle.growth_rate, 0.0))
-    return Arrival(settling(*np.hstack([switch_angles(leg) for leg in legs])))
+        return Arrival(Settling(Settled.CHANGING, near.cycle.growth_rate, least=0.0))
+
+    times, angles = np.hstack([switch_angles(leg) for leg in legs])
+    return Arrival(settling(times, angles))
 
 
 def cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
@@ -94,7 +98,8 @@ def cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
     if not release.reached:
         return None
     longest_period = max(1, min(most, releases // 2))
-    return find_cycle_near(map_, release, find_near_return(map_, release.x, longest_period))
+    close_return = find_close_return(map_, release.x, longest_period)
+    return find_cycle_near(map_, release, close_return)
 
 
 def sweep(
@@ -116,11 +121,15 @@ def sweep(
     arrival.
     """
     state: State | None = None
-    for step in [(0, i) for i in range(lowest, len(values))] + [
-        (1, i) for i in reversed(range(len(values)))
-    ]:
+    up = [(0, i) for i in range(lowest, len(values))]
+    down = [(1, i) for i in reversed(range(len(values)))]
+    for step in up + down:
         case = p.replace(**{name: values[step[1]]})
-        begin = 0.0 if state is None else state.time
+        begin = 0.0
+        if state is not None:
+            begin = state.time
+
+        # the stay at this value, doubled until the motion has settled
         stay = dwell
         legs = list[Result]()
         while True:
@@ -134,6 +143,8 @@ def sweep(
             if reached.settled or 2 * stay > longest:
                 break
             stay *= 2
+
+        # its description, from the cycle itself if one was reached
         if reached.near is not None:
             state = reached.near.cycle.state
         result, segment = final_segment(case, state, late, late, tol)
@@ -145,27 +156,35 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
     """Regularity of the motion from a state, by its separations, or else its releases, and by its
     largest exponent but that along the motion: zero on a torus, positive in chaos, negative on a
     cycle, however long its period."""
-    run = simulate(
-        p, state.time + thresholds.SETTLING * thresholds.FIRST_LEG, tol=tol, initial_state=state
-    )
+    duration = thresholds.SETTLING * thresholds.FIRST_LEG
+    run = simulate(p, state.time + duration, tol=tol, initial_state=state)
     times = run.events["time"].to_numpy(dtype=float)
     kinds = run.events["kind"].to_numpy()
-    separates = bool((kinds == "separation").any())
-    intervals = np.diff(times[kinds == ("separation" if separates else "stick_to_slip")])
+    marks = kinds == "stick_to_slip"
+    periodic = Outcome.OTHER_CYCLE
+    if (kinds == "separation").any():
+        marks = kinds == "separation"
+        periodic = Outcome.SEPARATING
+    intervals = np.diff(times[marks])
     if not run.status.complete or len(intervals) < FEWEST:
         return Motion(Outcome.UNDECIDED)
-    periodic = Outcome.SEPARATING if separates else Outcome.OTHER_CYCLE
-    if n := shortest_period(intervals):
-        return Motion(periodic, n, closure(intervals, n))
-    # exponents below -90/s are not resolved by this interval; such a motion repeats
-    how: Any = {
-        "count": 1,
-        "interval": 0.25,
-        "leave_out_trivial": True,
-        "initial_state": state,
-        "tol": tol,
-    }
-    largest = lyapunov_exponents(p, thresholds.SETTLING * thresholds.FIRST_LEG / 2, **how)
+
+    # a short period shows in the record
+    period = shortest_period(intervals)
+    if period:
+        return Motion(periodic, period, closure(intervals, period))
+
+    # otherwise the largest exponent decides; below -90/s it is not resolved by this interval, but
+    # such a motion repeats
+    largest = lyapunov_exponents(
+        p,
+        duration / 2,
+        count=1,
+        interval=0.25,
+        initial_state=state,
+        tol=tol,
+        leave_out_trivial=True,
+    )
     rate = float(largest.exponents[0])
     error = float(largest.errors[0])
     if not (math.isfinite(rate) and math.isfinite(error)):
@@ -175,79 +194,97 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
     return Motion(Outcome.IRREGULAR if rate > 0 else periodic)
 
 
+@dataclass
+class _FollowedMotion:
+    """What is known of a motion that is followed: its legs and their segments, the time of its
+    first separation (s), the least distance from the quiet cycle at which it was tested, and
+    whether its last segments were steady."""
+
+    legs: list[Result] = field(default_factory=list)
+    segments: list[Segment] = field(default_factory=list)
+    first_separation: float = math.nan
+    least_tested: float = math.inf
+    steady: bool = False
+
+
 class Basins:
     """The attractors of a case, `known` in the order in which they were found: the quiet cycle, and
     those reached from `OWN_STARTS` and from later starts.
 
     Motions are followed to the horizon (s). One that approaches an attractor counts as being on it
     within a relative difference `near` in range; never with 0.
+
+    static : static deflection under the preload, m
+    smallest : range of the height below which ranges count as equal, m
+    cycle : the quiet cycle, if it exists and is stable
     """
 
     def __init__(
         self, p: Parameters, horizon: float, *, near: float = 0.1, tol: float = 1e-10
     ) -> None:
-        self.p, self.horizon, self.near, self.tol = p, horizon, near, tol
+        self.p = p
+        self.horizon = horizon
+        self.near = near
+        self.tol = tol
         modes = mode_arrays(p)
         self.static = p.N * float(np.sum(modes.psi**2 / modes.omega**2))
         self.smallest = max(thresholds.SMALLEST * self.static, sys.float_info.min)
         self.map = ReturnMap(p, patient=True)
-        cycle = cycle_of_static_start(p)
-        self.cycle = cycle if isinstance(cycle, NearCycle) and cycle.cycle.stable else None
+        self.cycle: NearCycle | None = None
         self.known: list[Attractor] = []
-        if self.cycle is not None:
-            assert self.cycle.cycle.state is not None
-            leg = self._leg(self.cycle.cycle.state, thresholds.FIRST_LEG)
-            self.known.append(self._periodic(self.cycle, segment_of(leg)))
+        self._find_quiet_cycle()
         for kick in thresholds.OWN_STARTS:
             start = static_start(p)
-            self.follow(perturb(p, start, u=-kick * self.static) if kick else start)
+            if kick:
+                start = perturb(p, start, u=-kick * self.static)
+            self.follow(start)
+
+    def _find_quiet_cycle(self) -> None:
+        """Add the cycle near the static start to `known`, if it is stable."""
+        near = cycle_of_static_start(self.p)
+        if isinstance(near, NearCycle) and near.cycle.stable:
+            assert near.cycle.state is not None
+            self.cycle = near
+            leg = self._simulate_leg(near.cycle.state, thresholds.FIRST_LEG)
+            self.known.append(self._periodic(near, segment_of(leg)))
 
     def follow(self, state: State) -> OutcomeResult:
         """Outcome of the motion from a state at time 0; a new attractor is added to `known`."""
-        legs = list[Result]()
-        segments = list[Segment]()
-        first_separation = math.nan
-        least_tested = math.inf
-        steady = False
+        motion = _FollowedMotion()
         while True:
-            leg = self._leg(state, min(state.time + thresholds.FIRST_LEG, self.horizon))
+            # a leg
+            end = min(state.time + thresholds.FIRST_LEG, self.horizon)
+            leg = self._simulate_leg(state, end)
             state = leg.final_state
-            first_separation = (
-                leg.first_separation if math.isnan(first_separation) else first_separation
-            )
+            if math.isnan(motion.first_separation):
+                motion.first_separation = leg.first_separation
             if not leg.status.complete:
                 return OutcomeResult(
-                    None, state.time, first_separation=first_separation, failed=leg
+                    None, state.time, first_separation=motion.first_separation, failed=leg
                 )
-            legs.append(leg)
-            segments.append(segment_of(leg))
+            motion.legs.append(leg)
+            motion.segments.append(segment_of(leg))
+
+            # an attractor that the motion approaches, or else one on which it has settled; looked
+            # for when the motion becomes steady, and at the horizon
+            was_steady = motion.steady
+            motion.steady = self._is_steady(motion.segments)
             over = state.time >= self.horizon
             attractor = None
             if self.near:
-                # tested only nearer to the quiet cycle than ever before
-                x, distance = self._near_quiet_cycle(segments, state)
-                if (
-                    self.cycle is not None
-                    and distance < least_tested
-                    and self.cycle.follows_multipliers(x)
-                ):
-                    attractor = self.known[0]
-                else:
-                    attractor = self._approached(
-                        [segment.range for segment in segments[-thresholds.NEARING :]]
-                    )
-                least_tested = min(distance, least_tested)
-            was_steady = steady
-            steady = self._is_steady(segments)
-            if attractor is None and (over or (self.near and steady and not was_steady)):
-                attractor = self._settled_on(legs, segments[-1], steady, over)
+                attractor = self._approached(motion, state)
+            becomes_steady = motion.steady and not was_steady
+            if attractor is None and (over or (self.near and becomes_steady)):
+                attractor = self._settled_on(motion, over)
+
+            # the outcome
             if attractor is not None or over:
                 kind = Outcome.UNDECIDED if attractor is None else attractor.kind
                 return OutcomeResult(
-                    kind, state.time, attractor=attractor, first_separation=first_separation
+                    kind, state.time, attractor=attractor, first_separation=motion.first_separation
                 )
 
-    def _leg(self, state: State, end: float) -> Result:
+    def _simulate_leg(self, state: State, end: float) -> Result:
         # the range is taken over thirty oscillations or more
         window = Window(start=max(end - 0.5, state.time), stop=end, rate=thresholds.SAMPLING_RATE)
         return simulate(self.p, end, {"late": window}, tol=self.tol, initial_state=state)
@@ -255,9 +292,10 @@ class Basins:
     def _difference(self, first: Segment, second: Segment) -> float:
         """Largest difference of ranges, rates and shares, relative to the larger one or to a
         floor."""
-        ranges = [max(segment.range, self.smallest) for segment in (first, second)]
+        first_range = max(first.range, self.smallest)
+        second_range = max(second.range, self.smallest)
         compared = [
-            (*ranges, self.smallest),
+            (first_range, second_range, self.smallest),
             (first.separation_rate, second.separation_rate, 2 / thresholds.FIRST_LEG),
             (first.stick_fraction, second.stick_fraction, thresholds.SAME),
             (first.separation_fraction, second.separation_fraction, thresholds.SAME),
@@ -267,85 +305,124 @@ class Basins:
     def _near_quiet_cycle(self, segments: Sequence[Segment], state: State) -> tuple[Array, float]:
         """A point of a motion on the section, and its distance from the quiet cycle; infinite
         unless it is near."""
+        nowhere = self.map.static, math.inf
         last = segments[-1]
         near = self.cycle
-        if near is not None and last.separation_rate == 0 and last.range <= segments[0].range:
-            release = self.map.next_release(state)
-            if release.reached:
-                others = self.map.returns(release.x, near.cycle.releases - 1)
-                for point in chain([release.x], others):
-                    distance = float(np.linalg.norm(point - near.x))
-                    if distance <= thresholds.NEAR * self.map.deflection:
-                        return point, distance
-        return self.map.static, math.inf
+        if near is None or last.separation_rate > 0 or last.range > segments[0].range:
+            return nowhere
+        release = self.map.next_release(state)
+        if not release.reached:
+            return nowhere
+        others = self.map.returns(release.x, near.cycle.releases - 1)
+        for point in chain([release.x], others):
+            distance = float(np.linalg.norm(point - near.x))
+            if distance <= thresholds.NEAR * self.map.deflection:
+                return point, distance
+        return nowhere
 
-    def _approached(self, ranges: Sequence[float]) -> Attractor | None:
+    def _approached(self, motion: _FollowedMotion, state: State) -> Attractor | None:
         """The known attractor that the motion approaches before it has settled; None if there is
         none."""
+        # tested only nearer to the quiet cycle than ever before
+        x, distance = self._near_quiet_cycle(motion.segments, state)
+        is_nearer = distance < motion.least_tested
+        motion.least_tested = min(distance, motion.least_tested)
+        if self.cycle is not None and is_nearer and self.cycle.follows_multipliers(x):
+            return self.known[0]
+        ranges = [segment.range for segment in motion.segments[-thresholds.NEARING :]]
+        return self._approached_by_range(ranges)
+
+    def _approached_by_range(self, ranges: Sequence[float]) -> Attractor | None:
+        """The attractor, other than the quiet cycle, whose range of the height those of the last
+        legs (m) approach; None if that is not clear."""
         others = [attractor for attractor in self.known if attractor.kind is not Outcome.QUIET]
         if len(ranges) < thresholds.NEARING or not others:
             return None
-        ends = [attractor.segment.range for attractor in others]
-        apart = [
-            [abs(value - end) / max(value, end, sys.float_info.min) for value in ranges]
-            for end in ends
-        ]
-        nearest = min(range(len(others)), key=lambda i: apart[i][-1])
-        if any(distances[-1] <= 2 * self.near for i, distances in enumerate(apart) if i != nearest):
+
+        # it must be near, and no other one nearly as near
+        last = [_relative_difference(ranges[-1], each.segment.range) for each in others]
+        nearest = int(np.argmin(last))
+        distance = last[nearest]
+        rivals = last[:nearest] + last[nearest + 1 :]
+        if distance > self.near or min(rivals, default=math.inf) <= 2 * self.near:
             return None
-        last = apart[nearest][-1]
-        nearing = all(
-            later < earlier or later <= thresholds.VARIATION
-            for earlier, later in pairwise(apart[nearest])
-        )
-        slows = _rest_of_drift(ranges) <= (2 * last + thresholds.VARIATION) * ranges[-1]
-        return others[nearest] if last <= self.near and nearing and slows else None
+
+        # it must be approached from leg to leg, ever more slowly
+        end = others[nearest].segment.range
+        distances = [_relative_difference(value, end) for value in ranges]
+        for earlier, later in pairwise(distances):
+            if later >= earlier and later > thresholds.VARIATION:
+                return None
+        slows = _rest_of_drift(ranges) <= (2 * distance + thresholds.VARIATION) * ranges[-1]
+        return others[nearest] if slows else None
 
     def _is_steady(self, segments: Sequence[Segment]) -> bool:
+        """Whether the last segments differ so little, and drift so slowly, that a motion may have
+        settled."""
         last = segments[-thresholds.SETTLING :]
-        varies = any(self._difference(part, last[-1]) > thresholds.VARIATION for part in last[:-1])
-        if len(last) < thresholds.SETTLING or varies:
+        if len(last) < thresholds.SETTLING:
+            return False
+        largest = max(self._difference(segment, last[-1]) for segment in last[:-1])
+        if largest > thresholds.VARIATION:
             return False
         ranges = [max(segment.range, self.smallest) for segment in last]
         stays = abs(ranges[-1] - ranges[0]) <= thresholds.STEADY * ranges[-1]
         return stays or _rest_of_drift(ranges) <= thresholds.SAME / 2 * ranges[-1]
 
-    def _settled_on(
-        self, legs: Sequence[Result], segment: Segment, steady: bool, over: bool
-    ) -> Attractor | None:
-        """The attractor on which a motion is, if that is proven, the whole record has settled, or
-        the last legs are as steady as those on a known attractor; None near an unstable cycle."""
-        reached = arrival(self.p, legs, thresholds.LARGEST_PERIOD)
+    def _settled_on(self, motion: _FollowedMotion, over: bool) -> Attractor | None:
+        """The attractor on which a motion is, if that is proven, the whole record has settled and
+        is `over`, or the last legs are as steady as those on a known attractor; None near an
+        unstable cycle."""
+        reached = arrival(self.p, motion.legs, thresholds.LARGEST_PERIOD)
         if not reached.settled and reached.settling.least == 0:  # by multipliers
             return None
+        segment = motion.segments[-1]
         attractor = Attractor(reached.calm or Outcome.UNDECIDED, segment)
         if reached.near is not None:
             attractor = self._periodic(reached.near, segment)
-        proven = attractor.kind is not Outcome.UNDECIDED
-        same = next((known for known in self.known if self._same(attractor, known)), None)
-        if not (proven or (over and reached.settled) or (steady and same)):
+
+        same = self._known_as(attractor)
+        is_proven = attractor.kind is not Outcome.UNDECIDED
+        has_settled = over and reached.settled
+        if same is not None:
+            is_on_it = is_proven or has_settled or motion.steady
+            return same if is_on_it else None
+        if not (is_proven or has_settled):
             return None
-        if same is None:
-            if not proven:
-                attractor = replace(
-                    attractor, kind=regularity(self.p, legs[-1].final_state, self.tol).kind
-                )
-            self.known.append(attractor)
-        return same or attractor
+
+        # a new one
+        if not is_proven:
+            end = motion.legs[-1].final_state
+            attractor = replace(attractor, kind=regularity(self.p, end, self.tol).kind)
+        self.known.append(attractor)
+        return attractor
+
+    def _known_as(self, attractor: Attractor) -> Attractor | None:
+        """The known attractor that is the same as another one; None if there is none."""
+        for known in self.known:
+            if self._same(attractor, known):
+                return known
+        return None
 
     def _same(self, first: Attractor, second: Attractor) -> bool:
         """Whether two attractors are the same: periodic ones by their fixed points, others by their
         segments."""
         if first.points is not None and second.points is not None:
-            apart = min(float(np.linalg.norm(first.points[0] - point)) for point in second.points)
+            apart = float(np.linalg.norm(second.points - first.points[0], axis=1).min())
             return apart <= thresholds.SAME_POINT * self.map.deflection
         return self._difference(first.segment, second.segment) <= thresholds.SAME
 
     def _periodic(self, near: NearCycle, segment: Segment) -> Attractor:
+        """A cycle as an attractor, with a segment of a motion on it."""
         cycle = near.cycle
         points = [near.x, *near.map.returns(near.x, cycle.releases - 1, may_separate=True)]
         return Attractor(
-            near.kind, segment, cycle.period, cycle.releases, cycle.growth_rate, np.array(points)
+            kind=near.kind,
+            segment=segment,
+            period=cycle.period,
+            releases=cycle.releases,
+            growth_rate=cycle.growth_rate,
+            points=np.array(points),
         )
 
 
@@ -367,10 +444,19 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
     energy_drawn = 0.5 * (float(np.sum(draw**2)) + p.k * u**2 + p.m * velocity**2)
     size = math.sqrt(energy / energy_drawn)
     velocity_of_u = velocity + state.f * float(np.sum(modes.diameters * modes.psi * b))
-    changes = {"a": a, "b": b, "alpha": alpha, "beta": beta, "u": u, "u_velocity": velocity_of_u}
     return state.replace(
-        **{name: getattr(state, name) + size * change for name, change in changes.items()}
+        a=state.a + size * a,
+        b=state.b + size * b,
+        alpha=state.alpha + size * alpha,
+        beta=state.beta + size * beta,
+        u=state.u + size * u,
+        u_velocity=state.u_velocity + size * velocity_of_u,
     )
+
+
+def _relative_difference(first: float, second: float) -> float:
+    """Difference of two ranges over the larger one."""
+    return abs(first - second) / max(first, second, sys.float_info.min)
 
 
 def _rest_of_drift(values: Sequence[float]) -> float:
@@ -381,4 +467,6 @@ def _rest_of_drift(values: Sequence[float]) -> float:
     last = abs(changes[-1])
     if not (np.all(changes > 0) or np.all(changes < 0)):
         return 0.0
-    return float(last**2 / (before - last)) if last < before else math.inf
+    if not last < before:
+        return math.inf
+    return float(last**2 / (before - last))

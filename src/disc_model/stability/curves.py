@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.analysis.spectra import Resonance, nearest_resonance
-from disc_model.data.variables import STABLE_CYCLES
-from disc_model.display import Drawn, counted, html_table
+from disc_model.display import Drawn, counted
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
@@ -28,9 +27,9 @@ from disc_model.stability.continuation import (
     free_faults,
     interval_in_si,
 )
-from disc_model.stability.cycle import FloquetResult, find_cycle
-from disc_model.stability.return_map import Array, ComplexArray, case_faults
-from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
+from disc_model.stability.cycle import find_cycle
+from disc_model.stability.return_map import Array
+from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
 
 MOST_ON_LINE = 500  # points of a branch between two points of a line
 BORDER_KINDS: Mapping[str, Kind] = {
@@ -40,6 +39,10 @@ BORDER_KINDS: Mapping[str, Kind] = {
 }
 """Special points of a branch, and the borders on which they lie."""
 MOST_POINTS = 100_000  # largest number of points along a line: an hour of work
+SAME_PLACE = 0.01  # distance of a point from a curve through it, over the span of the plane
+# relative difference of periods on one curve; those of the two borders of one resonance differ by
+# 1 % and more
+SAME_PERIOD = 0.004
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,9 +92,8 @@ class NeutralCurves(Drawn):
         return len(self.curves)
 
     def __repr__(self) -> str:
-        plane = " and ".join(
-            f"{name} from {low:g} to {high:g}" for name, (low, high) in self.bounds.items()
-        )
+        ranges = [f"{name} from {low:g} to {high:g}" for name, (low, high) in self.bounds.items()]
+        plane = " and ".join(ranges)
         return f"NeutralCurves({counted(len(self), 'curve')} over {plane}, {len(self.failures)} not followed)"
 
 
@@ -150,75 +152,146 @@ def neutral_curves(
     raise_faults(foreign_case(p))
     # a curve ends where a shorter step would be needed, as where an event grazes
     steps = BORDER.replace(longest=longest, shortest=1e-5, max_points=max_points)
-    free = isinstance(bounds, Mapping) and len(bounds) == 2
-    plane: Any = {name: interval_in_si(name, ends) for name, ends in bounds.items()} if free else {}
-    within = free and all(ends is not None for ends in plane.values())
+    plane = _plane_in_si(bounds)
+    within = bool(plane) and all(ends is not None for ends in plane.values())
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
+    rule = "must be two ascending finite numbers, by the names of two parameters"
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
-        (
-            within,
-            "bounds",
-            bounds,
-            "must be two ascending finite numbers, by the names of two parameters",
-        ),
+        (within, "bounds", bounds, rule),
         (is_finite_array(lines), "lines", lines, "must be finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
-    raise_faults(wrong + (free_faults(p, [*bounds]) if free else []))
-    tol = float(tol)
-    names = x, y = tuple(plane)
-    curves = list[StabilityCurve]()
-    notes = list[str]()
-    span = np.array([high - low for low, high in plane.values()])
+    raise_faults(wrong + free_faults(p, list(plane)))
+
+    search = _CurveSearch(p, plane, float(tol), steps)
     for line in map(float, lines):
-        along = np.linspace(plane[x][0], plane[x][1], points).tolist()
-        for seed in _seeds([p.replace(**{y: line, x: value}) for value in along], x, tol, notes):
-            point = np.array([seed.case.numbers[name] for name in names])
-            if _known(curves, seed.kind, point, seed.period, span):
+        search.scan(line, points)
+    return NeutralCurves(p, plane, tuple(search.curves), tuple(search.failures))
+
+
+def _plane_in_si(bounds: Any) -> dict[Any, Any]:
+    """Bounds of two parameters in SI units, by name, None for bounds that are not an interval;
+    empty unless there are two names."""
+    if not isinstance(bounds, Mapping) or len(bounds) != 2:
+        return {}
+    return {name: interval_in_si(name, ends) for name, ends in bounds.items()}
+
+
+class _CurveSearch:
+    """The search for curves in a plane of two parameters.
+
+    plane : bounds of both parameters by name, SI units; the first one is scanned
+    steps : steps along a curve
+    span : (2,), lengths of both intervals, over which distances in the plane are taken
+    curves, failures : what was found so far, and descriptions of what could not be followed
+    """
+
+    def __init__(
+        self,
+        p: Parameters,
+        plane: Mapping[str, tuple[float, float]],
+        tol: float,
+        steps: StepControl,
+    ) -> None:
+        x, y = plane
+        self.p = p
+        self.plane = plane
+        self.names = (x, y)
+        self.tol = tol
+        self.steps = steps
+        self.span = np.array([high - low for low, high in plane.values()])
+        self.curves: list[StabilityCurve] = []
+        self.failures: list[str] = []
+
+    def scan(self, line: float, points: int) -> None:
+        """Follow all curves that pass between the points of a line, on which the second parameter
+        has one value."""
+        x, y = self.names
+        low, high = self.plane[x]
+        along = np.linspace(low, high, points).tolist()
+        cases = [self.p.replace(**{y: line, x: value}) for value in along]
+        for seed in self._seeds(cases):
+            self._follow(seed)
+
+    def _seeds(self, cases: Sequence[Parameters]) -> Iterator[_Seed]:
+        """Special points along a line where the cycle changes stability or ends, found by
+        continuation from both neighbours."""
+        name = self.names[0]
+        growth = [find_cycle(case, self.tol).growth_rate for case in cases]
+        exists = [not math.isnan(rate) for rate in growth]
+        for i, (before, after) in enumerate(pairwise(growth)):
+            if before * after > 0 or not (exists[i] or exists[i + 1]):
                 continue
-            where = ", ".join(
-                f"{name}={value:.6g}" for name, value in zip(names, point, strict=True)
+            for begin, end in ((i, i + 1), (i + 1, i)):
+                if not exists[begin]:
+                    continue
+                value = cases[end].numbers[name]
+                seed = _border(cases[begin], name, value, self.tol, self.failures)
+                if seed is not None:
+                    yield seed
+
+    def _follow(self, seed: _Seed) -> None:
+        """Follow the curve through a special point, unless it is known."""
+        point = np.array([seed.case.numbers[name] for name in self.names])
+        if self._is_known(seed.kind, point, seed.period):
+            return
+        try:
+            branch = continue_border(
+                seed.kind,
+                seed.case,
+                self.names,
+                self.plane,
+                guess=seed.point,
+                mu=seed.mu,
+                tol=self.tol,
+                steps=self.steps,
             )
-            try:
-                branch = continue_border(
-                    seed.kind,
-                    seed.case,
-                    names,
-                    plane,
-                    guess=seed.point,
-                    mu=seed.mu,
-                    tol=tol,
-                    steps=steps,
-                )
-            except ParameterError as error:
-                notes.append(f"{seed.kind} near {where}: {error}")
+        except ParameterError as error:
+            x, y = self.names
+            where = f"{x}={point[0]:.6g}, {y}={point[1]:.6g}"
+            self.failures.append(f"{seed.kind} near {where}: {error}")
+            return
+
+        # it may turn out to be known at the point halfway along it, since points are dense where
+        # two borders meet
+        steps = np.linalg.norm(np.diff(branch.values / self.span, axis=0), axis=1)
+        length = np.cumsum(steps)
+        i = int(np.searchsorted(length, length[-1] / 2)) + 1
+        if not self._is_known(seed.kind, branch.values[i], float(branch.period[i])):
+            self.curves.append(_curve(seed, branch))
+
+    def _is_known(self, kind: str, point: Array, period: float) -> bool:
+        """Whether a known curve of this kind, with cycles of this period (s), passes through a
+        point of the plane."""
+        for curve in self.curves:
+            if curve.kind != kind:
                 continue
-            # the place halfway along the curve, since places are dense where two borders meet
-            length = np.cumsum(np.linalg.norm(np.diff(branch.values / span, axis=0), axis=1))
-            i = int(np.searchsorted(length, length[-1] / 2)) + 1
-            if not _known(curves, seed.kind, branch.values[i], float(branch.period[i]), span):
-                curves.append(_curve(seed, branch))
-    return NeutralCurves(p, plane, tuple(curves), tuple(notes))
+            distance, period_there = _nearest_on(curve, point, self.span)
+            if distance < SAME_PLACE and abs(period_there / period - 1) < SAME_PERIOD:
+                return True
+        return False
 
 
-def _seeds(cases: Sequence[Parameters], name: str, tol: float, notes: list[str]) -> Iterator[_Seed]:
-    """Places along a line where the cycle changes stability or ends, found by continuation from
-    both neighbours."""
-    growth = np.array([find_cycle(case, tol).growth_rate for case in cases])
-    for i, (before, two) in enumerate(pairwise(growth)):
-        if (np.isnan(before) and np.isnan(two)) or before * two > 0:
-            continue
-        for begin, end in ((i, i + 1), (i + 1, i)):
-            if np.isnan(growth[begin]):
-                continue
-            seed = _border(cases[begin], name, cases[end].numbers[name], tol, notes)
-            if seed is not None:
-                yield seed
+def _nearest_on(curve: StabilityCurve, point: Array, span: Array) -> tuple[float, float]:
+    """Distance of a point of the plane from a curve, over the span, and the period of the cycle
+    there, s."""
+    corners = (curve.values - point) / span
+    steps = np.diff(corners, axis=0)
+    size = np.sum(steps**2, axis=1)
+    projection = -np.sum(corners[:-1] * steps, axis=1)
+    share = np.clip(projection / np.where(size > 0, size, 1.0), 0.0, 1.0)
+    distance = np.linalg.norm(corners[:-1] + share[:, None] * steps, axis=1)
+    i = int(np.argmin(distance))
+    change = curve.period[i + 1] - curve.period[i]
+    return float(distance[i]), float(curve.period[i] + share[i] * change)
 
 
-def _border(case: Parameters, name: str, end: float, tol: float, notes: list[str]) -> _Seed | None:
+def _border(
+    case: Parameters, name: str, end: float, tol: float, failures: list[str]
+) -> _Seed | None:
     """The special point of a branch from a case to another value of a parameter at which a stable
-    cycle first gains or loses stability, or ends; without a stable one, the first special point."""
+    cycle first gains or loses stability, or ends; without a stable one, the first special point.
+    What cannot be followed is described in `failures`."""
     begin = case.numbers[name]
     bounds = (min(begin, end), max(begin, end))
     direction = 1 if begin < end else -1
@@ -226,320 +299,39 @@ def _border(case: Parameters, name: str, end: float, tol: float, notes: list[str
         steps = StepControl(scale=abs(end - begin), max_points=MOST_ON_LINE)
         branch = continue_cycle(case, name, bounds, direction=direction, tol=tol, steps=steps)
     except ParameterError as error:
-        notes.append(f"{name}={begin:.6g}: {error}")
+        failures.append(f"{name}={begin:.6g}: {error}")
         return None
     if branch.ended.startswith(UNLOCATED):
-        notes.append(branch.ended)
+        failures.append(branch.ended)
     borders = [special for special in branch.special if special.kind in BORDER_KINDS]
+    if not borders:
+        return None
     stable = branch.growth_rate < 0
-    beside = [each for each in borders if stable[each.after : each.after + 2].any()]
-    for special in [*beside, *borders][:1]:
-        kind = BORDER_KINDS[special.kind]
-        return _Seed(kind, special.case, special.point, special.multiplier, special.period)
-    return None
-
-
-def _known(
-    curves: Sequence[StabilityCurve], kind: str, point: Array, period: float, span: Array
-) -> bool:
-    """Whether a known curve of this kind, with cycles of this period, passes through a place of the
-    plane."""
-    for curve in (curve for curve in curves if curve.kind == kind):
-        corners = (curve.values - point) / span
-        steps = np.diff(corners, axis=0)
-        size = np.sum(steps**2, axis=1)
-        share = np.clip(
-            -np.sum(corners[:-1] * steps, axis=1) / np.where(size > 0, size, 1.0), 0.0, 1.0
-        )
-        distance = np.linalg.norm(corners[:-1] + share[:, None] * steps, axis=1)
-        i = int(np.argmin(distance))
-        period_there = curve.period[i] + share[i] * (curve.period[i + 1] - curve.period[i])
-        # periods of the two borders of one resonance differ by 1 % and more
-        if distance[i] < 0.01 and abs(period_there / period - 1) < 0.004:
-            return True
-    return False
+    next_to_stable = [each for each in borders if stable[each.after : each.after + 2].any()]
+    special = next_to_stable[0] if next_to_stable else borders[0]
+    kind = BORDER_KINDS[special.kind]
+    return _Seed(kind, special.case, special.point, special.multiplier, special.period)
 
 
 def _curve(seed: _Seed, branch: Branch) -> StabilityCurve:
-    border = branch.growth_rate < 1e-3  # 1/s; no other multiplier grows
-    middle = int(np.flatnonzero(border)[border.sum() // 2]) if border.any() else len(branch) // 2
-    case = seed.case.replace(
-        **dict(zip(branch.parameters, map(float, branch.values[middle]), strict=True))
-    )
+    """The curve of a border that was followed from a special point."""
+    adjoins_stable = branch.growth_rate < 1e-3  # 1/s; no other multiplier grows
+    middle = len(branch) // 2
+    if adjoins_stable.any():
+        places = np.flatnonzero(adjoins_stable)
+        middle = int(places[len(places) // 2])
+    values = dict(zip(branch.parameters, branch.values[middle].tolist(), strict=True))
+    case = seed.case.replace(**values)
     leading = branch.multipliers[:, 0]
-    mu = 1.0 + 0j if seed.kind == "fold" else complex(leading[middle])
-    resonance = nearest_resonance(
-        case, float(branch.period[middle]), mu, int(branch.diameters[middle])
+    mu = 1.0 + 0j
+    if seed.kind != "fold":
+        mu = complex(leading[middle])
+    period = float(branch.period[middle])
+    return StabilityCurve(
+        kind=seed.kind,
+        values=branch.values,
+        adjoins_stable_cycle=adjoins_stable,
+        period=branch.period,
+        multipliers=leading,
+        resonance=nearest_resonance(case, period, mu, int(branch.diameters[middle])),
     )
-    return StabilityCurve(seed.kind, branch.values, border, branch.period, leading, resonance)
-
-
-# ---- One parameter
-
-ROUNDS = (
-    8  # times that places of suspected instability are predicted anew, from the cycles beside them
-)
-NARROWEST = 1e-5  # of the range: between values closer than that no further ones are computed
-# modulus below which a multiplier takes part in no resonance that could make it one
-STRONGLY_DAMPED = 0.5
-# rad, by which a multiplier may turn from one value to the next; beyond, multipliers cannot be told
-# apart by their distances
-LONGEST_TURN = 0.3
-# the angles of a pair at two values, from the real axis, over the longest turn of any multiplier:
-# up to this, the pair may have met the axis in between, and have left it again on the same side
-MAY_HAVE_MET = 1.5
-# exponents of distances by which multipliers are matched. One that passes another moves as far, in
-# sum, as two that follow each other: the first exponent does not tell them apart, the second one
-# takes them to have passed
-MATCHES = (1.0, 0.5)
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Critical(Drawn):
-    """Values of a parameter at which the motion near the static start gains or loses stability.
-
-    `plot` draws the growth rate of the cycle over the parameter, with the intervals in which that
-    motion is unstable.
-
-    Attributes
-    ----------
-    parameters, name : the case, and the parameter
-    value : the least value computed at which the motion near the static start is unstable; nan if
-        there is none
-    crossings : shape (n,), all values at which stability was seen to change, ascending
-    unstable_above : bool, (n,), whether that motion is unstable just above each
-    values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle (1/s; nan without)
-    resolution : the largest step between neighbouring values computed. No stretch of stability or
-        of instability that is wider has been overlooked. Most narrower ones are seen, because they
-        are looked for where multipliers meet
-    """
-
-    _picture = "plot_critical"
-    parameters: Parameters
-    name: str
-    value: float
-    crossings: Array
-    unstable_above: NDArray[np.bool_]
-    values: Array
-    growth_rate: Array
-    resolution: float
-
-    def __repr__(self) -> str:
-        first = f"unstable from {self.value:.6g}" if math.isfinite(self.value) else "stable"
-        crossings = counted(len(self.crossings), "crossing")
-        seen = f"{len(self.values)} values, steps of at most {self.resolution:.2g}"
-        return f"Critical({self.name}: {first}, {crossings}, {seen})"
-
-    def _repr_html_(self) -> str:
-        """The intervals of one stability in a notebook, and what may have been overlooked."""
-        unit = self.parameters.unit(self.name).removeprefix("1")
-        edges = [float(self.values[0]), *self.crossings.tolist(), float(self.values[-1])]
-        unstable = {float(low) for low, _ in self.unstable}
-        rows = [
-            (f"{low:.9g}", f"{high:.9g}", "unstable" if low in unstable else "stable")
-            for low, high in pairwise(edges)
-        ]
-        rows.append(("tongues overlooked", f"below {self.resolution:.2g} {unit}".strip(), ""))
-        head = (
-            f"{self.name} from",
-            f"to ({unit})" if unit else "to",
-            "motion near the static start",
-        )
-        return html_table(head, rows)
-
-    @property
-    def unstable(self) -> Array:
-        """The intervals in which that motion is unstable, shape (n_intervals, 2). Another one may
-        be stable there."""
-        edges = np.array([self.values[0], *self.crossings, self.values[-1]])
-        grows = [
-            not self.unstable_above[0] if len(self.crossings) else math.isfinite(self.value),
-            *self.unstable_above,
-        ]
-        return np.column_stack([edges[:-1], edges[1:]])[np.array(grows)]
-
-
-@compiling()
-def critical(
-    p: Parameters,
-    name: str,
-    bounds: tuple[Quantity, Quantity],
-    *,
-    points: int = 201,
-    precision: float | None = None,
-    tol: float = 1e-12,
-) -> Critical:
-    """The least parameter value with unstable motion near the static start, and all stability
-    changes above it.
-
-    That motion is the stick-slip cycle, or steady sliding or rest if there is no cycle. It is
-    computed at equal steps, which alone limit what can be overlooked. Instability often lies in
-    much narrower tongues, where multipliers meet on the unit circle. Their angles change smoothly,
-    so that these places are predicted from neighbouring values, and computed as well.
-
-    Parameters
-    ----------
-    p : the case; its value of the parameter is not used
-    name : one of `Parameters.numbers`, such as "mu_s"
-    bounds : lowest and highest value; SI units, or texts with units
-    points : number of evenly spaced values, which determines the `resolution`. With nine modes,
-        the scan takes one or two seconds by default
-    precision : to which crossings are bisected; a millionth of the range if not given
-    tol : as in `floquet`
-
-    Returns
-    -------
-    Critical
-        `value`, `crossings`, and `resolution`, beyond which nothing can have been overlooked.
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule, or the case does at a value within the bounds.
-
-    Examples
-    --------
-    >>> import disc_model as dm
-    >>> case = dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6)
-    >>> dm.critical(case, "mu_s", (0.3, 0.42), points=7)
-    Critical(mu_s: unstable from 0.3, 1 crossing, ... values, steps of at most ...)
-    """
-    counts = is_whole(points) and 2 <= points <= MOST_POINTS
-    good = precision is None or (is_number(precision) and precision > 0)
-    wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
-        (
-            (ends := interval_in_si(name, bounds)) is not None,
-            "bounds",
-            bounds,
-            "must be two ascending finite numbers",
-        ),
-        (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
-        (good, "precision", precision, "must be a number > 0"),
-    )
-    raise_faults(case_faults(p, "critical") or wrong + free_faults(p, [name]))
-    tol = float(tol)
-    values = np.linspace(ends[0], ends[1], points).tolist()
-    for x in values:
-        p.replace(**{name: x})
-    span = ends[1] - ends[0]
-    shortest = 1e-6 * span if precision is None else float(precision)
-    scan = _Scan(p, name, tol)
-    for x in values:
-        scan.stable(x)
-    scan.refine(max(shortest, NARROWEST * span))
-    changes = [(a, b) for a, b in pairwise(sorted(scan.cycles)) if scan.stable(a) != scan.stable(b)]
-    crossings = [scan.located(a, b, shortest) for a, b in changes]
-    unstable_above = [scan.stable(a) for a, _ in changes]
-    computed = sorted(scan.cycles)
-    return Critical(
-        parameters=p,
-        name=name,
-        value=next((x for x in computed if not scan.stable(x)), math.nan),
-        crossings=np.array(crossings),
-        unstable_above=np.array(unstable_above, dtype=bool),
-        values=np.array(computed),
-        growth_rate=np.array([scan.cycles[x].growth_rate for x in computed]),
-        resolution=max(b - a for a, b in pairwise(computed)),
-    )
-
-
-class _Scan:
-    """Cycles of a case by the value of one parameter, each computed once."""
-
-    def __init__(self, p: Parameters, name: str, tol: float) -> None:
-        self.p, self.name, self.tol = p, name, tol
-        self.cycles: dict[float, FloquetResult] = {}
-
-    def stable(self, x: float) -> bool:
-        if x not in self.cycles:
-            self.cycles[x] = find_cycle(self.p.replace(**{self.name: x}), self.tol)
-        return self.cycles[x].motion in STABLE_CYCLES
-
-    def refine(self, narrowest: float) -> None:
-        """Compute further values where the cycles beside them leave a change of stability in doubt,
-        none closer than `narrowest` to another one."""
-        looked_at = set[tuple[float, float]]()
-        for _ in range(ROUNDS):
-            gaps = {gap for gap in pairwise(sorted(self.cycles)) if gap not in looked_at}
-            looked_at |= gaps
-            for a, b in sorted(gaps):
-                for share in _doubtful_shares(self.cycles[a], self.cycles[b]):
-                    if min(share, 1 - share) * (b - a) > narrowest:
-                        self.stable(a + share * (b - a))
-
-    def located(self, a: float, b: float, shortest: float) -> float:
-        """The upper end of a short interval within a longer one, from a to b, at whose ends
-        stability differs."""
-        before = self.stable(a)
-        while b - a > shortest:
-            middle = 0.5 * (a + b)
-            if not a < middle < b:
-                break
-            if self.stable(middle) == before:
-                a = middle
-            else:
-                b = middle
-        return b
-
-
-def _doubtful_shares(first: FloquetResult, second: FloquetResult) -> list[float]:
-    """Shares of the way from one cycle to another at which stability may change, or the cycle
-    end."""
-    if not (len(first.multipliers) and len(second.multipliers)):
-        return [0.5] if len(first.multipliers) != len(second.multipliers) else []
-    shares = set[float]()
-    for exponent in MATCHES:
-        before, after = _matched(first.multipliers, second.multipliers, exponent)
-        shares |= _shares_of_change(before, after)
-    return sorted(shares)
-
-
-def _matched(
-    first: ComplexArray, second: ComplexArray, exponent: float
-) -> tuple[ComplexArray, ComplexArray]:
-    """Multipliers of two cycles, each beside the one that it becomes: the sum of distances, to the
-    power `exponent`, is least."""
-    from scipy.optimize import linear_sum_assignment
-
-    distance = np.abs(first[:, None] - second[None, :])
-    rows, columns = linear_sum_assignment(distance**exponent)
-    return first[rows], second[columns]
-
-
-def _shares_of_change(before: ComplexArray, after: ComplexArray) -> set[float]:
-    """As `_doubtful_shares`, from multipliers that are matched."""
-    weak = np.minimum(abs(before), abs(after)) > STRONGLY_DAMPED
-    on_axis = [int(np.sum(weak & (values.imag == 0))) for values in (before, after)]
-    upper = weak & (before.imag > 0)
-    angle = np.angle(before[upper])
-    turn = np.angle(after[upper] / before[upper])
-    longest = float(np.abs(turn).max(initial=0))
-    shares = {*_meetings(angle, turn), *_returns_from_axis(angle, angle + turn, longest)}
-    if longest > LONGEST_TURN or on_axis[0] != on_axis[1]:
-        shares.add(0.5)
-    return shares
-
-
-def _meetings(angle: Array, turn: Array) -> list[float]:
-    """Shares of the way at which multipliers meet on the unit circle, from their angles (rad) and
-    by how much they turn: those of the upper half, with each other and with the conjugate ones."""
-    i, j = np.triu_indices(len(angle))
-    # a multiplier that comes to the real axis meets its conjugate, as the sum of an angle with
-    # itself comes to 2 pi
-    begin = np.concatenate([angle[i] + angle[j], (angle[i] - angle[j])[i != j]]) / math.tau
-    end = begin + np.concatenate([turn[i] + turn[j], (turn[i] - turn[j])[i != j]]) / math.tau
-    meets = np.floor(begin) != np.floor(end)
-    level = np.maximum(np.floor(begin), np.floor(end))
-    shares = (level - begin)[meets] / (end - begin)[meets]
-    return [float(share) for share in shares if 0 < share < 1]
-
-
-def _returns_from_axis(before: Array, after: Array, longest: float) -> list[float]:
-    """Shares of the way at which multipliers may have met the real axis, from their angles at both
-    ends (rad): a pair that passes through the axis looks like one that has turned back."""
-    shares = list[float]()
-    for first, second in ((before, after), (math.pi - before, math.pi - after)):
-        way = first + second
-        near = (first > 0) & (second > 0) & (way <= MAY_HAVE_MET * longest)
-        shares += (first[near] / way[near]).tolist()
-    return shares

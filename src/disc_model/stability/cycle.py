@@ -15,7 +15,6 @@ from functools import cached_property
 import numpy as np
 
 from disc_model.data.variables import CycleStatus, values_text
-from disc_model.disc.plate import mode_arrays
 from disc_model.display import Drawn, Summarised, counted, number_text
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, raise_faults, violations
@@ -25,18 +24,12 @@ from disc_model.stability.return_map import (
     ENDS,
     Array,
     ComplexArray,
-    Flight,
+    Orbit,
     ReturnMap,
     case_faults,
     newton,
 )
-from disc_model.stability.sliding import (
-    SlidingModes,
-    SteadySliding,
-    sliding_modes,
-    split_rows,
-    steady_sliding,
-)
+from disc_model.stability.sliding import SteadySliding, steady_sliding
 from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
 
 RETURNS_TRIED = (1, 2, 3)  # numbers of releases in a period of the cycles that are sought
@@ -91,29 +84,26 @@ class FloquetResult(Summarised, Drawn):
 
     def __repr__(self) -> str:
         p = self.parameters
-        exists = self.status is CycleStatus.OK
-        summary = (
-            f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s"
-            if exists
-            else self.status.value
-        )
+        summary = self.status.value
+        if self.status is CycleStatus.OK:
+            summary = f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s"
         return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {summary}, {len(self.multipliers)} multipliers)"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
-        verdict = f"1/s (small disturbances {'die out' if self.stable else 'grow'})"
+        tendency = "die out" if self.stable else "grow"
         yield "case", values_text(dict(self.parameters))
         yield "status", self.message  # with the period and its events
         yield "advice", "" if self.status is CycleStatus.OK else self.status.advice
-        yield "growth rate", number_text(self.growth_rate, verdict)
+        rate_with_verdict = number_text(self.growth_rate, f"1/s (small disturbances {tendency})")
+        yield "growth rate", rate_with_verdict
         yield "share of stick", number_text(self.stick_fraction, "", 3)
-        yield from (
-            ("leading multiplier", f"{x:.6g}, modulus {abs(x):.9g}") for x in self.multipliers[:1]
-        )
+        for leading in self.multipliers[:1]:
+            yield "leading multiplier", f"{leading:.6g}, modulus {abs(leading):.9g}"
         rate = self.sliding.growth_rate
-        yield (
-            "steady sliding",
-            self.sliding.message if math.isnan(rate) else f"growth rate {rate:.6g} 1/s",
-        )
+        if math.isnan(rate):
+            yield "steady sliding", self.sliding.message
+        else:
+            yield "steady sliding", f"growth rate {rate:.6g} 1/s"
 
     @cached_property
     def sliding(self) -> SteadySliding:
@@ -187,15 +177,12 @@ def floquet(
 
 
 def guess_faults(guess: object, releases: object) -> list[str]:
+    """Faults of a guess for the search for a cycle, and of the number of its releases."""
     counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or releases == 1)
+    rule = "must be a whole number >= 1, and 1 without a state to look near"
     return violations(
         (isinstance(guess, State | None), "guess", guess, "must be a State"),
-        (
-            counts,
-            "releases",
-            releases,
-            "must be a whole number >= 1, and 1 without a state to look near",
-        ),
+        (counts, "releases", releases, rule),
     )
 
 
@@ -211,8 +198,8 @@ def find_cycle(
         return _none(p, tol, CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc")
     if guess is None:
         return cycle_from_rest(ReturnMap(p, tol))
-    near_state = isinstance(guess, State)
-    map_ = ReturnMap(p, tol, patient=near_state)
+    from_state = isinstance(guess, State)
+    map_ = ReturnMap(p, tol, patient=from_state)
     if isinstance(guess, State):
         release = map_.next_release(guess)
         if not release.reached:
@@ -222,13 +209,11 @@ def find_cycle(
         x = release.x
     else:
         x = guess
-    solution = newton(map_, x, releases=releases, may_separate=near_state)
-    without = f"no cycle with {counted(releases, 'release')} near the given state"
-    return (
-        _none(p, tol, CycleStatus.NO_CYCLE, without)
-        if solution is None
-        else cycle_of(map_, solution)
-    )
+    solution = newton(map_, x, releases=releases, may_separate=from_state)
+    if solution is None:
+        without = f"no cycle with {counted(releases, 'release')} near the given state"
+        return _none(p, tol, CycleStatus.NO_CYCLE, without)
+    return cycle_of(map_, solution)
 
 
 def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
@@ -237,17 +222,19 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
     p = map_.parameters
     tol = map_.tol
     start = map_.first_release
-    x = start.x if start.reached else map_.static
+    x = map_.static
+    if start.reached:
+        x = start.x
     solution = newton(map_, x)
     if solution is not None:
         return cycle_of(map_, solution)
     if not start.reached:
         return _without_return(map_, start.outcome, start.time)
     for _ in range(TRANSIENT):
-        flight = map_.evaluate(x, tangent=False)
-        if not flight.returned:
-            return _without_return(map_, flight.outcome, flight.period)
-        x = flight.end
+        orbit = map_.evaluate(x, tangent=False)
+        if not orbit.returned:
+            return _without_return(map_, orbit.outcome, orbit.period)
+        x = orbit.end
     for releases in RETURNS_TRIED:
         solution = newton(map_, x, releases=releases)
         if solution is not None:
@@ -268,27 +255,30 @@ _WITHOUT_RETURN = {
         "the motion from the static start runs into Painleve's paradox",
     ),
 }
-"""Status and message for a transient's flight that ends in these ways; braces stand for its duration."""
+"""Status and message for a transient's orbit that ends in these ways; braces stand for its duration."""
 
 
 def _without_return(map_: ReturnMap, outcome: int, duration: float) -> FloquetResult:
-    """The result for a motion whose flight of that duration (s) does not end on the section."""
+    """The result for a motion whose orbit of that duration (s) does not end on the section."""
     status, why = _WITHOUT_RETURN[ENDS[outcome]]
     return _none(map_.parameters, map_.tol, status, why.format(duration))
 
 
-def run_through_once(map_: ReturnMap, flight: Flight) -> Flight:
+def run_through_once(map_: ReturnMap, orbit: Orbit) -> Orbit:
     """A cycle with its shortest period: one that is traversed several times is reduced to a single
     pass."""
-    times = flight.counts.releases
-    x = flight.start
-    for releases in (n for n in range(1, times) if times % n == 0):
-        once = newton(map_, x, releases=releases, may_separate=flight.counts.separations > 0)
-        if once is not None and np.allclose(
-            once.start, x, rtol=0, atol=1e-7 * np.linalg.norm(once.start)
-        ):
+    times = orbit.counts.releases
+    x = orbit.start
+    may_separate = orbit.counts.separations > 0
+    divisors = [n for n in range(1, times) if times % n == 0]
+    for releases in divisors:
+        once = newton(map_, x, releases=releases, may_separate=may_separate)
+        if once is None:
+            continue
+        rounding = 1e-7 * float(np.linalg.norm(once.start))
+        if np.allclose(once.start, x, rtol=0, atol=rounding):
             return once
-    return flight
+    return orbit
 
 
 def may_stick_and_slip(p: Parameters) -> bool:
@@ -306,32 +296,41 @@ def _none(p: Parameters, tol: float, status: CycleStatus, reason: str) -> Floque
     return FloquetResult(p, tol, status, f"{status}: {reason}")
 
 
-def cycle_of(map_: ReturnMap, flight: Flight) -> FloquetResult:
+def cycle_of(map_: ReturnMap, orbit: Orbit) -> FloquetResult:
     """The result for a cycle that Newton's method has found to the tolerance."""
-    values = multipliers(flight.jacobian)
+    values = multipliers(orbit.jacobian)
     leading = complex(values[0])
+    growth_rate = -math.inf
+    if leading:
+        growth_rate = math.log(abs(leading)) / orbit.period
     with np.errstate(divide="ignore", invalid="ignore"):
-        exponents = np.asarray(np.log(values) / flight.period, dtype=complex)
-    named = zip(
-        flight.counts[:-1],
-        ("release", "backward release", "slip reversal", "separation"),
-        strict=True,
-    )
-    events = ", ".join(counted(count, name) for count, name in named if count)
+        exponents = np.asarray(np.log(values) / orbit.period, dtype=complex)
+    counts = orbit.counts
+    named = {
+        "release": counts.releases,
+        "backward release": counts.backward_releases,
+        "slip reversal": counts.reversals,
+        "separation": counts.separations,
+    }
+    events = ", ".join(counted(count, name) for name, count in named.items() if count)
     return FloquetResult(
         parameters=map_.parameters,
         tol=map_.tol,
         status=CycleStatus.OK,
-        message=f"{CycleStatus.OK}: cycle of {flight.period:.9g} s with {events}",
-        period=flight.period,
+        message=f"{CycleStatus.OK}: cycle of {orbit.period:.9g} s with {events}",
+        period=orbit.period,
         multipliers=values,
         exponents=exponents,
-        growth_rate=math.log(abs(leading)) / flight.period if leading else -math.inf,
-        stick_fraction=flight.stick_time / flight.period,
-        state=map_.state(flight.start),
+        growth_rate=growth_rate,
+        stick_fraction=orbit.stick_time / orbit.period,
+        state=map_.state(orbit.start),
         bifurcation_type=bifurcation_type(leading),
-        **flight.counts._asdict(),
-        residual=flight.residual / map_.deflection,
+        releases=counts.releases,
+        backward_releases=counts.backward_releases,
+        reversals=counts.reversals,
+        separations=counts.separations,
+        sticks=counts.sticks,
+        residual=orbit.residual / map_.deflection,
     )
 
 
@@ -339,7 +338,8 @@ def multipliers(jacobian: Array) -> ComplexArray:
     """Eigenvalues of the return map's Jacobian, largest modulus first; positive imaginary parts
     first in each pair."""
     values = np.linalg.eigvals(jacobian).astype(complex)
-    return values[np.lexsort((-values.imag, -values.real, -np.round(np.abs(values), 14)))]
+    moduli = np.round(np.abs(values), 14)
+    return values[np.lexsort((-values.imag, -values.real, -moduli))]
 
 
 def bifurcation_type(multiplier: complex) -> str:
@@ -347,66 +347,3 @@ def bifurcation_type(multiplier: complex) -> str:
     if multiplier.imag != 0:
         return "neimark_sacker"
     return "fold" if multiplier.real > 0 else "period_doubling"
-
-
-# ---- Frequencies of the cycle's multipliers, beside those of steady sliding
-#
-# A multiplier gives a frequency (angle / 2 pi + n) / T.  One assignment matches all multipliers to the modes of sliding
-# by the modal assurance criterion (MAC); n brings the frequency nearest to the mode's.
-
-
-@compiling()
-def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, SlidingModes, Array]:
-    """The stick-slip cycle near the static start, and the modes of steady sliding. Of the
-    multipliers matched to each mode, (3, n): frequency (Hz), larger growth rate of two (1/s) and
-    MAC of the shapes; nan without a cycle, and for the slider's in-plane motion."""
-    cycle = floquet(p, tol=tol)
-    modes = sliding_modes(p, cycle.sliding)
-    columns = np.full((3, len(modes.frequency)), math.nan)
-    disc = modes.diameters >= 0
-    if cycle.state is None or not len(modes.frequency):
-        return cycle, modes, columns
-    map_ = ReturnMap(p, tol)
-    flight = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
-    multipliers, vectors = np.linalg.eig(flight.jacobian)
-    disc_rows, _, height = split_rows(mode_arrays(p), modes.shapes[:, disc])
-    shapes = np.vstack([*disc_rows, height if len(height) else np.zeros((2, disc.sum()))])
-    shapes = np.array([_on_section(map_, cycle.state, shape) for shape in shapes.T]).T
-    shapes = shapes / np.linalg.norm(shapes, axis=0)
-    # two multipliers may match a mode: one resembles its shape, one the conjugate
-    mac = (
-        np.abs(np.hstack([shapes.conj(), shapes]).T @ (vectors / np.linalg.norm(vectors, axis=0)))
-        ** 2
-    )
-    from scipy.optimize import linear_sum_assignment
-
-    rows, assigned = linear_sum_assignment(-mac)
-    matched = np.full(len(mac), -1)
-    matched[rows] = assigned
-    first = matched[: shapes.shape[1]]
-    other = matched[shapes.shape[1] :]
-    rate = 1 / cycle.period
-    angle = np.angle(multipliers[first]) / (2 * math.pi)
-    with np.errstate(divide="ignore"):
-        growth = np.log(np.abs(multipliers)) * rate
-    frequency = (angle + np.round(modes.frequency[disc] / rate - angle)) * rate
-    values = np.array(
-        [frequency, np.maximum(growth[first], growth[other]), mac[np.arange(len(first)), first]]
-    )
-    # with fewer multipliers than shapes, some modes have none
-    values[:, (first < 0) | (other < 0)] = math.nan
-    columns[:, disc] = values
-    return cycle, modes, columns
-
-
-def _on_section(map_: ReturnMap, state: State, shape: ComplexArray) -> ComplexArray:
-    """A shape in the coordinates of the return map's section, (n,); these are linear in it."""
-    parts = []
-    for part in (shape.real, shape.imag):
-        a, alpha, b, beta = part[:-2].reshape(4, -1)
-        # in separation, because in contact the height would be the disc's
-        separated = state.replace(
-            phase="separation", direction=0, a=a, b=b, alpha=alpha, beta=beta, _roots=(0, 0)
-        )
-        parts.append(map_.point(separated.replace(u=float(part[-2]), u_velocity=float(part[-1]))))
-    return np.asarray(parts[0] + 1j * parts[1], dtype=complex)

@@ -1,5 +1,4 @@
-"""Motions near a cycle, or near steady sliding: whether they depart or approach as its multipliers
-predict.
+"""Motions near a cycle: whether they depart or approach as its multipliers predict.
 
 That is tested over some seconds: near repetition alone proves nothing, because a torus shows it as
 well.
@@ -8,16 +7,13 @@ well.
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from disc_model.data.variables import CycleStatus, Outcome
-from disc_model.disc.flexibility import contact_compliance
-from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import simulate
-from disc_model.simulation.states import State, engine_case
 from disc_model.stability import thresholds
 from disc_model.stability.cycle import (
     FloquetResult,
@@ -27,8 +23,7 @@ from disc_model.stability.cycle import (
     may_stick_and_slip,
     run_through_once,
 )
-from disc_model.stability.return_map import Array, ComplexArray, Flight, Passage, ReturnMap, newton
-from disc_model.stability.sliding import SteadySliding, energy_weights, join_rows, steady_sliding
+from disc_model.stability.return_map import Array, ComplexArray, Orbit, Passage, ReturnMap, newton
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +46,8 @@ class NearCycle:
 
     @cached_property
     def leading(self) -> ComplexArray:
-        return _left_vector(self.jacobian)
+        """Left eigenvector of the leading multiplier, (n,)."""
+        return left_vector(self.jacobian)
 
     @property
     def kind(self) -> Outcome:
@@ -65,10 +61,10 @@ class NearCycle:
             if apart <= thresholds.NEAR * self.map.deflection:
                 return Outcome.QUIET
         cycle = find_cycle(self.cycle.parameters)
-        same = math.isclose(cycle.period, self.cycle.period, rel_tol=thresholds.ARRIVED)
-        return (
-            Outcome.QUIET if same and cycle.releases == self.cycle.releases else Outcome.OTHER_CYCLE
-        )
+        same_period = math.isclose(cycle.period, self.cycle.period, rel_tol=thresholds.ARRIVED)
+        if same_period and cycle.releases == self.cycle.releases:
+            return Outcome.QUIET
+        return Outcome.OTHER_CYCLE
 
     @property
     def lingers(self) -> bool:
@@ -76,7 +72,7 @@ class NearCycle:
         still = thresholds.LINGERS * self.map.deflection
         return not self.cycle.stable and self.advance(self.x + self.distance, 1).residual <= still
 
-    def advance(self, x: Array, periods: int, *, coarse: bool = True) -> Flight:
+    def advance(self, x: Array, periods: int, *, coarse: bool = True) -> Orbit:
         """The motion from a point of the section over some periods of the cycle."""
         n = periods * self.cycle.releases
         separates = self.cycle.separations > 0
@@ -84,17 +80,17 @@ class NearCycle:
             x, releases=n, tangent=False, may_separate=separates, coarse=coarse
         )
 
-    def flights(
+    def orbits(
         self, x: Array, times: Sequence[float], coarse: bool = True
-    ) -> Iterator[tuple[int, Flight]]:
+    ) -> Iterator[tuple[int, Orbit]]:
         """The motion from a point of the section to about these times (s): periods since the last,
-        and the flight."""
+        and the orbit."""
         done = 0
         for i, time in enumerate(times, 1):
             count = max(i, round(time / self.cycle.period))
-            flight = self.advance(x, count - done, coarse=coarse)
-            yield count - done, flight
-            x = flight.end
+            orbit = self.advance(x, count - done, coarse=coarse)
+            yield count - done, orbit
+            x = orbit.end
             done = count
 
     def follows_multipliers(self, x: Array) -> bool:
@@ -108,9 +104,10 @@ class NearCycle:
         periods = self.periods_left(horizon)
         near = thresholds.NEAR * self.map.deflection
         # the leading part alone excludes most motions
-        right = _left_vector(self.jacobian.T)
+        right = left_vector(self.jacobian.T)
         part = float(abs(self.leading @ self.distance)) / float(abs(self.leading @ right))
-        grown = math.log(max(part, 1e-300)) + periods * math.log(abs(self.cycle.multipliers[0]))
+        growth = periods * math.log(abs(self.cycle.multipliers[0]))
+        grown = math.log(max(part, 1e-300)) + growth
         if not grown <= math.log(2 * near):
             return False
         distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
@@ -131,45 +128,45 @@ class NearCycle:
         multipliers predict."""
         cycle = self.cycle
         deflection = self.map.deflection
-        least = thresholds.ARRIVED * deflection if cycle.stable else 0.0
-        # the errors of coarse flights would matter at a smaller distance
+        least = 0.0
+        if cycle.stable:
+            least = thresholds.ARRIVED * deflection
+        # the errors of coarse orbits would matter at a smaller distance
         coarse = bool(np.linalg.norm(distance) > thresholds.SAME_POINT * deflection)
         expected = distance
         parts = list[float]()
         periods = 0
-        for periods, flight in self.flights(self.x + distance, times, coarse):
+        for periods, orbit in self.orbits(self.x + distance, times, coarse):
             expected = np.linalg.matrix_power(self.jacobian, periods) @ expected
-            error = float(np.linalg.norm(flight.end - self.x - expected))
+            error = float(np.linalg.norm(orbit.end - self.x - expected))
             largest = max(thresholds.LARGEST_ERROR * float(np.linalg.norm(expected)), least)
-            if not (flight.returned and error <= largest):
+            if not (orbit.returned and error <= largest):
                 return False
-            parts.append(float(abs(self.leading @ (flight.end - self.x))))
-        return _grows_at_rate(parts, periods * cycle.period, cycle.growth_rate, least)
+            parts.append(float(abs(self.leading @ (orbit.end - self.x))))
+        return grows_at_rate(parts, periods * cycle.period, cycle.growth_rate, least)
 
     def _excess_rate(self, distance: Array) -> float | None:
         """Relative excess of the growth rate over the leading multiplier's; None unless the motion
         departs. Its phase, which drifts with the amplitude long before the growth rate does and
         matters only near borders, is ignored."""
-        right = _left_vector(self.jacobian.T)
+        right = left_vector(self.jacobian.T)
         right = right / (self.leading @ right)
-        real = self.cycle.multipliers[0].imag == 0
+        is_real = self.cycle.multipliers[0].imag == 0
+        eigenspace = right if is_real else 2 * right  # with that of the conjugate multiplier
         part = self.leading @ distance
         count = 0
         before = float(abs(part))
-        for periods, flight in self.flights(self.x + distance, thresholds.TEST_TIMES[-1]):
-            if not flight.returned:
+        for periods, orbit in self.orbits(self.x + distance, thresholds.TEST_TIMES[-1]):
+            if not orbit.returned:
                 return None
-            apart = flight.end - self.x
-            count = count + periods
+            apart = orbit.end - self.x
+            count += periods
             part = self.leading @ apart
-            plane = np.real(part * right) * (1 if real else 2)
-            if not np.linalg.norm(apart - plane) <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(
-                apart
-            ):
+            outside = float(np.linalg.norm(apart - np.real(part * eigenspace)))
+            if not outside <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(apart):
                 return None
-        return float(
-            math.log(abs(part) / before) / (count * self.cycle.period) / self.cycle.growth_rate - 1
-        )
+        rate = math.log(abs(part) / before) / (count * self.cycle.period)
+        return float(rate / self.cycle.growth_rate - 1)
 
 
 def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
@@ -179,47 +176,51 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
         return find_cycle(p)
     map_ = ReturnMap(p)
     cycle = cycle_from_rest(map_)
-    return _relate(map_, cycle, map_.first_release) if cycle.status is CycleStatus.OK else cycle
+    if cycle.status is not CycleStatus.OK:
+        return cycle
+    return _relate(map_, cycle, map_.first_release)
+
+
+class CloseReturn(NamedTuple):
+    """The return of a motion to the section at which it repeats best: its change since a release,
+    over the static deflection, and the number of releases between them."""
+
+    change: float
+    releases: int
 
 
 def find_cycle_near(
     map_: ReturnMap,
     release: Passage,
-    near_return: tuple[float, int] | None,
+    close_return: CloseReturn | None,
     unstable: Sequence[float] = (),
 ) -> NearCycle | None:
     """The cycle near a motion at one of its releases, and whether the motion follows it. If the
     cycle is unstable, tests for that begin at the times `unstable`, s after the release."""
-    change, releases = near_return or (math.inf, 0)
-    if not change <= thresholds.NEAR / 2:
+    if close_return is None or not close_return.change <= thresholds.NEAR / 2:
         return None
-    flight = newton(map_, release.x, releases=releases, may_separate=map_.patient)
-    if flight is None:
+    orbit = newton(map_, release.x, releases=close_return.releases, may_separate=map_.patient)
+    if orbit is None:
         return None
-    if np.linalg.norm(flight.start - release.x) > thresholds.NEAR * map_.deflection:
+    if np.linalg.norm(orbit.start - release.x) > thresholds.NEAR * map_.deflection:
         return None
-    cycle = cycle_of(map_, run_through_once(map_, flight))
-    return _relate(map_, cycle, release, thresholds.WAITS if cycle.stable else unstable)
+    cycle = cycle_of(map_, run_through_once(map_, orbit))
+    waits = thresholds.WAITS if cycle.stable else unstable
+    return _relate(map_, cycle, release, waits)
 
 
-def find_near_return(
+def find_close_return(
     map_: ReturnMap, x: Array, most: int = thresholds.LARGEST_PERIOD
-) -> tuple[float, int] | None:
-    """Least change from a release of a motion to a later one, over the static deflection, and the
-    number of releases between them; None if the motion does not return to the section at all."""
+) -> CloseReturn | None:
+    """The first of the next returns of a motion from a release at `x`, at most `most`, that changes
+    about least; None if the motion does not return to the section at all."""
     later = map_.returns(x, most, may_separate=map_.patient, coarse=True)
     changes = [float(np.linalg.norm(point - x) / map_.deflection) for point in later]
-    # the shortest of those with about the least change
-    return next(
-        ((change, i) for i, change in enumerate(changes, 1) if change <= 2 * min(changes)), None
-    )
-
-
-def first_release(p: Parameters) -> float:
-    """Time at which the motion from the static start is first released from stick, s; nan if it
-    never is, or loses contact before."""
-    release = ReturnMap(p).first_release
-    return release.time if release.reached else math.nan
+    least = min(changes, default=math.nan)
+    for i, change in enumerate(changes, 1):
+        if change <= 2 * least:
+            return CloseReturn(change, i)
+    return None
 
 
 def _relate(
@@ -232,9 +233,9 @@ def _relate(
     begin at the times `waits`, s after the release."""
     assert cycle.state is not None
     fixed_point = map_.point(cycle.state)
-    flight = map_.evaluate(fixed_point, releases=cycle.releases, may_separate=cycle.separations > 0)
+    orbit = map_.evaluate(fixed_point, releases=cycle.releases, may_separate=cycle.separations > 0)
     near = NearCycle(
-        cycle, False, map_, fixed_point, release.x - fixed_point, flight.jacobian, release.time
+        cycle, False, map_, fixed_point, release.x - fixed_point, orbit.jacobian, release.time
     )
     if not release.reached:
         return near
@@ -242,85 +243,28 @@ def _relate(
     waited = 0.0
     for wait in waits:
         if wait > waited:
-            flight = near.advance(x, max(1, round((wait - waited) / cycle.period)), coarse=False)
-            if not flight.returned:
+            orbit = near.advance(x, max(1, round((wait - waited) / cycle.period)), coarse=False)
+            if not orbit.returned:
                 break
-            x = flight.end
-            waited = waited + flight.period
+            x = orbit.end
+            waited += orbit.period
         if near.follows_multipliers(x):
             time = release.time + waited
             return replace(near, follows_cycle=True, distance=x - fixed_point, time=time)
     return near
 
 
-def _grows_at_rate(parts: Sequence[float], time: float, rate: float, least: float) -> bool:
+def grows_at_rate(parts: Sequence[float], time: float, rate: float, least: float) -> bool:
     """Whether the leading part grows at a rate (1/s) between two times, or has fallen to
     `least`."""
     if not min(parts) > 0 or parts[1] <= least:
         return parts[1] <= least
-    return abs(math.log(parts[1] / parts[0]) / time - rate) <= thresholds.LARGEST_RATE_ERROR * abs(
-        rate
-    )
+    error = math.log(parts[1] / parts[0]) / time - rate
+    return abs(error) <= thresholds.LARGEST_RATE_ERROR * abs(rate)
 
 
-def _left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs) -> ComplexArray:
+def left_vector(jacobian: Array, size: Callable[[ComplexArray], Array] = np.abs) -> ComplexArray:
     """Left eigenvector of the eigenvalue of most `size`: its product with a distance is the
     eigenvalue's part of it."""
     values, vectors = np.linalg.eig(jacobian.T)
     return np.asarray(vectors[:, np.argmax(size(values))], dtype=complex)
-
-
-_sliding = lru_cache(maxsize=1)(steady_sliding)  # asked at the end of each leg of a motion
-
-
-def approaches_sliding(p: Parameters, state: State) -> bool:
-    """Whether a slipping motion approaches stable steady sliding as the eigenvalues there
-    predict.
-
-    It is followed with `TEST_TOL`, because errors of coarser simulations keep it away: at 1e-10, by
-    7e-7 of the static deflection on a disc whose modes of 2 kHz decay at 0.4/s.
-    """
-    if state.phase != "slip" or p.n_diameters < 0 or not (sliding := _sliding(p)).stable:
-        return False
-    modes, scale = (
-        mode_arrays(p),
-        np.sqrt(energy_weights(p)),
-    )  # by it the norm of rows is that of the energy
-    jacobian = scale[:, None] * sliding.jacobian / scale
-    expected = scale * _from_sliding(p, sliding, state)
-    static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
-    least = thresholds.ARRIVED * static
-    if not np.linalg.norm(expected) <= thresholds.NEAR * static:
-        return False
-    from scipy.linalg import expm  # as in plate
-
-    leading = _left_vector(jacobian, np.real)
-    parts = list[float]()
-    before = 0.0
-    times = thresholds.TEST_TIMES[-1]
-    for time in times:
-        end = state.time + time
-        result = simulate(p, end, tol=thresholds.TEST_TOL, initial_state=state, events=False)
-        if not result.status.complete or result.final_state.phase != "slip":
-            return False
-        apart = scale * _from_sliding(p, sliding, result.final_state)
-        expected = expm(jacobian * (time - before)) @ expected
-        size = float(np.linalg.norm(expected))
-        if not np.linalg.norm(apart - expected) <= max(thresholds.LARGEST_ERROR * size, least):
-            return False
-        parts.append(float(abs(leading @ apart)))
-        before = time
-    return _grows_at_rate(parts, times[1] - times[0], sliding.growth_rate, least)
-
-
-def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:
-    """Distance from steady sliding, in the rows of its Jacobian."""
-    modes = mode_arrays(p)
-    give = contact_compliance(p)
-    disc = [getattr(state, name) - getattr(sliding, name) for name in ("a", "alpha", "b", "beta")]
-    # the contact's force is that of the slider's spring: (w - u) / give = N + k (u - u_0)
-    rest = (modes.psi @ sliding.a - give * (p.N - p.k * engine_case(p).model.u_0)) / (
-        1 + p.k * give
-    )
-    height = [float(state.u - rest), float(state.u_velocity)] if give else []
-    return join_rows(modes, disc, (state.psi - sliding.psi, state.f - p.Omega), height)

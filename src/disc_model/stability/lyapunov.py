@@ -9,20 +9,16 @@ to it.
 import math
 import sys
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.display import Drawn, counted, html_table, number_text
-from disc_model.engine import columns as column_arrays
-from disc_model.engine import transitions
-from disc_model.engine.columns import coordinate_rows, energy_scale
+from disc_model.engine import columns, loop, model, saltation, transitions
+from disc_model.engine import state as motion
 from disc_model.engine.jit.cache import compiling
-from disc_model.engine.loop import FlightLimits
-from disc_model.engine.model import build_state
-from disc_model.engine.saltation import rates, slider_rows
 from disc_model.engine.series import build_series
-from disc_model.engine.state import SEPARATION, phase_of
 from disc_model.errors import Status, as_text, raise_faults, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import (
@@ -43,14 +39,11 @@ from disc_model.stability.return_map import (
 from disc_model.units import TOLERANCES, is_number, is_whole, limits_faults
 
 _BLOCKS = 16
-MOST_INTERVALS = (
-    10_000_000  # orthonormalisations in the averaging time: hours of work, and 600 MB of logarithms
-)
+# orthonormalisations in the averaging time: hours of work, and 600 MB of logarithms
+MOST_INTERVALS = 10_000_000
 CLEAR = 4.0  # an exponent differs from zero if it exceeds this many of its errors
-CONVERGED = (
-    0.05,
-    0.002,
-)  # share of an exponent, or difference in 1/s, to which both halves of the time agree
+# share of an exponent, or difference in 1/s, to which both halves of the time agree
+CONVERGED = (0.05, 0.002)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -88,12 +81,10 @@ class Lyapunov(Drawn):
 
     def _repr_html_(self) -> str:
         """The exponents in a notebook, with their errors, and what they are of."""
-        rows = [
-            (f"{exponent:.4g}", number_text(float(error), digits=2), "yes" if settled else "no")
-            for exponent, error, settled in zip(
-                self.exponents, self.errors, self.converged, strict=True
-            )
-        ]
+        rows = []
+        for i, exponent in enumerate(self.exponents):
+            error = number_text(float(self.errors[i]), digits=2)
+            rows.append((f"{exponent:.4g}", error, "yes" if self.converged[i] else "no"))
         trivial = number_text(self.trivial_exponent, digits=2)
         if trivial:
             rows.append((trivial, "", "left out: along the motion"))
@@ -146,96 +137,134 @@ def lyapunov_exponents(
     Lyapunov(ok, over 5 s: -0.143 and -0.166 1/s)
     """
     raise_faults(case_faults(p, "lyapunov_exponents"))
-    leaves_out = isinstance(leave_out_trivial, bool | np.bool_)
-    most = min(column_arrays.COLUMNS_AT_ONCE, len(coordinate_rows(engine_case(p).model))) - (
-        leaves_out and bool(leave_out_trivial)
-    )
-    lasts = is_number(duration) and sys.float_info.min <= duration < math.inf
-    shortest = max(duration / MOST_INTERVALS if lasts else 0.0, sys.float_info.min)
-    fits = is_number(interval) and shortest <= interval < math.inf
-    faults = limits_faults("tol", tol, TOLERANCES) + violations(
-        (lasts, "duration", duration, "must be finite and > 0"),
-        (
-            is_whole(count) and 1 <= count <= most,
-            "count",
-            count,
-            f"must be a whole number from 1 to {most}",
-        ),
-        (fits, "interval", interval, f"must be finite and >= {as_text(shortest)}"),
-        (
-            isinstance(initial_state, State | None),
-            "initial_state",
-            initial_state,
-            "must be a State",
-        ),
-        (leaves_out, "leave_out_trivial", leave_out_trivial, "must be True or False"),
-    )
-    raise_faults(faults)
-    duration, interval, tol = float(duration), float(interval), float(tol)
-    case, order = engine_case(p), series_order(tol)
-    model, tolerance = case.model, series_tolerance(tol, compliant=p.contact_compliance != 0)
-    series, state = build_series(model, order), build_state(model)
+    wrong = _faults(p, duration, count, interval, initial_state, leave_out_trivial)
+    raise_faults(limits_faults("tol", tol, TOLERANCES) + wrong)
+    tol = float(tol)
+    case = engine_case(p)
+    order = series_order(tol)
+    tolerance = series_tolerance(tol, compliant=p.contact_compliance != 0)
+    series = build_series(case.model, order)
+    state = model.build_state(case.model)
     if initial_state is not None:
         write_state(case, initial_state, state)
-    t = column_arrays.build_tangent(model, column_arrays.COLUMNS_AT_ONCE, order)
-    columns, rows = column_arrays.block_of_columns(t), coordinate_rows(model)
-    metric = energy_scale(model)[rows, None]
-    columns[:] = 0.0
-    wanted, count = count, count + leave_out_trivial
-    columns[rows, :count] = np.random.default_rng(1).standard_normal((len(rows), count)) / metric
+
     # components of a column below its tolerance, or below rounding, count as zero
     vanished = max(10 * tolerance, 1e-12)
-    if phase_of(state) != SEPARATION:  # in contact some rows follow from others
-        slider_rows(model, state, t)
-    _, remaining = _orthonormalise(columns, rows, metric, np.arange(count), vanished)
+    frame = _Frame(case.model, order, vanished)
+    followed = count + int(leave_out_trivial)
+    frame.fill(state, followed)
     if leave_out_trivial:
-        rates(model, state, t.before)
-        along = t.before.reshape(columns.shape)[:, 0]
-        if np.any(along):
-            columns[:, 0] = along
-    steps = max(_BLOCKS, math.ceil(duration / interval))
-    longest, length = longest_step(model, order, 10 * tolerance), duration / steps
-    course = FlightLimits(order, tolerance, longest, length, 0, may_separate=True, tangent=True)
-    logs, status, done = np.full((steps, count), -math.inf), Status.OK, 0
+        frame.put_motion_first(state)
+
+    # the same number of intervals for convergence, counted below zero, and for the averages
+    steps = max(_BLOCKS, math.ceil(float(duration) / float(interval)))
+    length = float(duration) / steps
+    longest = longest_step(case.model, order, 10 * tolerance)
+    limits = loop.FlightLimits(
+        order, tolerance, longest, length, 0, may_separate=True, tangent=True
+    )
+    logs = np.full((steps, followed), -math.inf)
+    status = Status.OK
+    done = 0
     for i in range(-steps, steps):
         if i == 0:
-            t.log[:] = 0.0
-        code = integrate_in_pieces(model, series, state, t, course)
-        if code != transitions.TIME_OVER or not np.all(np.isfinite(columns)):
-            status = Status.NON_FINITE if code == transitions.TIME_OVER else Status(ENDS[code])
+            frame.tangent.log[:] = 0.0
+        code = integrate_in_pieces(case.model, series, state, frame.tangent, limits)
+        if code != transitions.TIME_OVER:
+            status = Status(ENDS[code])
             break
-        if phase_of(state) != SEPARATION:
-            slider_rows(model, state, t)
-        growth, remaining = _orthonormalise(columns, rows, metric, remaining, vanished)
+        if not np.all(np.isfinite(frame.columns)):
+            status = Status.NON_FINITE
+            break
+        growth = frame.orthonormalise(state)
         if i >= 0:
-            logs[i, remaining] = growth
+            logs[i, frame.remaining] = growth
             done = i + 1
-    return _averaged(
-        status, logs[:done], length, wanted, t.log, read_state(case, state), leave_out_trivial
+    end = read_state(case, state)
+    return _averaged(status, logs[:done], length, count, frame.tangent.log, end, leave_out_trivial)
+
+
+def _faults(
+    p: Parameters,
+    duration: Any,
+    count: Any,
+    interval: Any,
+    initial_state: Any,
+    leave_out_trivial: Any,
+) -> list[str]:
+    """Faults of arguments of `lyapunov_exponents`, of a case that has none."""
+    is_choice = isinstance(leave_out_trivial, bool | np.bool_)
+    most = min(columns.COLUMNS_AT_ONCE, len(columns.coordinate_rows(engine_case(p).model)))
+    if is_choice and leave_out_trivial:
+        most -= 1
+    counts = is_whole(count) and 1 <= count <= most
+    lasts = is_number(duration) and sys.float_info.min <= duration < math.inf
+    shortest = sys.float_info.min
+    if lasts:
+        shortest = max(duration / MOST_INTERVALS, shortest)
+    fits = is_number(interval) and shortest <= interval < math.inf
+    is_state = isinstance(initial_state, State | None)
+    return violations(
+        (lasts, "duration", duration, "must be finite and > 0"),
+        (counts, "count", count, f"must be a whole number from 1 to {most}"),
+        (fits, "interval", interval, f"must be finite and >= {as_text(shortest)}"),
+        (is_state, "initial_state", initial_state, "must be a State"),
+        (is_choice, "leave_out_trivial", leave_out_trivial, "must be True or False"),
     )
 
 
-def _orthonormalise(
-    columns: Array,
-    rows: NDArray[np.intp],
-    metric: Array,
-    remaining: NDArray[np.intp],
-    vanished: float,
-) -> tuple[Array, NDArray[np.intp]]:
-    """Orthonormalise the columns of indices `remaining`, whose `rows` (n,) have the `metric` (n,
-    1), and set those to zero whose orthogonal part is shorter than `vanished` of their own;
-    logarithms of growth, and what remains."""
-    while True:
-        q, r = np.linalg.qr(columns[np.ix_(rows, remaining)] * metric)
-        lengths = np.abs(np.diag(r))
-        dependent = np.flatnonzero(lengths <= vanished * np.linalg.norm(r, axis=0))
-        if not dependent.size:
-            columns[np.ix_(rows, remaining)] = q / metric
-            return np.log(lengths), remaining
-        # one at a time, because later columns were made orthogonal to a direction that is mere
-        # rounding
-        columns[:, remaining[dependent[0]]] = 0.0
-        remaining = np.delete(remaining, dependent[0])
+class _Frame:
+    """Columns of the variational equations, orthonormal in the energy norm after each interval.
+
+    tangent, columns : the engine's arrays, and the columns in them, (rows of a column, columns)
+    rows, metric : (n,) independent rows of a column, and (n, 1) factors that give their norm
+    vanished : length of a column's orthogonal part, over its own, that counts as zero
+    remaining : indices of the columns that have not vanished
+    """
+
+    def __init__(self, engine_model: model.Model, order: int, vanished: float) -> None:
+        self.model = engine_model
+        self.vanished = vanished
+        self.tangent = columns.build_tangent(engine_model, columns.COLUMNS_AT_ONCE, order)
+        self.columns = columns.block_of_columns(self.tangent)
+        self.rows = columns.coordinate_rows(engine_model)
+        self.metric = columns.energy_scale(engine_model)[self.rows, None]
+        self.remaining: NDArray[np.intp] = np.arange(0)
+
+    def fill(self, state: motion.EngineState, count: int) -> None:
+        """Set `count` columns to orthonormal ones in random directions, always the same."""
+        drawn = np.random.default_rng(1).standard_normal((len(self.rows), count))
+        self.columns[:] = 0.0
+        self.columns[self.rows, :count] = drawn / self.metric
+        self.remaining = np.arange(count)
+        self.orthonormalise(state)
+
+    def put_motion_first(self, state: motion.EngineState) -> None:
+        """Set the first column to the motion's velocity, unless it is at rest."""
+        rates = self.tangent.before
+        saltation.rates(self.model, state, rates)
+        velocity = rates.reshape(self.columns.shape)[:, 0]
+        if np.any(velocity):
+            self.columns[:, 0] = velocity
+
+    def orthonormalise(self, state: motion.EngineState) -> Array:
+        """Orthonormalise the remaining columns, and set those to zero that have vanished;
+        logarithms of growth of those that remain then."""
+        if motion.phase_of(state) != motion.SEPARATION:  # in contact some rows follow from others
+            saltation.slider_rows(self.model, state, self.tangent)
+        while True:
+            places = np.ix_(self.rows, self.remaining)
+            q, r = np.linalg.qr(self.columns[places] * self.metric)
+            lengths = np.abs(np.diag(r))
+            dependent = np.flatnonzero(lengths <= self.vanished * np.linalg.norm(r, axis=0))
+            if not dependent.size:
+                self.columns[places] = q / self.metric
+                return np.asarray(np.log(lengths), dtype=float)
+            # one at a time, because later columns were made orthogonal to a direction that is mere
+            # rounding
+            first = dependent[0]
+            self.columns[:, self.remaining[first]] = 0.0
+            self.remaining = np.delete(self.remaining, first)
 
 
 def _averaged(
@@ -253,32 +282,32 @@ def _averaged(
     if len(logs) < _BLOCKS:  # too little time was covered
         nan = np.full(count, math.nan)
         return Lyapunov(status, nan, nan, covered, 0, np.zeros(count, bool), end)
-    history = np.array(
-        [np.mean(block, axis=0) / interval for block in np.array_split(logs, _BLOCKS)]
-    )
-    exponents, trivial = np.sum(logs, axis=0) / covered, math.nan
+    blocks = np.array_split(logs, _BLOCKS)
+    history = np.array([np.mean(block, axis=0) / interval for block in blocks])
+    exponents = np.sum(logs, axis=0) / covered
     with np.errstate(invalid="ignore"):  # of -inf
-        drift = np.abs(np.subtract(*(np.mean(half, axis=0) for half in np.split(history, 2))))
-        errors = np.maximum(np.std(history, axis=0, ddof=1) / math.sqrt(_BLOCKS), drift)
+        first_half, second_half = np.split(history, 2)
+        drift = np.abs(np.mean(first_half, axis=0) - np.mean(second_half, axis=0))
+        scatter = np.std(history, axis=0, ddof=1) / math.sqrt(_BLOCKS)
+        errors = np.maximum(scatter, drift)
     share, least = CONVERGED
     converged = np.isfinite(exponents) & (drift <= np.maximum(share * np.abs(exponents), least))
+
     order = np.argsort(-exponents, kind="stable")
+    trivial = math.nan
     # a motion at rest or in steady sliding has no trivial exponent
-    if (
-        leave_out_trivial
-        and log[column_arrays.RELEASES] + log[column_arrays.STICKS] + log[column_arrays.SEPARATIONS]
-        > 0
-    ):
+    events = log[columns.RELEASES] + log[columns.STICKS] + log[columns.SEPARATIONS]
+    if leave_out_trivial and events > 0:
         trivial = float(np.sum(logs[:, 0]) / covered)
         order = order[order != 0]
-    order, separations = order[:count], int(log[column_arrays.SEPARATIONS])
+    order = order[:count]
     return Lyapunov(
-        status,
-        exponents[order],
-        errors[order],
-        covered,
-        separations,
-        converged[order],
-        end,
-        trivial,
+        status=status,
+        exponents=exponents[order],
+        errors=errors[order],
+        duration=covered,
+        separations=int(log[columns.SEPARATIONS]),
+        converged=converged[order],
+        final_state=end,
+        trivial_exponent=trivial,
     )

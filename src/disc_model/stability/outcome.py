@@ -10,6 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,13 +24,14 @@ from disc_model.simulation.states import State
 from disc_model.stability import thresholds
 from disc_model.stability.cycle import FloquetResult, may_stick_and_slip, never_pulls
 from disc_model.stability.linear_motion import (
+    CloseReturn,
     NearCycle,
-    approaches_sliding,
     cycle_of_static_start,
+    find_close_return,
     find_cycle_near,
-    find_near_return,
 )
 from disc_model.stability.return_map import Array, Passage, ReturnMap
+from disc_model.stability.sliding_motion import approaches_sliding
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,7 @@ class Segment:
 
     @property
     def range(self) -> float:
+        """Range of the height, m."""
         return self.u_max - self.u_min
 
 
@@ -115,10 +118,12 @@ class OutcomeResult:
 
     @property
     def status(self) -> Status:
+        """How the last simulation ended."""
         return Status.OK if self.failed is None else self.failed.status
 
     @property
     def message(self) -> str:
+        """Why the simulation failed; empty if it did not."""
         return "" if self.failed is None else self.failed.message
 
 
@@ -143,37 +148,67 @@ def find_outcome(
     from its start, in the same legs whatever the horizon, so that searches with the same `tol` find
     the same first separation.
     """
+    start_cycle: NearCycle | None = None
+    map_: ReturnMap | None = None
     if isinstance(near, NearCycle):
-        map_: ReturnMap | None = (
-            near.map
-        )  # a new one takes as long as a return to the section ten times over
-    else:
-        map_ = ReturnMap(p) if p.n_diameters >= 0 and may_stick_and_slip(p) else None
-    if not early or start is not None or map_ is None:
-        near = None
-    elif near is None:
-        near = cycle_of_static_start(p)
-    start_cycle = near if isinstance(near, NearCycle) else None
-    return _OutcomeSearch(p, horizon, tol, start, early, late, map_, start_cycle).run()
+        map_ = near.map  # a new one takes as long as a return to the section ten times over
+    elif p.n_diameters >= 0 and may_stick_and_slip(p):
+        map_ = ReturnMap(p)
+    if early and start is None and map_ is not None:
+        if near is None:
+            near = cycle_of_static_start(p)
+        if isinstance(near, NearCycle):
+            start_cycle = near
+    options = SearchOptions(horizon, tol, start, early, late)
+    return _OutcomeSearch(p, options, map_, start_cycle).run()
 
 
-@dataclass
-class _OutcomeSearch:
-    """A search with one method a stage, which returns the next one; `start_cycle` may decide about
-    the static start."""
+@dataclass(frozen=True)
+class SearchOptions:
+    """How a motion is followed in a search; see `find_outcome`."""
 
-    p: Parameters
     horizon: float
     tol: float
     start: State | None
     early: bool
     late: float
-    map: ReturnMap | None
-    start_cycle: NearCycle | None
+
+
+class _OutcomeSearch:
+    """A search for the outcome of a motion, with one method for each stage, which returns the next
+    stage.
+
+    map : the return map of the case; None if it has no stick-slip
+    start_cycle : the cycle near the static start; None if the motion starts elsewhere, or must be
+        followed to the horizon
+    result : what is known of the motion
+    leg : s, length of the next simulated leg
+    cycle : the cycle that the motion follows in the stage `NEAR_CYCLE`
+    departed_from : the last unstable cycle that the motion has followed
+    expected_cycle : an unstable cycle near the static start, until the motion follows it
+    """
+
+    def __init__(
+        self,
+        p: Parameters,
+        options: SearchOptions,
+        map_: ReturnMap | None,
+        start_cycle: NearCycle | None,
+    ) -> None:
+        self.p = p
+        self.options = options
+        self.map = map_
+        self.start_cycle = start_cycle
+        self.result = OutcomeResult(state=options.start)
+        self.leg = thresholds.FIRST_LEG
+        self.cycle: NearCycle | None = None
+        self.departed_from: NearCycle | None = None
+        self.expected_cycle: NearCycle | None = None
 
     def run(self) -> OutcomeResult:
+        """Go from stage to stage until one ends the search."""
         stages = {
-            Stage.START: self._begin,
+            Stage.START: self._relate_start,
             Stage.NEAR_CYCLE: self._judge_cycle,
             Stage.ON_ITS_WAY: self._simulate_on,
         }
@@ -183,56 +218,82 @@ class _OutcomeSearch:
         self.result.stage = stage
         return self.result
 
-    def _begin(self) -> Stage:
-        self.result = OutcomeResult(state=self.start)
-        self.leg = thresholds.FIRST_LEG
-        self.departed_from: NearCycle | None = None  # the last unstable cycle that it followed
-        self.cycle_to_come: NearCycle | None = (
-            None  # an unstable one near the start, until the motion follows it
-        )
-        if self.start_cycle is None:
+    def _relate_start(self) -> Stage:
+        """Stage START: relate the static start to the cycle near it."""
+        near = self.start_cycle
+        # nothing is known of the start: only a simulation can tell
+        if near is None:
             return Stage.ON_ITS_WAY
-        if not self.start_cycle.follows_cycle:
-            self.cycle_to_come = None if self.start_cycle.cycle.stable else self.start_cycle
-            return Stage.ON_ITS_WAY
-        self.cycle = self.start_cycle
-        return Stage.NEAR_CYCLE
+        # the start follows the cycle, whose multipliers decide
+        if near.follows_cycle:
+            self.cycle = near
+            return Stage.NEAR_CYCLE
+        # the start does not follow the cycle, but the motion may come to it later
+        if not near.cycle.stable:
+            self.expected_cycle = near
+        return Stage.ON_ITS_WAY
 
     def _judge_cycle(self) -> Stage:
-        """Settle on a stable cycle, or go on from an unstable one."""
+        """Stage NEAR_CYCLE: settle on a stable cycle, or go on from an unstable one."""
         near = self.cycle
+        assert near is not None
         result = self.result
-        result.near = result.near or near
+        # an unstable cycle: the motion departs, and is simulated until it comes to something else
         if not near.cycle.stable:
+            result.near = result.near or near
             self.departed_from = near
             return Stage.ON_ITS_WAY
-        result.near, result.outcome = near, near.kind
+        # a stable cycle: the motion is on it for good
+        result.near = near
+        result.outcome = near.kind
         result.time = near.time
         result.distance = float(np.linalg.norm(near.distance)) / near.map.deflection
         return Stage.SETTLED
 
     def _simulate_on(self) -> Stage:
-        """Simulate a leg, and examine the motion at its end."""
+        """Stage ON_ITS_WAY: simulate a leg, and examine the motion at its end."""
         result = self.result
-        if result.time >= self.horizon:
-            result.outcome = Outcome.GROWING if self._grows else Outcome.UNDECIDED
+
+        # the horizon: nothing was proven within it
+        if result.time >= self.options.horizon:
+            grows = self.departed_from is not None or growing(result.changes)
+            result.outcome = Outcome.GROWING if grows else Outcome.UNDECIDED
             return Stage.HORIZON
+
+        # a leg that does not come to its end
         leg = self._simulate_leg()
         if leg.status is Status.STOPPED:
-            result.outcome, result.first_separation = Outcome.SEPARATION, leg.first_separation
+            result.outcome = Outcome.SEPARATION
+            result.first_separation = leg.first_separation
             return Stage.SEPARATED
         if not leg.status.complete:
             result.failed = leg
             return Stage.FAILED
-        examined = self.early or result.time >= self.horizon
-        if examined and (calm := find_calm(self.p, leg)) is not None:
-            result.outcome, result.near = calm, None
+
+        # rest, or stable steady sliding
+        examined = self.options.early or result.time >= self.options.horizon
+        equilibrium = None
+        if examined:
+            equilibrium = find_equilibrium(self.p, leg)
+        if equilibrium is not None:
+            result.outcome = equilibrium
+            result.near = None
             return Stage.SETTLED
-        release = self._next_release(leg.final_state)
-        if release is not None and examined:
-            near = self._find_followed_cycle(release)
-            if near is not None:
-                self.cycle = near
+
+        # the section, if the motion comes to it again in contact: how nearly it repeats there
+        if self.map is None:
+            return Stage.ON_ITS_WAY
+        release = self.map.next_release(leg.final_state)
+        if not release.reached:
+            return Stage.ON_ITS_WAY
+        close_return = find_close_return(self.map, release.x)
+        result.times.append(result.time)
+        result.changes.append(math.nan if close_return is None else close_return.change)
+
+        # a cycle that the motion follows from there on
+        if examined:
+            self.cycle = self._find_followed_cycle(self.map, release, close_return)
+            if self.cycle is not None:
                 return Stage.NEAR_CYCLE
         return Stage.ON_ITS_WAY
 
@@ -240,88 +301,97 @@ class _OutcomeSearch:
         """Simulate a leg to its end or the first separation; the segment to be described is a leg
         of its own."""
         result = self.result
-        marks = (self.horizon - self.late, self.horizon)
-        stop = next(min(result.time + self.leg, mark) for mark in marks if result.time < mark)
+        horizon = self.options.horizon
+        late = self.options.late
+        mark = horizon
+        if result.time < horizon - late:
+            mark = horizon - late
+        stop = min(result.time + self.leg, mark)
         self.leg = min(2 * self.leg, thresholds.LONGEST_LEG)
         windows = {}
-        if self.late and stop == self.horizon:
+        if late and stop == horizon:
             windows = {"late": Window(start=result.time, stop=stop, rate=thresholds.SAMPLING_RATE)}
         leg = simulate(
             self.p,
             stop,
             windows,
-            tol=self.tol,
+            tol=self.options.tol,
             initial_state=result.state,
             stop_at="first_separation",
         )
         if windows and leg.status.complete:
             result.segment = segment_of(leg)
         result.simulated += leg.final_state.time - result.time
-        result.state, result.time = leg.final_state, leg.final_state.time
+        result.state = leg.final_state
+        result.time = leg.final_state.time
         return leg
 
-    def _next_release(self, state: State) -> Passage | None:
-        """The next release of the motion, if it comes to the section again in contact; its nearest
-        return to there is then measured."""
-        if self.map is None:
-            return None
-        release = self.map.next_release(state)
-        if not release.reached:
-            return None
-        self.near_return = find_near_return(self.map, release.x)
-        self.result.times.append(self.result.time)
-        self.result.changes.append(math.nan if self.near_return is None else self.near_return[0])
-        return release
-
-    def _find_followed_cycle(self, release: Passage) -> NearCycle | None:
-        """The cycle that the motion follows linearly from a release on: the one near its start, if
-        it comes back to that, or another."""
-        near = self.cycle_to_come
-        x = release.x
-        assert self.map is not None
+    def _find_followed_cycle(
+        self, map_: ReturnMap, release: Passage, close_return: CloseReturn | None
+    ) -> NearCycle | None:
+        """The cycle that the motion follows linearly from a release on: the expected one, if it
+        comes to that, or another."""
+        waits: Sequence[float] = thresholds.WAITS
         if self.departed_from is not None:
-            size = self.map.deflection
-            if (
-                near is not None
-                and np.linalg.norm(x - near.x) <= thresholds.NEAR * size
-                and np.linalg.norm(self.departed_from.x - near.x) > thresholds.SAME_POINT * size
-                and near.follows_multipliers(x)
-            ):
-                self.cycle_to_come = self.result.near = None
-                return replace(near, follows_cycle=True, distance=x - near.x, time=release.time)
-            # a motion that comes near a cycle then changes less and less, down to errors of the
-            # simulation
-            known = [change for change in self.result.changes if not math.isnan(change)]
-            if known and known[-1] > max(
-                known[-2:][0], thresholds.ARRIVED, thresholds.ERROR_OF_TOL * self.tol
-            ):
+            expected = self._reached_expected_cycle(map_, release, self.departed_from)
+            if expected is not None:
+                return expected
+            if self._departs():
                 return None
-        waits = thresholds.WAITS if self.departed_from is None else thresholds.WAITS[:1]
-        near = find_cycle_near(self.map, release, self.near_return, unstable=waits)
-        return near if near is not None and near.follows_cycle else None
+            waits = thresholds.WAITS[:1]
+        near = find_cycle_near(map_, release, close_return, unstable=waits)
+        if near is None or not near.follows_cycle:
+            return None
+        return near
 
-    @property
-    def _grows(self) -> bool:
-        return self.departed_from is not None or growing(self.result.changes)
+    def _reached_expected_cycle(
+        self, map_: ReturnMap, release: Passage, departed_from: NearCycle
+    ) -> NearCycle | None:
+        """The unstable cycle near the static start, if the motion has come back to it from another
+        one, and follows it from a release on."""
+        near = self.expected_cycle
+        if near is None:
+            return None
+        distance = release.x - near.x
+        is_near = np.linalg.norm(distance) <= thresholds.NEAR * map_.deflection
+        apart = float(np.linalg.norm(departed_from.x - near.x))
+        is_another = apart > thresholds.SAME_POINT * map_.deflection
+        if not (is_near and is_another and near.follows_multipliers(release.x)):
+            return None
+        self.expected_cycle = None
+        self.result.near = None
+        return replace(near, follows_cycle=True, distance=distance, time=release.time)
+
+    def _departs(self) -> bool:
+        """Whether the last change of a period exceeds the one before. A motion that comes to a cycle
+        changes less and less, down to errors of the simulation."""
+        known = [change for change in self.result.changes if not math.isnan(change)]
+        if not known:
+            return False
+        before = known[-2:][0]
+        errors = thresholds.ERROR_OF_TOL * self.options.tol
+        return known[-1] > max(before, thresholds.ARRIVED, errors)
 
 
-def find_calm(p: Parameters, leg: Result) -> Outcome | None:
+def find_equilibrium(p: Parameters, leg: Result) -> Outcome | None:
     """At rest if the slider sticks for good, steady sliding if the motion approaches it; None if
     neither is shown."""
-    if shares(leg)[0] == 1 and never_pulls(p):
+    if shares(leg).stick == 1 and never_pulls(p):
         return Outcome.AT_REST
-    return Outcome.STEADY_SLIDING if approaches_sliding(p, leg.final_state) else None
+    if approaches_sliding(p, leg.final_state):
+        return Outcome.STEADY_SLIDING
+    return None
 
 
 def growing(changes: Sequence[float]) -> bool:
     """Whether two successive changes have risen above an earlier one: an instability, even if it is
     bounded later."""
-    d = np.array(changes)
-    if len(d) < 3:
+    if len(changes) < 3:
         return False
-    least = np.fmin.accumulate(d[:-2])
-    later = np.fmin(d[1:-1], d[2:])
-    return bool(np.any((later > thresholds.ARRIVED) & (later > thresholds.RISE * least)))
+    least = np.fmin.accumulate(changes[:-2])
+    later = np.fmin(changes[1:-1], changes[2:])
+    risen = (later > thresholds.ARRIVED) & (later > thresholds.RISE * least)
+    return bool(np.any(risen))
 
 
 def final_segment(
@@ -329,7 +399,9 @@ def final_segment(
 ) -> tuple[Result, Segment | None]:
     """Simulate from a state (None: the static start) for a duration (s); its last segment, if it is
     complete."""
-    begin = 0.0 if state is None else state.time
+    begin = 0.0
+    if state is not None:
+        begin = state.time
     stop = begin + duration
     if stop - late > begin:
         result = simulate(p, stop - late, tol=tol, initial_state=state, events=False)
@@ -338,32 +410,50 @@ def final_segment(
         state = result.final_state
     window = Window(start=stop - late, stop=stop, rate=thresholds.SAMPLING_RATE)
     result = simulate(p, stop, {"late": window}, tol=tol, initial_state=state)
-    return result, segment_of(result) if result.status.complete else None
+    if not result.status.complete:
+        return result, None
+    return result, segment_of(result)
 
 
 def segment_of(result: Result) -> Segment:
     """The segment of a result: ranges over its window "late", and shares of its whole time."""
     P = result.samples["late"]["P"]
     u = result.samples["late"]["u"] - result.u_0
-    return Segment(float(P.min()), float(P.max()), float(u.min()), float(u.max()), *shares(result))
-
-
-def shares(result: Result) -> tuple[float, float, float, float]:
-    """Shares of a result's time in stick, slip and separation, and separations per second."""
-    statistics = result.statistics
-    stick, slip, separation = (
-        statistics[f"time_{phase}"] for phase in ("stick", "slip", "separation")
+    share = shares(result)
+    return Segment(
+        P_min=float(P.min()),
+        P_max=float(P.max()),
+        u_min=float(u.min()),
+        u_max=float(u.max()),
+        stick_fraction=share.stick,
+        slip_fraction=share.slip,
+        separation_fraction=share.separation,
+        separation_rate=share.separation_rate,
     )
+
+
+class Shares(NamedTuple):
+    """Shares of a motion's time in stick, slip and separation, and separations per second."""
+
+    stick: float
+    slip: float
+    separation: float
+    separation_rate: float
+
+
+def shares(result: Result) -> Shares:
+    """Shares of a result's time."""
+    statistics = result.statistics
+    stick = statistics["time_stick"]
+    slip = statistics["time_slip"]
+    separation = statistics["time_separation"]
     total = stick + slip + separation
-    return stick / total, slip / total, separation / total, statistics["separations"] / total
+    rate = statistics["separations"] / total
+    return Shares(stick / total, slip / total, separation / total, rate)
 
 
 def switch_angles(leg: Result) -> Array:
     """Times of releases and losses of contact of a leg, s, and the slider's angles, rad: shape (2,
     n)."""
-    events = leg.events
-    return (
-        events.loc[events["kind"].isin(["stick_to_slip", "separation"]), ["time", "psi"]]
-        .to_numpy(dtype=float)
-        .T
-    )
+    switches = leg.events[leg.events["kind"].isin(["stick_to_slip", "separation"])]
+    return switches[["time", "psi"]].to_numpy(dtype=float).T

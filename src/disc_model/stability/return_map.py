@@ -8,7 +8,7 @@ equations (`disc_model.engine.section`).
 
 import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any, NamedTuple
@@ -16,15 +16,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.engine import columns, section, tangent, transitions
+from disc_model.engine import columns, loop, section, step_size, tangent, transitions
 from disc_model.engine import state as motion
-from disc_model.engine.columns import Tangent, coordinate_rows, energy_scale
-from disc_model.engine.loop import FlightLimits
 from disc_model.engine.model import Model, blocks_of, build_state
-from disc_model.engine.section import Section
 from disc_model.engine.series import Series, build_series
-from disc_model.engine.state import EngineState
-from disc_model.engine.step_size import TYPICAL_STEP
 from disc_model.errors import raise_faults, violations
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.simulation.states import (
@@ -53,6 +48,14 @@ PARAMETERS = (
 RETURNED = transitions.RETURNED
 # steps times blocks of lanes and of columns: some 0.2 s, after which Ctrl-C is answered
 WORK_PER_PIECE = 100_000
+# over the model's unit of time: the rate of the fastest oscillation above which steps are
+# shortened; all published cases are below it
+FAST = 1.25
+LEAST_DECREASE = 0.2  # of the residual in a step of Newton's method, over the step's share
+MOST_HALVINGS = 7  # of such a step, before it is given up
+SLOW = 0.05  # a step that leaves more of the residual needs the Jacobian at its own point
+MOST_JACOBIANS = 14  # in a search for a fixed point
+COARSE_JACOBIANS = 3  # of these, which only give a direction
 ENDS = {
     transitions.RETURNED: "returned",
     transitions.TIME_OVER: "time_over",
@@ -77,27 +80,25 @@ def longest_step(model: Model, order: int, tolerance: float) -> float:
     damping = max(
         model.damping.max(), model.damping0.max(initial=0.0), max(model.c, model.c_p) / model.m
     )
-    contact = (
-        (1 / model.m + model.inverse_effective_mass) / model.compliance
-        if model.has_compliance
-        else 0.0
-    )
-    stiffness = (
-        max((model.unit * model.free_unit) ** -2, max(model.k, model.k_p) / model.m) + contact
-    )
-    fastest = damping / 2 + math.sqrt(damping**2 / 4 + stiffness) + model.shift.max() * model.Omega
+    contact = 0.0
+    if model.has_compliance:
+        contact = (1 / model.m + model.inverse_effective_mass) / model.compliance
+    springs = max(model.k, model.k_p) / model.m
+    stiffness = max((model.unit * model.free_unit) ** -2, springs) + contact
+    turning = model.shift.max() * model.Omega
+    fastest = damping / 2 + math.sqrt(damping**2 / 4 + stiffness) + turning
     rate = fastest * model.unit
-    # all published cases are below 1.25, where steps are not shortened
-    return tangent.longest_step(order, tolerance) / (rate if rate > 1.25 else 1.0)
+    longest = tangent.longest_step(order, tolerance)
+    return longest / rate if rate > FAST else longest
 
 
 def integrate_in_pieces(
     model: Model,
     series: Series,
-    state: EngineState,
-    changes: Tangent,
-    limits: FlightLimits,
-    points: Section | None = None,
+    state: motion.EngineState,
+    changes: columns.Tangent,
+    limits: loop.FlightLimits,
+    points: section.Section | None = None,
     start: Array | None = None,
 ) -> int:
     """Integrate as `section.integrate`, with a return to Python after every `WORK_PER_PIECE`: a
@@ -106,11 +107,13 @@ def integrate_in_pieces(
     blocks = blocks_of(model)
     if limits.tangent:
         blocks *= 1 + changes.columns // columns.COLUMNS_AT_ONCE
-    step = min(limits.longest, TYPICAL_STEP) * model.unit
+    step = min(limits.longest, step_size.TYPICAL_STEP) * model.unit
     piece = WORK_PER_PIECE / blocks * step
     left = limits.t_max
     releases = limits.releases
-    where: tuple[Any, ...] = () if points is None else (points,)
+    where: tuple[Any, ...] = ()
+    if points is not None:
+        where = (points,)
     if start is not None:
         where = (points, start)
         changes.log[columns.RELEASES] = 0.0  # as the engine does there
@@ -144,17 +147,16 @@ def parameter_change(p: Parameters, model: Model, name: str) -> Array:
     if p.damping_ratio is not None:
         damping = model.damping / (2 * p.E), model.damping0 / (2 * p.E)
     # u_0 and the residual flexibility are proportional to 1 / E
-    residual = p.contact_compliance == RESIDUAL
-    give = 0.0 if residual else model.N * model.compliance
-    scalars = {
-        "load": model.k * (model.u_0 + give) / p.E,
-        "compliance": -1.0 / p.E if residual else 0.0,
-    }
+    if p.contact_compliance == RESIDUAL:
+        scalars = {"load": model.k * model.u_0 / p.E, "compliance": -1.0 / p.E}
+    else:
+        softness = model.N * model.compliance
+        scalars = {"load": model.k * (model.u_0 + softness) / p.E, "compliance": 0.0}
     return columns.input_column(model, scalars, stiffness, damping)
 
 
 class Counts(NamedTuple):
-    """Number of events of each kind in a flight, or in a period of a cycle."""
+    """Number of events of each kind in an orbit, or in a period of a cycle."""
 
     releases: int
     backward_releases: int
@@ -164,7 +166,7 @@ class Counts(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Flight:
+class Orbit:
     """The motion between two returns to the section: exit code, durations (s), and derivatives of
     the end by the start, (n, n), and the map's parameters, (n, their number). Without a return, or
     tangents, these mean nothing."""
@@ -225,28 +227,39 @@ class ReturnMap:
         patient: bool = False,
     ) -> None:
         raise_faults(case_faults(p, "the return map"))
-        self.tol = tol = float(tol)  # kernels are compiled for the types of their arguments
-        self.parameters, self.patient = p, patient
+        self.tol = float(tol)  # kernels are compiled for the types of their arguments
+        self.parameters = p
+        self.patient = patient
         self._case = engine_case(p)
-        self.model = model = self._case.model
+        self.model = self._case.model
+        model = self.model
+
         # the Jacobian needs a finer series than event times do, and no rougher one could reach a
         # residual of 1e-8
-        flights = 1 / 20 * min(tol, 1e-10)
-        self.order = series_order(flights)
-        self.tolerance = series_tolerance(flights, compliant=p.contact_compliance != 0)
-        self._series, self._state = build_series(model, self.order), build_state(model)
-        height = ("u", "u_velocity") if model.has_compliance else ()
-        modes, rows = coordinate_rows(model, ()), coordinate_rows(model, height)
+        tolerance = 1 / 20 * min(self.tol, 1e-10)
+        self.order = series_order(tolerance)
+        self.tolerance = series_tolerance(tolerance, compliant=p.contact_compliance != 0)
+        self._series = build_series(model, self.order)
+        self._state = build_state(model)
+
+        # coordinates of the section
+        modes = columns.coordinate_rows(model, ())
+        rows = modes
+        if model.has_compliance:
+            rows = columns.coordinate_rows(model, ("u", "u_velocity"))
         self.diameters = columns.diameters_of_rows(model)[modes]
-        self.scale = energy_scale(model)[rows]
-        self.size = n = len(rows)
+        self.scale = columns.energy_scale(model)[rows]
+        self.size = len(rows)
+
+        # columns of the variational equations: by the coordinates, then by the parameters
         self._names = parameters
-        self._tangent = columns.build_tangent(model, n, self.order, len(parameters))
+        self._tangent = columns.build_tangent(model, self.size, self.order, len(parameters))
         self._first = self._tangent.plain
         for i, name in enumerate(parameters):
             columns.put_input_column(self._tangent, i, parameter_change(p, model, name))
-        jacobian = np.zeros((n, self._tangent.columns))
-        self._section = section.Section(rows, self.scale, np.zeros(n), jacobian)
+        jacobian = np.zeros((self.size, self._tangent.columns))
+        self._section = section.Section(rows, self.scale, np.zeros(self.size), jacobian)
+
         self.static = self._coordinates()
         self.deflection = max(float(np.linalg.norm(self.static)), sys.float_info.min)
 
@@ -260,9 +273,8 @@ class ReturnMap:
         speed."""
         p = self.parameters
         stuck = 2 * (p.mu_s - p.mu_k) * p.N / (p.r_0 * p.k_p * p.Omega)
-        return (60.0 if self.patient else 1.0) * (
-            4 * (stuck + 2 * math.pi * math.sqrt(p.m / p.k_p)) + 0.01
-        )
+        longest = 4 * (stuck + 2 * math.pi * math.sqrt(p.m / p.k_p)) + 0.01
+        return 60.0 * longest if self.patient else longest
 
     def evaluate(
         self,
@@ -272,15 +284,20 @@ class ReturnMap:
         tangent: bool = True,
         may_separate: bool = False,
         coarse: bool = False,
-    ) -> Flight:
+    ) -> Orbit:
         """Follow the motion from `x` to the `releases`-th next release; `coarse` suffices for a
         direction."""
-        t, start = self._tangent, np.array(x, dtype=float)
-        order, tolerance, of_columns = self.order, self.tolerance, 10 * self.tolerance
+        order = self.order
+        tolerance = self.tolerance
+        tolerance_of_columns = 10 * self.tolerance
         if coarse:
-            order, tolerance, of_columns = min(20, order), 1e-9, 1e-5
-        longest = longest_step(self.model, order, of_columns) if tangent else math.inf
-        course = FlightLimits(
+            order = min(20, order)
+            tolerance = 1e-9
+            tolerance_of_columns = 1e-5
+        longest = math.inf
+        if tangent:
+            longest = longest_step(self.model, order, tolerance_of_columns)
+        limits = loop.FlightLimits(
             order,
             tolerance,
             longest,
@@ -289,14 +306,27 @@ class ReturnMap:
             bool(may_separate),
             bool(tangent),
         )
+
+        start = np.array(x, dtype=float)
+        changes = self._tangent
         code = integrate_in_pieces(
-            self.model, self._series, self._state, t, course, self._section, start
+            self.model, self._series, self._state, changes, limits, self._section, start
         )
-        whole, stick = t.log[[columns.DURATION, columns.STICK_TIME]].tolist()
-        counts = Counts(*t.log[columns.RELEASES : columns.STICKS + 1].astype(int).tolist())
-        jacobian, last = self._section.jacobian, self._first + len(self._names)
-        by_start, by = jacobian[:, : self.size].copy(), jacobian[:, self._first : last].copy()
-        return Flight(code, whole, stick, counts, start, self._section.end.copy(), by_start, by)
+
+        log = changes.log
+        events = log[columns.RELEASES : columns.STICKS + 1].astype(int)
+        jacobian = self._section.jacobian
+        last = self._first + len(self._names)
+        return Orbit(
+            outcome=code,
+            period=float(log[columns.DURATION]),
+            stick_time=float(log[columns.STICK_TIME]),
+            counts=Counts(*events.tolist()),
+            start=start,
+            end=self._section.end.copy(),
+            jacobian=jacobian[:, : self.size].copy(),
+            by=jacobian[:, self._first : last].copy(),
+        )
 
     def next_release(self, start: State) -> Passage:
         """The first passage of the motion from `start` through the section; a motion that loses
@@ -325,7 +355,7 @@ class ReturnMap:
         self, duration: float, *, may_separate: bool, releases: int = 1
     ) -> Passage:
         """Follow the motion from the present state for at most a duration (s) to a release."""
-        limits = FlightLimits(
+        limits = loop.FlightLimits(
             self.order,
             self.tolerance,
             math.inf,
@@ -355,10 +385,11 @@ class ReturnMap:
         """Points of the motion from `x` at its next releases, at most `most`, as long as it
         returns."""
         for _ in range(most):
-            flight = self.evaluate(x, tangent=False, may_separate=may_separate, coarse=coarse)
-            if not flight.returned:
+            orbit = self.evaluate(x, tangent=False, may_separate=may_separate, coarse=coarse)
+            if not orbit.returned:
                 return
-            yield (x := flight.end)
+            x = orbit.end
+            yield x
 
 
 def rounding(tol: float, factor: float) -> float:
@@ -369,8 +400,8 @@ def rounding(tol: float, factor: float) -> float:
 
 def newton(
     map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool = False
-) -> Flight | None:
-    """The flight from a fixed point of the map, by Newton's method with a line search; None if it
+) -> Orbit | None:
+    """The orbit from a fixed point of the map, by Newton's method with a line search; None if it
     finds none.
 
     The residual must fall below the map's `tol`, over its deflection. If rounding stops it earlier,
@@ -378,37 +409,67 @@ def newton(
     the result has that of the fixed point.
     """
     follow = partial(map_.evaluate, releases=releases, may_separate=may_separate)
-    goal, identity = map_.tol * map_.deflection, np.eye(map_.size)
-    flight = follow(x, coarse=True)
-    jacobian, used, fresh = flight.jacobian, 1, True
-    if not flight.returned:
+    goal = map_.tol * map_.deflection
+    orbit = follow(x, coarse=True)
+    if not orbit.returned:
         return None
-    while not flight.residual <= goal:
-        if not math.isfinite(flight.residual):
+
+    jacobian = orbit.jacobian
+    computed = 1  # Jacobians so far
+    fresh = True  # whether the Jacobian is that at the present point
+    while not orbit.residual <= goal:
+        if not math.isfinite(orbit.residual):
             return None
-        step, ratio = newton_step(jacobian - identity, flight.end - flight.start), 1.0
-        for shrink in range(7 if fresh else 1):
-            trial = follow(flight.start - step * 0.5**shrink, tangent=False)
-            if trial.returned and trial.residual < flight.residual * (1 - 0.2 * 0.5**shrink):
-                ratio, flight, fresh = trial.residual / flight.residual, trial, False
+
+        # one step, which a Jacobian from elsewhere must not shorten
+        halvings = MOST_HALVINGS if fresh else 1
+        better = _search_along_step(follow, orbit, jacobian, halvings)
+        if better is None and fresh:
+            if orbit.residual <= rounding(map_.tol, 1e3) * map_.deflection:
                 break
-        else:
-            if fresh and flight.residual <= rounding(map_.tol, 1e3) * map_.deflection:
-                break
-            if fresh:
-                return None
-        if (
-            flight.residual > goal and ratio > 0.05
-        ):  # a better step is followed by another with its Jacobian
-            if used >= 14:  # Jacobians
-                return None
-            again = follow(flight.start, coarse=used < 3)  # the first ones only give a direction
-            if not again.returned:
-                return None
-            jacobian, used, fresh = again.jacobian, used + 1, True
-    solution = follow(flight.start)
-    close = solution.returned and solution.residual <= rounding(map_.tol, 1e4) * map_.deflection
-    return solution if close and np.all(np.isfinite(solution.jacobian)) else None
+            return None
+        remaining = 1.0  # share of the residual
+        if better is not None:
+            remaining = better.residual / orbit.residual
+            orbit = better
+            fresh = False
+
+        # a good step is followed by another with its Jacobian
+        if remaining <= SLOW or orbit.residual <= goal:
+            continue
+        if computed >= MOST_JACOBIANS:
+            return None
+        again = follow(orbit.start, coarse=computed < COARSE_JACOBIANS)
+        if not again.returned:
+            return None
+        jacobian = again.jacobian
+        computed += 1
+        fresh = True
+
+    solution = follow(orbit.start)
+    return solution if _is_fixed_point(map_, solution) else None
+
+
+def _search_along_step(
+    follow: Callable[..., Orbit], orbit: Orbit, jacobian: Array, halvings: int
+) -> Orbit | None:
+    """The orbit from the first point along a step of Newton's method that decreases the residual
+    in proportion; the whole step is tried first, then its half, `halvings` times in all."""
+    identity = np.eye(len(jacobian))
+    step = newton_step(jacobian - identity, orbit.end - orbit.start)
+    for shrink in range(halvings):
+        share = 0.5**shrink
+        trial = follow(orbit.start - step * share, tangent=False)
+        if trial.returned and trial.residual < orbit.residual * (1 - LEAST_DECREASE * share):
+            return trial
+    return None
+
+
+def _is_fixed_point(map_: ReturnMap, orbit: Orbit) -> bool:
+    """Whether an orbit returns to its start, but for what rounding may leave, with derivatives."""
+    largest = rounding(map_.tol, 1e4) * map_.deflection
+    close = orbit.returned and orbit.residual <= largest
+    return close and bool(np.all(np.isfinite(orbit.jacobian)))
 
 
 def newton_step(matrix: Array, right: Array) -> Array:

@@ -34,11 +34,10 @@ from disc_model.stability.return_map import Array, ComplexArray, case_faults
 def _in_python(module: ModuleType) -> Any:
     """The compiled functions of a module as functions of Python, which need no compilation for
     complex arrays."""
-    names = {**vars(module)}
-    compiled = {
-        name: law.py_func.__code__ for name, law in names.items() if hasattr(law, "py_func")
-    }
-    names |= {name: FunctionType(code, names) for name, code in compiled.items()}
+    names = dict(vars(module))
+    for name, law in vars(module).items():
+        if hasattr(law, "py_func"):
+            names[name] = FunctionType(law.py_func.__code__, names)
     return SimpleNamespace(**names)
 
 
@@ -97,19 +96,20 @@ class SteadySliding(Summarised, Drawn):
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
 
     def __repr__(self) -> str:
+        if not self.eigenvalues.size:
+            return f"SteadySliding({self.message})"
         numbers = f"growth rate {self.growth_rate:.6g} 1/s, {self.eigenvalues.size} eigenvalues"
-        return f"SteadySliding({self.message}{', ' + numbers if self.eigenvalues.size else ''})"
+        return f"SteadySliding({self.message}, {numbers})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         yield "status", self.message
         yield "contact force", number_text(self.contact_force, "N")
         yield "angle psi", number_text(self.psi, "rad")
         yield "growth rate", number_text(self.growth_rate, "1/s")
-        yield "unstable modes", self.growing.size if self.eigenvalues.size else ""
-        yield (
-            "growing frequencies",
-            ", ".join(number_text(value.imag / math.tau, "Hz") for value in self.growing),
-        )
+        growing = self.growing
+        yield "unstable modes", growing.size if self.eigenvalues.size else ""
+        frequencies = [number_text(value.imag / math.tau, "Hz") for value in growing]
+        yield "growing frequencies", ", ".join(frequencies)
 
     @property
     def stable(self) -> bool:
@@ -166,7 +166,9 @@ def steady_sliding(p: Parameters) -> SteadySliding:
         return _absent(SlidingStatus.NO_CONTACT)
     alpha = -modes.diameters * p.Omega * b
     beta = modes.diameters * p.Omega * a
-    height = (modes.psi @ a - compliance * vertical, 0.0) if compliance else ()
+    height: tuple[float, ...] = ()
+    if compliance:
+        height = (float(modes.psi @ a) - compliance * vertical, 0.0)
 
     def rows_at(psi: float) -> Array:
         return join_rows(modes, (a, alpha, b, beta), (psi, p.Omega), height)
@@ -190,18 +192,29 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     jacobian = rates.imag / laws.TINY
     eigenvalues = np.linalg.eigvals(jacobian).astype(complex)
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
-    growth = float(eigenvalues[0].real)
-    verdict = (
-        "neutral"
-        if abs(growth) <= _rounding(eigenvalues)
-        else "stable"
-        if growth < 0
-        else "not stable"
-    )
-    message = f"steady sliding with {'R' if p.contact_force == 'normal' else 'P'} = {force:.6g} N, {verdict}"
+    symbol = "R" if p.contact_force == "normal" else "P"
+    message = f"steady sliding with {symbol} = {force:.6g} N, {_verdict(eigenvalues)}"
     return SteadySliding(
-        SlidingStatus.OK, message, force, psi, a, b, alpha, beta, eigenvalues, growth, jacobian
+        status=SlidingStatus.OK,
+        message=message,
+        contact_force=force,
+        psi=psi,
+        a=a,
+        b=b,
+        alpha=alpha,
+        beta=beta,
+        eigenvalues=eigenvalues,
+        growth_rate=float(eigenvalues[0].real),
+        jacobian=jacobian,
     )
+
+
+def _verdict(eigenvalues: ComplexArray) -> str:
+    """The stability of an equilibrium in a word, from its eigenvalues, largest real part first."""
+    growth = float(eigenvalues[0].real)
+    if abs(growth) <= _rounding(eigenvalues):
+        return "neutral"
+    return "stable" if growth < 0 else "not stable"
 
 
 def _absent(status: SlidingStatus) -> SteadySliding:
@@ -214,33 +227,35 @@ def _equilibrium(p: Parameters, modes: Modes, compliance: float) -> tuple[Array,
     gap = turned**2 - modes.omega**2
     lag = modal_damping(p) * turned
     with np.errstate(divide="ignore", invalid="ignore"):
-        along, across = (
-            modes.psi * part / (gap**2 + lag**2) for part in (gap, lag)
-        )  # a, b under V = 1 N
+        size = gap**2 + lag**2
+        along = modes.psi * gap / size  # a under V = 1 N
+        across = modes.psi * lag / size  # b
         static = float(np.sum(modes.psi**2 / modes.omega**2)) + compliance
         load = p.N * (1 + p.k * static)  # N - k u_0
         force = load / (1 - p.k * (float(np.sum(modes.psi * along)) - compliance))
-        if not (arm := tangential_amplitudes(p)).any():
+        arm = tangential_amplitudes(p)
+        if not arm.any():
             return along * force, across * force, force
-        twist = arm * lag / (gap**2 + lag**2), -arm * gap / (gap**2 + lag**2)  # a, b under T = 1 N
-        slope = (
-            modes.diameters * modes.psi / p.r_0
-            if p.contact_force == "normal"
-            else np.zeros_like(modes.psi)
-        )
-        # V = start + rise R, and V = R (1 - mu beta) with beta = lean_0 V + lean_1 R
+        twist_along = arm * lag / size  # a under T = 1 N
+        twist_across = -arm * gap / size  # b
+        slope = np.zeros_like(modes.psi)
+        if p.contact_force == "normal":
+            slope = modes.diameters * modes.psi / p.r_0
+        # V = start + rise R, and V = R (1 - mu beta) with mu beta = lean_by_V V + lean_by_R R
         share = 1 - p.k * (float(modes.psi @ along) - compliance)
         mu = float(_LAWS.friction_coefficient(engine_case(p).model, 1.0, p.Omega))
         start = load / share
-        rise = p.k * mu * float(modes.psi @ twist[0]) / share
-        lean = mu * float(slope @ across), mu**2 * float(slope @ twist[1])
-        # start + rise R = R (1 - lean_0 (start + rise R) - lean_1 R): the root that is start / (1 -
-        # rise) if it is flat
-        square = lean[0] * rise + lean[1]
-        linear = 1 - rise - lean[0] * start
+        rise = p.k * mu * float(modes.psi @ twist_along) / share
+        lean_by_V = mu * float(slope @ across)
+        lean_by_R = mu**2 * float(slope @ twist_across)
+        # start + rise R = R (1 - lean_by_V (start + rise R) - lean_by_R R): the root that is
+        # start / (1 - rise) if it is flat
+        square = lean_by_V * rise + lean_by_R
+        linear = 1 - rise - lean_by_V * start
         R = 2 * start / (linear + math.sqrt(max(linear**2 - 4 * square * start, 0.0)))
         V = start + rise * R
-        a, b = (of_V * V + of_T * mu * R for of_V, of_T in zip((along, across), twist, strict=True))
+        a = along * V + twist_along * mu * R
+        b = across * V + twist_across * mu * R
         return a, b, V
 
 
@@ -250,16 +265,21 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     modes = mode_arrays(p)
     model = engine_case(p).model
     (a, alpha, b, beta), (psi, f), height = split_rows(modes, rows)
-    l, weight, w2, d = (
-        each[:, None] for each in (modes.diameters, modes.psi, modes.omega**2, modal_damping(p))
-    )
+    l = modes.diameters[:, None]
+    weight = modes.psi[:, None]
+    w2 = modes.omega[:, None] ** 2
+    d = modal_damping(p)[:, None]
     rate_a = alpha + l * f * b
     rate_b = beta - l * f * a
     free_along = l * f * beta - d * alpha - w2 * a
     free_across = -l * f * alpha - d * beta - w2 * b
-    parts = (a, rate_a, l * b, free_along + l * f * rate_b)
-    w, velocity, slope, free = (np.sum(weight * part, axis=0) for part in parts)
-    u, v = height if len(height) else (w, velocity)
+    w = np.sum(weight * a, axis=0)
+    velocity = np.sum(weight * rate_a, axis=0)
+    slope = np.sum(weight * (l * b), axis=0)
+    free = np.sum(weight * (free_along + l * f * rate_b), axis=0)
+    u, v = (w, velocity)
+    if len(height):
+        u, v = height
     i = laws.Instant(
         p.N, p.k, p.c, p.m, p.k_p, p.c_p, p.Omega, contact_compliance(p), psi, f, w, velocity, slope, free, u, v
     )  # fmt: skip
@@ -267,10 +287,10 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     force = _LAWS.slip_numerator(model, i) / _LAWS.slip_denominator(model, p.m, friction, slope)
     V, rate_f = _LAWS.slip_rates(model, i, friction, force)
     free_across = free_across + tangential_amplitudes(p)[:, None] * (friction * force)
-    lift = (v, (V - p.N - p.k * (u - model.u_0) - p.c * v) / p.m)[: len(height)]
-    return i, join_rows(
-        modes, (rate_a, free_along - weight * V, rate_b, free_across), (p.Omega - f, rate_f), lift
-    )
+    disc = (rate_a, free_along - weight * V, rate_b, free_across)
+    acceleration = (V - p.N - p.k * (u - model.u_0) - p.c * v) / p.m
+    lift = (v, acceleration)[: len(height)]
+    return i, join_rows(modes, disc, (p.Omega - f, rate_f), lift)
 
 
 def split_rows(modes: Modes, rows: Any) -> tuple[Any, Any, Any]:
@@ -292,9 +312,10 @@ def join_rows(
     """Rows of steady sliding's Jacobian from the parts that `split_rows` returns."""
     a, alpha, b, beta = disc
     pairs = modes.diameters > 0
-    return np.concatenate(
-        [a, alpha, b[pairs], beta[pairs], slider, *([height] if len(height) else [])]
-    )
+    parts = [a, alpha, b[pairs], beta[pairs], slider]
+    if len(height):
+        parts.append(height)
+    return np.concatenate(parts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -321,7 +342,8 @@ class SlidingModes:
 def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> SlidingModes:
     """Modes of steady sliding by ascending frequency; none without steady sliding, which is
     computed if not given."""
-    sliding = steady_sliding(p) if sliding is None else sliding
+    if sliding is None:
+        sliding = steady_sliding(p)
     values, vectors = np.linalg.eig(sliding.jacobian)
     order = [i for i in np.argsort(values.imag, kind="stable") if values[i].imag > 0]
     values = values[order]
@@ -333,30 +355,33 @@ def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> Slidin
     l = modes.diameters
     omega = modes.omega[:, None]
     (a, alpha, b, beta), (psi, f), _ = split_rows(modes, vectors)
-    energy = (
-        np.abs(omega * a) ** 2 + np.abs(alpha) ** 2 + np.abs(omega * b) ** 2 + np.abs(beta) ** 2
-    )
-    by_l = np.array(
-        [energy[l == each_l].sum(axis=0) for each_l in range(int(l.max(initial=0)) + 1)]
-    )
-    diameters = by_l.argmax(axis=0)
-    of_l = l[:, None] == diameters
+    energy = np.abs(omega * a) ** 2 + np.abs(alpha) ** 2
+    energy = energy + np.abs(omega * b) ** 2
+    energy = energy + np.abs(beta) ** 2
+    numbers = range(int(l.max(initial=0)) + 1)
+    by_number = np.array([energy[l == number].sum(axis=0) for number in numbers])
+    diameters = by_number.argmax(axis=0)
+    most = l[:, None] == diameters
+
     # a + i b and a - i b are the waves that travel in opposite directions
-    waves = [np.sum(np.abs(omega * (a + side * b)) ** 2, axis=0, where=of_l) for side in (1j, -1j)]
-    in_plane = p.r_0**2 * (p.k_p * np.abs(psi) ** 2 + p.m * np.abs(f) ** 2)
+    with_slider = np.sum(np.abs(omega * (a + 1j * b)) ** 2, axis=0, where=most)
+    against = np.sum(np.abs(omega * (a - 1j * b)) ** 2, axis=0, where=most)
     with np.errstate(invalid="ignore"):  # a mode without the disc has no waves
-        forward = np.asarray(waves[0] / (waves[0] + waves[1]), dtype=float)
+        forward = np.asarray(with_slider / (with_slider + against), dtype=float)
+
+    in_plane = p.r_0**2 * (p.k_p * np.abs(psi) ** 2 + p.m * np.abs(f) ** 2)
     return SlidingModes(
-        values.imag / (2 * math.pi),
-        np.asarray(values.real, dtype=float),
-        np.asarray(-values.real / np.abs(values), dtype=float),
-        np.where(in_plane > energy.sum(axis=0), -1, diameters).astype(np.int64),
-        forward,
-        vectors,
+        frequency=values.imag / (2 * math.pi),
+        growth_rate=np.asarray(values.real, dtype=float),
+        damping_ratio=np.asarray(-values.real / np.abs(values), dtype=float),
+        diameters=np.where(in_plane > energy.sum(axis=0), -1, diameters).astype(np.int64),
+        forward=forward,
+        shapes=vectors,
     )
 
 
-ALIKE = 0.9  # least likeness of modes that are followed; otherwise the step is halved, up to `HALVINGS` times
+# least likeness of modes that are followed; otherwise the step is halved, up to `HALVINGS` times
+ALIKE = 0.9
 HALVINGS = 6
 
 
@@ -378,12 +403,15 @@ def follow_modes(cases: Sequence[Parameters]) -> list[FollowedModes]:
     appear later have the next ones. Further cases between two are computed until it is clear which
     mode is which.
     """
-    followed, shapes = list[FollowedModes](), list[ComplexArray]()  # of each number, the last one
-    for before, p in zip([None, *cases], cases, strict=False):
-        modes = sliding_modes(p, sliding := steady_sliding(p))
-        followed.append(
-            FollowedModes(sliding, modes, *_numbered(shapes, before, p, modes, HALVINGS))
-        )
+    followed = list[FollowedModes]()
+    shapes = list[ComplexArray]()  # of each number, the last one
+    before: Parameters | None = None
+    for p in cases:
+        sliding = steady_sliding(p)
+        modes = sliding_modes(p, sliding)
+        numbers, mac = _numbered(shapes, before, p, modes, HALVINGS)
+        followed.append(FollowedModes(sliding, modes, numbers, mac))
+        before = p
     return followed
 
 
@@ -395,8 +423,10 @@ def _numbered(
     halvings: int,
 ) -> tuple[NDArray[np.int64], Array]:
     """Numbers and likeness of the modes of a case; `shapes`, by number, become those of this
-    case."""
-    from scipy.optimize import linear_sum_assignment  # steady sliding alone does without
+    case. Where the modes are in doubt, the case `before` is followed to this one by halves of the
+    way, up to so many `halvings`."""
+    # slow to import, and steady sliding alone does without
+    from scipy.optimize import linear_sum_assignment
 
     if not len(modes.frequency):
         return np.zeros(0, np.int64), np.zeros(0)
@@ -405,24 +435,31 @@ def _numbered(
     mac = np.abs(np.array(shapes).reshape(len(shapes), len(scaled)).conj() @ scaled) ** 2
     numbers, places = linear_sum_assignment(-mac)
     if before is not None and halvings and mac[numbers, places].min(initial=1) < ALIKE:
-        values = dict(before)
-        ends = dict(p)
-        changed = [
-            name
-            for name, value in values.items()
-            if isinstance(value, float) and value != ends[name]
-        ]
-        between = p.replace(**{name: (values[name] + ends[name]) / 2 for name in changed})
-        if changed and len((half := sliding_modes(between)).frequency):
-            _numbered(shapes, before, between, half, halvings - 1)
-            return _numbered(shapes, between, p, modes, halvings - 1)
+        between = _case_between(before, p)
+        if between is not None:
+            half = sliding_modes(between)
+            if len(half.frequency):
+                _numbered(shapes, before, between, half, halvings - 1)
+                return _numbered(shapes, between, p, modes, halvings - 1)
+
     matched = np.full(len(modes.frequency), -1)
+    matched[places] = numbers
     likeness = np.full(len(modes.frequency), math.nan)
-    matched[places], likeness[places] = numbers, mac[numbers, places]
+    likeness[places] = mac[numbers, places]
     matched[matched < 0] = len(shapes) + np.arange(np.sum(matched < 0))
     for number, shape in sorted(zip(matched, scaled.T, strict=True), key=lambda pair: pair[0]):
         shapes[number : number + 1] = [shape]
     return matched, likeness
+
+
+def _case_between(before: Parameters, after: Parameters) -> Parameters | None:
+    """The case halfway between two that differ in numbers; None if they do not differ."""
+    ends = dict(after)
+    middles = {}
+    for name, value in before:
+        if isinstance(value, float) and value != ends[name]:
+            middles[name] = (value + ends[name]) / 2
+    return after.replace(**middles) if middles else None
 
 
 def energy_weights(p: Parameters) -> Array:
@@ -432,7 +469,8 @@ def energy_weights(p: Parameters) -> Array:
     stiffness = modes.omega**2
     ones = np.ones(len(modes.omega))
     slider = [p.r_0**2 * p.k_p, p.r_0**2 * p.m]
-    height = [p.k + 1 / compliance, p.m] if compliance else []
-    return np.asarray(
-        join_rows(modes, (stiffness, ones, stiffness, ones), slider, height), np.float64
-    )
+    height = []
+    if compliance:
+        height = [p.k + 1 / compliance, p.m]
+    rows = join_rows(modes, (stiffness, ones, stiffness, ones), slider, height)
+    return np.asarray(rows, np.float64)

@@ -13,12 +13,10 @@ apart, as in an axisymmetric disc. If it is large, each half moves by itself, by
 of the slider, and grows by the mean of both rates.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,13 +58,11 @@ class SplitGrowth(Summarised):
     together: float
     growth_rate: float
     apart: float
-    pairs: pd.DataFrame
+    pairs: "pd.DataFrame"
 
     def __repr__(self) -> str:
-        rates = (
-            f"{name}={getattr(self, name):.4g}" for name in ("together", "growth_rate", "apart")
-        )
-        return f"SplitGrowth({', '.join(rates)})"
+        rates = f"together={self.together:.4g}, growth_rate={self.growth_rate:.4g}"
+        return f"SplitGrowth({rates}, apart={self.apart:.4g})"
 
     @property
     def matters(self) -> bool:
@@ -149,11 +145,14 @@ def _splits(p: Parameters, split: Any, modes: Modes) -> list[float]:
     """The split of each mode, checked."""
     count = len(modes.omega)
     if split is None:
-        report = None if p.disc is None else p.disc.report
         rule = "must be given: the disc does not come from a file with both halves of pairs"
-        require((report is not None, "split", split, rule))
-        split = report.split if report is not None else ()
-    numbers = [split] * count if is_number(split) else split
+        known = p.disc is not None and p.disc.report is not None
+        require((known, "split", split, rule))
+        if p.disc is not None and p.disc.report is not None:
+            split = p.disc.report.split
+    numbers = split
+    if is_number(split):
+        numbers = [split] * count
     rule = f"must be one number from 0 to {WIDEST:g}, or one for each of {count} modes"
     is_list = isinstance(numbers, list | tuple | np.ndarray) and np.ndim(numbers) == 1
     require((is_list and len(numbers) == count, "split", split, rule))
@@ -166,9 +165,8 @@ def _pairs(modes: Modes, size: int) -> list[Pair]:
     """The pairs in a Jacobian of this size."""
     parts, _, _ = split_rows(modes, np.arange(size))
     a, alpha, b, beta = (part.astype(int).tolist() for part in parts)
-    return [
-        Pair(i, a[i], alpha[i], b[i], beta[i]) for i in np.flatnonzero(modes.diameters > 0).tolist()
-    ]
+    modes_of_pairs = np.flatnonzero(modes.diameters > 0).tolist()
+    return [Pair(i, a[i], alpha[i], b[i], beta[i]) for i in modes_of_pairs]
 
 
 # ---- Both limits
@@ -176,7 +174,7 @@ def _pairs(modes: Modes, size: int) -> list[Pair]:
 
 def _waves(
     p: Parameters, modes: Modes, pairs: list[Pair], splits: list[float], jacobian: Array
-) -> tuple[pd.DataFrame, list[float]]:
+) -> tuple["pd.DataFrame", list[float]]:
     """Growth rates of the two modes of steady sliding in which each pair moves most, and of all
     other modes."""
     import pandas as pd
@@ -214,7 +212,9 @@ def _weights(p: Parameters, modes: Modes, pairs: list[Pair]) -> Array:
     of_pairs = [pair.mode for pair in pairs]
     in_pairs = square[of_pairs]
     slider = [p.k_p * p.r_0**2, p.m * p.r_0**2]
-    height = [p.k, p.m] if contact_compliance(p) > 0 else []
+    height = []
+    if contact_compliance(p) > 0:
+        height = [p.k, p.m]
     return np.concatenate(
         [square, np.ones_like(square), in_pairs, np.ones_like(in_pairs), slider, height]
     )
@@ -237,7 +237,7 @@ class Coupling(NamedTuple):
     rate: Array
 
     @classmethod
-    def of(cls, p: Parameters, modes: Modes, pairs: list[Pair], splits: list[float]) -> Coupling:
+    def of(cls, p: Parameters, modes: Modes, pairs: list[Pair], splits: list[float]) -> Self:
         """The coupling of the pairs that have a split."""
         split = [pair for pair in pairs if splits[pair.mode] > 0]
         _, a, alpha, b, beta = np.array(split).T

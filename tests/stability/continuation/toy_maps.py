@@ -22,7 +22,7 @@ from scipy.optimize import minimize_scalar
 from disc_model.parameters import Parameters
 from disc_model.stability import cycle
 from disc_model.stability.continuation import problem
-from disc_model.stability.return_map import Counts, Flight, Passage
+from disc_model.stability.return_map import Counts, Orbit, Passage
 
 PERIOD = 0.015
 ANGLE = 1.2
@@ -92,14 +92,14 @@ class ToyMap:
         known = (PERIOD, 0.3 * PERIOD, self.counts(start), start)
         for _ in range(releases):
             if not np.all(np.abs(end) < 1e100):  # far beyond the fold
-                return Flight(LOST, *known, end, jacobian, by)
+                return Orbit(LOST, *known, end, jacobian, by)
             end, step, changes = self.step(end)
             jacobian = step @ jacobian
         for i, name in enumerate(self._names):
             by[:, i] = changes.get(name, 0.0)
         outcome = RETURNED if self.parameters.Omega <= 30 else LOST
         singular = math.nan if self.parameters.Omega < 2 else 1.0
-        return Flight(outcome, *known, end, jacobian, by * singular)
+        return Orbit(outcome, *known, end, jacobian, by * singular)
 
     @property
     def first_release(self):

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
-from disc_model.stability.cycle import frequencies
+from disc_model.stability.frequencies import frequencies
 from disc_model.studies.quantities.campbell import Campbell
 from tests.studies.conftest import SMALL, computed
 

@@ -1,7 +1,5 @@
 """Borders of stability in the plane of two parameters, followed along the surface of cycles."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Literal
@@ -25,7 +23,6 @@ from disc_model.stability.continuation.curve import (
     solve,
 )
 from disc_model.stability.continuation.cycles import branch_of
-from disc_model.stability.continuation.ends import End
 from disc_model.stability.continuation.problem import CycleProblem
 from disc_model.stability.continuation.spectrum import spectrum_of
 from disc_model.stability.cycle import find_cycle, multipliers
@@ -149,7 +146,7 @@ class BorderProblem:
             found.by,
             tangent,
             float(sign),
-            found.flight,
+            found.orbit,
             found.jacobian,
             mu=mu,
             gradient=gradient,
@@ -214,7 +211,7 @@ class BorderProblem:
             found = self.cycles.evaluate(z)
             former = value
             value, mu = self._test(found.jacobian)
-            # Broyden's update: a gradient by differences would take four flights at each correction
+            # Broyden's update: a gradient by differences would take four orbits at each correction
             gradient = gradient + (value - former - gradient @ move) / (move @ move) * move
         raise Rejected(DIVERGES)
 
@@ -231,15 +228,15 @@ class _Watch:
         self.n = cycles.n
         spans = np.array([bounds[name] for name in self.names])
         self.low, self.high = spans.T / cycles.scales
-        self.end: End | None = None
+        self.end: ends.End | None = None
 
     def __call__(self, points: list[CurvePoint]) -> bool:
         values = points[-1].z[self.n :]
         if np.any(values < self.low) or np.any(values > self.high):
-            self.end = End(ends.BOUND, f"{' or '.join(self.names)} has left the bounds")
+            self.end = ends.End(ends.BOUND, f"{' or '.join(self.names)} has left the bounds")
         elif len(points) > 3 and self._closes(*points[-2:]):
             points[-1] = self.first
-            self.end = End(ends.CLOSED, "the curve closes on itself")
+            self.end = ends.End(ends.CLOSED, "the curve closes on itself")
         return self.end is not None
 
     def _closes(self, before: CurvePoint, new: CurvePoint) -> bool:
@@ -276,8 +273,12 @@ def continue_border(
     except Rejected as lost:
         raise ParameterError(str(lost)) from None
     slopes = first.tangent[problem.cycles.n :]
-    leading_slope = slopes[0] if abs(slopes[0]) > 1e-12 else slopes[1]
-    onward = first if leading_slope >= 0 else first.reversed()
+    leading_slope = slopes[0]
+    if abs(slopes[0]) <= 1e-12:
+        leading_slope = slopes[1]
+    onward = first
+    if leading_slope < 0:
+        onward = first.reversed()
 
     points, end = _one_way(problem, onward.reversed(), bounds)
     if end.kind != ends.CLOSED:
@@ -290,12 +291,14 @@ def continue_border(
 
 def _one_way(
     problem: BorderProblem, first: CurvePoint, bounds: Mapping[str, tuple[float, float]]
-) -> tuple[list[CurvePoint], End]:
+) -> tuple[list[CurvePoint], ends.End]:
     """The points of a border from the first one along its tangent, and why they end."""
     watch = _Watch(problem, first, bounds)
     points, rejected = follow_curve(first, problem.next_point, problem.steps, watch)
     if watch.end is not None:
         return points, watch.end
     if rejected is not None:
-        return points, End(ends.LOST, str(rejected))
-    return points, End(ends.MOST_POINTS, f"max_points={problem.steps.max_points} were computed")
+        return points, ends.End(ends.LOST, str(rejected))
+    return points, ends.End(
+        ends.MOST_POINTS, f"max_points={problem.steps.max_points} were computed"
+    )

@@ -1,7 +1,7 @@
 """The residual flexibility of a plate with modes as published, along a branch in the plate's shape.
 
 It is the difference of two modal sums, the larger over a thousand modes, and takes a second for
-each value of nu, a or b, where a flight takes a millisecond.  Along a branch it is interpolated by
+each value of nu, a or b, where an orbit takes a millisecond.  Along a branch it is interpolated by
 Chebyshev polynomials over short intervals, to rounding.
 """
 

@@ -192,7 +192,8 @@ class Search:
             passed = [x for x in scaled if low + _margin(low) < x < high - _margin(high)]
             for value in sorted(passed, reverse=after.value < before.value):
                 point = self.point_at(before, after, value)
-                inserted += [] if point is None else [point]
+                if point is not None:
+                    inserted.append(point)
         return inserted
 
 
@@ -234,7 +235,9 @@ class _Watch:
             return False
         bound = min(max(fold.value, search.low), search.high)
         at_bound = search.point_at(before, fold, bound)
-        points[-1:] = [] if at_bound is None else [at_bound]
+        points.pop()
+        if at_bound is not None:
+            points.append(at_bound)
         self.end = search.end_at_bound(bound)
         return True
 

@@ -19,7 +19,7 @@ from pydantic import Field
 
 from disc_model.errors import DiscModelError
 from disc_model.stability.continuation.spectrum import Spectrum, spectrum_of
-from disc_model.stability.return_map import Array, Flight, newton_step, rounding
+from disc_model.stability.return_map import Array, Orbit, newton_step, rounding
 from disc_model.units import Count, Finite, Positive, Strict
 
 MOST_CORRECTIONS = 14  # of Newton's method with Broyden's updates, which takes 3 to 5
@@ -72,12 +72,12 @@ class StepControl(Strict):
 
 
 class Evaluation(NamedTuple):
-    """F at a point z: its value (n,), its derivative `by` z, the flight of the return map, and the
+    """F at a point z: its value (n,), its derivative `by` z, the orbit of the return map, and the
     Jacobian of the map by x, (n, n)."""
 
     residual: Array
     by: Array
-    flight: Flight
+    orbit: Orbit
     jacobian: Array
 
 
@@ -102,7 +102,7 @@ class Problem(Protocol):
 @dataclass(frozen=True, eq=False)
 class CurvePoint:
     """A point z of a curve, with F's derivative `by` z, the unit tangent, the sign of det [by;
-    tangent], and the cycle's flight and Jacobian.
+    tangent], and the cycle's orbit and Jacobian.
 
     Of a border of stability it also has the multiplier `mu` that is followed, and the gradients of
     the test function and of `mu` within the surface of cycles.
@@ -112,7 +112,7 @@ class CurvePoint:
     by: Array
     tangent: Array
     orientation: float
-    flight: Flight
+    orbit: Orbit
     jacobian: Array
     mu: complex = 1.0
     gradient: Array = field(default_factory=lambda: np.zeros(0))
@@ -196,7 +196,7 @@ def curve_point(z: Array, found: Evaluation, along: Array) -> CurvePoint:
         tangent = np.linalg.svd(found.by)[2][-1]
     tangent = np.asarray(tangent, dtype=np.float64) / float(np.linalg.norm(tangent))
     sign, _ = np.linalg.slogdet(np.vstack([found.by, tangent]))
-    return CurvePoint(z, found.by, tangent, float(sign), found.flight, found.jacobian)
+    return CurvePoint(z, found.by, tangent, float(sign), found.orbit, found.jacobian)
 
 
 class Guess(NamedTuple):

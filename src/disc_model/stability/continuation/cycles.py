@@ -1,7 +1,5 @@
 """`continue_cycle`: a cycle followed in one parameter, both ways from a case."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
@@ -15,9 +13,7 @@ from disc_model.stability.continuation import ends, special
 from disc_model.stability.continuation.branch import Branch, SpecialPoint
 from disc_model.stability.continuation.course import SAME_VALUE, Course, Search
 from disc_model.stability.continuation.curve import CurvePoint, StepControl
-from disc_model.stability.continuation.ends import End
 from disc_model.stability.continuation.problem import CycleProblem, growth_rate, parameter_scale
-from disc_model.stability.continuation.special import Located
 from disc_model.stability.cycle import find_cycle, guess_faults, multipliers
 from disc_model.stability.return_map import Counts
 from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, limits_faults
@@ -148,8 +144,8 @@ def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()
     for value in exact:
         values[np.abs(values - value) <= SAME_VALUE * abs(value)] = value
     every = [multipliers(point.jacobian) for point in points]
-    period = np.array([point.flight.period for point in points])
-    stick_time = np.array([point.flight.stick_time for point in points])
+    period = np.array([point.orbit.period for point in points])
+    stick_time = np.array([point.orbit.stick_time for point in points])
     growth = [growth_rate(each[0], time) for each, time in zip(every, period, strict=True)]
     rows = _special_points(problem, course)
     folds = [row.values for row in rows if row.kind == special.FOLD]
@@ -162,7 +158,7 @@ def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()
         growth_rate=np.array(growth),
         multipliers=np.array(every),
         diameters=np.array([problem.leading_diameters(point) for point in points]),
-        separations=np.array([point.flight.counts.separations for point in points]),
+        separations=np.array([point.orbit.counts.separations for point in points]),
         points=np.array([point.z[: problem.n] * problem.size for point in points]),
         folds=np.array(folds).reshape(-1, len(problem.names)),
         ended="; ".join(dict.fromkeys(reasons)),
@@ -184,16 +180,16 @@ def _special_points(problem: CycleProblem, course: Course) -> tuple[SpecialPoint
     rows = []
     for place in places:
         z = place.point.z
-        flight = place.point.flight
+        orbit = place.point.orbit
         values = z[problem.n :] * problem.scales
         case = problem.base.replace(**dict(zip(problem.names, values.tolist(), strict=True)))
         rows.append(
             SpecialPoint(
                 kind=place.kind,
                 values=values,
-                period=flight.period,
-                stick_fraction=flight.stick_time / flight.period,
-                growth_rate=growth_rate(special.leading(place.point), flight.period),
+                period=orbit.period,
+                stick_fraction=orbit.stick_time / orbit.period,
+                growth_rate=growth_rate(special.leading(place.point), orbit.period),
                 multiplier=place.multiplier,
                 after=place.after,
                 case=case,
@@ -204,8 +200,8 @@ def _special_points(problem: CycleProblem, course: Course) -> tuple[SpecialPoint
     return tuple(rows)
 
 
-def _end_of(end: End | None, point: CurvePoint, number: int) -> Located:
+def _end_of(end: ends.End | None, point: CurvePoint, number: int) -> special.Located:
     """The end of a branch as a special point; without a reason it is the start."""
     grazed = end is not None and end.kind == ends.GRAZED
     kind = special.GRAZING if grazed else "end"
-    return Located(kind, point, special.leading(point), number)
+    return special.Located(kind, point, special.leading(point), number)

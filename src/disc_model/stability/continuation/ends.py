@@ -70,9 +70,9 @@ def reason_of_loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) 
             problem.case(z)
         except ParameterError as fault:
             return End(LIMIT, f"beyond it the case is not valid: {fault}")
-    cycle = _events(problem, last.z, last.flight.period)
+    cycle = _events(problem, last.z, last.orbit.period)
     for distance in BEYOND:
-        motion = _events(problem, last.z + distance * last.tangent, last.flight.period)
+        motion = _events(problem, last.z + distance * last.tangent, last.orbit.period)
         text = _first_difference(cycle, motion)
         if text:
             return End(GRAZED, text)

@@ -25,7 +25,7 @@ from disc_model.stability.return_map import (
     PARAMETERS,
     Array,
     Counts,
-    Flight,
+    Orbit,
     ReturnMap,
     newton_step,
 )
@@ -42,7 +42,7 @@ USUAL = {
 }
 SMALLEST = 0.2  # of a parameter's scale, over its typical value
 SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value of interest
-DIFFERENCE = 1e-5  # over a parameter's scale: flights are accurate to 1e-13, their second derivatives of order one
+DIFFERENCE = 1e-5  # over a parameter's scale: orbits are accurate to 1e-13, their second derivatives of order one
 
 
 class SectionMap(Protocol):
@@ -61,7 +61,7 @@ class SectionMap(Protocol):
 
     def evaluate(
         self, x: Array, *, releases: int = 1, tangent: bool = True, may_separate: bool = False
-    ) -> Flight:
+    ) -> Orbit:
         """The motion from x to its return, with derivatives by x and the map's parameters."""
         ...
 
@@ -176,7 +176,7 @@ class CycleProblem:
         """Factors from the coordinates of a map to those of the reference."""
         return self.reference.scale / section_map.scale
 
-    def fly(self, z: Array, *, tangent: bool) -> Flight:
+    def follow(self, z: Array, *, tangent: bool) -> Orbit:
         """The motion from a point to its return, whatever its end."""
         return self.map_at(z).evaluate(
             self.section_point(z),
@@ -185,13 +185,13 @@ class CycleProblem:
             may_separate=self.order is not None,
         )
 
-    def _return(self, z: Array, *, tangent: bool) -> tuple[Flight, Array]:
+    def _return(self, z: Array, *, tangent: bool) -> tuple[Orbit, Array]:
         """The motion from a point to its return, and F."""
-        flight = self.fly(z, tangent=tangent)
-        if not flight.returned:
-            raise Rejected(f"the motion does not return: {ENDS[flight.outcome]}")
-        residual = (flight.end - flight.start) * self._turn(self.map_at(z)) / self.size
-        return flight, residual
+        orbit = self.follow(z, tangent=tangent)
+        if not orbit.returned:
+            raise Rejected(f"the motion does not return: {ENDS[orbit.outcome]}")
+        residual = (orbit.end - orbit.start) * self._turn(self.map_at(z)) / self.size
+        return orbit, residual
 
     def residual(self, z: Array) -> Array:
         """F at z."""
@@ -199,14 +199,14 @@ class CycleProblem:
 
     def evaluate(self, z: Array) -> Evaluation:
         """F at z, with its derivatives."""
-        flight, residual = self._return(z, tangent=True)
+        orbit, residual = self._return(z, tangent=True)
         turn = self._turn(self.map_at(z))
-        jacobian = flight.jacobian * turn[:, None] / turn[None, :]
+        jacobian = orbit.jacobian * turn[:, None] / turn[None, :]
         by_parameters = np.zeros((self.n, len(self.names)))
         column = 0
         for i, name in enumerate(self.names):
             if name in self._differentiable:
-                change = flight.by[:, column] * turn / self.size
+                change = orbit.by[:, column] * turn / self.size
                 by_parameters[:, i] = change * self.scales[i]
                 column += 1
             else:
@@ -214,10 +214,10 @@ class CycleProblem:
         by = np.hstack([jacobian - np.eye(self.n), by_parameters])
         if not (np.all(np.isfinite(by)) and np.all(np.isfinite(residual))):
             raise Rejected("the variational equations are singular: a switch is grazed")
-        return Evaluation(residual, by, flight, jacobian)
+        return Evaluation(residual, by, orbit, jacobian)
 
     def _difference(self, z: Array, i: int) -> Array:
-        """Derivative of F by the i-th scaled parameter, by a difference of two flights."""
+        """Derivative of F by the i-th scaled parameter, by a difference of two orbits."""
         move = np.zeros(len(z))
         move[self.n + i] = DIFFERENCE
         ends = []

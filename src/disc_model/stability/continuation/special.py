@@ -59,7 +59,7 @@ def _between(
 ) -> Iterator[tuple[str, CurvePoint, complex]]:
     """The special points between two neighbours."""
     folded = before.slope * after.slope < 0
-    if after.flight.counts != before.flight.counts:
+    if after.orbit.counts != before.orbit.counts:
         yield GRAZING, before, leading(before)
         return
     if folded:

@@ -63,7 +63,9 @@ class BranchTracer:
         """The points of a step of arclength ds beyond the last of some, resonances within it
         included; raises `Rejected` if a shorter step is needed."""
         current = points[-1]
-        former = points[-2] if len(points) > 1 else None
+        former = None
+        if len(points) > 1:
+            former = points[-2]
         guess = predict(former, current, ds)
         row = _plane(current.tangent)
         value = float(guess.z[-1])
@@ -138,7 +140,7 @@ class BranchTracer:
         check_step(before, after, self.steps.sharpest)
         if after.orientation != before.orientation:
             raise Rejected("the orientation of the curve changes")
-        if after.flight.counts != before.flight.counts:
+        if after.orbit.counts != before.orbit.counts:
             raise Rejected(order_change(before, after))
 
     def _resonances(self, before: CurvePoint, after: CurvePoint, deepest: int) -> list[CurvePoint]:
@@ -170,7 +172,7 @@ class BranchTracer:
 
 def _plane(tangent: Array) -> Array:
     """Normal of the plane in which a step ends: that of a fixed parameter where the curve is not
-    steep, because a map of new parameters costs more than a flight."""
+    steep, because a map of new parameters costs more than an orbit."""
     if abs(tangent[-1]) < STEEP:
         return tangent
     return parameter_row(len(tangent), float(tangent[-1]))
@@ -197,7 +199,7 @@ def order_change(before: CurvePoint, after: CurvePoint) -> str:
     """How the numbers of events differ between two points, in words."""
     changes = []
     for name, first, second in zip(
-        before.flight.counts._fields, before.flight.counts, after.flight.counts, strict=True
+        before.orbit.counts._fields, before.orbit.counts, after.orbit.counts, strict=True
     ):
         if first != second:
             changes.append(f"{name.replace('_', ' ')} {first} to {second}")

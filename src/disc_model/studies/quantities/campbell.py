@@ -110,7 +110,7 @@ class Campbell(Quantity):
         return 2 * unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.cycle import frequencies
+        from disc_model.stability.frequencies import frequencies
 
         cycle, modes, (frequency, growth_rate, mac) = frequencies(point.parameters, tol=self.tol)
         values: dict[str, Any] = {

@@ -1,0 +1,100 @@
+"""Frequencies of the multipliers of the stick-slip cycle, matched to the modes of steady sliding.
+
+A multiplier gives a frequency (angle / 2 pi + n) / T.  One assignment matches all multipliers to
+the modes of sliding by the modal assurance criterion (MAC); n brings the frequency nearest to the
+mode's.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from disc_model.disc.plate import mode_arrays
+from disc_model.engine.jit.cache import compiling
+from disc_model.parameters import Parameters
+from disc_model.simulation.states import State
+from disc_model.stability.cycle import FloquetResult, floquet
+from disc_model.stability.return_map import Array, ComplexArray, ReturnMap
+from disc_model.stability.sliding import SlidingModes, sliding_modes, split_rows
+
+
+@compiling()
+def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, SlidingModes, Array]:
+    """The stick-slip cycle near the static start, and the modes of steady sliding. Of the
+    multipliers matched to each mode, (3, n): frequency (Hz), larger growth rate of two (1/s) and
+    MAC of the shapes; nan without a cycle, and for the slider's in-plane motion."""
+    cycle = floquet(p, tol=tol)
+    modes = sliding_modes(p, cycle.sliding)
+    columns = np.full((3, len(modes.frequency)), math.nan)
+    disc = modes.diameters >= 0
+    if cycle.state is None or not len(modes.frequency):
+        return cycle, modes, columns
+    map_ = ReturnMap(p, tol)
+    orbit = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
+    multipliers, vectors = np.linalg.eig(orbit.jacobian)
+    shapes = _shapes_on_section(map_, cycle.state, modes.shapes[:, disc])
+
+    # two multipliers may match a mode: one resembles its shape, one the conjugate
+    both = np.hstack([shapes.conj(), shapes])
+    mac = np.abs(both.T @ (vectors / np.linalg.norm(vectors, axis=0))) ** 2
+    matched = _assign(mac)
+    first = matched[: shapes.shape[1]]
+    other = matched[shapes.shape[1] :]
+
+    rate = 1 / cycle.period
+    angle = np.angle(multipliers[first]) / (2 * math.pi)
+    turns = np.round(modes.frequency[disc] / rate - angle)
+    frequency = (angle + turns) * rate
+    with np.errstate(divide="ignore"):
+        growth = np.log(np.abs(multipliers)) * rate
+    larger_growth = np.maximum(growth[first], growth[other])
+    values = np.array([frequency, larger_growth, mac[np.arange(len(first)), first]])
+    # with fewer multipliers than shapes, some modes have none
+    values[:, (first < 0) | (other < 0)] = math.nan
+    columns[:, disc] = values
+    return cycle, modes, columns
+
+
+def _assign(mac: Array) -> NDArray[np.intp]:
+    """The column that is assigned to each row of a table of likeness, so that the sum is largest;
+    -1 where there are too few columns."""
+    # slow to import, and the other analyses of a cycle do without
+    from scipy.optimize import linear_sum_assignment
+
+    rows, assigned = linear_sum_assignment(-mac)
+    matched = np.full(len(mac), -1)
+    matched[rows] = assigned
+    return matched
+
+
+def _shapes_on_section(map_: ReturnMap, state: State, shapes: ComplexArray) -> ComplexArray:
+    """Shapes of modes of steady sliding, of the length one, as columns in the coordinates of the
+    return map's section."""
+    disc_rows, _, height = split_rows(mode_arrays(map_.parameters), shapes)
+    if not len(height):
+        height = np.zeros((2, shapes.shape[1]))
+    rows = np.vstack([*disc_rows, height])
+    on_section = np.array([_on_section(map_, state, shape) for shape in rows.T]).T
+    return np.asarray(on_section / np.linalg.norm(on_section, axis=0), dtype=complex)
+
+
+def _on_section(map_: ReturnMap, state: State, shape: ComplexArray) -> ComplexArray:
+    """A shape in the coordinates of the return map's section, (n,); these are linear in it."""
+    parts = []
+    for part in (shape.real, shape.imag):
+        a, alpha, b, beta = part[:-2].reshape(4, -1)
+        # in separation, because in contact the height would be the disc's
+        separated = state.replace(
+            phase="separation",
+            direction=0,
+            a=a,
+            b=b,
+            alpha=alpha,
+            beta=beta,
+            u=float(part[-2]),
+            u_velocity=float(part[-1]),
+            _roots=(0, 0),
+        )
+        parts.append(map_.point(separated))
+    return np.asarray(parts[0] + 1j * parts[1], dtype=complex)

@@ -1,0 +1,80 @@
+"""Motions near steady sliding: whether they approach it as its eigenvalues predict."""
+
+from functools import lru_cache
+
+import numpy as np
+
+from disc_model.disc.flexibility import contact_compliance
+from disc_model.disc.plate import mode_arrays
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.states import State, engine_case
+from disc_model.stability import thresholds
+from disc_model.stability.linear_motion import grows_at_rate, left_vector
+from disc_model.stability.return_map import Array
+from disc_model.stability.sliding import SteadySliding, energy_weights, join_rows, steady_sliding
+
+_sliding = lru_cache(maxsize=1)(steady_sliding)  # needed at the end of each leg of a motion
+
+
+def approaches_sliding(p: Parameters, state: State) -> bool:
+    """Whether a slipping motion approaches stable steady sliding as the eigenvalues there
+    predict.
+
+    It is followed with `TEST_TOL`, because errors of coarser simulations keep it away: at 1e-10, by
+    7e-7 of the static deflection on a disc whose modes of 2 kHz decay at 0.4/s.
+    """
+    if state.phase != "slip" or p.n_diameters < 0:
+        return False
+    sliding = _sliding(p)
+    if not sliding.stable:
+        return False
+
+    modes = mode_arrays(p)
+    scale = np.sqrt(energy_weights(p))  # by it the norm of rows is that of the energy
+    jacobian = scale[:, None] * sliding.jacobian / scale
+    expected = scale * _from_sliding(p, sliding, state)
+    static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
+    least = thresholds.ARRIVED * static
+    if not np.linalg.norm(expected) <= thresholds.NEAR * static:
+        return False
+
+    # slow to import, and few motions come so near
+    from scipy.linalg import expm
+
+    leading = left_vector(jacobian, np.real)
+    parts = list[float]()
+    before = 0.0
+    times = thresholds.TEST_TIMES[-1]
+    for time in times:
+        end = state.time + time
+        result = simulate(p, end, tol=thresholds.TEST_TOL, initial_state=state, events=False)
+        if not result.status.complete or result.final_state.phase != "slip":
+            return False
+        apart = scale * _from_sliding(p, sliding, result.final_state)
+        expected = expm(jacobian * (time - before)) @ expected
+        size = float(np.linalg.norm(expected))
+        if not np.linalg.norm(apart - expected) <= max(thresholds.LARGEST_ERROR * size, least):
+            return False
+        parts.append(float(abs(leading @ apart)))
+        before = time
+    return grows_at_rate(parts, times[1] - times[0], sliding.growth_rate, least)
+
+
+def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:
+    """Distance from steady sliding, in the rows of its Jacobian."""
+    modes = mode_arrays(p)
+    compliance = contact_compliance(p)
+    disc = (
+        state.a - sliding.a,
+        state.alpha - sliding.alpha,
+        state.b - sliding.b,
+        state.beta - sliding.beta,
+    )
+    height = []
+    if compliance:
+        # the contact's force is that of the slider's spring: (w - u) / compliance = N + k (u - u_0)
+        load = p.N - p.k * engine_case(p).model.u_0
+        rest = (modes.psi @ sliding.a - compliance * load) / (1 + p.k * compliance)
+        height = [float(state.u - rest), float(state.u_velocity)]
+    return join_rows(modes, disc, (state.psi - sliding.psi, state.f - p.Omega), height)
