@@ -19,7 +19,6 @@ PACKAGE = Path(__file__).resolve().parent
 
 PHYSICS = (
     "analysis",
-    "attachable.py",
     "data/dataset.py",
     "data/files.py",
     "data/tables.py",
