@@ -1,7 +1,7 @@
 """Print the page of all options of quantities, from the models that check them: `make schema`."""
 
 from disc_model.studies.options import Option, options_of
-from disc_model.studies.quantity import quantity_names, quantity_of
+from disc_model.studies.registry import quantity_names, quantity_of
 
 HEAD = """\
 # Options of quantities

@@ -47,12 +47,9 @@ def test_key_changes_with_every_field(name: str) -> None:
     assert p.replace(**{name: other.get(name) or getattr(p, name) * 0.999}).key != p.key
 
 
-def test_laws_of_contact_change_the_key_only_where_they_are_not_the_papers() -> None:
+def test_laws_of_contact_change_the_key_and_defaults_that_are_given_do_not() -> None:
     p = Parameters(N=385, Omega=15.1)
-    assert (
-        p.replace(contact_compliance="0", contact_force="vertical").key == p.key == "2309f6c4a836"
-    )
-    assert "contact_force" not in p.canonical_json
+    assert p.replace(contact_compliance="0", contact_force="vertical").key == p.key
     others = [
         {"contact_compliance": 1e-7},
         {"contact_compliance": "residual"},

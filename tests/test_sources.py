@@ -1,17 +1,31 @@
 """The sources on which results depend: what decides them is in, and what does not is left out."""
 
+import ast
 import subprocess
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from disc_model import sources
-from disc_model.sources import ASIDE, PACKAGE, git_commit, source_files, source_hash
-from disc_model.studies.quantity import quantity_names
+from disc_model.sources import (
+    BATCHES,
+    MERGING,
+    PACKAGE,
+    PHYSICS,
+    code_hash,
+    git_commit,
+    quantity_file,
+    source_hash,
+)
+from disc_model.studies.registry import QUANTITIES
 
-SCRIPTS = Path(__file__).parents[1] / "workflow" / "scripts"
 BODY = "import os\n\ndef f(x, *, y=1.0):\n    return [x, 'text', None] + y\n"
+ASIDE = {  # imported by the physics, but deciding no result, with the reason
+    "attachable": "names methods that read files and draw",
+    "display": "shows to a reader",
+    "sources": "is this module",
+    "studies.costs": "estimates",
+    "studies.registry": "names all quantities, of which a batch states its own",
+}
 
 
 @pytest.mark.parametrize(
@@ -25,144 +39,81 @@ BODY = "import os\n\ndef f(x, *, y=1.0):\n    return [x, 'text', None] + y\n"
         (BODY.replace("text", "test"), False),
     ],
 )
-def test_code_counts_and_what_is_said_of_it_does_not(
-    text: str, same: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Also where it is not parsed again, and where what was kept of it is damaged."""
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
-    paths = [tmp_path / name / "job.py" for name in "ab"]
-    for path, content in zip(paths, (BODY, text), strict=True):
+def test_code_counts_and_what_is_said_of_it_does_not(text: str, same: bool, tmp_path: Path) -> None:
+    hashes = []
+    for folder, content in {"a": BODY, "b": text}.items():
+        path = tmp_path / folder / "job.py"
         path.parent.mkdir()
         path.write_text(content)
-    hashes = [*map(source_hash, paths)]
+        hashes.append(source_hash(path))
     assert (hashes[0] == hashes[1]) == same
-    for file in (tmp_path / "sources").iterdir():
-        file.write_bytes(file.read_bytes()[:-1])
-    for _ in range(2):
-        forget()
-        assert [*map(source_hash, paths)] == hashes
-        monkeypatch.setattr(sources, "_parse", None)
 
 
-SOLVE = """
-from typing import TYPE_CHECKING
-from . import laws
-if TYPE_CHECKING:
-    from disc_model import unrelated
-else:
-    from ..units import METRE
-    FOLDER = "static"
-"""
+def test_names_and_data_of_a_folder_count(tmp_path: Path) -> None:
+    def changed(name: str, content: str) -> str:
+        (tmp_path / name).write_text(content)
+        source_hash.cache_clear()
+        code_hash.cache_clear()
+        return source_hash(tmp_path)
+
+    hashes = [changed("a.py", "x = 1"), changed("a.toml", "x = 1"), changed("a.toml", "x = 2")]
+    assert len({*hashes}) == 3
+    (tmp_path / "a.toml").rename(tmp_path / "b.csv")
+    source_hash.cache_clear()
+    assert source_hash(tmp_path) not in hashes
 
 
-@pytest.fixture
-def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """A package in the place of ours, of small modules."""
-    files = {
-        "__init__.py": "from disc_model.deep import unrelated",
-        "run.py": "from disc_model.deep.solve import f\ndef later():\n    from . import late, warns",
-        "late.py": 'TABLE = open(\'late.csv\'), open("table.toml"), open("more/far.json")',
-        "late.csv": "1",
-        "warns.py": "import disc_model.unrelated",
-        "deep/solve.py": SOLVE,
-        "deep/laws.py": "import numpy",
-        "units.py": "METRE = 1",
-    }
-    empty = (
-        "table.toml",
-        "other.toml",
-        "unrelated.py",
-        "deep/__init__.py",
-        "deep/static/page.js",
-        "more/far.json",
-    )
-    for name, text in (files | dict.fromkeys(empty, "")).items():
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text(text)
-    monkeypatch.setattr(sources, "PACKAGE", tmp_path)
-    monkeypatch.setattr(sources, "ASIDE", {"warns": ""})
-    forget()
-    yield tmp_path
-    forget()
+def test_a_part_that_is_not_there_is_an_error() -> None:
+    with pytest.raises(FileNotFoundError, match="no_such_part"):
+        source_hash("no_such_part")
+    assert len(source_hash(*BATCHES, *MERGING, "figures")) == 16
 
 
-def forget() -> None:
-    for function in (source_files, source_hash, sources._read):
-        function.cache_clear()
+def modules_of(*parts: str) -> dict[str, Path]:
+    """Modules in parts of the package by their names, without `disc_model.`."""
+    modules = {}
+    for part in parts:
+        whole = PACKAGE / part
+        for path in [whole] if whole.is_file() else whole.rglob("*.py"):
+            if path.suffix == ".py":
+                place = path.relative_to(PACKAGE).with_suffix("")
+                modules[".".join(place.parts).removesuffix(".__init__")] = path
+    return modules
 
 
-def test_all_that_is_imported_counts_and_the_data_that_it_reads(package: Path) -> None:
-    names = {path.relative_to(package).as_posix() for path in source_files("run")}
-    deep = {"deep/solve.py", "deep/laws.py", "deep/static/page.js", "units.py"}
-    late = {"late.py", "late.csv", "table.toml", "more/far.json"}
-    assert names == {"run.py"} | deep | late
-    both = {
-        path.relative_to(package).as_posix() for path in source_files("disc_model.run", "warns")
-    }
-    assert both == names | {"warns.py", "unrelated.py"}
-    assert len(source_files("deep")) == 5
-    with pytest.raises(ModuleNotFoundError, match="missing"):
-        source_files("missing")
-    (package / "careless.py").write_text("from disc_model import simulate")
-    with pytest.raises(ImportError, match="simulate: must be imported from its own module"):
-        source_files("careless")
+def imports_of(path: Path) -> set[str]:
+    """Modules of the package that a module imports, also within functions."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.ImportFrom) and node.module and node.level == 0:
+            for alias in node.names:
+                found.add(f"{node.module}.{alias.name}")
+            found.add(node.module)
+    own = {name.removeprefix("disc_model.") for name in found if name.startswith("disc_model.")}
+    return {name for name in own if _is_module(name)}
 
 
-def test_what_decides_a_result_and_no_more_is_among_its_sources() -> None:
-    def of(*entries: str | Path) -> set[str]:
-        return {
-            path.relative_to(PACKAGE).as_posix()
-            for path in source_files(*entries)
-            if path not in entries
-        }
-
-    for name in quantity_names():
-        batch = of(SCRIPTS / "compute_batch.py", f"studies.quantities.{name}")
-        assert {"engine/slip.py", "disc/plate.py", f"studies/quantities/{name}.py"} <= batch
-        assert not {path.split("/")[0] for path in batch} & {
-            "figures",
-            "paper",
-            "benchmarks",
-            "cli",
-            "explorer",
-        }
-        assert "studies/study.py" not in batch
-        short = ("campbell", "floquet", "lyapunov", "ramps", "sliding", "stability_curves")
-        assert ("stability/outcome.py" in batch) == (name not in short)
-        sweeps = ("basins", "bifurcation", "branches", "hysteresis")
-        assert ("stability/lyapunov.py" in batch) == (name in ("lyapunov", *sweeps))
-        # one quantity's code is not another's
-        others = {f"studies/quantities/{other}.py" for other in quantity_names()} & batch
-        assert others == {
-            f"studies/quantities/{one}.py" for one in {name, *(["floquet"] * (name == "campbell"))}
-        }
-    case = of(SCRIPTS / "simulate_case.py")
-    assert {"engine/loop.py", "simulation/states.py"} <= case
-    assert not [path for path in case if path.startswith(("stability", "studies"))]
-    assert {"stability/cycle.py", "mode_choice.py"} <= of(
-        SCRIPTS / "simulate_case.py", "mode_choice"
-    )
-    assert {"config/paper.yaml", "paper/section41.yaml"} <= of(SCRIPTS / "check_claims.py")
-    figure = of(SCRIPTS / "draw_figure.py")
-    assert {"figures/heat_map.py", "figures/kinds/general.py"} <= figure
-    assert not [path for path in figure if path.startswith("paper")]
-    figure = of(SCRIPTS / "draw_figure.py", "paper.figures.composite")
-    assert {"paper/figures/composite.py", "paper/figures/strokes.py"} <= figure
-    assert "config/paper.yaml" not in figure
-    assert "explorer/static/page.css" in of(SCRIPTS / "build_explorer.py")
-    assert {
-        "benchmarks/methods/kernels.py",
-        "benchmarks/methods/rivals.toml",
-        "benchmarks/data/answers.json",
-    } <= of(SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.answers")
-    assert "benchmarks/answers.py" not in of(
-        SCRIPTS / "measure.py", "benchmarks.methods", "benchmarks.scaling"
-    )
+def _is_module(name: str) -> bool:
+    return PACKAGE.joinpath(*name.split(".")).with_suffix(".py").is_file()
 
 
-def test_what_is_left_aside_is_there_and_scripts_import_from_modules() -> None:
-    assert all(map(source_files, ASIDE))
-    assert all(script in source_files(script) for script in SCRIPTS.glob("*.py"))
+@pytest.mark.parametrize("parts", [PHYSICS, BATCHES])
+def test_what_the_physics_imports_is_among_its_sources(parts: tuple[str, ...]) -> None:
+    """A module that is imported and not hashed would leave results that its change has made out
+    of date."""
+    modules = modules_of(*parts)
+    for name, path in modules.items():
+        assert imports_of(path) - modules.keys() - ASIDE.keys() == set(), name
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_a_quantity_depends_on_its_own_file_and_the_physics_alone(quantity: str) -> None:
+    path = PACKAGE / quantity_file(quantity)
+    assert imports_of(path) - modules_of(*BATCHES).keys() - ASIDE.keys() == set()
+
+
+def test_no_result_depends_on_figures() -> None:
+    assert not [name for name in modules_of(*BATCHES) if name.split(".")[0] == "figures"]
 
 
 def test_the_commit_of_another_repository_is_not_taken(tmp_path: Path) -> None:

@@ -14,7 +14,6 @@ import sys
 import time
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -270,14 +269,15 @@ def sliding(p: Parameters, _: Strict) -> None:
     if state.status is not SlidingStatus.OK:
         raise typer.Exit(1)
     modes = sliding_modes(p, state)
+    forward = []
+    for share, diameters in zip(modes.forward, modes.diameters, strict=True):
+        forward.append(f"{share:.2f}" if diameters > 0 else "")
     columns: dict[str, Iterable[str]] = {
         "f (Hz)": map("{:.4f}".format, modes.frequency),
         "growth (1/s)": map("{:.6g}".format, modes.growth_rate),
         "damping ratio": map("{:.3g}".format, modes.damping_ratio),
         "nodal diameters": ["in the plane" if l < 0 else f"{l}" for l in modes.diameters],
-        "forward wave": [
-            f"{x:.2f}" if l > 0 else "" for x, l in zip(modes.forward, modes.diameters, strict=True)
-        ],
+        "forward wave": forward,
     }
     table("Modes in the slider's frame", columns, justify="right")
 
@@ -287,7 +287,8 @@ def compile_() -> None:
     from disc_model.simulation.api import simulate
     from disc_model.stability.cycle import floquet
 
-    began, p = time.perf_counter(), Parameters(N=385, Omega=15)
+    began = time.perf_counter()
+    p = Parameters(N=385, Omega=15)
     simulate(p, 0.1)
     floquet(p)
     typer.echo(f"kernels compiled and cached: {time.perf_counter() - began:.1f} s")
@@ -359,7 +360,9 @@ DRY = (
     "reason",
 )  # how many jobs of each kind, without their files
 # those that this process may use, which a cluster or a container may limit
-CORES = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+CORES = os.cpu_count() or 1
+if hasattr(os, "sched_getaffinity"):
+    CORES = len(os.sched_getaffinity(0))
 Files = Annotated[list[Path], typer.Argument(help="study files, later ones laid over earlier ones")]
 
 
@@ -391,49 +394,56 @@ def study(
     if dry_run and not unlock:
         _show_plan(chosen, [grids[name] for name in requested], directory / "results", cores)
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
-    options = [
-        *(target or []),
-        *(DRY if dry_run else ()),
-        f"-j{cores}",
-        "--directory",
-        str(directory),
-    ]
-    options += [*["--unlock"] * unlock, "--configfile", *(str(file.resolve()) for file in files)]
-    snakemake = import_module("snakemake.cli")
-    snakemake.main(["-s", str(snakefile), *options])  # ends with an exit code
+    options = ["-s", str(snakefile), *(target or []), f"-j{cores}", "--directory", str(directory)]
+    if dry_run:
+        options += DRY
+    if unlock:
+        options.append("--unlock")
+    options += ["--configfile", *(str(file.resolve()) for file in files)]
+    import snakemake.cli  # type: ignore[import-untyped]
+
+    snakemake.cli.main(options)  # ends with an exit code
+
+
+def _show_options(grid: GridStudy) -> None:
+    """Print the options of a grid's quantity, with their values."""
+    from disc_model.studies.options import options_of, value_text
+
+    values = grid.options
+    options = options_of(type(values))
+    columns = {
+        "option": [option.name for option in options],
+        "value": [value_text(getattr(values, option.name)) for option in options],
+        "unit": [option.unit.replace("`", "") for option in options],
+        "meaning": [option.meaning for option in options],
+    }
+    table(f"options of the quantity {grid.quantity}", columns, overflow="fold")
 
 
 def _show_plan(chosen: Study, grids: Sequence[GridStudy], results: Path, cores: int) -> None:
     """Print what there is to compute, how long it may take, and the options of a single grid."""
     from disc_model.studies import plan
     from disc_model.studies.costs import machine_factor
-    from disc_model.studies.options import options_of, value_text
 
     plans = [plan.plan_of(grid, results) for grid in grids]
     if chosen.specs:
         plans.append(plan.plan_of_cases(chosen.name, chosen.specs, results))
     factor = machine_factor()
     works = [factor * sum(each.seconds) for each in plans]
+    batches = []
+    for each in plans:
+        there = f", {each.computed} there" if each.computed else ""
+        batches.append(f"{each.batches}{there}")
     columns: dict[str, Iterable[str]] = {
         "study": [each.name for each in plans],
         "quantity": [each.quantity for each in plans],
         "points": [str(each.points) for each in plans],
-        "batches": [
-            f"{each.batches}{f', {each.computed} there' * (each.computed > 0)}" for each in plans
-        ],
+        "batches": batches,
         "work": map(plan.duration_text, works),
     }
     table(f"plan of {chosen.name}", columns, overflow="fold")
     if len(grids) == 1:
-        values = grids[0].options
-        options = options_of(type(values))
-        columns = {
-            "option": [option.name for option in options],
-            "value": [value_text(getattr(values, option.name)) for option in options],
-            "unit": [option.unit.replace("`", "") for option in options],
-            "meaning": [option.meaning for option in options],
-        }
-        table(f"options of the quantity {grids[0].quantity}", columns, overflow="fold")
+        _show_options(grids[0])
     seconds = [factor * x for each in plans for x in each.seconds]
     if seconds:
         text = plan.duration_text(plan.time_on(cores, seconds))
@@ -499,12 +509,11 @@ def list_(
             for name, case in chosen.cases.items()
         ]
     else:
-        heads, entries = ["figure", "kind", "title"], chosen.entries(grids).items()
-        rows = [
-            (name, x.plot.kind, x.title)
-            for (study, name), x in entries
-            if study in (chosen.name, *requested)
-        ]
+        heads = ["figure", "kind", "title"]
+        rows = []
+        for (study, name), entry in chosen.entries(grids).items():
+            if study in (chosen.name, *requested):
+                rows.append((name, entry.plot.kind, entry.title))
     if rows:
         columns = dict(zip(heads, zip(*rows, strict=True), strict=True))
         table(f"{what} of {chosen.name}", columns, overflow="fold")
@@ -523,7 +532,8 @@ def init(
     sources = ("template/my_study.yaml", "template/Snakefile", "profiles/default/config.yaml")
     texts = {name.removeprefix("template/"): (workflow / name).read_text() for name in sources}
     texts["my_study.yaml"] = texts["my_study.yaml"].replace("SCHEMA", schema)
-    if existing := [name for name in texts if (directory / name).exists()]:
+    existing = [name for name in texts if (directory / name).exists()]
+    if existing:
         raise ParameterError(
             Fault(("DIR",), repr(str(directory)), f"must not hold {', '.join(existing)} yet")
         )
@@ -555,6 +565,7 @@ def _read(files: Sequence[Path]) -> tuple[Study, dict[str, GridStudy], tuple[str
 # ---- All commands
 
 INTERRUPTED = 130  # typer's exit code after Ctrl-C
+OF_WORKFLOW = ("matplotlib", "cmcrameri", "yaml", "snakemake")  # which only this extra brings
 
 app = typer.Typer(
     pretty_exceptions_enable=False,
@@ -583,30 +594,33 @@ def _all(
 
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; never shows a traceback for bad input."""
-    arguments = (sys.argv[1:] if arguments is None else arguments) or ["--help"]
+    if arguments is None:
+        arguments = sys.argv[1:]
+    if not arguments:
+        arguments = ["--help"]
     # figures are only saved, and the backend of a notebook may not be installed here; Snakemake's
     # jobs inherit this
     os.environ["MPLBACKEND"] = "agg"
+    message = ""
     try:
         code = app(args=arguments, standalone_mode=False, prog_name="disc-model")
-        message = "interrupted" if code == INTERRUPTED else ""
+        if code == INTERRUPTED:
+            message = "interrupted"
     except DiscModelError as error:
-        code, message = 2, str(error)
+        code = 2
+        message = str(error)
     except ModuleNotFoundError as error:
-        if error.name not in (
-            "matplotlib",
-            "cmcrameri",
-            "yaml",
-            "snakemake",
-        ):  # which only the extra `workflow` brings
+        if error.name not in OF_WORKFLOW:
             raise
         code = 2
-        message = f"there is no module {error.name}: pip install 'disc_model[workflow]' brings all that studies need"
+        remedy = "pip install 'disc_model[workflow]' brings all that studies need"
+        message = f"there is no module {error.name}: {remedy}"
     except Exception as error:
         if not hasattr(error, "format_message"):  # not a usage error of the command-line parser
             raise
         text = " ".join(error.format_message().split()).rstrip(".")
-        code, message = 2, text if text.endswith("?") else f"{text}."
+        code = 2
+        message = text if text.endswith("?") else f"{text}."
     if message:
         typer.echo(f"error: {message}", err=True)
     sys.exit(code if isinstance(code, int) else 0)

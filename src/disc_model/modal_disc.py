@@ -150,14 +150,6 @@ class Disc(DiscFiles, Strict):
                 )
                 raise_faults([Fault.of(("omega", str(j)), self.omega[j], rule)])
 
-    @pydantic.model_serializer(mode="wrap")
-    def _older(self, handler: Any) -> dict[str, Any]:
-        """Leave out what was added later where it is empty, so that older hashes stay valid."""
-        values = handler(self)
-        if not values.get("tangential", True):
-            del values["tangential"]
-        return values
-
     @field_validator("damping_ratio", "circles")
     @classmethod
     def _complete(cls, column: tuple[float, ...], info: Any) -> tuple[float, ...]:

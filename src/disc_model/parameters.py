@@ -46,18 +46,9 @@ RATIOS = {  # of two parameters, which may stand for the first one
     "r_0_over_b": ("r_0", "b"),
     "h_over_b": ("h", "b"),
 }
-# words by which texts that identify cases and batches know the kinds of contact, and the field's
-# own
-CONTACTS = {"separable": "unilateral", "bonded": "bilateral"}
-IDENTITIES = {own: word for word, own in CONTACTS.items()}
-# added later: their defaults are left out of the canonical form, so that older hashes stay valid
-_LATER = (
-    "contact_compliance",
-    "contact_force",
-    "damping_ratio",
-    "disc",
-    "friction_offset",
-    "friction_decay",
+CONTACTS = {"separable": "unilateral", "bonded": "bilateral"}  # old words of files, still read
+FORMAT: Literal[1] = (
+    1  # of the texts that identify cases and batches; another number makes other hashes
 )
 
 
@@ -357,13 +348,8 @@ class Parameters(Strict):
 
     @property
     def canonical(self) -> dict[str, Any]:
-        """The values that identify a case: all, except defaults of parameters that the paper's
-        model does not have."""
-        fields = type(self).model_fields
-        values = in_words(self.model_dump(), IDENTITIES)
-        return {
-            name: x for name, x in values.items() if name not in _LATER or x != fields[name].default
-        }
+        """The values that identify a case: all of them."""
+        return self.model_dump()
 
     @property
     def canonical_json(self) -> str:
@@ -372,15 +358,10 @@ class Parameters(Strict):
         return canonical_json(self.canonical)
 
     @property
-    def json_in_words(self) -> str:
-        """The same in the words of the field, as files have it."""
-        return canonical_json(in_words(self.canonical))
-
-    @property
     def key(self) -> str:
         """Stable content hash: the first 12 hexadecimal digits of the sha256 of
-        `canonical_json`."""
-        return content_key(self.canonical_json)
+        `canonical_json` with the format of these texts."""
+        return content_key(canonical_json({"format": FORMAT, **self.canonical}))
 
     @classmethod
     def unit(cls, name: str) -> str:
@@ -422,15 +403,6 @@ def _documented() -> str:
 
 
 Parameters.__doc__ = _documented()
-
-
-def in_words(values: Mapping[str, Any], words: Mapping[str, str] = CONTACTS) -> dict[str, Any]:
-    """Values from a text that identifies a case, in the words of the field, as files and readers
-    have them; or, by `IDENTITIES`, those of a case in the words of such a text."""
-    completed = dict(values)
-    if "contact" in values:
-        completed["contact"] = words.get(values["contact"], values["contact"])
-    return completed
 
 
 def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,174 +1,100 @@
-"""The origin of a result: its sources, the commit, and versions of packages.
+"""The origin of a result: hashes of its sources, the commit, and versions of packages.
 
-The sources are all that its entry points import, at any depth, and the data read beside it. An
-entry point is a module or package of `disc_model`, or the script of a job. Quantities and figures,
-which are loaded by their names, are entry points of their own. Deferred imports count, imports for
-type checkers do not. The data of a module are the files beside it with its own name, and what its
-texts name: files and folders beside it, and paths from the package on.
+A result depends on a part of the package as a whole: batches and cases on the physics, a batch on
+the file of its quantity too, a figure on the folder of figures.
 """
 
 import ast
-import contextlib
 import functools
 import hashlib
 import importlib.metadata
-import json
 import os
 import platform
-import re
 import subprocess
-import sys
-from importlib.util import resolve_name
 from pathlib import Path
 
 import platformdirs
 
 PACKAGE = Path(__file__).resolve().parent
-ASIDE = {  # modules that are not followed where they are imported, since they decide no result, with the reason
-    "mode_choice": "is an entry point, where modes are chosen by the motion",
-    "disc.plausibility": "warns",
-    "studies.costs": "estimates",
-    "display": "shows to a reader",
-}
+
+PHYSICS = (
+    "analysis",
+    "data/dataset.py",
+    "data/files.py",
+    "data/tables.py",
+    "data/variables.py",
+    "data/variables.toml",
+    "disc",
+    "engine",
+    "errors.py",
+    "modal_disc.py",
+    "mode_choice.py",
+    "parameters.py",
+    "simulation",
+    "stability",
+    "units.py",
+)
+"""Parts on which every simulation depends."""
+BATCHES = (*PHYSICS, *(f"studies/{name}.py" for name in ("batch", "quantity", "refinement", "run")))
+"""Parts on which every batch depends, beside the file of its quantity."""
+MERGING = ("data", "studies/batch.py", "studies/merge.py", "studies/run.py")
+"""Parts on which merged datasets depend, beside their batches and cases."""
 
 
 @functools.cache
-def source_hash(*entries: str | Path) -> str:
-    """Hash of the sources of a result without comments, docstrings and layout, 16 hexadecimal
-    digits. Entries are names of modules and packages, with or without ``disc_model.``, and paths of
-    scripts and further files."""
+def source_hash(*parts: str | Path) -> str:
+    """Return a hash of parts of the package, 16 hexadecimal digits.
+
+    Parts are files and folders, relative to the package; a script is given by its path. Of Python
+    files only what they do counts, and not comments, docstrings and layout.
+    """
     digest = hashlib.sha256()
-    for path in source_files(*entries):
-        # a script is hashed under its bare name, wherever it is installed
-        name = path.name if path in entries else path.relative_to(PACKAGE).as_posix()
-        digest.update(f"{name}\0{code_hash(path)}\0".encode())
+    for part in parts:
+        for path in _files(PACKAGE / part):
+            # a script counts by its bare name, wherever it is installed
+            inside = path.is_relative_to(PACKAGE)
+            name = path.relative_to(PACKAGE).as_posix() if inside else path.name
+            digest.update(f"{name}\0{code_hash(path)}\0".encode())
     return digest.hexdigest()[:16]
 
 
-@functools.cache
-def source_files(*entries: str | Path) -> tuple[Path, ...]:
-    """The files of entry points and of all that they import, sorted."""
-    waiting = {
-        path
-        for entry in entries
-        for path in ([entry] if isinstance(entry, Path) else _modules(entry))
-    }
-    aside = {path for name in ASIDE for path in _modules(name)} - waiting
-    sources: set[Path] = set()
-    while waiting:
-        path = waiting.pop()
-        sources.add(path)
-        if path.suffix == ".py":
-            waiting |= _used(path) - sources - aside
-    return tuple(sorted(sources))
+def quantity_file(name: str) -> str:
+    """Return the file of a quantity, relative to the package."""
+    return f"studies/quantities/{name}.py"
 
 
-def _modules(name: str) -> list[Path]:
-    """The file of a module, or all those of a package."""
-    path = PACKAGE.joinpath(*name.removeprefix("disc_model.").split("."))
-    if paths := [*path.rglob("*.py"), *path.parent.glob(f"{path.name}.py")]:
-        return paths
-    raise ModuleNotFoundError(f"No module named 'disc_model.{name}'", name=name)
+def _files(part: Path) -> list[Path]:
+    """Return a file, or all files of a folder, sorted; raises `FileNotFoundError`."""
+    if part.is_file():
+        return [part]
+    files = [path for path in part.rglob("*") if path.is_file() and path.suffix != ".pyc"]
+    if not files:
+        raise FileNotFoundError(f"{part}: no such part of the package")
+    return sorted(files)
 
 
 @functools.cache
-def _used(path: Path) -> frozenset[Path]:
-    """Files of the package that a module imports, and those of data that it reads."""
-    _, imports, texts = _read(path)
-    modules: set[Path] = set()
-    for module, name in imports:
-        if module.startswith("."):
-            module = resolve_name(
-                module, ".".join(["disc_model", *path.relative_to(PACKAGE).parent.parts])
-            )
-        top, *parts = module.split(".")
-        if top == "disc_model":
-            base = PACKAGE.joinpath(*parts)
-            choices = (
-                base / f"{name}.py",
-                base / name / "__init__.py",
-                base.with_suffix(".py"),
-                base / "__init__.py",
-            )
-            modules.add(next(choice for choice in choices if choice.is_file()))
-            if PACKAGE / "__init__.py" in modules:
-                rule = "must be imported from its own module, so that its sources are known"
-                raise ImportError(f"{name or module}: {rule}")
-    named = {(PACKAGE if "/" in text else path.parent) / text for text in texts}
-    data = {*named, *path.parent.glob(f"{path.stem}.*")}
-    data |= {
-        file
-        for folder in named
-        if folder.is_dir() and not [*folder.rglob("*.py")]
-        for file in folder.iterdir()
-    }
-    return frozenset(
-        modules | {file for file in data if file.is_file() and file.suffix not in (".py", ".pyc")}
-    )
-
-
 def code_hash(path: Path) -> str:
-    """Hash of a file; of Python only what it does, as this version of Python reads it."""
-    return _read(path)[0] if path.suffix == ".py" else hashlib.sha256(path.read_bytes()).hexdigest()
+    """Return a hash of a file; of Python only of what it does, as this version of Python reads
+    it."""
+    content = path.read_bytes()
+    if path.suffix == ".py":
+        tree = _WithoutDocstrings().visit(ast.parse(content, str(path)))
+        content = ast.dump(tree).encode()
+    return hashlib.sha256(content).hexdigest()
 
 
-@functools.cache
-def _read(path: Path) -> tuple[str, list[tuple[str, str]], list[str]]:
-    """What `_parse` finds in a file, which takes 8 ms: kept in a file whose name is the hash of all
-    that decides it."""
-    source = path.read_bytes()
-    name = hashlib.sha256(b"\0".join((source, sys.version.encode(), _PARSER))).hexdigest()
-    cache = cache_folder() / "sources" / name
-    try:
-        return json.loads(cache.read_text(encoding="utf-8"))
-    except (
-        OSError,
-        ValueError,
-    ):  # also if another process is writing it: only the whole text is JSON
-        known = _parse(ast.parse(source, str(path)))
-        with contextlib.suppress(OSError):
-            cache.parent.mkdir(parents=True, exist_ok=True)
-            cache.write_text(json.dumps(known), encoding="utf-8")
-        return known
-
-
-_PARSER = Path(__file__).read_bytes()
+class _WithoutDocstrings(ast.NodeTransformer):
+    def visit_Expr(self, node: ast.Expr) -> ast.Expr | None:
+        """Drop a statement that is a text."""
+        is_text = isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
+        return None if is_text else node
 
 
 def cache_folder() -> Path:
     """The folder of what is made once on a machine, kernels too: numba's if it has one, or the
     user's for caches."""
     return Path(os.environ.get("NUMBA_CACHE_DIR") or platformdirs.user_cache_dir("disc_model"))
-
-
-class _WithoutDocstrings(ast.NodeTransformer):
-    def visit_Expr(self, node: ast.Expr) -> ast.Expr | None:
-        return (
-            None
-            if isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
-            else node
-        )
-
-
-def _parse(tree: ast.Module) -> tuple[str, list[tuple[str, str]], list[str]]:
-    """Hash of a Python source without comments, docstrings and layout; its imports, each as ``from
-    ..module import name`` has it; and its texts that may name files."""
-    code = ast.dump(_WithoutDocstrings().visit(tree))
-    for node in ast.walk(tree):
-        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
-            node.body = []
-    imports, texts = set(), set()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            imports |= {(alias.name, "") for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            imports |= {
-                ("." * node.level + (node.module or ""), alias.name) for alias in node.names
-            }
-        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-            texts.add(node.value)
-    files = [text for text in texts if re.fullmatch(r"\w[\w./-]*", text)]
-    return hashlib.sha256(code.encode()).hexdigest(), sorted(imports), sorted(files)
 
 
 # ---- Commit and versions

@@ -5,7 +5,7 @@ from pathlib import Path
 from docs.write_options import page_text
 
 from disc_model.studies.options import options_of, value_text
-from disc_model.studies.quantity import quantity_names, quantity_of
+from disc_model.studies.registry import quantity_names, quantity_of
 
 PAGE = Path(__file__).parents[2] / "docs" / "study_options.md"
 

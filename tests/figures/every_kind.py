@@ -13,7 +13,7 @@ import xarray as xr
 
 from disc_model.data.variables import LONG_TERM_OUTCOMES, OUTCOMES_TO_HORIZON, attributes
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import quantity_of
+from disc_model.studies.registry import quantity_of
 from tests.figures.measured import Shown
 from tests.figures.test_cases import simulated
 from tests.studies.conftest import computed

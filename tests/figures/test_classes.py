@@ -10,7 +10,7 @@ from matplotlib.colors import to_rgb
 from disc_model.data.variables import EVENT_KINDS, PHASES, STATUSES, Outcome
 from disc_model.explorer import study_contents
 from disc_model.figures.classes import LOOKS, UNRESOLVED, Look, lightness, looks_of
-from disc_model.studies.quantity import quantity_names, quantity_of
+from disc_model.studies.registry import quantity_names, quantity_of
 from tests.figures.reading import draw, labels
 
 FLAGS = {

@@ -8,7 +8,7 @@ from disc_model.errors import ParameterError
 from disc_model.figures.kinds import KINDS, CasePlot, General, Plot, kind_of
 from disc_model.figures.render import DRAWINGS
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import quantity_names
+from disc_model.studies.registry import quantity_names
 from tests.processes import python
 
 TESTS = [path for path in Path(__file__).parent.glob("test_*.py") if path.name != "test_kinds.py"]

@@ -3,7 +3,6 @@
 import json
 import math
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,10 +11,8 @@ import xarray as xr
 
 from disc_model import floquet
 from disc_model.data.variables import flag_names
-from disc_model.errors import DiscModelError
 from disc_model.figures import selection
 from disc_model.figures.render import render
-from disc_model.mode_choice import ModeRequest, choose_modes
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
 from disc_model.studies import run
@@ -74,43 +71,6 @@ def test_an_axis_may_end_at_infinity() -> None:
     assert plane["friction_decay"].values.tolist() == [0.5, np.inf]
 
 
-AUTOMATIC = {"n_diameters": "auto", "truncation_tolerance": "1e-2"}
-
-
-def cycles(axes: dict[str, Any], **base: Any) -> xr.Dataset:
-    return computed(quantity="floquet", base={"N": 300} | base, axes=axes)
-
-
-@pytest.mark.compiled
-def test_the_modes_are_chosen_for_each_point() -> None:
-    axes = {"normalization": ["as_published", "orthonormal"]}
-    done = cycles(axes, Omega=20, **AUTOMATIC)
-    for i, normalization in enumerate(axes["normalization"]):
-        own = choose_modes({"N": 300, "Omega": 20, "normalization": normalization}, 1e-2).parameters
-        assert (done["n_diameters"][i], done["n_circles"][i]) == (own.n_diameters, own.n_circles)
-        assert done["growth_rate"][i] == pytest.approx(floquet(own).growth_rate, abs=1e-9)
-    assert done["n_diameters"][0] < done["n_diameters"][1]
-    assert done["n_diameters"].dims == ("normalization",)
-    assert json.loads(done.attrs["base"])["n_diameters"] == "auto"
-
-
-def test_a_point_for_which_no_modes_can_be_chosen_fails_alone(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    def chosen_modes(p: Parameters, request: ModeRequest) -> SimpleNamespace:
-        if p.N > 150:
-            raise DiscModelError("undecided")
-        return SimpleNamespace(parameters=p.replace(n_diameters=1))
-
-    monkeypatch.setattr(run, "chosen_modes", chosen_modes)
-    base = {"Omega": 20, "k_p": 0, **AUTOMATIC}
-    done = computed(quantity="floquet", base=base, axes={"N": [100, 200]})
-    assert flag_names(done["status"]).tolist() == ["at_rest", "failed"]
-    assert done["n_diameters"].values.tolist() == [1, -1]
-    assert done["n_circles"].values.tolist() == [0, -1]
-    assert done["message"].values[1] == "DiscModelError: undecided"
-
-
 def test_a_perturbation_along_an_axis_is_added_to_that_of_the_start() -> None:
     p = Parameters(N=200, Omega=20)
     starts = {"kicked": Start(perturbation={"u": 2e-3, "f": 1.0}), None: Start()}
@@ -119,17 +79,6 @@ def test_a_perturbation_along_an_axis_is_added_to_that_of_the_start() -> None:
     assert isinstance(point, Point)
     assert point.start.perturbation == pytest.approx({"u": 3e-3, "f": 1.0})
     assert run._point(p, {"sample": 7}, starts) == Point(p, Start(), 7)
-
-
-OUTCOME = "studies.quantities.outcome"
-
-
-def test_only_batches_whose_modes_are_chosen_depend_on_what_chooses() -> None:
-    def sources(**base: Any) -> tuple[str, ...]:
-        return parse_grid(study(base=base)).sources
-
-    assert sources(n_diameters=3) == (OUTCOME,)
-    assert sources(n_diameters="auto") == (OUTCOME, "mode_choice")
 
 
 def test_extra_values_leave_the_batches_that_there_are() -> None:

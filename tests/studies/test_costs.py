@@ -13,7 +13,8 @@ from disc_model.parameters import Parameters
 from disc_model.studies import plan
 from disc_model.studies.costs import PAPER, machine_factor, unit_costs
 from disc_model.studies.grid import GridStudy
-from disc_model.studies.quantity import WORK, quantity_names
+from disc_model.studies.quantity import WORK
+from disc_model.studies.registry import quantity_names
 from disc_model.studies.run import run_batch
 from disc_model.studies.study import load_study, parse_study
 from tests.processes import ROOT

@@ -11,7 +11,7 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.studies.grid import Dimension
 from disc_model.studies.motions import SAMPLES, run_motions
-from disc_model.studies.quantity import quantity_of
+from disc_model.studies.registry import quantity_of
 from tests.studies.refused import parse_grid
 
 LATE = (15.1, {"horizon": 60})

@@ -12,14 +12,8 @@ import pytest
 from disc_model.data.variables import Variable, flag_names
 from disc_model.parameters import Parameters
 from disc_model.studies.costs import PAPER
-from disc_model.studies.quantity import (
-    STATUS,
-    STATUSES,
-    Point,
-    Quantity,
-    quantity_names,
-    quantity_of,
-)
+from disc_model.studies.quantity import STATUS, STATUSES, Point, Quantity
+from disc_model.studies.registry import quantity_names, quantity_of
 from tests.studies.conftest import compute, computed
 from tests.studies.refused import parse_grid
 

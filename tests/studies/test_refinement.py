@@ -13,7 +13,7 @@ from disc_model.parameters import Parameters
 from disc_model.stability.linear_motion import NearCycle
 from disc_model.stability.outcome import OutcomeResult
 from disc_model.studies import refinement
-from disc_model.studies.refinement import Tile
+from disc_model.studies.refinement import Tile, TileOptions
 
 Index = tuple[int, int]
 NO_CYCLE = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
@@ -53,8 +53,10 @@ class MadeUp:
 
     def tile(self, rows: int, columns: int, cell: int) -> Tile:
         points = [[Parameters(N=i + 1, Omega=j + 1) for j in range(columns)] for i in range(rows)]
-        options = SimpleNamespace(initial_cell_size=cell, horizon=100.0, tol=1e-8)
-        return Tile(points, [], options)
+        options = TileOptions(horizon=100.0, tol=1e-8, initial_cell_size=cell)
+        tile = Tile(points, [], options)
+        tile.compute()
+        return tile
 
 
 def quiet() -> OutcomeResult:

@@ -3,7 +3,6 @@ Bad study files end Snakemake before any job, with every fault in the message.""
 
 import os
 import random
-import shutil
 import signal
 import time
 from dataclasses import replace
@@ -106,35 +105,6 @@ def test_check_finds_damage_that_left_the_times_and_puts_times_right(
     assert not list(results.rglob(".*.tmp"))
     project.complete("-j2")
     assert_recovered(project, finished)
-
-
-def test_lost_records(project: Project, finished: Project) -> None:
-    """Without its records Snakemake would take everything for up to date; those in files do not
-    count in a database."""
-    assert "`snakemake -j1 check` removes them" in project.refused(
-        "-n", "--persistence-backend", "db"
-    )
-    shutil.rmtree(project.folder / ".snakemake")
-    project.edit(SMALL, "Omega: 15.1", "Omega: 15.2")
-    told = project.refused("-j2")
-    assert "`snakemake -j1 check` removes them" in told
-    assert "If results/ was copied from another folder, copy that folder's .snakemake" in told
-    project.complete("-j1", "check")
-    project.edit(SMALL, "Omega: 15.2", "Omega: 15.1")
-    project.complete("-j2")
-    assert_recovered(project, finished)
-
-
-def test_clock_set_back_between_two_runs(project: Project, finished: Project) -> None:
-    """A case computed anew by an earlier clock looks older than what was made of its former
-    self."""
-    case = project.folder / "results" / "small" / "cases" / "F13.nc"
-    for old, new, days in (("15.1", "15.2", -2), ("15.2", "15.1", -4)):
-        project.edit(SMALL, f"Omega: {old}", f"Omega: {new}")
-        project.complete("-j2", "--until", "simulate_case")
-        set_times([case], days)
-        project.complete("-j2")
-        assert (project.products() == finished.products()) == (new == "15.1")
 
 
 def set_times(paths: list[Path], days: float) -> None:

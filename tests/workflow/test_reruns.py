@@ -107,24 +107,18 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
     ("source", "jobs"),
     [
         ("src/disc_model/engine/loop.py", everything),
-        # multipliers need no simulation
-        (
-            "src/disc_model/simulation/api.py",
-            lambda project: SIMULATIONS | FIGURES | TABLES | whole_map(project),
-        ),
-        ("src/disc_model/stability/outcome.py", whole_map),
+        ("src/disc_model/stability/outcome.py", everything),
         ("src/disc_model/studies/quantities/sliding.py", whole_growth),
         ("src/disc_model/studies/quantities/hysteresis.py", lambda _: set()),
         ("src/disc_model/studies/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL | MERGED),
         ("src/disc_model/studies/study.py", lambda _: set()),
-        ("src/disc_model/figures/history.py", lambda _: FIGURES),
-        ("src/disc_model/figures/curve.py", lambda _: PLOT),
-        ("src/disc_model/paper/figures/scales.py", lambda _: set()),
+        ("src/disc_model/figures/history.py", lambda _: FIGURES | PLOT),
+        ("src/disc_model/paper/figures/scales.py", lambda _: {"check_claims"} | OF_F13),
         ("src/disc_model/figures/drawing.mplstyle", lambda _: FIGURES | PLOT),
         ("workflow/scripts/draw_figure.py", lambda _: FIGURES | PLOT),
         ("workflow/scripts/simulate_case.py", lambda _: SIMULATIONS | FIGURES | TABLES),
-        ("src/disc_model/paper/section41.py", lambda _: {"check_claims"}),
-        ("src/disc_model/paper/section41.yaml", lambda _: {"check_claims"}),
+        ("src/disc_model/paper/section41.py", lambda _: {"check_claims"} | OF_F13),
+        ("src/disc_model/paper/section41.yaml", lambda _: {"check_claims"} | OF_F13),
     ],
 )
 def test_sources_run_what_uses_them_and_no_more(project: Project, source: str, jobs: Jobs) -> None:

@@ -59,7 +59,7 @@ rule measure:
         "../envs/disc_model.yaml"
     threads: 1024
     params:
-        made_of=lambda w: measured_of(w.part),
+        code=code_of("measure", *PHYSICS, "benchmarks"),
         study=lambda w: STUDIES[Path(w.part).parts[0]],
         of=lambda w: " ".join(Path(w.part).parts[1:]).replace("_", " ", 1),
         compiled=lambda w: (
@@ -79,11 +79,7 @@ rule tabulate_work_precision:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=made_of(
-            "tabulate_work_precision",
-            "benchmarks.methods",
-            of=measured_of("work_precision"),
-        ),
+        code=code_of("tabulate_work_precision", "benchmarks"),
     shell:
         "job tabulate_work_precision {output} {input} > {log} 2>&1"
 
@@ -99,9 +95,7 @@ rule merge_answers:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=made_of(
-            "merge_answers", "benchmarks.methods", of=measured_of("answers")
-        ),
+        code=code_of("merge_answers", "benchmarks"),
     shell:
         "job merge_answers {output} {input} > {log} 2>&1"
 
@@ -119,6 +113,6 @@ rule draw_benchmark:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=made_of("draw_benchmark", of=[*map(measured_of, STUDIES)]),
+        code=code_of("draw_benchmark", "benchmarks", "figures"),
     shell:
         "job draw_benchmark {wildcards.figure} {output} {input} > {log} 2>&1"

@@ -13,7 +13,7 @@ rule simulate_case:
         "../envs/disc_model.yaml"
     params:
         case=lambda wildcards: STUDY.specs[wildcards.case].canonical,
-        made_of=lambda wildcards: case_made_of(wildcards.case),
+        code=code_of("simulate_case", *PHYSICS),
     shell:
         "job simulate_case {params.case:q} {output} > {log} 2>&1"
 
@@ -37,6 +37,6 @@ rule merge_cases:
         # functions, so that braces in a title are no wildcards; JSON is ASCII
         title=lambda wildcards: PAGE_TITLE,
         labels=lambda wildcards: LABELS,
-        made_of=cases_made_of(),
+        code=code_of("merge_cases", *MERGING),
     shell:
         "job merge_cases {params.title:q} {params.labels:q} {output} {input} > {log} 2>&1"

@@ -24,9 +24,7 @@ rule check_claims:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=made_of(
-            "check_claims", of=[cases_made_of(), *map(grid_made_of, SCANNED)]
-        ),
+        code=code_of("check_claims", "paper", "data"),
     shell:
         "job check_claims {output} {input.cases} {input.scans} > {log} 2>&1"
 
@@ -51,9 +49,7 @@ rule make_table:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=lambda w: made_of(
-            "make_table", of=[*map(case_made_of, TABLE_CASES[w.table])]
-        ),
+        code=code_of("make_table", "paper", "data"),
     shell:
         "job make_table {wildcards.table} {output} {input} > {log} 2>&1"
 
@@ -77,7 +73,7 @@ rule compare_normalisations:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=made_of("compare_normalisations"),
+        code=code_of("compare_normalisations", "paper", "data"),
     shell:
         "job compare_normalisations {output} {input.published} {input.orthonormal} > {log} 2>&1"
 
@@ -108,7 +104,7 @@ rule judge_survival:
     conda:
         "../envs/disc_model.yaml"
     params:
-        made_of=made_of("judge_survival"),
+        code=code_of("judge_survival", "paper", "data"),
     shell:
         "(job judge_survival {output.csv} {output.md} {output.html} {input.cases} {input.grids}"
         " && cp {input.png} {output.png}) > {log} 2>&1"

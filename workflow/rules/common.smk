@@ -1,11 +1,9 @@
 # The study, checked before anything runs, and common parts of all rules.
-import hashlib
 import json
 import os
 import re
 import shlex
 import sys
-from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from signal import SIGINT, signal
@@ -15,7 +13,6 @@ from threading import current_thread, main_thread
 from weakref import finalize
 
 from snakemake.exceptions import WorkflowError
-from snakemake.io import IOFile
 from snakemake.logging import logger
 from snakemake.settings.types import DeploymentMethod, RerunTrigger
 from snakemake.shell import shell
@@ -58,7 +55,13 @@ if LOCAL and sys.platform == "linux":
 try:
     from disc_model.figures.kinds import Plot
     from disc_model.errors import DiscModelError
-    from disc_model.sources import source_hash
+    from disc_model.sources import (
+        BATCHES,
+        MERGING,
+        PHYSICS,
+        quantity_file,
+        source_hash,
+    )
     from disc_model.studies.messages import RunMessages
     from disc_model.studies.study import (
         closing_lines,
@@ -134,11 +137,9 @@ wildcard_constraints:
     target="(_avx2)?",
 
 
-def made_of(rule, *sources, of=()):
-    """Hash of everything that decides a result: sources of its script and others, arguments, and origin of its inputs.
+def code_of(rule, *parts):
+    """Hash of a rule's script and of parts of the package, as a parameter of the rule.
 
-    It is a parameter of each rule, by which Snakemake runs again what has changed. By itself Snakemake would overlook
-    sources, and inputs that were made anew after the clock had been set back.
+    By it Snakemake runs a rule again after a change of its sources, which it does not see by itself.
     """
-    hashed = source_hash(Path(SCRIPTS, f"{rule}.py"), *sources)
-    return hashlib.sha256(json.dumps([hashed, of]).encode()).hexdigest()[:12]
+    return source_hash(Path(SCRIPTS, f"{rule}.py"), *parts)

@@ -1,7 +1,7 @@
 # A page that shows every grid study, motions and the report's figures: `snakemake explorer`, not part of `all`.
 from itertools import chain
 
-from disc_model.studies.quantity import quantity_of
+from disc_model.studies.registry import quantity_of
 
 # Studies of a whole plane come first.
 PLANES = ("outcome", "regions")
@@ -36,8 +36,7 @@ EXPLORER = json.dumps(
 
 rule explorer:
     input:
-        f"{RESULTS}/explorer.html",
-        refuse_unrecorded,
+        lambda wildcards: need([f"{RESULTS}/explorer.html"]),
 
 
 rule compute_motions:
@@ -51,7 +50,12 @@ rule compute_motions:
         "../envs/disc_model.yaml"
     params:
         batch=lambda wildcards: GRIDS[wildcards.study].motions[wildcards.key],
-        made_of=lambda wildcards: motions_made_of(wildcards.study),
+        code=lambda wildcards: code_of(
+            "compute_motions",
+            *BATCHES,
+            "studies/motions.py",
+            own_file(wildcards.study),
+        ),
     shell:
         "job compute_motions {output} <<< {params.batch:q} > {log} 2>&1"
 
@@ -69,13 +73,6 @@ rule build_explorer:
         "../envs/disc_model.yaml"
     params:
         plan=lambda wildcards: EXPLORER,  # a function: braces in a title are no wildcards
-        made_of=made_of(
-            "build_explorer",
-            of=[
-                *map(grid_made_of, EXPLORED),
-                *map(motions_made_of, EXPLORED),
-                *map(figure_made_of, FIGURES),
-            ],
-        ),
+        code=code_of("build_explorer", "explorer", "data"),
     shell:
         "job build_explorer {output} <<< {params.plan:q} > {log} 2>&1"

@@ -28,7 +28,7 @@ rule draw_figure:
         plot=lambda w: json.dumps(figure_of(w).plot.model_dump(mode="json")),
         title=lambda w: json.dumps(figure_of(w).caption),
         caption=lambda w: figure_of(w).caption,
-        made_of=lambda w: figure_made_of((w.study, w.figure)),
+        code=lambda w: code_of("draw_figure", *drawing_of(w)),
         files=lambda w: [f"{name}={file}" for name, file in files_of(w).items()],
     shell:
         "job draw_figure {params.plot:q} {params.title:q} {output} {params.files:q} > {log} 2>&1"

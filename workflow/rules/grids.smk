@@ -14,7 +14,7 @@ rule compute_batch:
         runtime=30,
     params:
         batch=lambda w: GRIDS[w.study].batches[w.batch],
-        made_of=lambda w: batch_made_of(w.study),
+        code=lambda w: code_of("compute_batch", *BATCHES, own_file(w.study)),
     shell:
         "job compute_batch {output} <<< {params.batch:q} > {log} 2>&1"
 
@@ -30,8 +30,8 @@ rule merge_batches:
     conda:
         "../envs/disc_model.yaml"
     params:
-        plan=lambda w: merge_plan(w.study),
-        made_of=lambda w: grid_made_of(w.study),
+        plan=lambda w: GRIDS[w.study].merge_plan.text,
+        code=lambda w: code_of("merge_batches", *MERGING, own_file(w.study)),
         folder=lambda w, input: Path(input[0]).parent,
     shell:
         "job merge_batches {output.nc} {output.failed} {params.folder}"

@@ -1,4 +1,4 @@
-# Treatment of results that are out of date, damaged, or of unknown origin: run by name, not part of `all`.
+# Treatment of results that are out of date, or damaged: run by name, not part of `all`.
 
 KEPT = {name: [*x.batches, *x.motions] for name, x in sorted(GRIDS.items())}
 
@@ -17,13 +17,11 @@ rule gc:
 
 
 rule check:
-    # Removes files that cannot be read or have no record, so that they are computed again.
+    # Removes files that cannot be read, so that they are computed again.
     log:
         "results/check.log",
     localrule: True
     conda:
         "../envs/disc_model.yaml"
-    params:
-        unrecorded=lambda wildcards: json.dumps(unrecorded()),
     shell:
-        "job check <<< {params.unrecorded:q} 2>&1 | tee {log}"
+        "job check 2>&1 | tee {log}"

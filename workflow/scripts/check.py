@@ -1,13 +1,11 @@
 """Clean up results after a fault, while no jobs are running.
 
-Removed are netCDF files that cannot be read, remains of killed jobs, and files without a record of
-Snakemake, a JSON list on standard input. Times in the future become the present: Snakemake refuses
-results older than their inputs. Where a symbolic link leads, nothing is removed or changed.
+Removed are netCDF files that cannot be read and remains of killed jobs. Times in the future become
+the present: Snakemake refuses results older than their inputs. Where a symbolic link leads, nothing
+is removed or changed.
 """
 
-import json
 import os
-import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -30,7 +28,6 @@ def put_right(results: Path, now: float) -> Iterator[Path]:
 @script
 def main(folder: str = "results") -> None:
     results = Path(folder)
-    unrecorded = [Path(name) for name in json.load(sys.stdin)]
     datasets = [path for path in sorted(results.rglob("*.nc")) if not path.is_dir()]
     damaged = []
     for path in datasets:
@@ -39,10 +36,8 @@ def main(folder: str = "results") -> None:
         except (MissingFile, UnreadableFile) as error:
             print(f"{error}; removed")
             damaged.append(path)
-    for path in unrecorded:
-        print(f"{path}: not known how it was made, removed")
     leftovers = [path for path in sorted(results.rglob(".*.tmp")) if not path.is_dir()]
-    for path in [*leftovers, *damaged, *unrecorded]:
+    for path in [*leftovers, *damaged]:
         path.unlink(missing_ok=True)
     now = time.time()
     early = [*put_right(results, now)]
@@ -51,5 +46,5 @@ def main(folder: str = "results") -> None:
     )
     if early:
         print(f"{len(early)} files had times in the future and now have the present one")
-    if damaged or unrecorded or early:
+    if damaged or early:
         print("Run snakemake again: it makes anew what is needed.")

@@ -1,7 +1,6 @@
 """Merge the batches of a grid study into one dataset, and list the points that failed. Standard
-input has, as JSON, the names of the batches, the grid and attributes."""
+input has a `disc_model.studies.batch.MergePlan` as JSON."""
 
-import json
 import sys
 from pathlib import Path
 
@@ -9,13 +8,14 @@ import xarray as xr
 
 from disc_model.data.dataset import load, save
 from disc_model.errors import script
+from disc_model.studies.batch import MergePlan
 from disc_model.studies.merge import failures, merge_batches
 
 
 @script
 def main(output: str, report: str, folder: str) -> None:
-    plan = json.load(sys.stdin)
-    batches = [load(Path(folder, f"{name}.nc")).to_dataset() for name in plan["batches"]]
-    study = merge_batches(batches, plan["grid"], plan["attrs"])
+    plan = MergePlan.model_validate_json(sys.stdin.read())
+    batches = [load(Path(folder, f"{name}.nc")).to_dataset() for name in plan.batches]
+    study = merge_batches(batches, plan.grid, plan.attrs)
     Path(report).write_text("".join(f"{line}\n" for line in failures(study)), encoding="utf-8")
     save(xr.DataTree(study), output)

@@ -53,6 +53,9 @@ def prepare():
     for name in ("simulation.api", "studies.run", "data.texts", "figures.kinds"):
         import_module(f"disc_model.{name}")
     yield 0
+    sources = import_module("disc_model.sources")
+    sources.source_hash(*sources.BATCHES)  # which every batch states
+    yield 0
     backends = [f"matplotlib.backends.backend_{form}" for form in ("agg", "pdf")]
     drawings = "disc_model.figures.render"
     for name in ("scipy.special", "scipy.signal", "pint", "cmcrameri.cm", *backends, drawings):

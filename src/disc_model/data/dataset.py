@@ -65,7 +65,7 @@ def scalars_dataset(
         data[name] = ((), value, attributes(name))
     attrs = {
         "Conventions": CONVENTIONS,
-        "parameters": p.json_in_words,
+        "parameters": p.canonical_json,
         "parameters_key": p.key,
         "status": status,
         "message": message,

@@ -15,7 +15,7 @@ from pydantic import Field, create_model, field_validator, model_serializer, mod
 
 from disc_model.data.variables import BESIDE_WINDOWS
 from disc_model.errors import Fault, ParameterError, as_text, require
-from disc_model.parameters import AUTO, Parameters
+from disc_model.parameters import AUTO, FORMAT, Parameters
 from disc_model.units import (
     Count,
     Finite,
@@ -415,8 +415,6 @@ class Start(Strict):
 
 # ---- One case ready to be run, and its content address
 
-_LATER = ("start", "modes", "ramps")  # fields whose defaults older content addresses do not have
-
 
 class CaseSpec(Strict):
     """A case ready to be run: everything that a simulation depends on, and nothing else."""
@@ -432,6 +430,7 @@ class CaseSpec(Strict):
     start: Start = Start()
     modes: str = ""  # quantity and tolerance by which the run shall choose the number of modes, as JSON, if it shall
     ramps: tuple[Ramp, ...] = ()
+    format: Literal[1] = FORMAT
 
     @property
     def sections(self) -> dict[str, Window | Poincare]:
@@ -445,11 +444,7 @@ class CaseSpec(Strict):
     def canonical(self) -> str:
         """JSON text that is equal for equal cases, however they were written; `model_validate_json`
         reads it."""
-        fields = type(self).model_fields
-        defaults = {name for name in _LATER if getattr(self, name) == fields[name].default}
-        return canonical_json(
-            self.model_dump(exclude=defaults) | {"parameters": self.parameters.canonical}
-        )
+        return canonical_json(self.model_dump())
 
     @property
     def beside(self) -> str:

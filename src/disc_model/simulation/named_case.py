@@ -10,7 +10,7 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import CaseSpec, Start
 from disc_model.simulation.request import Execution
 from disc_model.simulation.starts import make_initial_state
-from disc_model.sources import git_commit, source_hash, versions
+from disc_model.sources import PHYSICS, git_commit, source_hash, versions
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -70,7 +70,7 @@ def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
     if truncation:
         tree.attrs["truncation"] = truncation
     tree.attrs |= {
-        "source_hash": source_hash(__name__),
+        "source_hash": source_hash(*PHYSICS),
         "git_commit": git_commit(),
         "versions": json_attribute(versions()),
         "specification": spec.beside,

@@ -8,15 +8,15 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
-from contextlib import nullcontext
 from dataclasses import fields, is_dataclass
 from functools import cache, partial
 from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 from pydantic import create_model
 
 from disc_model.data.variables import SCALARS, Variable, flag_names
@@ -27,36 +27,52 @@ from disc_model.simulation.case import SomeParameters, Start
 from disc_model.simulation.named_case import run_case
 from disc_model.simulation.result import Result
 from disc_model.studies.merge import merge_batches, merge_cases
-from disc_model.studies.quantity import NUMERICAL, Point, quantity_names, quantity_of
+from disc_model.studies.quantity import NUMERICAL, Point
+from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import POINT, coordinates_of, describe, run_batch, variables_of
 from disc_model.units import Finite, Strict, canonical_json, is_whole
 
 # ---- Quantities of one case
 
 
+ARGUMENTS = {"perturbation": "start", "horizons": "horizon"}
+"""Arguments of functions for options of other names."""
+
+
 def _quantity(
-    name: str, case: Parameters, start: Mapping[str, float] | None = None, **options: Any
+    name: str,
+    case: Parameters,
+    options: Mapping[str, Any],
+    start: Mapping[str, float] | None = None,
 ) -> xr.Dataset:
-    """The variables of a quantity for a case, flags as words; what went wrong is the attribute
-    `message`."""
-    faults, arguments = foreign_case(case, "case"), {"perturbation": "start", "horizons": "horizon"}
+    """Compute a quantity of a case.
+
+    Parameters
+    ----------
+    name, options : of the quantity
+    case : the case
+    start : perturbations of the static start by name
+
+    Returns
+    -------
+    xarray.Dataset
+        Its variables, flags as words; what went wrong is the attribute `message`
+    """
+    faults = foreign_case(case, "case")
     try:
         begin = Start.model_validate({} if start is None else {"perturbation": start})
         quantity = quantity_of(name).model_validate(options)
     except ParameterError as error:
         for fault in error.faults:
-            faults.append(
-                Fault(
-                    tuple(arguments.get(part, part) for part in fault.path), fault.value, fault.rule
-                )
-            )
+            path = tuple(ARGUMENTS.get(part, part) for part in fault.path)
+            faults.append(Fault(path, fault.value, fault.rule))
     raise_faults(faults)
+
     row, message = quantity.compute_point(Point(case, begin))
     coordinates = coordinates_of(quantity.COORDINATES, quantity)
     columns = variables_of(quantity.COLUMNS, coordinates, [row], {POINT: 1})
-    dataset = xr.Dataset(
-        columns, coordinates, {"parameters": case.json_in_words, "message": message}
-    ).isel({POINT: 0})
+    attrs = {"parameters": case.canonical_json, "message": message}
+    dataset = xr.Dataset(columns, coordinates, attrs).isel({POINT: 0})
     for flag in [flag for flag, variable in dataset.items() if "flag_meanings" in variable.attrs]:
         words = flag_names(dataset[flag])
         dataset[flag] = (dataset[flag].dims, words, {"long_name": dataset[flag].attrs["long_name"]})
@@ -120,8 +136,10 @@ def outcome(
         "horizon": horizon,
         "evaluation_time": evaluation_time,
         "after_separation": after_separation,
+        "early_end": early_end,
+        "tol": tol,
     }
-    return _quantity("outcome", case, start, **options, early_end=early_end, tol=tol)
+    return _quantity("outcome", case, options, start)
 
 
 def critical_speed(
@@ -169,8 +187,10 @@ def critical_speed(
         "horizons": np.atleast_1d(horizon).tolist(),
         "scan": _scan(scan, step),
         "precision": precision,
+        "early_end": early_end,
+        "tol": tol,
     }
-    return _quantity("critical_speed", case, **options, early_end=early_end, tol=tol)
+    return _quantity("critical_speed", case, options)
 
 
 def basins(  # noqa: PLR0913
@@ -223,14 +243,12 @@ def basins(  # noqa: PLR0913
         "energies": np.atleast_1d(energies).tolist(),
         "n_starts": n_starts,
         "horizon": horizon,
-    }
-    more = {
         "seed": seed,
         "attractor_tol": attractor_tol,
         "n_bisection_directions": n_bisection_directions,
         "tol": tol,
     }
-    return _quantity("basins", case, start, **options, **more)
+    return _quantity("basins", case, options, start)
 
 
 def hysteresis(
@@ -271,8 +289,14 @@ def hysteresis(
     >>> sweep["onset_speed"].item(), sweep["separation_rate"].dims
     (16.0, ('direction', 'sweep_Omega'))
     """
-    options: dict[str, Any] = {"scan": _scan(scan, step), "dwell": dwell, "max_dwell": max_dwell}
-    return _quantity("hysteresis", case, **options, evaluation_time=evaluation_time, tol=tol)
+    options = {
+        "scan": _scan(scan, step),
+        "dwell": dwell,
+        "max_dwell": max_dwell,
+        "evaluation_time": evaluation_time,
+        "tol": tol,
+    }
+    return _quantity("hysteresis", case, options)
 
 
 # ---- Sweeps
@@ -319,76 +343,95 @@ def sweep(
     >>> growth["status"].sel(Omega=10).values.tolist()
     ['ok', 'ok']
     """
-    rule = "must be a function, such as disc_model.floquet"
-    raise_faults(
-        faults := foreign_case(case, "case")
-        + violations((callable(function), "function", function, rule))
-    )
-    numbers = case.numbers.keys() | Parameters.model_fields.keys() | RATIOS.keys()
-    arguments = inspect.signature(function).parameters
-    takes_all = any(argument.kind is argument.VAR_KEYWORD for argument in arguments.values())
-    axes = {
-        x: _values(x, values, faults)
-        for x, values in named.items()
-        if x in numbers and x not in arguments
-    }
-    options = {name: value for name, value in named.items() if name not in axes}
-    unknown = [name for name in options if name not in arguments and not takes_all]
-    rule = "is no number of the case, and no argument of the function"
-    faults += [
-        Fault.of((name,), named[name], f"{rule}{suggestion(name, case.numbers)}")
-        for name in unknown
-    ]
-    further = [
-        each
-        for each in [*arguments.values()][1:]
-        if each.kind not in (each.VAR_POSITIONAL, each.VAR_KEYWORD)
-    ]
-    title = getattr(function, "__name__", type(function).__name__)
-    needed = [
-        each.name for each in further if each.default is each.empty and each.name not in named
-    ]
-    faults += [Fault((name,), "", f"is required by {title}") for name in needed]
-    raise_faults(faults)
-    points = [dict(zip(axes, values, strict=True)) for values in product(*axes.values())]
-    call = partial(
-        _row, partial(function, **options), case, frozenset(each.name for each in further)
-    )
-    rows = _in_parallel(call, [*enumerate(points)], workers, processes)
-    coordinates = {}
-    for name, values in axes.items():
+    call = _checked_call(function, case, named)
+    points = [dict(zip(call.axes, values, strict=True)) for values in product(*call.axes.values())]
+    row = partial(_row, partial(function, **call.options), case, call.arguments)
+    rows = _in_parallel(row, [*enumerate(points)], workers, processes)
+
+    coordinates: dict[str, Any] = {}
+    for name, values in call.axes.items():
         attrs = describe(name) if name in (*Parameters.model_fields, *RATIOS) else {}
-        coordinates[name] = (
-            name,
-            [float(value) if isinstance(value, int) else value for value in values],
-            attrs,
-        )
-    variables, fixed = _stacked(rows, {name: len(values) for name, values in axes.items()})
-    base = canonical_json(case.stated | {"disc": case.canonical.get("disc")})
-    attrs = {"function": title, "parameters": case.json_in_words, "base": base}
-    return xr.Dataset(variables, fixed | coordinates, attrs)
+        floats = [float(value) if isinstance(value, int) else value for value in values]
+        coordinates[name] = (name, floats, attrs)
+    sizes = {name: len(values) for name, values in call.axes.items()}
+    variables, fixed = _stacked(rows, sizes)
+    base = canonical_json({**case.stated, "disc": case.canonical.get("disc")})
+    attrs = {"function": call.title, "parameters": case.canonical_json, "base": base}
+    return xr.Dataset(variables, {**fixed, **coordinates}, attrs)
+
+
+class _Call(NamedTuple):
+    """What a sweep calls.
+
+    Attributes
+    ----------
+    title : name of the function
+    axes : values of numbers of the case, by name
+    options : arguments of the function that do not vary
+    arguments : names of all arguments of the function beside the case
+    """
+
+    title: str
+    axes: Mapping[str, list[Any]]
+    options: Mapping[str, Any]
+    arguments: frozenset[str]
+
+
+def _checked_call(function: Any, case: Any, named: Mapping[str, Any]) -> _Call:
+    """Return the call of a sweep; raises `ParameterError` with all that is wrong with it."""
+    rule = "must be a function, such as disc_model.floquet"
+    faults = [
+        *foreign_case(case, "case"),
+        *violations((callable(function), "function", function, rule)),
+    ]
+    raise_faults(faults)
+
+    # what is named is a number of the case, or an argument of the function
+    parameters = inspect.signature(function).parameters
+    numbers = case.numbers.keys() | Parameters.model_fields.keys() | RATIOS.keys()
+    axes = {}
+    options = {}
+    for name, value in named.items():
+        if name in numbers and name not in parameters:
+            axes[name] = _values(name, value, faults)
+        else:
+            options[name] = value
+
+    takes_all = any(each.kind is each.VAR_KEYWORD for each in parameters.values())
+    if not takes_all:
+        for name in options.keys() - parameters.keys():
+            rule = "is no number of the case, and no argument of the function"
+            told = suggestion(name, case.numbers)
+            faults.append(Fault.of((name,), named[name], f"{rule}{told}"))
+
+    title = getattr(function, "__name__", type(function).__name__)
+    arguments = []
+    for each in [*parameters.values()][1:]:
+        if each.kind in (each.VAR_POSITIONAL, each.VAR_KEYWORD):
+            continue
+        arguments.append(each.name)
+        if each.default is each.empty and each.name not in named:
+            faults.append(Fault((each.name,), "", f"is required by {title}"))
+    raise_faults(faults)
+    return _Call(title, axes, options, frozenset(arguments))
 
 
 def _values(name: str, values: Any, faults: list[str]) -> list[Any]:
     """The values of an axis in SI units; what is wrong with them, each by itself, is added to the
     faults."""
     several = np.iterable(values) and not isinstance(values, str | Mapping | Disc)
-    raw, checked = [*values] if several else [values], []
+    raw = list(values) if several else [values]
     if not raw:
         faults.append(Fault.of((name,), values, "must have one value or more"))
-    number: dict[str, Any] = {name: Finite}  # a ratio, or a number of a disc's mode
-    model = (
-        SomeParameters
-        if name in Parameters.model_fields
-        else create_model("Number", __base__=Strict, **number)
-    )
+    model: type[Strict] = SomeParameters
+    if name not in Parameters.model_fields:  # a ratio, or a number of a disc's mode
+        number: dict[str, Any] = {name: Finite}
+        model = create_model("Number", __base__=Strict, **number)
+    checked = []
     for value in raw:
+        plain = value.item() if isinstance(value, np.generic) else value
         try:
-            checked.append(
-                getattr(
-                    model(**{name: value.item() if isinstance(value, np.generic) else value}), name
-                )
-            )
+            checked.append(getattr(model(**{name: plain}), name))
         except ParameterError as error:
             faults += [Fault((name,), fault.value, fault.rule) for fault in error.faults]
     return checked
@@ -403,8 +446,10 @@ def _in_parallel(
         (isinstance(processes, bool), "processes", processes, "must be True or False"),
     )
     kind = ProcessPoolExecutor if processes else ThreadPoolExecutor
-    with nullcontext() if workers == 1 else kind(workers) as pool:
-        return [*(map(call, arguments) if pool is None else pool.map(call, arguments))]
+    if workers == 1:
+        return [call(argument) for argument in arguments]
+    with kind(workers) as pool:
+        return list(pool.map(call, arguments))
 
 
 def _row(
@@ -416,22 +461,21 @@ def _row(
     try:
         result = function(case.replace(**point))
     except NUMERICAL as error:
-        if number == 0 and names & {
-            re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())
-        }:
+        refused = {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}
+        if number == 0 and names & refused:
             raise
         return {
             "status": xr.Variable((), "failed"),
             "message": xr.Variable((), f"{type(error).__name__}: {error}"),
         }
     if isinstance(result, xr.Dataset):  # whose attributes are also those of the object
-        words = {"status": "ok", "message": result.attrs.get("message", "")}
+        status = "ok"
+        message = result.attrs.get("message", "")
     else:
-        words = {
-            "status": str(getattr(result, "status", "ok")),
-            "message": getattr(result, "message", ""),
-        }
-    return {name: xr.Variable((), word) for name, word in words.items()} | _variables(result)
+        status = str(getattr(result, "status", "ok"))
+        message = getattr(result, "message", "")
+    words = {"status": xr.Variable((), status), "message": xr.Variable((), message)}
+    return {**words, **_variables(result)}
 
 
 @cache
@@ -501,18 +545,8 @@ def _variables(result: Any) -> dict[str, xr.Variable]:
     """Numbers, words and one-dimensional arrays of a result."""
     if isinstance(result, xr.Dataset):
         return {str(name): variable for name, variable in result.variables.items()}
-    if isinstance(result, Result):
-        values: Mapping[str, Any] = result.scalars()
-    elif is_dataclass(result):
-        values = {field.name: getattr(result, field.name) for field in fields(result)}
-        if hasattr(result, "stable"):
-            values["stable"] = result.stable
-        if hasattr(result, "sliding"):
-            values["sliding_growth_rate"] = result.sliding.growth_rate
-    else:
-        values = result if isinstance(result, Mapping) else {"value": result}
     variables = {}
-    for name, value in values.items():
+    for name, value in _named_values(result).items():
         array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
         if array.ndim <= 1 and array.dtype.kind in "biufcU":
             variables[name] = xr.Variable(
@@ -521,35 +555,65 @@ def _variables(result: Any) -> dict[str, xr.Variable]:
     return variables
 
 
+def _named_values(result: Any) -> Mapping[str, Any]:
+    """The values of a result by name."""
+    if isinstance(result, Result):
+        return result.scalars()
+    if is_dataclass(result):
+        values = {field.name: getattr(result, field.name) for field in fields(result)}
+        if hasattr(result, "stable"):
+            values["stable"] = result.stable
+        if hasattr(result, "sliding"):
+            values["sliding_growth_rate"] = result.sliding.growth_rate
+        return values
+    return result if isinstance(result, Mapping) else {"value": result}
+
+
 def _stacked(
     rows: Sequence[dict[str, xr.Variable]], sizes: Mapping[str, int]
 ) -> tuple[dict[str, xr.Variable], dict[str, xr.Variable]]:
     """Variables along the dimensions of a sweep, and the function's own coordinates; nan or ""
     where one is missing."""
-    first = {name: variable for row in reversed(rows) for name, variable in row.items()}
-    fixed = {name: variable for name, variable in first.items() if variable.dims == (name,)}
+    first: dict[str, xr.Variable] = {}
+    for row in reversed(rows):
+        first.update(row)
+    fixed = {}
     stacked = {}
-    for name, variable in [
-        (name, variable) for name, variable in first.items() if name not in fixed
-    ]:
-        present = [(i, row[name].values) for i, row in enumerate(rows) if name in row]
-        shape = np.max([values.shape for _, values in present], axis=0) if variable.ndim else ()
-        kinds = {values.dtype.kind for _, values in present}
-        whole = len(present) == len(rows) and all(
-            values.shape == tuple(shape) for _, values in present
-        )
-        number: tuple[Any, Any] = (False, bool) if kinds <= {"b"} and whole else (math.nan, float)
-        missing, dtype = (
-            ("", object) if kinds <= {"U"} else (math.nan, complex) if "c" in kinds else number
-        )
-        array: Any = np.full((len(rows), *shape), missing, dtype)
-        for i, values in present:
-            array[(i, *map(slice, values.shape))] = values
-        array = array.astype(str) if array.dtype == object else array
-        stacked[name] = xr.Variable(
-            (*sizes, *variable.dims), array.reshape((*sizes.values(), *shape)), variable.attrs
-        )
+    for name, variable in first.items():
+        if variable.dims == (name,):
+            fixed[name] = variable
+            continue
+        values = [row[name].values if name in row else None for row in rows]
+        array = _padded(values)
+        whole = array.reshape((*sizes.values(), *array.shape[1:]))
+        stacked[name] = xr.Variable((*sizes, *variable.dims), whole, variable.attrs)
     return stacked, fixed
+
+
+def _padded(rows: Sequence[NDArray[Any] | None]) -> NDArray[Any]:
+    """Arrays of one number of dimensions as the rows of one array, shape (len(rows), ...); what is
+    missing is nan, or "" among words."""
+    present = [row for row in rows if row is not None]
+    shapes = [row.shape for row in present]
+    shape = tuple(max(sizes) for sizes in zip(*shapes, strict=True))
+    complete = all(row is not None and row.shape == shape for row in rows)
+    kinds = {row.dtype.kind for row in present}
+    missing: Any = math.nan
+    dtype: Any = float
+    if kinds <= {"U"}:
+        missing = ""
+        dtype = object
+    elif "c" in kinds:
+        dtype = complex
+    elif kinds <= {"b"} and complete:
+        missing = False
+        dtype = bool
+    array = np.full((len(rows), *shape), missing, dtype)
+    for i, row in enumerate(rows):
+        if row is not None:
+            place: Any = (i, *map(slice, row.shape))
+            array[place] = row
+    return array.astype(str) if dtype is object else array
 
 
 # ---- Studies
@@ -584,15 +648,17 @@ def run_study(
     >>> dm.run_study(study)["growth_rate"].sizes
     Frozen({'mu_s': 2, 'mu_k': 1})
     """
-    from disc_model.studies.study import (
-        load_study,
-        parse_study,
-    )  # needs yaml, of the extra `workflow`
+    # needs yaml, of the extra `workflow`
+    from disc_model.studies.study import load_study, parse_study
 
     named = isinstance(source, str | Path | Mapping)
     require((named, "source", source, "must be the path of a study file, or a mapping"))
-    folder = Path() if isinstance(source, Mapping) else Path(source).parent
-    study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
+    if isinstance(source, Mapping):
+        folder = Path()
+        study = parse_study(source, folder)
+    else:
+        folder = Path(source).parent
+        study = load_study(source)
     grids, names = study.grids([folder])
     datasets: dict[str, Any] = {}
     for grid in (grids[name] for name in names):
@@ -603,4 +669,6 @@ def run_study(
         run = partial(run_case, choose=choose_when_run)
         cases = _in_parallel(run, [*study.specs.values()], workers, processes)
         datasets["cases"] = merge_cases(dict(zip(study.specs, cases, strict=True)), study.labels)
-    return next(iter(datasets.values())) if len(datasets) == 1 else xr.DataTree.from_dict(datasets)
+    if len(datasets) == 1:
+        return next(iter(datasets.values()))
+    return xr.DataTree.from_dict(datasets)

@@ -14,14 +14,13 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 import pydantic
 from pydantic import Field, Tag, WithJsonSchema, create_model
 
-from disc_model import parameters
 from disc_model.data.variables import PERTURBATIONS, START, attributes
 from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import General, Kind, Plot, RegionMap
-from disc_model.mode_choice import asked_modes
 from disc_model.parameters import (
     AUTO,
+    CHOOSING,
     PLATE,
     RATIOS,
     RELATED,
@@ -31,18 +30,10 @@ from disc_model.parameters import (
     case_of,
 )
 from disc_model.simulation.case import SomeParameters, Start
+from disc_model.studies.batch import Batch, GridAxis, MergePlan, TileSides
 from disc_model.studies.costs import unit_costs
 from disc_model.studies.quantity import WORK, Blocks, Quantity, Range, Value, compiled_rule, holds
-from disc_model.units import (
-    Count,
-    Finite,
-    Positive,
-    Strict,
-    canonical_json,
-    content_key,
-    given_values,
-    is_number,
-)
+from disc_model.units import Count, Finite, Positive, Strict, given_values, is_number
 
 if TYPE_CHECKING:
     from disc_model.studies.study import Study
@@ -109,7 +100,9 @@ class _Columns(Strict):
 def described(name: str) -> dict[str, Any]:
     """Description and unit of a value in the schema of files."""
     stated = attributes(name)
-    unit = Parameters.unit(name) if name in Parameters.model_fields else stated.get("units", "")
+    unit = stated.get("units", "")
+    if name in Parameters.model_fields:
+        unit = Parameters.unit(name)
     return {"description": stated["long_name"], "json_schema_extra": {"unit": unit}}
 
 
@@ -133,9 +126,10 @@ class BatchSpec(Strict):
 
 # ---- The grid
 
-_OTHERS: dict[str, Any] = dict.fromkeys(PERTURBATIONS, (Finite, 0.0)) | dict.fromkeys(
-    RATIOS, (Positive, 1.0)
-)
+_OTHERS: dict[str, Any] = {
+    **dict.fromkeys(PERTURBATIONS, (Finite, 0.0)),
+    **dict.fromkeys(RATIOS, (Positive, 1.0)),
+}
 _Varied = create_model("_Varied", __base__=SomeParameters, **_OTHERS)
 
 
@@ -143,25 +137,30 @@ class Dimension:
     """One dimension of a grid: an axis, or a zip, along which several parameters vary together."""
 
     def __init__(self, names: Sequence[str], blocks: Iterable[Iterable[tuple[Value, ...]]]) -> None:
-        self.names, self.name = tuple(names), "_".join(names)
+        self.names = tuple(names)
+        self.name = "_".join(names)
         self.blocks: list[list[tuple[Value, ...]]] = []
         known: set[tuple[Value, ...]] = set()
         for block in blocks:  # a value belongs to the first block that has it
-            if new := sorted({*block} - known):
+            new = sorted({*block} - known)
+            if new:
                 self.blocks.append(new)
                 known.update(new)
         self.values = tuple(sorted(known))
 
+    @property
+    def single_values(self) -> list[list[tuple[Value, ...]]]:
+        """Blocks of one value each."""
+        return [[value] for value in self.values]
+
     def thinned(self, most: int) -> "Dimension":
         """A dimension of at most `most` values, evenly spaced by place and including both ends;
         words are all kept."""
-        values = self.values
-        if len(values) > most and not any(
-            isinstance(part, str) for value in values for part in value
-        ):
-            last = len(values) - 1
-            values = tuple(values[round(i * last / max(most - 1, 1))] for i in range(most))
-        return Dimension(self.names, [values])
+        words = any(isinstance(part, str) for part in chain.from_iterable(self.values))
+        if words or len(self.values) <= most:
+            return Dimension(self.names, [self.values])
+        step = (len(self.values) - 1) / max(most - 1, 1)
+        return Dimension(self.names, [[self.values[round(i * step)] for i in range(most)]])
 
 
 class FigureEntry(NamedTuple):
@@ -182,15 +181,15 @@ class Part(NamedTuple):
     ----------
     points : for each, the values along the dimensions in their order
     cost : estimated processor time of a point, s
-    tile : of a plane: names of its dimensions, values along its sides, and places that are marked
+    tile : sides of the tile, of a plane whose points are refined together
     """
 
     points: Iterable[Any]
     cost: float
-    tile: dict[str, Any] | None = None
+    tile: TileSides | None = None
 
 
-class Batch(NamedTuple):
+class PlannedBatch(NamedTuple):
     """A batch: its name, its text, how many points it has, and its estimated processor time, s."""
 
     name: str
@@ -199,37 +198,56 @@ class Batch(NamedTuple):
     seconds: float
 
 
+class Cut(NamedTuple):
+    """A stretch of the values along one side of a plane: all of them, and those of them, as values
+    of the dimension, that no later stretch contains."""
+
+    along: tuple[Value, ...]
+    within: Sequence[tuple[Value, ...]]
+
+
 class GridStudy:
     """A grid study; raises `ParameterError` with the faults between the parts of its file."""
 
     def __init__(self, file: "Study", plots: Mapping[str, Plot]) -> None:
-        self.file, self.plots = file, plots
-        self.name, self.title, self.quantity = file.name, file.title, str(file.quantity)
-        self.where, self.discs, self.starts = (
-            file.where,
-            file.discs,
-            {STATIC: Start(), **file.starts},
-        )
+        self.file = file
+        self.plots = plots
+        self.name = file.name
+        self.title = file.title
+        self.quantity = str(file.quantity)
+        self.where = file.where
+        self.discs = file.discs
+        self.starts = {STATIC: Start(), **file.starts}
         self.options: Quantity = file.options
-        try:  # what does not vary, and a choice of modes at each point
-            self.base, self.mode_request = asked_modes(given_values(file.base))
-        except ParameterError as error:
-            raise ParameterError(*(fault.inside(("base",)) for fault in error.faults)) from None
-        of_options = [
-            Dimension([name], map(zip, blocks)) for name, blocks in self.options.dimensions.items()
-        ]
-        self.dims = (
-            *sorted(self._read_dimensions(), key=lambda dim: VARIED.index(dim.names[0])),
-            *of_options,
-        )
+        self.given: dict[str, Any] = given_values(file.base)  # values of base, as in the file
+        self.dims = self._dimensions()
         self.varied = [name for dim in self.dims for name in dim.names]
-        raise_faults([*self._wrong_names(), *self._wrong_starts()])
+        self._check()
+
+    def _dimensions(self) -> tuple[Dimension, ...]:
+        """Return the dimensions in the order of `VARIED`, and those that the options add."""
+        own = sorted(self._read_dimensions(), key=lambda dim: VARIED.index(dim.names[0]))
+        added = []
+        for name, blocks in self.options.dimensions.items():
+            added.append(Dimension([name], map(zip, blocks)))
+        return (*own, *added)
+
+    def _check(self) -> None:
+        """Raise `ParameterError` with the faults between the parts of the file; what the later ones
+        need is checked first."""
+        raise_faults([*self._wrong_modes(), *self._wrong_names(), *self._wrong_starts()])
         raise_faults([*self._wrong_extent()])
-        whole_base, faults = self._base_of_points(), [*self.options.faults(self)]
-        for name, plot in plots.items():
+        self.base  # noqa: B018
+        faults = [*self.options.faults(self)]
+        for name, plot in self.plots.items():
             faults += (fault.inside(("figures", name)) for fault in self.faults_of(plot))
         raise_faults(faults)
-        self.base = whole_base
+
+    @cached_property
+    def base(self) -> dict[str, Any]:
+        """All values that do not vary; raises `ParameterError` with the rules that the first point
+        breaks that breaks any."""
+        return self._base_of_points()
 
     @property
     def batches(self) -> dict[str, str]:
@@ -243,7 +261,7 @@ class GridStudy:
         return {name: batch.seconds for name, batch in self._batches.items()}
 
     @cached_property
-    def _batches(self) -> dict[str, "Batch"]:
+    def _batches(self) -> dict[str, PlannedBatch]:
         """The batches by name."""
         parts = self._tiles() if self.options.tiled else self._pieces()
         return {batch.name: batch for batch in map(self._batch, parts) if batch.points}
@@ -256,39 +274,40 @@ class GridStudy:
             return {}
         few = [dim.thinned(self.options.motions) for dim in self.dims]
         batch = self._batch(Part(product(*(dim.values for dim in few)), 0.0))
-        return {batch.name: batch.text} if batch.points else {}
+        if not batch.points:
+            return {}
+        return {batch.name: batch.text}
 
-    def _pieces(self) -> Iterator["Part"]:
+    def _pieces(self) -> Iterator[Part]:
         """Parts of blocks of the grid, of about equal cost or of the size that the file says."""
         spec = self.file.batch
         cut = spec.over or self.values
         # a dimension that is not cut is taken as blocks of one value each
-        blocks = [
-            dim.blocks if dim.name in cut else [(value,) for value in dim.values]
-            for dim in self.dims
-        ]
+        blocks = []
+        for dim in self.dims:
+            blocks.append(dim.blocks if dim.name in cut else dim.single_values)
         for chosen in product(*blocks):
             cost = self._cost_of(product(*chosen))
             size = spec.size or max(1, round(WORK / cost))
             for points in _parts(chosen, size):
                 yield Part(points, cost)
 
-    def _tiles(self) -> Iterator["Part"]:
+    def _tiles(self) -> Iterator[Part]:
         """Tiles of a plane, for each combination of the other dimensions' values, or for those
         together that the file names."""
         over = self.file.batch.over
         plane = _plane(self.dims, over)
         others = [dim for dim in self.dims if dim not in plane]
-        shares = [
-            [dim.values] if over and dim.name in over else [(value,) for value in dim.values]
-            for dim in others
-        ]
+        shares: list[Sequence[Sequence[Any]]] = []
+        for dim in others:
+            together = over is not None and dim.name in over
+            shares.append([dim.values] if together else dim.single_values)
         for chosen in product(*shares):
             values = dict(zip([dim.name for dim in others], chosen, strict=True))
             first = [values.get(dim.name, dim.values) for dim in self.dims]
             cost = self._cost_of(product(*first))
-            together = math.prod(map(len, chosen))
-            side = math.sqrt(WORK / (cost * together))
+            planes = math.prod(map(len, chosen))
+            side = math.sqrt(WORK / (cost * planes))
             size = round(min(max(side, SMALLEST_TILE), LARGEST_TILE))
             for tile in product(*(_cuts(dim.values, size) for dim in plane)):
                 yield self._tile(plane, tile, values, cost)
@@ -296,22 +315,27 @@ class GridStudy:
     def _tile(
         self,
         plane: Sequence[Dimension],
-        cuts: Sequence[Any],
+        cuts: Sequence[Cut],
         others: Mapping[str, Any],
         cost: float,
-    ) -> "Part":
+    ) -> Part:
         """A tile: its points, and the values along its sides, with those of the next tiles that
         bound its last cells; `cuts` are those of both sides by `_cuts`."""
-        along, within = zip(*cuts, strict=True)
-        names = [dim.name for dim in plane]
-        values = {**others, **dict(zip(names, within, strict=True))}
+        (first, rows), (second, columns) = zip(plane, cuts, strict=True)
         sampled = []
         for mark in self._marked():
-            place = [_index_of(mark[name], side) for name, side in zip(names, along, strict=True)]
-            if None not in place:
-                sampled.append(place)
+            row = _index_of(mark[first.name], rows.along)
+            column = _index_of(mark[second.name], columns.along)
+            if row is not None and column is not None:
+                sampled.append((row, column))
+        values = {**others, first.name: rows.within, second.name: columns.within}
         points = product(*(values[dim.name] for dim in self.dims))
-        return Part(points, cost, {"names": names, "along": along, "sampled": sorted(sampled)})
+        sides = TileSides(
+            names=(first.name, second.name),
+            along=(rows.along, columns.along),
+            sampled=tuple(sorted(sampled)),
+        )
+        return Part(points, cost, sides)
 
     def _marked(self) -> list[dict[str, float]]:
         """Points of the plane that figures mark, by the names of its dimensions."""
@@ -327,34 +351,25 @@ class GridStudy:
         return self.options.cost(unit_costs(self._case_at(first)))
 
     def _case_at(self, point: Mapping[str, Value]) -> Parameters:
-        """The case of a point; where modes are chosen there, with the usual ones."""
-        base = {
-            name: value
-            for name, value in self.base.items()
-            if name not in parameters.CHOOSING and value != AUTO
-        }
-        return Parameters(**case_of(base | dict(point), self.discs))
+        """The case of a point."""
+        return Parameters(**case_of({**self.base, **point}, self.discs))
 
-    def _batch(self, part: "Part") -> "Batch":
+    def _batch(self, part: Part) -> PlannedBatch:
         """A part of the grid as a text with everything that its result depends on."""
         points = [*self.points_along(self.dims, part.points)]
-        content: dict[str, Any] = {
-            "quantity": self.quantity,
-            "options": self.options.model_dump(),
-            "base": self.base,
-            "names": self.varied,
-        }
-        if part.tile is not None:
-            content["tile"] = part.tile
-        for name, kind, known in ((START, "starts", self.starts), ("disc", "discs", self.discs)):
-            if name in self.varied:
-                words = sorted({str(point[name]) for point in points})
-                content[kind] = {word: known[word].model_dump() for word in words}
-        content["points"] = [
-            [*parameters.in_words(point, parameters.IDENTITIES).values()] for point in points
-        ]
-        text = canonical_json(content)
-        return Batch(content_key(text), text, len(points), len(points) * part.cost)
+        starts = {str(point[START]) for point in points if START in point}
+        discs = {str(point["disc"]) for point in points if "disc" in point}
+        batch = Batch(
+            quantity=self.quantity,
+            options=self.options.model_dump(),
+            base=self.base,
+            names=tuple(self.varied),
+            points=tuple(tuple(point.values()) for point in points),
+            starts={name: self.starts[name] for name in sorted(starts)},
+            discs={name: self.discs[name] for name in sorted(discs)},
+            tile=part.tile,
+        )
+        return PlannedBatch(batch.key, batch.text, len(points), len(points) * part.cost)
 
     def points_along(
         self, dims: Sequence[Dimension], every: Iterable[Any] | None = None
@@ -362,31 +377,32 @@ class GridStudy:
         """The varying values, by name, at every point along some dimensions that keeps the file's
         rules."""
         names = [name for dim in dims for name in dim.names]
-        for point in product(*(dim.values for dim in dims)) if every is None else every:
+        if every is None:
+            every = product(*(dim.values for dim in dims))
+        for point in every:
             values = dict(zip(names, chain.from_iterable(point), strict=True))
-            if not self.where or holds(self.where, {**self.base, **values}):
+            if not self.where or holds(self.where, {**self.given, **values}):
                 yield values
 
     def points_of(self, names: Iterable[str]) -> Iterator[dict[str, Value]]:
         """Points that keep the file's rules, along the dimensions of some names and those that the
         rules compare."""
         wanted = {*names, *chain(*(compiled_rule(rule).co_names for rule in self.where))}
-        ratios = [(name, *RATIOS[name]) for name in RATIOS.keys() & self.varied]
-        wanted |= {*chain(*(related for related in ratios if not wanted.isdisjoint(related)))}
+        for ratio in RATIOS.keys() & self.varied:
+            related = {ratio, *RATIOS[ratio]}
+            if not wanted.isdisjoint(related):
+                wanted.update(related)
         return self.points_along([dim for dim in self.dims if not wanted.isdisjoint(dim.names)])
 
     @property
-    def sources(self) -> tuple[str, ...]:
-        """Modules by which its points are computed and that are loaded by name, as
-        `disc_model.sources` has them."""
-        return f"studies.quantities.{self.quantity}", *["mode_choice"] * (
-            self.mode_request is not None
-        )
+    def grid(self) -> tuple[GridAxis, ...]:
+        """Dimensions with their values, for `disc_model.studies.merge`."""
+        return tuple(GridAxis(names=dim.names, values=dim.values) for dim in self.dims)
 
     @property
-    def grid(self) -> list[dict[str, Any]]:
-        """Dimensions with their values, for `disc_model.studies.merge`."""
-        return [{"names": dim.names, "values": dim.values} for dim in self.dims]
+    def merge_plan(self) -> MergePlan:
+        """What merging the batches needs beside their files."""
+        return MergePlan(batches=tuple(sorted(self.batches)), grid=self.grid, attrs=self.attrs)
 
     @property
     def values(self) -> dict[str, tuple[tuple[Value, ...], ...]]:
@@ -399,8 +415,10 @@ class GridStudy:
     @property
     def attrs(self) -> dict[str, str]:
         """Attributes of the merged dataset that describe the study."""
-        where = {"where": " and ".join(f"({rule})" for rule in self.where)} if self.where else {}
-        return {"study": self.name, "title": self.title} | where
+        attrs = {"study": self.name, "title": self.title}
+        if self.where:
+            attrs["where"] = " and ".join(f"({rule})" for rule in self.where)
+        return attrs
 
     @property
     def doubts(self) -> Iterator[str]:
@@ -418,10 +436,8 @@ class GridStudy:
             dims.append(Dimension([name], map(zip, blocks)))
         for i, group in enumerate(self.file.zip):
             path = ("zip", str(i))
-            columns = {
-                name: [*chain(*blocks)]
-                for name, blocks in self._columns(group, path, faults).items()
-            }
+            blocks_by_name = self._columns(group, path, faults)
+            columns = {name: [*chain(*blocks)] for name, blocks in blocks_by_name.items()}
             if len({len(column) for column in columns.values()}) > 1:
                 lengths = ", ".join(f"{name}: {len(column)}" for name, column in columns.items())
                 faults.append(Fault(path, "", f"must have columns of equal length, not {lengths}"))
@@ -434,71 +450,80 @@ class GridStudy:
         """Valid blocks of values by name, converted to floats, whole numbers or words."""
         columns = {}
         for name, axis in given_values(axes).items():
-            blocks: list[list[Any]] = []
-            for part in axis.blocks if isinstance(axis, BlocksOf) else [axis]:
-                blocks += [part.values, part.extra] if isinstance(part, AxisRange) else [part]
             try:
-                columns[name] = tuple(
-                    tuple(self._value(name, value) for value in block) for block in blocks
-                )
+                columns[name] = tuple(self._block(name, block) for block in _blocks_of(axis))
             except ParameterError as error:
                 faults += [Fault((*path, name), fault.value, fault.rule) for fault in error.faults]
         return columns
+
+    def _block(self, name: str, block: Sequence[Value]) -> tuple[Value, ...]:
+        """Convert and check the values of a block."""
+        return tuple(self._value(name, value) for value in block)
 
     def _value(self, name: str, value: Value) -> Value:
         """Convert and check one value by itself; `_base_of_points` checks them together."""
         if name in (START, "disc"):
             known = [*(self.starts if name == START else self.discs)]
             if value not in known:
-                raise ParameterError(
-                    Fault.of((), value, f"no such {name}{suggestion(value, known)}")
-                )
+                rule = f"no such {name}{suggestion(value, known)}"
+                raise ParameterError(Fault.of((), value, rule))
             return value
         if (name, value) in (("contact_compliance", RESIDUAL), ("friction_offset", SURFACE)):
-            raise ParameterError(
-                Fault.of(
-                    (), value, "must be a number along an axis: give it in base, for all points"
-                )
-            )
+            rule = "must be a number along an axis: give it in base, for all points"
+            raise ParameterError(Fault.of((), value, rule))
         return getattr(_Varied.model_validate({name: value}), name)  # type: ignore[no-any-return]
 
     # ---- rules between its parts
 
+    def _wrong_modes(self) -> Iterator[Fault]:
+        """The points of a grid have the same modes, or a number of them along an axis."""
+        if self.given.get("n_diameters") == AUTO:
+            rule = "chooses the modes of named cases; a grid states their number (choose_modes)"
+            yield Fault.of(("base", "n_diameters"), AUTO, rule)
+        for name in CHOOSING:
+            if name in self.given:
+                rule = f"is used with n_diameters={AUTO!r} only, in named cases"
+                yield Fault.of(("base", name), self.given[name], rule)
+
     def _wrong_names(self) -> Iterator[Fault]:
         """Each parameter must be given once: along an axis, in base, by a ratio, or by the
         quantity."""
-        in_base, scanned, quantity = (
-            self.file.base.model_fields_set,
-            self.options.scanned,
-            f"quantity {self.quantity}",
-        )
-        given = defaultdict[str, list[tuple[str, ...]]](list)
-        for part, names in (("axes", self.varied), ("base", sorted(in_base)), (quantity, scanned)):
-            for name in names:
-                given[RATIOS.get(name, (name,))[0]].append((part, name))
-        if self.mode_request is not None:
-            given["n_circles"].append(("base", "n_diameters"))
+        quantity = f"quantity {self.quantity}"
+        given = self._places_of_names()
         for path, *others in given.values():
             for other in others:
-                yield Fault(
-                    path, "", f"is given by {' '.join(other)} as well, and must be given once"
-                )
-        for name in self.varied:
-            upper, lower = RATIOS.get(name, (name, ""))
-            if "disc" in given and not {upper, lower}.isdisjoint((*PLATE, "damping_ratio")):
-                yield Fault(("axes", name), "", "must be left out where a disc is given")
+                rule = f"is given by {' '.join(other)} as well, and must be given once"
+                yield Fault(path, "", rule)
+        if "disc" in given:
+            for name in self.varied:
+                if not {name, *RATIOS.get(name, ())}.isdisjoint((*PLATE, "damping_ratio")):
+                    yield Fault(("axes", name), "", "must be left out where a disc is given")
         for name in sorted({*REQUIRED}.difference(given)):
             yield Fault(("axes", name), "", "is required, here, in a zip or in base")
         if not self.dims:
             yield Fault(("axes",), "", "is required: at least one axis or zip")
-        if self.options.over and self.options.over not in self.values:
-            yield Fault(
-                ("axes", self.options.over), "", f"is required: the {quantity} looks along it"
-            )
+        over = self.options.over
+        if over and over not in self.values:
+            yield Fault(("axes", over), "", f"is required: the {quantity} looks along it")
         for name in sorted({*(self.file.batch.over or ())}.difference(self.values)):
             yield Fault.of(
                 ("batch", "over"), name, f"must name dimensions (known: {', '.join(self.values)})"
             )
+
+    def _places_of_names(self) -> dict[str, list[tuple[str, str]]]:
+        """Return, by parameter, the parts of the file that give it, with the name there; a ratio
+        gives its first parameter."""
+        parts = {
+            "axes": self.varied,
+            "base": sorted(self.file.base.model_fields_set),
+            f"quantity {self.quantity}": self.options.scanned,
+        }
+        given = defaultdict[str, list[tuple[str, str]]](list)
+        for part, names in parts.items():
+            for name in names:
+                parameter, *_ = RATIOS.get(name, (name,))
+                given[parameter].append((part, name))
+        return given
 
     def _wrong_starts(self) -> Iterator[Fault]:
         """Only some quantities accept another start, and the file must give it in one place
@@ -530,7 +555,8 @@ class GridStudy:
         if self.options.tiled and len(_plane(self.dims, over)) != 2:
             rule = f"must name the two dimensions, single numbers, of {self.quantity}'s plane first"
             yield Fault.of(("batch", "over"), over and list(over), rule)
-        if (size := math.prod(len(dim.values) for dim in self.dims)) > MOST_POINTS:
+        size = math.prod(len(dim.values) for dim in self.dims)
+        if size > MOST_POINTS:
             yield Fault(("axes",), "", f"must make at most {MOST_POINTS} points, and not {size}")
         wrong_rules = [*self._wrong_rules()]
         yield from wrong_rules
@@ -556,12 +582,12 @@ class GridStudy:
         """Parameters without a value of their own at a point, and why they have none."""
         reasons: dict[str, str] = {}
         if "disc" in {*self.varied, *self.file.base.model_fields_set}:
-            reasons |= dict.fromkeys((*PLATE, "damping_ratio"), "no parameter of a given disc")
-        if self.mode_request is not None:
-            reasons |= dict.fromkeys(("n_diameters", "n_circles"), "chosen at each point")
+            reasons.update(dict.fromkeys((*PLATE, "damping_ratio"), "no parameter of a given disc"))
         by_quantity = f"varied by the quantity {self.quantity}"
         for name in self.options.scanned:
-            reasons |= {name: by_quantity, RATIOS.get(name, (name,))[0]: by_quantity}
+            reasons[name] = by_quantity
+            if name in RATIOS:
+                reasons[RATIOS[name][0]] = by_quantity
         given = {*self.varied, *self.file.base.model_fields_set}
         for ratio in RATIOS.keys() & given:
             upper, lower = RATIOS[ratio]
@@ -576,59 +602,65 @@ class GridStudy:
         first = next(self.points_along(self.dims))
         ratios = {RATIOS[name][0]: name for name in self.varied if name in RATIOS}
         for point in self.points_of(RELATED):
+            values = case_of({**self.given, **first, **point}, self.discs)
             try:
-                whole = Parameters(
-                    **unused | case_of({**self.base, **first, **point}, self.discs)
-                ).canonical
+                whole = Parameters(**{**unused, **values}).model_dump()
             except ParameterError as error:
                 raise_faults([self._located(fault, ratios) for fault in error.faults])
-        dropped = {*first, *(RATIOS[name][0] for name in (first | self.base).keys() & RATIOS)}
-        whole |= {name: value for name, value in self.base.items() if name in RATIOS}
-        if self.mode_request is not None:
-            dropped.add("n_circles")
-            whole |= self.mode_request.given
-        return {name: value for name, value in whole.items() if name not in dropped}
+
+        # a ratio stands in place of its first parameter
+        given_ratios = {name: value for name, value in self.given.items() if name in RATIOS}
+        dropped = {*first}
+        dropped.update(RATIOS[name][0] for name in (*first, *given_ratios) if name in RATIOS)
+        base = {**whole, **given_ratios}
+        return {name: value for name, value in base.items() if name not in dropped}
 
     def _located(self, fault: Fault, ratios: Mapping[str, str]) -> Fault:
         """A fault of a point where the file gives the value."""
         name, *rest = fault.path
         if name not in ratios and name not in self.varied:
             return fault.inside(("base",))
-        return Fault(
-            ("axes", ratios.get(name, name), *rest),
-            fault.value,
-            f"{fault.rule}, or `where` must exclude it",
-        )
+        path = ("axes", ratios.get(name, name), *rest)
+        return Fault(path, fault.value, f"{fault.rule}, or `where` must exclude it")
 
     # ---- its figures
 
     def faults_of(self, plot: Plot) -> Iterable[Fault]:
         """What keeps a figure from showing this study; general ones look at the quantity's
         variables and dimensions."""
-        values: dict[str, list[Any]] = {
-            name: [value[0] if len(value) == 1 else value for value in along]
-            for name, along in self.values.items()
-        }
-        endless = [name for name, along in values.items() if math.inf in along]
+        values = self._values_of_figures()
         for field in ("x", "y"):
-            if (name := getattr(plot, field, None)) in endless:
+            name = getattr(plot, field, None)
+            if math.inf in values.get(name, ()):
                 return [Fault.of((field,), name, "has the value inf, which no axis can show")]
-        if not isinstance(plot, General):
-            quantities = plot.quantities or (plot.kind,)
-            if self.quantity in quantities:
-                return plot.faults(values)
+        if isinstance(plot, General):
+            return self._faults_of_general(plot, values)
+        quantities = plot.quantities or (plot.kind,)
+        if self.quantity not in quantities:
             return [Fault.of(("kind",), plot.kind, f"needs the quantity {quantities[0]}")]
-        quantity, variables = self.options, dict[str, Any]()
-        of_points = quantity.COLUMNS, quantity.COORDINATES, [*values]
-        others = [name for name in values if name != quantity.over]
-        for columns, coordinates, dims in (
-            of_points,
-            (quantity.SUMMARY_COLUMNS, quantity.SUMMARY_COORDINATES, others),
-        ):
-            variables |= {name: (*dims, *column.dims) for name, column in columns.items()}
-            values |= {
-                name: [*coordinate.values(quantity)] for name, coordinate in coordinates.items()
-            }
+        return plot.faults(values)
+
+    def _values_of_figures(self) -> dict[Any, list[Any]]:
+        """Return the values along each dimension, those of a zip as tuples."""
+        values: dict[Any, list[Any]] = {}
+        for dim in self.dims:
+            values[dim.name] = [value[0] if len(value) == 1 else value for value in dim.values]
+        return values
+
+    def _faults_of_general(self, plot: General, along: Mapping[str, list[Any]]) -> Iterable[Fault]:
+        """What keeps a figure of any variable from showing the quantity's, with these values along
+        the grid's dimensions."""
+        quantity = self.options
+        values = dict(along)
+        variables: dict[str, tuple[str, ...]] = {}
+        for name, column in quantity.COLUMNS.items():
+            variables[name] = (*along, *column.dims)
+        for name, column in quantity.SUMMARY_COLUMNS.items():
+            others = [dim for dim in along if dim != quantity.over]
+            variables[name] = (*others, *column.dims)
+        for coordinates in (quantity.COORDINATES, quantity.SUMMARY_COORDINATES):
+            for name, coordinate in coordinates.items():
+                values[name] = [*coordinate.values(quantity)]
         return plot.faults_among(values, variables)
 
     def entry_of(self, name: str, plot: Plot) -> FigureEntry:
@@ -650,9 +682,8 @@ def _parts(blocks: Sequence[Sequence[Any]], size: int) -> Iterator[list[tuple[An
     first, *others = blocks
     within = math.prod(map(len, others))
     if within > size:
-        yield from (
-            [(value, *rest) for rest in part] for value in first for part in _parts(others, size)
-        )
+        for value, part in product(first, [*_parts(others, size)]):
+            yield [(value, *rest) for rest in part]
     else:
         count = size // within
         parts = math.ceil(len(first) / count)
@@ -676,14 +707,25 @@ def _plane(dims: Sequence[Dimension], over: Sequence[str] | None) -> list[Dimens
     return [dim for dim in numbers if over is None or dim.name in over[:2]]
 
 
-def _cuts(
-    values: Sequence[tuple[Value, ...]], size: int
-) -> list[tuple[list[Value], Sequence[tuple[Value, ...]]]]:
-    """Stretches of about `size` intervals, and the part of each that no later stretch contains."""
-    n = len(values) - 1
-    count = max(1, round(n / size))
-    edges = [round(i * n / count) for i in range(count + 1)]
-    return [
-        ([value for (value,) in values[a : b + 1]], values[a : b + (b == n)])
-        for a, b in pairwise(edges)
-    ]
+def _blocks_of(axis: Any) -> list[list[Any]]:
+    """Return the blocks of values of an axis of a file."""
+    blocks: list[list[Any]] = []
+    for part in axis.blocks if isinstance(axis, BlocksOf) else [axis]:
+        if isinstance(part, AxisRange):
+            blocks += [part.values, part.extra]
+        else:
+            blocks.append(part)
+    return blocks
+
+
+def _cuts(values: Sequence[tuple[Value, ...]], size: int) -> list[Cut]:
+    """Return stretches of about `size` intervals."""
+    last = len(values) - 1
+    count = max(1, round(last / size))
+    edges = [round(i * last / count) for i in range(count + 1)]
+    cuts = []
+    for start, stop in pairwise(edges):
+        along = tuple(value for (value,) in values[start : stop + 1])
+        own = stop + 1 if stop == last else stop
+        cuts.append(Cut(along, values[start:own]))
+    return cuts

@@ -4,19 +4,21 @@ A zip is one dimension without a coordinate of its own. It is named after its pa
 variables along it.
 """
 
-import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
 from disc_model.errors import DiscModelError, as_text
-from disc_model.parameters import RATIOS, in_words
-from disc_model.studies.quantity import Quantity, quantity_of
+from disc_model.parameters import RATIOS
+from disc_model.studies.batch import Batch, GridAxis
+from disc_model.studies.quantity import Quantity
+from disc_model.studies.registry import quantity_of
 from disc_model.studies.run import POINT, coordinates_of, describe, variables_of
 
 JOINED: Any = {
@@ -32,88 +34,146 @@ class MergeError(DiscModelError):
 
 
 def merge_batches(
-    batches: Sequence[xr.Dataset], grid: Sequence[Mapping[str, Any]], attrs: Mapping[str, str]
+    batches: Sequence[xr.Dataset], grid: Sequence[GridAxis], attrs: Mapping[str, str]
 ) -> xr.Dataset:
-    """Merge batches; raises `MergeError` if they do not match `grid`, as of `GridStudy.grid`."""
+    """Merge batches into one dataset over a grid.
+
+    Parameters
+    ----------
+    batches : as `disc_model.studies.run.run_batch` makes them
+    grid : dimensions of the grid, as of `GridStudy.grid`
+    attrs : attributes of the study
+
+    Raises
+    ------
+    MergeError
+        If the batches do not match the grid.
+    """
     flat = xr.concat(batches, POINT, compat="equals", **JOINED)
-    every = [json.loads(batch.attrs["specification"]) for batch in batches]
-    common = {
-        name: value for name, value in every[0].items() if name not in ("points", "names", "tile")
+    described = [Batch.model_validate_json(batch.attrs["specification"]) for batch in batches]
+    quantity = quantity_of(described[0].quantity).model_validate(described[0].options)
+    places = _places(flat, grid, complete="where" not in attrs)
+
+    shape = [len(dim.values) for dim in grid]
+    dims = [dim.name for dim in grid]
+    left_out = flat.sizes[POINT] < math.prod(shape)
+    variables = {}
+    for name, variable in flat.data_vars.items():
+        nothing: Any = 0
+        changed = dict(variable.attrs)
+        if left_out:
+            nothing, flags = _excluded(variable)
+            changed.update(flags)
+        array = np.full((*shape, *variable.shape[1:]), nothing, variable.dtype)
+        array[places] = variable.values
+        along = (*dims, *variable.dims[1:])
+        variables[name] = xr.Variable(along, array, changed, variable.encoding)
+
+    coords = dict[Any, Any](flat.drop_dims(POINT).coords)
+    for dim in grid:
+        columns = zip(*dim.values, strict=True)
+        for name, values in zip(dim.names, columns, strict=True):
+            coords[name] = (dim.name, np.array(values), describe(name))
+    every = {
+        "Conventions": CONVENTIONS,
+        **attrs,
+        **_common_attributes(described, quantity),
+        **common_provenance(batches),
     }
-    quantity = quantity_of(common["quantity"]).model_validate(common["options"])
-    common["base"] = _fixed(in_words(common["base"]), quantity)
-    for key in common.keys() & {"starts", "discs"}:
-        common[key] = {
-            name: definition for each in every for name, definition in sorted(each[key].items())
-        }
-    base = {
-        name: value if isinstance(value, str) else json_attribute(value)
-        for name, value in common.items()
-    }
+    return summarised(xr.Dataset(variables, coords, every), quantity)
+
+
+def _places(
+    flat: xr.Dataset, grid: Sequence[GridAxis], *, complete: bool
+) -> tuple[NDArray[np.int64], ...]:
+    """Return the index of each point along each dimension of a grid, which has all points if it is
+    `complete`; raises `MergeError` if the points are not those of the grid."""
     indices = []
-    for dim in grid:  # -1 for a value that the grid does not have
-        known = {tuple(value): i for i, value in enumerate(dim["values"])}
-        columns = (flat[name].values.tolist() for name in dim["names"])
-        indices.append([known.get(value, -1) for value in zip(*columns, strict=True)])
-    dims, shape = ["_".join(dim["names"]) for dim in grid], [len(dim["values"]) for dim in grid]
-    points, size = {*zip(*indices, strict=True)}, math.prod(shape)
-    complete = len(points) == size or "where" in attrs  # a rule leaves points out
-    if not complete or len(points) < flat.sizes[POINT] or any(-1 in point for point in points):
+    for dim in grid:
+        known = {value: i for i, value in enumerate(dim.values)}
+        columns = [flat[name].values.tolist() for name in dim.names]
+        values = zip(*columns, strict=True)
+        # -1 for a value that the grid does not have
+        indices.append(np.array([known.get(value, -1) for value in values]))
+    points = set(zip(*(index.tolist() for index in indices), strict=True))
+
+    missing = complete and len(points) != math.prod(len(dim.values) for dim in grid)
+    repeated = len(points) < flat.sizes[POINT]
+    unknown = any((index < 0).any() for index in indices)
+    if missing or repeated or unknown:
         raise MergeError(
             f"the batches have {len(points)} different points, which are not those of the grid"
         )
-    variables, coords = {}, dict[Any, Any](flat.drop_dims(POINT).coords)
-    for name, variable in flat.data_vars.items():
-        nothing, more = _excluded(variable) if len(points) < size else (0, {})
-        array = np.full((*shape, *variable.shape[1:]), nothing, variable.dtype)
-        array[tuple(indices)] = variable.values
-        variables[name] = xr.Variable(
-            (*dims, *variable.dims[1:]), array, variable.attrs | more, variable.encoding
-        )
-    for dim, along in zip(grid, dims, strict=True):
-        for name, values in zip(dim["names"], zip(*dim["values"], strict=True), strict=True):
-            coords[name] = (along, np.array(values), describe(name))
-    merged = xr.Dataset(
-        variables,
-        coords,
-        {"Conventions": CONVENTIONS, **attrs, **base, **common_provenance(batches)},
-    )
-    return summarised(merged, quantity)
+    return tuple(indices)
+
+
+def _common_attributes(batches: Sequence[Batch], quantity: Quantity) -> dict[str, str]:
+    """Return attributes that describe what the batches have in common, and all their starts and
+    discs."""
+    first = batches[0]
+    starts: dict[str, Any] = {}
+    discs: dict[str, Any] = {}
+    for batch in batches:
+        starts.update((name, start.model_dump()) for name, start in batch.starts.items())
+        discs.update((name, disc.model_dump()) for name, disc in batch.discs.items())
+    described = {
+        "quantity": first.quantity,
+        "options": json_attribute(first.options),
+        "base": json_attribute(_fixed(first.base, quantity)),
+    }
+    if starts:
+        described["starts"] = json_attribute(dict(sorted(starts.items())))
+    if discs:
+        described["discs"] = json_attribute(dict(sorted(discs.items())))
+    return described
 
 
 def _fixed(base: Mapping[str, Any], quantity: Quantity) -> dict[str, Any]:
     """The values of a base that a quantity does not vary by itself: of others it has those with
     which the file was checked, such as a speed of zero."""
-    varied = {*quantity.scanned, *(RATIOS[name][0] for name in quantity.scanned if name in RATIOS)}
+    varied = {*quantity.scanned}
+    varied.update(RATIOS[name][0] for name in quantity.scanned if name in RATIOS)
     return {name: value for name, value in base.items() if name not in varied}
 
 
 def failures(study: xr.Dataset) -> Iterator[str]:
-    """One line for each point without a result, or with a message: its parameters, status and
-    message."""
+    """Yield one line for each point without a result, or with a message: its parameters, status
+    and message."""
     status = flag_names(study["status"])
     varied = [name for name in study.coords if set(study[name].dims) <= set(study["status"].dims)]
-    for index in np.argwhere(
-        (status != EXCLUDED) & ((status != "ok") | (study["message"].values != ""))
-    ):
-        point = study.isel(dict(zip(study["status"].dims, index, strict=True)))
-        values = {name: point[name].item() for name in varied}
-        where = ", ".join(
-            f"{name} = {x if isinstance(x, str) else as_text(x)}" for name, x in values.items()
-        )
-        word, message = str(status[tuple(index)]), str(point["message"].item())
-        what = WITHOUT_CYCLE.get(word, word)
-        yield f"{where}: {message if message.startswith(what) else f'{what}: {message}'}"
+    remarkable = (status != "ok") | (study["message"].values != "")
+    for index in np.argwhere(remarkable & (status != EXCLUDED)):
+        place = dict(zip(study["status"].dims, index, strict=True))
+        point = study.isel(place)
+        values = {str(name): point[name].item() for name in varied}
+        word = str(status[tuple(index)])
+        yield f"{_point_text(values)}: {_status_text(word, str(point['message'].item()))}"
+
+
+def _point_text(values: Mapping[str, Any]) -> str:
+    """Return the values of a point in a line."""
+    parts = []
+    for name, value in values.items():
+        parts.append(f"{name} = {value if isinstance(value, str) else as_text(value)}")
+    return ", ".join(parts)
+
+
+def _status_text(word: str, message: str) -> str:
+    """Return a status and a message in a line, the status once."""
+    what = WITHOUT_CYCLE.get(word, word)
+    return message if message.startswith(what) else f"{what}: {message}"
 
 
 def _excluded(variable: xr.DataArray) -> tuple[Any, dict[str, Any]]:
-    """The value of a variable at an excluded point; for a flag its last one, and attributes with a
-    word for it."""
+    """Return the value of a variable at an excluded point, and for a flag, of which it is the last
+    one, attributes with a word for it."""
     if "flag_meanings" in variable.attrs:
         words = [*variable.attrs["flag_meanings"].split(), EXCLUDED]
         numbers = np.arange(len(words), dtype=np.int8)
         return numbers[-1], {"flag_meanings": " ".join(words), "flag_values": numbers}
-    return math.nan if variable.dtype.kind == "f" else "" if variable.dtype.kind in "OUT" else 0, {}
+    if variable.dtype.kind == "f":
+        return math.nan, {}
+    return ("" if variable.dtype.kind in "OUT" else 0), {}
 
 
 def summarised(study: xr.Dataset, quantity: Any) -> xr.Dataset:
@@ -122,12 +182,13 @@ def summarised(study: xr.Dataset, quantity: Any) -> xr.Dataset:
     if not quantity.SUMMARY_COLUMNS:
         return study
     others = {str(dim): size for dim, size in study["status"].sizes.items() if dim != quantity.over}
-    cells = (dict(zip(others, index, strict=True)) for index in np.ndindex(*others.values()))
-    rows = [quantity.summarise(study.isel(cell)) for cell in cells]
+    rows = []
+    for index in np.ndindex(*others.values()):
+        cell = dict(zip(others, index, strict=True))
+        rows.append(quantity.summarise(study.isel(cell)))
     coords = coordinates_of(quantity.SUMMARY_COORDINATES, quantity)
-    return study.assign_coords(coords).assign(
-        variables_of(quantity.SUMMARY_COLUMNS, coords, rows, others)
-    )
+    summary = variables_of(quantity.SUMMARY_COLUMNS, coords, rows, others)
+    return study.assign_coords(coords).assign(summary)
 
 
 def merge_cases(
@@ -139,16 +200,12 @@ def merge_cases(
     rows = [tree.to_dataset() for tree in cases.values()]
     table = xr.concat(rows, dim="case", **JOINED)
     table = table.assign_coords(case=("case", list(cases), {"long_name": "name of the case"}))
-    texts = [
-        {"message": row.attrs["message"], **labels.get(case, {})}
-        for case, row in zip(cases, rows, strict=True)
-    ]
+    texts = []
+    for case, row in zip(cases, rows, strict=True):
+        texts.append({"message": row.attrs["message"], **labels.get(case, {})})
     for name, meaning in _TEXTS.items():
-        table[name] = (
-            "case",
-            np.array([text.get(name, "") for text in texts], dtype=str),
-            {"long_name": meaning},
-        )
+        column = np.array([text.get(name, "") for text in texts], dtype=str)
+        table[name] = ("case", column, {"long_name": meaning})
     table.attrs = {"Conventions": CONVENTIONS, **common_provenance(rows)}
     return xr.DataTree(table, children=cases)
 

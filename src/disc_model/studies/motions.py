@@ -38,21 +38,26 @@ class Motions:
         self.quantity = quantity
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        start, p = self.quantity.state_at(point).replace(time=0.0, time_low=0.0), point.parameters
+        p = point.parameters
+        start = self.quantity.state_at(point).replace(time=0.0, time_low=0.0)
         # of a cycle: the mean time between releases, at least the free period, which stands for it
         # without releases
-        free = 2 * math.pi * math.sqrt(p.m / p.k_p) if p.k_p > 0 else LONGEST
+        cycle = LONGEST
+        if p.k_p > 0:
+            cycle = 2 * math.pi * math.sqrt(p.m / p.k_p)
         events = simulate(p, 0.5, initial_state=start).events
         released = events["time"][events["kind"] == "stick_to_slip"].to_numpy()
-        between = np.ptp(released) / (len(released) - 1) if len(released) > 1 else 0.0
-        length = CYCLES_SHOWN * min(max(float(between), free), LONGEST)
+        if len(released) > 1:
+            cycle = max(float(np.ptp(released)) / (len(released) - 1), cycle)
+        length = CYCLES_SHOWN * min(cycle, LONGEST)
         window = Window(start=0.0, stop=length, rate=(SAMPLES - 1) / length)
         result = simulate(
             p, length, {"history": window}, events=False, initial_state=start
         ).raise_for_status()
         samples = result.samples["history"]
-        values = {"status": "ok", "length": length, "phase": samples["phase"] + 1}
-        return values | {name: samples[name] for name in SHOWN}, ""
+        histories = {name: samples[name] for name in SHOWN}
+        phase = samples["phase"] + 1
+        return {"status": "ok", "length": length, "phase": phase, **histories}, ""
 
 
 def run_motions(text: str) -> xr.Dataset:

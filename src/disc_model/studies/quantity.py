@@ -8,16 +8,14 @@ import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, partial
-from importlib import import_module
-from pkgutil import iter_modules
 from types import CodeType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
 from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
-from disc_model.data.variables import Variable
-from disc_model.errors import DiscModelError, Fault, ParameterError, Status, suggestion
+from disc_model.data.variables import CycleStatus, Variable
+from disc_model.errors import DiscModelError, Fault, Status
 from disc_model.parameters import DEFAULTS, RATIOS, Parameters, with_ratios
 from disc_model.simulation.case import Start
 from disc_model.studies.costs import UnitCosts
@@ -80,7 +78,9 @@ class Range(Ruled):
 
     @property
     def _steps(self) -> float:
-        return (self.stop - self.start) / self.step if self.step else (self.count or 2) - 1
+        if self.step:
+            return (self.stop - self.start) / self.step
+        return (self.count or 2) - 1
 
     @property
     def intervals(self) -> int:
@@ -127,10 +127,9 @@ def compiled_rule(rule: str) -> CodeType:
 def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
     """Whether all rules hold at a point; a rule that cannot be evaluated, such as a division by
     zero, does not."""
-    floats = {
-        name: float(x) if isinstance(x, int) else x
-        for name, x in (DEFAULTS | with_ratios(values)).items()
-    }
+    floats = {}
+    for name, value in {**DEFAULTS, **with_ratios(values)}.items():
+        floats[name] = float(value) if isinstance(value, int) else value
     try:
         return all(eval(compiled_rule(rule), {"__builtins__": {}}, floats) for rule in rules)
     except (ArithmeticError, TypeError):
@@ -140,6 +139,7 @@ def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
 # ---- Quantities
 STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
 STATUS = Variable("1", "what became of the computation", STATUSES)
+CYCLE_STATUSES = (*(status.value for status in CycleStatus), "failed")
 
 Row = Mapping[str, Any]
 Made = Parameters | DiscModelError  # parameters, or the error in their place
@@ -181,10 +181,10 @@ def tried(
 ) -> tuple[Row, str]:
     """Values and message that a function returns, or those of an error, which the subject may be
     already."""
+    if isinstance(subject, Exception):
+        return failed(subject, flag)
     try:
-        return (
-            failed(subject, flag) if isinstance(subject, Exception) else compute(subject, *options)
-        )
+        return compute(subject, *options)
     except NUMERICAL as error:
         return failed(error, flag)
 
@@ -203,7 +203,10 @@ def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
     """Columns of the rows along a quantity's own dimension; None, which is missing, where rows lack
     a value."""
     names = dict.fromkeys(name for row in rows for name in row)
-    return {name: [row.get(name) for row in rows] for name in names}
+    columns = {}
+    for name in names:
+        columns[name] = [row.get(name) for row in rows]
+    return columns
 
 
 WORK = 20.0  # processor time of a batch, s: its job costs about 1 s in itself. Three times as much does no harm.
@@ -274,21 +277,3 @@ class Quantity(Ruled):
         """The state in which the motions of a point begin; raises `DiscModelError` if there is
         none."""
         raise NotImplementedError
-
-
-def quantity_names() -> list[str]:
-    return [module.name for module in iter_modules(import_module(_QUANTITIES).__path__)]
-
-
-def quantity_of(name: str) -> type[Quantity]:
-    """The quantity of a name; raises `ParameterError`."""
-    if name not in quantity_names():
-        raise ParameterError(
-            Fault.of((), name, f"unknown quantity{suggestion(name, quantity_names())}")
-        )
-    values = vars(import_module(f"{_QUANTITIES}.{name}")).values()
-    classes = (value for value in values if isinstance(value, type) and issubclass(value, Quantity))
-    return next(each for each in classes if each.__module__.endswith(f".{name}"))
-
-
-_QUANTITIES = "disc_model.studies.quantities"

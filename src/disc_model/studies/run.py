@@ -1,9 +1,7 @@
 """Computation of one batch of a grid study: a quantity at each point, as variables with units."""
 
-import json
-import math
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,120 +10,129 @@ from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Variable, attributes
-from disc_model.disc.plate import mode_arrays
 from disc_model.errors import DiscModelError
-from disc_model.mode_choice import chosen_modes, read_asked
-from disc_model.parameters import AUTO, case_of, in_words
+from disc_model.parameters import Parameters, case_of
 from disc_model.simulation.case import Start
-from disc_model.sources import git_commit, source_hash, versions
-from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, quantity_of, tried
+from disc_model.sources import BATCHES, git_commit, quantity_file, source_hash, versions
+from disc_model.studies.batch import Batch, TileSides
+from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, tried
+from disc_model.studies.registry import quantity_of
 
 POINT = "point"
-WORDS = (*CHOICES, "disc", START)  # what varies by words
+Computed = tuple[Row, str]  # values of a point by column, and a message
 
 
 def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Dataset:
-    """Variables along `point` of the batch in a text of
-    `disc_model.studies.grid.GridStudy.batches`: those of the quantity, or of what a function `of`
-    it makes."""
-    data = json.loads(text)
-    quantity = quantity_of(data["quantity"]).model_validate(data["options"])
+    """Compute a batch.
+
+    Parameters
+    ----------
+    text : of the batch, as `disc_model.studies.grid.GridStudy.batches` has it
+    of : makes what is computed from the study's quantity; by default the quantity itself is
+
+    Returns
+    -------
+    xarray.Dataset
+        Variables along `point`
+    """
+    batch = Batch.model_validate_json(text)
+    quantity = quantity_of(batch.quantity).model_validate(batch.options)
     computed = quantity if of is None else of(quantity)
-    names = data["names"]
-    varied = [_varied(names, point) for point in data["points"]]
-    chosen, tiled = data["base"].get("n_diameters") == AUTO, "tile" in data
-    parameters = (
-        [_made(data, values) for values in varied] if chosen or not tiled else []
-    )  # a tile makes its own
-    if tiled and of is None:
-        results = list(_over_tile(quantity, data))
+    if batch.tile is not None and of is None:
+        results = _results_over_tiles(quantity, batch, batch.tile)
     else:
-        stated = {
-            None: {
-                name: value for name, value in data["options"].items() if name in Start.model_fields
-            }
-        }
-        starts = {name: Start(**start) for name, start in (stated | data.get("starts", {})).items()}
-        points = (_point(*point, starts) for point in zip(parameters, varied, strict=True))
-        results = [tried("status", computed.compute_point, point) for point in points]
-    rows, messages = zip(*results, strict=True)
-    coords_of_quantity = coordinates_of(computed.COORDINATES, quantity)
-    variables = variables_of(computed.COLUMNS, coords_of_quantity, rows, {POINT: len(rows)})
-    if chosen:
-        for name in ("diameters", "circles"):  # -1 without a choice
-            highest = [
-                -1 if isinstance(p, DiscModelError) else getattr(mode_arrays(p), name).max()
-                for p in parameters
-            ]
-            variables[f"n_{name}"] = xr.Variable(POINT, highest, attributes(f"n_{name}"))
-    variables["message"] = xr.Variable(
-        POINT, np.array(messages, dtype=str), {"long_name": "what went wrong"}
-    )
-    coords = {
-        name: xr.Variable(POINT, [values[name] for values in varied], describe(name))
-        for name in names
-    }
+        results = _results_at_points(computed, batch)
+    rows = [row for row, _ in results]
+    messages = [message for _, message in results]
+
+    own_coords = coordinates_of(computed.COORDINATES, quantity)
+    variables = variables_of(computed.COLUMNS, own_coords, rows, {POINT: len(rows)})
+    text_array = np.array(messages, dtype=str)
+    variables["message"] = xr.Variable(POINT, text_array, {"long_name": "what went wrong"})
+    coords = {}
+    for name in batch.names:
+        values = [varied[name] for varied in batch.varied]
+        coords[name] = xr.Variable(POINT, values, describe(name))
+    coords.update(own_coords)
     attrs = {
-        "Conventions": CONVENTIONS, "specification": text,
-        "source_hash": source_hash(__name__, type(quantity).__module__), "git_commit": git_commit(),
+        "Conventions": CONVENTIONS,
+        "specification": text,
+        "source_hash": source_hash(*BATCHES, quantity_file(batch.quantity)),
+        "git_commit": git_commit(),
         "versions": json_attribute(versions()),
-    }  # fmt: skip
-    return xr.Dataset(variables, coords | coords_of_quantity, attrs)
+    }
+    return xr.Dataset(variables, coords, attrs)
 
 
-def _varied(names: Sequence[str], point: Sequence[Any]) -> dict[str, Any]:
-    """The varying values of a point by name, in the words of the field. JSON has no infinity, which
-    is a word there."""
-    values = in_words(dict(zip(names, point, strict=True)))
-    for name, value in values.items():
-        if value == "inf" and name not in WORDS:
-            values[name] = math.inf
-    return values
+def _results_at_points(computed: Any, batch: Batch) -> list[Computed]:
+    """Return the results at the points of a batch, each computed by itself."""
+    own = {name: value for name, value in batch.options.items() if name in Start.model_fields}
+    starts: dict[str | None, Start] = {None: Start(**own)}
+    starts.update(batch.starts)
+    results = []
+    for varied in batch.varied:
+        point = _point(_parameters_or_error(batch, varied), varied, starts)
+        results.append(tried("status", computed.compute_point, point))
+    return results
 
 
-def _over_tile(quantity: Any, data: Mapping[str, Any]) -> Iterator[tuple[Row, str]]:
-    """A tile's points in the text's order, without its margin; one tile for each combination of
-    other parameters."""
-    (first, second), (rows, columns) = data["tile"]["names"], data["tile"]["along"]
-    tiles: dict[tuple[Any, ...], Sequence[Sequence[tuple[Row, str]]]] = {}
-    for point in data["points"]:
-        others = dict(zip(data["names"], point, strict=True))
-        i, j = rows.index(others.pop(first)), columns.index(others.pop(second))
+def _results_over_tiles(quantity: Any, batch: Batch, sides: TileSides) -> list[Computed]:
+    """Return the results at the points of a batch, without the tile's margin.
+
+    There is one tile for each combination of the other parameters.
+    """
+    first, second = sides.names
+    rows, columns = sides.along
+    tiles: dict[tuple[Any, ...], Sequence[Sequence[Computed]]] = {}
+    results = []
+    for varied in batch.varied:
+        others = dict(varied)
+        i = rows.index(others.pop(first))
+        j = columns.index(others.pop(second))
         key = tuple(others.values())
         if key not in tiles:
-            made = [[_made(data, others | {first: y, second: x}) for x in columns] for y in rows]
-            tiles[key] = quantity.compute_tile(made, [(a, b) for a, b in data["tile"]["sampled"]])
-        yield tiles[key][i][j]
+            plane = [_row_of_tile(batch, sides, {**others, first: y}) for y in rows]
+            tiles[key] = quantity.compute_tile(plane, sides.sampled)
+        results.append(tiles[key][i][j])
+    return results
+
+
+def _row_of_tile(batch: Batch, sides: TileSides, values: Mapping[str, Any]) -> list[Made]:
+    """Return the parameters along the second side of a tile, other values given."""
+    second = sides.names[1]
+    return [_parameters_or_error(batch, {**values, second: x}) for x in sides.along[1]]
 
 
 def _point(
     p: Made, varied: Mapping[str, Any], starts: Mapping[str | None, Start]
 ) -> Point | DiscModelError:
-    """A point with its parameters and everything else that varies; the start of None is that of the
-    options."""
+    """Return a point with its parameters and everything else that varies; an error in place of the
+    parameters stays one. The start of None is that of the options."""
     if isinstance(p, DiscModelError):
         return p
     start = starts[varied.get(START)]
-    whole = defaultdict[Any, float](float, start.perturbation)
+    perturbation = defaultdict[Any, float](float, start.perturbation)
     for name in varied.keys() & PERTURBATIONS.keys():
-        whole[name.removeprefix("perturbation_")] += varied[name]
-    return Point(p, start.model_copy(update={"perturbation": dict(whole)}), varied.get(SAMPLE, 0))
+        perturbation[name.removeprefix("perturbation_")] += varied[name]
+    perturbed = start.model_copy(update={"perturbation": dict(perturbation)})
+    return Point(p, perturbed, varied.get(SAMPLE, 0))
 
 
-def _made(data: Mapping[str, Any], varied: Mapping[str, Any]) -> Made:
-    """The parameters of a point, or the error if no number of modes meets the tolerance."""
+def _parameters_or_error(batch: Batch, varied: Mapping[str, Any]) -> Made:
+    """Return the parameters of a point, or the error if they break a rule."""
     try:
-        p, request = read_asked(case_of({**data["base"], **varied}, data.get("discs", {})))
-        return p if request is None else chosen_modes(p, request).parameters
+        return Parameters(**case_of({**batch.base, **varied}, batch.discs))
     except DiscModelError as error:
         return error
 
 
 def describe(name: str) -> dict[str, Any]:
-    """Attributes of a varying parameter as a coordinate; choices are stored as words, without
+    """Return attributes of a varying parameter as a coordinate; choices, which are words, have no
     unit."""
     described = attributes(name)
-    return {"long_name": described["long_name"]} if name in (*CHOICES, "disc") else described
+    if name in (*CHOICES, "disc"):
+        return {"long_name": described["long_name"]}
+    return described
 
 
 # ---- Quantities: rows of results, one for each point, as arrays
@@ -134,22 +141,24 @@ def describe(name: str) -> dict[str, Any]:
 def coordinates_of(
     coordinates: Mapping[str, Coordinate], quantity: Quantity
 ) -> dict[str, xr.Variable]:
-    return {
-        name: xr.Variable(
-            name, np.array(values(quantity)), Variable(units, words.format(quantity)).attributes
-        )
-        for name, (units, words, values) in coordinates.items()
-    }
+    """Return the dimensions of a quantity's own, with values for its options."""
+    made = {}
+    for name, coordinate in coordinates.items():
+        described = Variable(coordinate.units, coordinate.long_name.format(quantity))
+        values = np.array(coordinate.values(quantity))
+        made[name] = xr.Variable(name, values, described.attributes)
+    return made
 
 
 def variables_of(
     columns: Mapping[str, Variable],
     coords: Mapping[str, xr.Variable],
-    rows: Sequence[Row],
+    rows: Iterable[Row],
     sizes: Mapping[str, int],
 ) -> dict[str, xr.Variable]:
-    """Rows as variables along dimensions of these sizes, the last one fastest, and along the
-    quantity's own."""
+    """Return rows as variables along dimensions of these sizes, the last one fastest, and along
+    the quantity's own."""
+    rows = list(rows)
     variables = {}
     for name, column in columns.items():
         array = column.empty((len(rows), *(coords[dim].size for dim in column.dims)))
@@ -168,5 +177,7 @@ def _store(value: Any, cell: NDArray[Any], column: Variable) -> None:
     elif isinstance(value, np.ndarray) and value.ndim:
         part = value[tuple(map(slice, cell.shape))]
         cell[tuple(map(slice, part.shape))] = part
+    elif isinstance(value, str):
+        cell[...] = column.flags.index(value)
     elif value is not None:
-        cell[...] = column.flags.index(value) if isinstance(value, str) else value
+        cell[...] = value

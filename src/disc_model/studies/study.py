@@ -50,8 +50,9 @@ from disc_model.studies.grid import (
     described,
 )
 from disc_model.studies.options import Option, options_of
-from disc_model.studies.quantity import compiled_rule, quantity_names, quantity_of
+from disc_model.studies.quantity import compiled_rule
 from disc_model.studies.reading import StudyError, read_file
+from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.units import Finite, Positive, Seconds, Strict, Tolerance, must
 
 MODES = {
@@ -161,39 +162,52 @@ class NamedCase(Strict):
     @cached_property
     def spec(self) -> CaseSpec:
         """What is simulated; raises `ParameterError` with places inside the case."""
-        faults: list[Fault] = []
-        (p, request), record = self.parameters, self.record
-        spans: dict[tuple[str, ...], Any] = {
-            ("windows", name): x for name, x in record.windows.items() if x is not None
-        }
-        if record.events:
-            spans["events",] = Span() if record.events is True else record.events
+        p, request = self.parameters
+        spans, faults = self._spans()
+        if self.ramps:
+            for fault in ramp_faults(p, self.ramps, poincare=self.record.poincare is not None):
+                if fault.path[0] in Parameters.model_fields:
+                    fault = fault.inside(("parameters",))
+                faults.append(fault)
+        raise_faults(faults)
+
+        events = spans.pop(("events",), None)
+        return CaseSpec(
+            parameters=p,
+            t_end=self.t_end,
+            tol=self.tol,
+            stop_at=self.stop_at,
+            windows=tuple((name, window) for (_, name), window in spans.items()),
+            poincare=self.record.poincare,
+            events=events and (events.start, events.stop),
+            start=_with_ratios_of(p, self.start),
+            # modes that are left to be chosen are chosen when the case runs
+            modes="" if request is None else json.dumps(request.model_dump(), sort_keys=True),
+            ramps=self.ramps,
+        )
+
+    def _spans(self) -> tuple[dict[tuple[str, ...], Any], list[Fault]]:
+        """Spans of time that are recorded, by their places in the record, resolved in the run; and
+        faults of those that are not within it."""
+        record = self.record
+        spans: dict[tuple[str, ...], Any] = {}
+        for name, window in record.windows.items():
+            if window is not None:
+                spans["windows", name] = window
+        if record.events is True:
+            spans["events",] = Span()
+        elif record.events:
+            spans["events",] = record.events
+        faults = []
         for path, span in spans.items():
             start, stop = span.ends(0.0, self.t_end)
             if 0 <= start < stop <= self.t_end:
                 spans[path] = span.resolved(0.0, self.t_end)
             else:
-                rule = f"must be within the run: 0 <= start={start:g} < stop={stop:g} <= t_end={self.t_end:g}"
-                faults.append(Fault(("record", *path), "", rule))
-        for fault in (
-            ramp_faults(p, self.ramps, poincare=record.poincare is not None) if self.ramps else ()
-        ):
-            faults.append(
-                fault.inside(("parameters",)) if fault.path[0] in Parameters.model_fields else fault
-            )
-        raise_faults(faults)
-        events = spans.pop(("events",), None)
-        windows = tuple((name, window) for (_, name), window in spans.items())
-        rest = {name: getattr(self, name) for name in ("t_end", "tol", "stop_at", "ramps")}
-        rest |= {
-            "start": _with_ratios_of(p, self.start),
-            "windows": windows,
-            "poincare": record.poincare,
-            "events": events and (events.start, events.stop),
-        }
-        # modes that are left to be chosen are chosen when the case runs
-        modes = "" if request is None else json.dumps(request.model_dump(), sort_keys=True)
-        return CaseSpec(parameters=p, modes=modes, **rest)
+                rule = f"0 <= start={start:g} < stop={stop:g} <= t_end={self.t_end:g}"
+                place = ("record", *path)
+                faults.append(Fault(place, "", f"must be within the run: {rule}"))
+        return spans, faults
 
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -224,7 +238,9 @@ def _with_ratios_of(p: Parameters, start: Start) -> Start:
 
 
 def _figure(raw: Any) -> Kind:
-    return raw if isinstance(raw, Kind) else kind_of(_mapping(raw).get("kind")).model_validate(raw)
+    if isinstance(raw, Kind):
+        return raw
+    return kind_of(_mapping(raw).get("kind")).model_validate(raw)
 
 
 _OTHER_NAME = {"kind": {"type": "string", "pattern": r"^\w+\.\w+$"}}
@@ -240,11 +256,9 @@ Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND | 
 
 def _given_figures(raw: Any) -> Any:
     """Figures by their names, without those that null drops."""
-    return (
-        {name: plot for name, plot in raw.items() if plot is not None}
-        if isinstance(raw, Mapping)
-        else raw
-    )
+    if not isinstance(raw, Mapping):
+        return raw
+    return {name: plot for name, plot in raw.items() if plot is not None}
 
 
 def _several(value: Any) -> Any:
@@ -268,8 +282,10 @@ def _options(raw: Any, info: pydantic.ValidationInfo) -> Any:
 
 def _with_form(fault: Fault, known: Mapping[str, Option]) -> Fault:
     """A fault of options, which says of a missing one what is to be given."""
-    option = known.get(fault.path[0]) if len(fault.path) == 1 else None
-    if option is None or fault.rule != "is required":
+    if len(fault.path) != 1 or fault.rule != "is required":
+        return fault
+    option = known.get(fault.path[0])
+    if option is None:
         return fault
     unit = f" ({option.unit})" if option.unit else ""
     return Fault(fault.path, "", f"is required: {option.form}{unit}, {option.meaning}")
@@ -355,7 +371,9 @@ class Study(Strict):
     def grid(self) -> GridStudy | None:
         """The file's own grid; raises `ParameterError` with the faults between its parts."""
         own = {name: plot for name, plot in self.plots.items() if plot.study in ("", self.name)}
-        return None if self.quantity is None else GridStudy(self, own)
+        if self.quantity is None:
+            return None
+        return GridStudy(self, own)
 
     @property
     def labels(self) -> dict[str, dict[str, str]]:
@@ -373,21 +391,28 @@ class Study(Strict):
             if isinstance(plot, Plot):
                 figures[self.name, name] = grids[plot.study or self.name].entry_of(name, plot)
             elif isinstance(plot, CasePlot):
-                parameters = [self.specs[case].parameters for case in plot.cases]
-                values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in parameters))
-                modes = " and ".join(
-                    MODES[mode] for mode in sorted({p.normalization for p in parameters})
-                )
-                title, inputs = plot.title or name, {case: case for case in plot.cases}
-                caption = f"{plot.caption or f'{title}:'} {values}; everything else as in Table 1; {modes}."
-                section = plot.section or plot.case
-                figures[self.name, name] = FigureEntry(
-                    plot, inputs, "Figures", section, title, caption
-                )
+                figures[self.name, name] = self._entry_of_cases(name, plot)
         for grid in grids.values():
             for name, grid_plot in grid.plots.items():
                 figures.setdefault((grid.name, name), grid.entry_of(name, grid_plot))
         return figures
+
+    def _entry_of_cases(self, name: str, plot: CasePlot) -> FigureEntry:
+        """A figure of named cases, whose caption states their parameters."""
+        parameters = [self.specs[case].parameters for case in plot.cases]
+        values = "; ".join(dict.fromkeys(values_text(dict(p)) for p in parameters))
+        normalizations = {p.normalization for p in parameters}
+        modes = " and ".join(MODES[each] for each in sorted(normalizations))
+        title = plot.title or name
+        caption = plot.caption or f"{title}:"
+        return FigureEntry(
+            plot=plot,
+            inputs={case: case for case in plot.cases},
+            category="Figures",
+            section=plot.section or plot.case,
+            title=title,
+            caption=f"{caption} {values}; everything else as in Table 1; {modes}.",
+        )
 
     @property
     def doubts(self) -> Iterator[str]:
@@ -399,37 +424,38 @@ class Study(Strict):
     ) -> tuple[dict[str, GridStudy], tuple[str, ...]]:
         """All grids, also those that only figures show, and the names of those of this file and the
         files it names."""
-        paths = {
-            path.stem: path for pattern in self.studies for path in _matching(pattern, folders)
-        }
-        grids = {} if self.grid is None else {self.name: self.grid}
+        paths: dict[str, Path] = {}
+        for pattern in self.studies:
+            paths.update((path.stem, path) for path in _matching(pattern, folders))
+        grids = {}
+        if self.grid is not None:
+            grids[self.name] = self.grid
         requested = (*grids, *paths)
-        shown = {
-            name
-            for plot in self.plots.values()
-            for name in (plot.study, *plot.overlays.values())
-            if name
-        }
-        further = [
-            path
-            for name in sorted(shown.difference(requested))
-            for path in _matching(f"{name}.yaml", folders)
-        ]
-        paths |= {path.stem: path for path in further if path.is_file()}
-        grids |= {name: self._grid_of(path) for name, path in paths.items()}
-        unknown = sorted(self.overrides.keys() - grids.keys())
-        faults = [
-            f"overrides.{name}: no such study{suggestion(name, sorted(grids))}" for name in unknown
-        ]
+        for name in sorted(self._shown_studies().difference(requested)):
+            further = _matching(f"{name}.yaml", folders)
+            paths.update((path.stem, path) for path in further if path.is_file())
+        grids.update((name, self._grid_of(path)) for name, path in paths.items())
+
+        faults = []
+        for name in sorted(self.overrides.keys() - grids.keys()):
+            told = suggestion(name, sorted(grids))
+            faults.append(f"overrides.{name}: no such study{told}")
         figures = [(self.name, name, plot) for name, plot in self.plots.items()]
         for name in sorted({*requested} - {self.name}):
             figures += ((name, figure, plot) for figure, plot in grids[name].plots.items())
         for owner, figure, plot in figures:
-            misfits = (fault.inside(("figures", figure)) for fault in _misfits(plot, owner, grids))
-            faults += (f"{owner}: {fault}" for fault in misfits)
+            for fault in _misfits(plot, owner, grids):
+                faults.append(f"{owner}: {fault.inside(('figures', figure))}")
         if faults:
             raise StudyError(*faults, source="grid studies")
         return grids, requested
+
+    def _shown_studies(self) -> set[str]:
+        """Names of the studies that figures name."""
+        shown: set[str] = set()
+        for plot in self.plots.values():
+            shown.update(name for name in (plot.study, *plot.overlays.values()) if name)
+        return shown
 
     def _grid_of(self, path: Path) -> GridStudy:
         """The grid of another file, with the overrides of this one."""
@@ -467,21 +493,24 @@ def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
     paths = [Path(file) for file in files]
     for path in paths:
         read_file(path)  # finds duplicate keys, which the mapping no longer shows
-    return parse_study(
-        config, paths[-1].parent if paths else Path(), ", ".join(map(_shown, paths)) or "study"
-    )
+    folder = paths[-1].parent if paths else Path()
+    source = ", ".join(map(_shown, paths)) or "study"
+    return parse_study(config, folder, source)
 
 
 def _shown(path: Path) -> str:
     """A path as short as it can be in a message."""
-    return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
+    if path.is_relative_to(Path.cwd()):
+        return str(path.relative_to(Path.cwd()))
+    return str(path)
 
 
 def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> Study:
     """The study of the mapping that a file holds, with tables of discs from a folder, if it may
     name any."""
     try:
-        return Study.model_validate(_inherited(raw if folder is None else _with_discs(raw, folder)))
+        content = raw if folder is None else _with_discs(raw, folder)
+        return Study.model_validate(_inherited(content))
     except ParameterError as error:
         # what is wrong in the values for all cases is wrong in each
         faults = [fault for fault in error.faults if fault.path[:1] != ("cases",)] or error.faults
@@ -490,17 +519,24 @@ def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> 
 
 def _inherited(raw: Any) -> Any:
     """The content of a file, in which each case has what it inherits."""
-    content = dict(mapping(raw))
+    if not isinstance(raw, Mapping):
+        return raw
+    content = dict(raw)
     keys = {"base": "parameters", "record": "record", "tol": "tol"}
     shared = {inner: content[key] for key, inner in keys.items() if content.get(key) is not None}
-    if isinstance(cases := content.get("cases"), Mapping):
-        content["cases"] = {
-            name: {"parameters": {}} | inherit(shared, case) if isinstance(case, Mapping) else case
-            for name, case in cases.items()
-        }
+    cases = content.get("cases")
+    if isinstance(cases, Mapping):
+        content["cases"] = {name: _inheriting(shared, case) for name, case in cases.items()}
     if content.get("quantity") is not None:
         content.setdefault("options", {})
-    return content if isinstance(raw, Mapping) else raw
+    return content
+
+
+def _inheriting(shared: Mapping[str, Any], case: Any) -> Any:
+    """The content of a case with what it shares with others."""
+    if not isinstance(case, Mapping):
+        return case
+    return {"parameters": {}, **inherit(shared, case)}
 
 
 def _with_discs(raw: Any, folder: Path) -> Any:
@@ -519,19 +555,14 @@ def _with_discs(raw: Any, folder: Path) -> Any:
             raise ParameterError(*(Fault(path, "", str(fault)) for fault in error.faults)) from None
 
     content = mapping(raw)
-    axes = [
-        mapping(group).get("disc") for group in (content.get("axes"), *_several(content.get("zip")))
-    ]
-    varied = {
-        name: name
-        for axis in axes
-        if isinstance(axis, list)
-        for name in axis
-        if isinstance(name, str)
-    }
-    return read(
-        {**content, "discs": varied | dict(mapping(content.get("discs")))} if varied else raw, ()
-    )
+    varied: dict[str, str] = {}
+    for group in (content.get("axes"), *_several(content.get("zip"))):
+        axis = mapping(group).get("disc")
+        if isinstance(axis, list):
+            varied.update((name, name) for name in axis if isinstance(name, str))
+    if not varied:
+        return read(raw, ())
+    return read({**content, "discs": {**varied, **mapping(content.get("discs"))}}, ())
 
 
 def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
@@ -543,40 +574,48 @@ def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
 
 def _misfits(plot: Plot, owner: str, grids: Mapping[str, GridStudy]) -> list[Fault]:
     """What keeps a figure in the file of a study from showing grids of other files."""
-    named = [
-        (("study",), plot.study or owner),
-        *((("overlays", role), name) for role, name in plot.overlays.items()),
-    ]
+    named: dict[tuple[str, ...], str] = {("study",): plot.study or owner}
+    for role, name in plot.overlays.items():
+        named["overlays", role] = name
     known = sorted(grids)
-    if unknown := [(path, name) for path, name in named if name not in known]:
-        return [
-            Fault.of(path, name, f"no such study{suggestion(name, known)}")
-            for path, name in unknown
-        ]
+    unknown = []
+    for path, name in named.items():
+        if name not in grids:
+            unknown.append(Fault.of(path, name, f"no such study{suggestion(name, known)}"))
+    if unknown:
+        return unknown
+
     study = grids[plot.study or owner]
-    faults = [] if plot.study in ("", owner) else [*study.faults_of(plot)]
+    faults: list[Fault] = []
+    if plot.study not in ("", owner):
+        faults += study.faults_of(plot)
     for role in plot.overlays.keys() & plot.roles.keys():
-        wanted, other = plot.roles[role], grids[plot.overlays[role]]
-        needs = {*(plot.dims if wanted.dims is None else wanted.dims)}
-        norms, same = (
-            {str(x) for (x,) in grid.values.get(NORM, [(grid.base.get(NORM),)])}
-            for grid in (study, other)
-        )
-        options = {name: getattr(other.options, name, None) for name in wanted.options}
-        rules = {
-            f"must be a study of the quantity {wanted.quantity}": other.quantity != wanted.quantity,
-            f"must have the options {wanted.options}": options != wanted.options,
-            f"must vary {', '.join(sorted(needs)) or 'nothing'} beside {NORM}": other.values.keys()
-            - {NORM}
-            != needs,
-            f"must be computed for the same {NORM}": not norms <= same,
-        }
-        faults += [
-            Fault.of(("overlays", role), other.name, rule)
-            for rule, broken in rules.items()
-            if broken
-        ][:1]
+        other = grids[plot.overlays[role]]
+        rule = _rule_of_overlay(plot, plot.roles[role], study, other)
+        if rule:
+            faults.append(Fault.of(("overlays", role), other.name, rule))
     return faults
+
+
+def _rule_of_overlay(plot: Plot, wanted: Any, study: GridStudy, other: GridStudy) -> str:
+    """The rule that a study breaks as an overlay of a figure of another one, or ""."""
+    needs = set(plot.dims if wanted.dims is None else wanted.dims)
+    options = {name: getattr(other.options, name, None) for name in wanted.options}
+    if other.quantity != wanted.quantity:
+        return f"must be a study of the quantity {wanted.quantity}"
+    if options != wanted.options:
+        return f"must have the options {wanted.options}"
+    if other.values.keys() - {NORM} != needs:
+        return f"must vary {', '.join(sorted(needs)) or 'nothing'} beside {NORM}"
+    if not _normalizations(study) <= _normalizations(other):
+        return f"must be computed for the same {NORM}"
+    return ""
+
+
+def _normalizations(grid: GridStudy) -> set[str]:
+    """The normalisations of the modes in a grid."""
+    values = grid.values.get(NORM, ((grid.base.get(NORM),),))
+    return {str(value) for (value,) in values}
 
 
 # ---- What a finished run says

@@ -42,8 +42,8 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
     those asked."""
     asked: list[Parameters] = []
 
-    def trend(tile: refinement.Tile, index: tuple[int, int]) -> str:
-        return "" if separates(tile.points[index]) else Outcome.QUIET
+    def trend(tile: refinement.Tile, point: refinement.TilePoint) -> str:
+        return "" if separates(point.parameters) else Outcome.QUIET
 
     def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
         asked.append(p)

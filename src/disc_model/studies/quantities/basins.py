@@ -8,6 +8,7 @@ ones unchanged.
 import math
 from collections import Counter
 from collections.abc import Callable, Sequence
+from itertools import chain
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -34,7 +35,9 @@ SMALLEST = (
 )  # fraction of the least separating energy of the sample, below which the bisection gives up
 _ONE_START = "n_starts must be 1 where an energy is 0, since no direction tells them apart"
 Follow = Callable[[float, int, int], OutcomeResult]
-_EACH, _SHARES, _KNOWN = ("energy", "start"), ("energy", "attractor_class"), ("attractor",)
+_EACH = ("energy", "start")
+_SHARES = ("energy", "attractor_class")
+_KNOWN = ("attractor",)
 
 
 def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Variable]:
@@ -134,7 +137,7 @@ class AttractorBasins(Start, Quantity):
         from disc_model.simulation.states import static_start
         from disc_model.stability.attractors import Basins, random_perturbation
 
-        p, energies = point.parameters, list(enumerate(self.energies))
+        p = point.parameters
         start = make_initial_state(p, point.start, self.tol) or static_start(p)
         basins = Basins(p, self.horizon, near=self.attractor_tol, tol=self.tol)
 
@@ -143,83 +146,114 @@ class AttractorBasins(Start, Quantity):
             energy."""
             return basins.follow(random_perturbation(p, start, energy, (self.seed, j, i)))
 
-        by_start = [[follow(x, i, j) for j, x in energies] for i in range(self.n_starts)]
+        # the first starts of all energies come first
+        by_start = []
+        for i in range(self.n_starts):
+            by_start.append([follow(x, i, j) for j, x in enumerate(self.energies)])
         results = list(zip(*by_start, strict=True))
-        rows = [reached for row in results for reached in row]
-        starts = Counter(reached.attractor for reached in rows if reached.attractor is not None)
+        every = list(chain.from_iterable(results))
+
+        starts = Counter(reached.attractor for reached in every if reached.attractor is not None)
         # by decreasing number of starts; of equal numbers the one reached first comes first
         attractors = starts.most_common()
-        numbers = {attractor: i for i, (attractor, _) in enumerate([(None, 0), *attractors])}
-        failed = [reached for reached in rows if reached.outcome is None]
-        values: dict[str, Any] = {
-            "status": failed[0].status if len(failed) == len(rows) else "ok",
-            "kind": [[reached.word for reached in row] for row in results],
-            "attractor_index": [[numbers[reached.attractor] for reached in row] for row in results],
-            "simulated_time": [[reached.simulated for reached in row] for row in results],
-            "lost_contact": [
-                ["no" if math.isnan(each.first_separation) else "yes" for each in row]
-                for row in results
-            ],
-        }
-        values |= _shares("basin_fraction_by_energy", results, self.confidence)
-        values |= {
-            name: part
-            for name, (part,) in _shares("basin_fraction", [rows], self.confidence).items()
-        }
-        shown = share(
-            sum(reached.separates for reached in rows), len(rows), confidence=self.confidence
-        )
-        values |= quantity.with_ends("separating_fraction", shown)
-        described: list[dict[str, Any]] = []
-        for attractor, count in attractors:
-            facts = {
-                name: getattr(attractor, name)
-                for name in ("kind", "releases", "period", "growth_rate")
-            }
-            facts |= {name: getattr(attractor.segment, name) for name in SHOWN} | {"starts": count}
-            described.append({f"attractor_{name}": value for name, value in facts.items()})
-        values |= self._critical_energy(results, follow) | listed(described)
-        return (
-            values,
-            f"{len(failed)} of {len(rows)} starts failed, such as {failed[0].message}"
-            if failed
-            else "",
-        )
+        failed = [reached for reached in every if reached.outcome is None]
+        values: dict[str, Any] = {"status": "ok"}
+        if len(failed) == len(every):
+            values["status"] = failed[0].status
+        values.update(_columns_of_starts(results, attractors))
+        values.update(self._fractions(results, every))
+        values.update(self._critical_energy(results, follow))
+        values.update(listed([_described(each, count) for each, count in attractors]))
+        if not failed:
+            return values, ""
+        message = f"{len(failed)} of {len(every)} starts failed, such as {failed[0].message}"
+        return values, message
+
+    def _fractions(
+        self, results: Sequence[Sequence[OutcomeResult]], every: Sequence[OutcomeResult]
+    ) -> dict[str, Any]:
+        """Fractions of the outcomes by energy and of all starts, with confidence intervals."""
+        values = _shares("basin_fraction_by_energy", results, self.confidence)
+        for name, (fractions,) in _shares("basin_fraction", [every], self.confidence).items():
+            values[name] = fractions
+        separating = sum(reached.separates for reached in every)
+        shown = share(separating, len(every), confidence=self.confidence)
+        values.update(quantity.with_ends("separating_fraction", shown))
+        return values
 
     def _critical_energy(
         self, results: Sequence[Sequence[OutcomeResult]], follow: Follow
     ) -> dict[str, float]:
         """Bisect the logarithm of the energy in the directions of the separating starts with the
         lowest energies."""
-        numbered = ((i, j, result) for j, row in enumerate(results) for i, result in enumerate(row))
-        separating = sorted(
-            (self.energies[j], i, j) for i, j, result in numbered if result.separates
-        )
+        separating = []
+        for j, row in enumerate(results):
+            for i, result in enumerate(row):
+                if result.separates:
+                    separating.append((self.energies[j], i, j))
+        separating.sort()
         if not separating:
             return {}
         least = {"critical_energy_sampled": separating[0][0]}
         if separating[0][0] == 0 or not self.n_bisection_directions:
             return least
         if follow(0.0, 0, 0).separates:
-            return least | {"critical_energy": 0.0}
-        ends = [
-            self._bisected(*first, follow) for first in separating[: self.n_bisection_directions]
-        ]
+            return {**least, "critical_energy": 0.0}
+        ends = []
+        for energy, i, j in separating[: self.n_bisection_directions]:
+            ends.append(self._bisected(energy, i, j, follow))
         low, high = min(ends, key=lambda pair: pair[1])
-        return least | {"critical_energy_lower": low, "critical_energy": high}
+        return {**least, "critical_energy_lower": low, "critical_energy": high}
 
     def _bisected(self, first: float, i: int, j: int, follow: Follow) -> tuple[float, float]:
         """Energies without and with lasting separation, closer to each other than the required
         precision."""
-        low, high = first / 4, first
+        low = first / 4
+        high = first
         while follow(low, i, j).separates:
-            low, high = low / 4, low
+            high = low
+            low = low / 4
             if low < SMALLEST * first:
                 return math.nan, high
         while high > low * (1 + self.precision):
             middle = math.sqrt(low * high)
-            low, high = (low, middle) if follow(middle, i, j).separates else (middle, high)
+            if follow(middle, i, j).separates:
+                high = middle
+            else:
+                low = middle
         return low, high
+
+
+def _columns_of_starts(
+    results: Sequence[Sequence[OutcomeResult]], attractors: Sequence[tuple[Any, int]]
+) -> dict[str, Any]:
+    """Columns by energy and start; attractors are numbered from 1 in their order, 0 is none."""
+    numbers: dict[Any, int] = {None: 0}
+    for i, (attractor, _) in enumerate(attractors, start=1):
+        numbers[attractor] = i
+    columns: dict[str, Any] = {
+        "kind": [],
+        "attractor_index": [],
+        "simulated_time": [],
+        "lost_contact": [],
+    }
+    for row in results:
+        kept = [math.isnan(reached.first_separation) for reached in row]
+        columns["kind"].append([reached.word for reached in row])
+        columns["attractor_index"].append([numbers[reached.attractor] for reached in row])
+        columns["simulated_time"].append([reached.simulated for reached in row])
+        columns["lost_contact"].append(["no" if each else "yes" for each in kept])
+    return columns
+
+
+def _described(attractor: Any, count: int) -> dict[str, Any]:
+    """Columns of an attractor that `count` starts reach."""
+    described: dict[str, Any] = {"attractor_starts": count}
+    for name in ("kind", "releases", "period", "growth_rate"):
+        described[f"attractor_{name}"] = getattr(attractor, name)
+    for name in SHOWN:
+        described[f"attractor_{name}"] = getattr(attractor.segment, name)
+    return described
 
 
 def _shares(

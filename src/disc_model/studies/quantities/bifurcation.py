@@ -119,8 +119,10 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     turns = Poincare(start=max(first - 0.25, 0.0) * turn, stop=end, theta=options.theta)
     start = make_initial_state(p, point.start, options.tol)
     run = simulate(p, end, {"turns": turns}, tol=options.tol, initial_state=start)
-    time, taken = run.final_state.time, run.samples["turns"]
-    reached, motion = Arrival(Settling()), Motion(Outcome.UNDECIDED)
+    time = run.final_state.time
+    taken = run.samples["turns"]
+    reached = Arrival(Settling())
+    motion = Motion(Outcome.UNDECIDED)
     if run.status.complete:
         reached = arrival(p, [run])
         motion = _motion_reached(p, reached, run, options.tol)
@@ -134,7 +136,8 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
         "transient_time": options.transient,
         "stick_fraction": run.statistics["time_stick"] / time if time else math.nan,
     }
-    return values, "" if run.status.complete else f"the simulation ended early: {run.status}"
+    message = "" if run.status.complete else f"the simulation ended early: {run.status}"
+    return values, message
 
 
 def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
@@ -145,12 +148,15 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     from disc_model.stability.thresholds import FIRST_LEG
 
     p = point.parameters
-    state, transient = make_initial_state(p, point.start, options.tol), options.transient
-    first, separations = math.nan, 0
+    state = make_initial_state(p, point.start, options.tol)
+    transient = options.transient
+    first = math.nan
+    separations = 0
     legs: list[Result] = []
     while True:
         run = simulate(p, transient, tol=options.tol, initial_state=state)
-        first = run.first_separation if math.isnan(first) else first
+        if math.isnan(first):
+            first = run.first_separation
         separations += int(run.statistics["separations"])
         if not run.status.complete:
             known = {
@@ -160,16 +166,23 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
             }
             return known, f"the simulation ended early: {run.status}"
         legs.append(run)
-        state, reached = run.final_state, arrival(p, legs)
+        state = run.final_state
+        reached = arrival(p, legs)
         if reached.settled or 2 * transient > options.max_transient:
             break
         transient *= 2
-    near, stick = reached.near, shares(run)[0]
+    near = reached.near
+    stick = shares(run)[0]
     if near is not None:  # the attractor is known exactly
         assert near.cycle.state is not None
-        state, stick = near.cycle.state, near.cycle.stick_fraction
+        state = near.cycle.state
+        stick = near.cycle.stick_fraction
     events = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state).events
-    kind = "separation" if (events["kind"] == "separation").any() else "stick_to_slip"
+    kind = "stick_to_slip"
+    phase = "stick"
+    if (events["kind"] == "separation").any():
+        kind = "separation"
+        phase = "separation"
     taken = events[events["kind"] == kind]
     motion = _motion_reached(p, reached, run, options.tol)
     shown = taken.iloc[-options.samples :]
@@ -180,19 +193,18 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
         "u": shown["u"],
     }
     values: dict[str, Any] = {
-        name: column.to_numpy(dtype=float) for name, column in columns.items()
-    }
-    values |= _answer(reached.settling, motion)
-    values |= {
+        **{name: column.to_numpy(dtype=float) for name, column in columns.items()},
+        **_answer(reached.settling, motion),
         "status": "ok",
-        "phase": ["separation" if kind == "separation" else "stick"] * len(shown),
+        "phase": [phase] * len(shown),
         "first_separation": first,
         "separations": separations,
         "stick_fraction": stick,
         "transient_time": transient,
     }
-    message = f"not settled after {transient:g} s: {reached.settling}"
-    return values, "" if reached.settled else message
+    if reached.settled:
+        return values, ""
+    return values, f"not settled after {transient:g} s: {reached.settling}"
 
 
 def _motion_reached(p: Parameters, reached: Arrival, run: Result, tol: float) -> Motion:
@@ -204,16 +216,20 @@ def _motion_reached(p: Parameters, reached: Arrival, run: Result, tol: float) ->
     if reached.calm is not None:
         return Motion(reached.calm)
     if reached.near is None:
-        settled = reached.settled
-        return regularity(p, run.final_state, tol) if settled else Motion(Outcome.UNDECIDED)
+        if not reached.settled:
+            return Motion(Outcome.UNDECIDED)
+        return regularity(p, run.final_state, tol)
     cycle = reached.near.cycle
-    n, kind = cycle.releases, "stick_to_slip"
+    n = cycle.releases
+    kind = "stick_to_slip"
     if cycle.separations:
-        n, kind = cycle.separations, "separation"
+        n = cycle.separations
+        kind = "separation"
     times = run.events["time"][run.events["kind"] == kind]
     intervals = np.diff(times[times > run.final_state.time - FIRST_LEG])
-    residual = closure(intervals, n) if n < len(intervals) else math.nan
-    return Motion(reached.near.kind, n, residual)
+    if n >= len(intervals):
+        return Motion(reached.near.kind, n, math.nan)
+    return Motion(reached.near.kind, n, closure(intervals, n))
 
 
 def _answer(settling: Settling, motion: Motion) -> dict[str, Any]:

@@ -27,7 +27,9 @@ from disc_model.studies.quantity import (
 from disc_model.units import Count, Finite, Positive, Seconds, Tolerance, Unit
 
 _SWEEP = ("direction", "sweep_value")
-_one, _each, _swept = along("branch"), along("branch", "branch_point"), along(*_SWEEP)
+_one = along("branch")
+_each = along("branch", "branch_point")
+_swept = along(*_SWEEP)
 
 
 class Branches(Quantity):
@@ -117,7 +119,9 @@ class Branches(Quantity):
             if column.dims == _SWEEP
         }
         found = _Found(self)
-        lowest = 0 if self.sweep_from is None else int(np.searchsorted(values, self.sweep_from))
+        lowest = 0
+        if self.sweep_from is not None:
+            lowest = int(np.searchsorted(values, self.sweep_from))
         how = self.dwell, self.max_dwell, self.evaluation_time, self.tol, lowest
         for (way, i), result, late, reached in sweep(
             point.parameters, self.parameter, values, *how
@@ -259,18 +263,25 @@ def _range(p: Parameters, state: State, period: float) -> float:
     from disc_model.stability.outcome import final_segment
 
     _, stretch = final_segment(p, state, period, period, 1e-10)
-    return math.nan if stretch is None else stretch.range
+    if stretch is None:
+        return math.nan
+    return stretch.range
 
 
 def _passes(row: dict[str, Any], value: float, period: float, size: float) -> bool:
     """Whether a branch passes a value of the parameter with about this period and this range of the
     slider's height."""
-    x = row["value"]
+    values = row["value"]
     logarithms = np.log([row["period"], row["range"]])
     known = np.log([period, size])
-    for i in np.flatnonzero((x[:-1] - value) * (x[1:] - value) <= 0):
-        share = (value - x[i]) / (x[i + 1] - x[i]) if x[i + 1] != x[i] else 0.0
-        there = logarithms[:, i] + share * (logarithms[:, i + 1] - logarithms[:, i])
+    beyond = values - value
+    for i in np.flatnonzero(beyond[:-1] * beyond[1:] <= 0):
+        width = values[i + 1] - values[i]
+        share = 0.0
+        if width != 0:
+            share = -beyond[i] / width
+        rise = logarithms[:, i + 1] - logarithms[:, i]
+        there = logarithms[:, i] + share * rise
         if np.all(np.abs(there - known) <= SAME):
             return True
     return False

@@ -17,12 +17,20 @@ from pydantic import Field
 
 from disc_model.data.variables import EXCLUDED, CycleStatus, Variable, flag_names
 from disc_model.studies.costs import UnitCosts
-from disc_model.studies.quantities.floquet import CYCLE_STATUSES
-from disc_model.studies.quantity import Coordinate, Dataset, Point, Quantity, along, listed
+from disc_model.studies.quantity import (
+    CYCLE_STATUSES,
+    Coordinate,
+    Dataset,
+    Point,
+    Quantity,
+    along,
+    listed,
+)
 from disc_model.units import Count, CycleTolerance, Positive, Unit
 
 KINDS = ("none", "disc", "slider")
-_each, _crossing = along("mode"), along("crossing")
+_each = along("mode")
+_crossing = along("crossing")
 Array = NDArray[np.float64]
 LINES = ("none", "stick_slip", "rotation")
 EFFECTS = ("none", "no_rise", "mode_rises", "rises", "destabilises", "no_cycle", "unresolved")
@@ -128,29 +136,27 @@ class Campbell(Quantity):
         rows = [row for axis in axes for row in crossings(axis, self)]
         rows.sort(key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
         columns = listed(rows[: self.max_crossings])
-        return {"n_crossings": len(rows)} | {
-            f"crossing_{name}": column for name, column in columns.items()
-        }
+        summary: dict[str, Any] = {"n_crossings": len(rows)}
+        for name, column in columns.items():
+            summary[f"crossing_{name}"] = column
+        return summary
 
 
 def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
     """All crossings over ``Omega``, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to
     that of modes."""
-    growth, leading = (
-        cell["cycle_growth_rate"].transpose("Omega", "mode").values,
-        cell["growth_rate"].values,
-    )
-    speeds, turns = cell["Omega"].values, cell["rotation_frequency"].values
+    growth = cell["cycle_growth_rate"].transpose("Omega", "mode").values
+    leading = cell["growth_rate"].values
+    speeds = cell["Omega"].values
+    turns = cell["rotation_frequency"].values
     releases = cell["stick_slip_frequency"].interpolate_na("Omega").values
     for i, mode in enumerate(cell["mode"].values):
         of_mode = frequency_of(cell.isel(mode=i))
         if not np.isfinite(of_mode).any():
             continue
-        most = (
-            math.floor(2 * np.nanmax(of_mode) / np.nanmin(releases)) + 1
-            if np.isfinite(releases).any()
-            else 0
-        )
+        most = 0
+        if np.isfinite(releases).any():
+            most = math.floor(2 * np.nanmax(of_mode) / np.nanmin(releases)) + 1
         lines = [("stick_slip", half / 2, half / 2 * releases) for half in range(1, most + 1)]
         lines += [
             ("rotation", float(l), l * turns) for l in range(1, int(cell["diameters"].max()) + 1)
@@ -163,11 +169,18 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
                     continue  # the next interval begins there
                 part = before / (before - after)
                 yield {
-                    "Omega": float(speeds[index] + part * (speeds[index + 1] - speeds[index])),
-                    "frequency": float(frequency[index] + part * (frequency[index + 1] - frequency[index])),
-                    "mode": int(mode), "line": line, "multiple": multiple,
+                    "Omega": _between(speeds, index, part),
+                    "frequency": _between(frequency, index, part),
+                    "mode": int(mode),
+                    "line": line,
+                    "multiple": multiple,
                     **effect_of(detuning, int(index), growth, leading, options),
-                }  # fmt: skip
+                }
+
+
+def _between(values: Array, index: Any, part: float) -> float:
+    """The value at a part of the interval that begins at an index."""
+    return float(values[index] + part * (values[index + 1] - values[index]))
 
 
 def frequency_of(mode: Dataset) -> Array:
@@ -178,7 +191,9 @@ def frequency_of(mode: Dataset) -> Array:
     # resembles the conjugate as much, and has 0.5 at most.
     known = np.isfinite(more) & (mode["mac"].values >= 0.75)
     speeds = mode["Omega"].values
-    return sliding + np.interp(speeds, speeds[known], more[known]) if known.any() else sliding
+    if not known.any():
+        return sliding
+    return sliding + np.interp(speeds, speeds[known], more[known])
 
 
 def effect_of(
@@ -193,16 +208,23 @@ def effect_of(
     within = slice(first + 1, last)
     if first < 0 or last >= len(detuning) or last - first - 1 < 3:
         return {"effect": "unresolved"}
-    highest = float(np.nanmax(leading[within])) if np.isfinite(leading[within]).any() else math.nan
+    highest = math.nan
+    if np.isfinite(leading[within]).any():
+        highest = float(np.nanmax(leading[within]))
     if not np.isfinite(leading[first : last + 1]).all():
         return {"effect": "no_cycle", "growth_rate": highest}
     ends = np.array([growth[first], growth[last]])
     rises = growth[within].max(axis=0) - ends.max(axis=0)
     if not np.isfinite(rises).any():
         return {"effect": "unresolved", "growth_rate": highest}
-    mode, rise = int(np.nanargmax(rises)), float(np.nanmax(rises))
-    beside, least = max(leading[first], leading[last]), options.min_rise
-    effect = "rises" if highest - beside >= least else "mode_rises" if rise >= least else "no_rise"
+    mode = int(np.nanargmax(rises))
+    rise = float(np.nanmax(rises))
+    beside = max(leading[first], leading[last])
+    effect = "no_rise"
     if highest > 0 >= beside:
         effect = "destabilises"
+    elif highest - beside >= options.min_rise:
+        effect = "rises"
+    elif rise >= options.min_rise:
+        effect = "mode_rises"
     return {"effect": effect, "growth_rate": highest, "rise": rise, "growing_mode": mode + 1}

@@ -26,7 +26,8 @@ from disc_model.units import Count, Seconds, Speed, Tolerance, Unit
 
 _MULTIPLE = "the scan's step must be a multiple of precision"
 KINDS = ("none", "begins", "ends")
-_each, _crossing = along("horizon"), along("horizon", "crossing_number")
+_each = along("horizon")
+_crossing = along("horizon", "crossing_number")
 
 
 class CriticalSpeed(Quantity):
@@ -97,62 +98,82 @@ class CriticalSpeed(Quantity):
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.outcome import find_outcome
 
-        p, scan = point.parameters, self.scan
+        p = point.parameters
         motions: dict[int, OutcomeResult] = {}
         known: dict[int, float] = {}
 
-        def speed(i: int) -> float:
-            return float(f"{scan.start + i * self.precision:.12g}")
-
         def look(i: int) -> None:
             """Follow the motion from the static start at a speed, up to the longest horizon."""
-            case, longest = p.replace(Omega=speed(i)), self.horizons[-1]
-            result = find_outcome(case, longest, tol=self.tol, early=self.early_end)
+            case = p.replace(Omega=self._speed(i))
+            result = find_outcome(case, self.horizons[-1], tol=self.tol, early=self.early_end)
             # return maps would take megabytes each for a disc of many modes
             motions[i] = replace(result, near=None)
-            none = math.isnan(result.first_separation) and result.status == "ok"
-            known[i] = math.inf if none else result.first_separation
+            known[i] = _first_separation(result)
 
-        scanned = [i * round(self.ratio) for i in range(scan.intervals + 1)]
+        scanned = [i * round(self.ratio) for i in range(self.scan.intervals + 1)]
         for i in scanned:
             look(i)
         for horizon in self.horizons:
             # every interval over which separation within the horizon begins or ends is halved, down
             # to the lattice
-            while wide := [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]:
-                for i in wide:
+            while middles := _middles(known, horizon):
+                for i in middles:
                     look(i)
+
         failed = {i: result for i, result in motions.items() if result.status != "ok"}
         values: dict[str, Any] = {
-            "status": next((result.status for result in failed.values()), "ok")
-        }
-        values["scan_first_separation"] = [motions[i].first_separation for i in scanned]
-        values["scan_status"] = [motions[i].status for i in scanned]
-        values |= {
+            "status": next((result.status for result in failed.values()), "ok"),
+            "scan_first_separation": [motions[i].first_separation for i in scanned],
+            "scan_status": [motions[i].status for i in scanned],
             "simulations": len(motions),
-            "simulated_time": sum(x.simulated for x in motions.values()),
+            "simulated_time": sum(result.simulated for result in motions.values()),
         }
-        values |= quantity.listed([_crossings(known, horizon, speed) for horizon in self.horizons])
-        return values, "; ".join(
-            f"Omega={speed(i):g}: {result.message}" for i, result in failed.items()
-        )
+        crossings = [_crossings(known, horizon, self._speed) for horizon in self.horizons]
+        values.update(quantity.listed(crossings))
+        remarks = [f"Omega={self._speed(i):g}: {each.message}" for i, each in failed.items()]
+        return values, "; ".join(remarks)
+
+    def _speed(self, i: int) -> float:
+        """Speed, rad/s, of a place on the lattice of the precision."""
+        return float(f"{self.scan.start + i * self.precision:.12g}")
+
+
+def _first_separation(result: OutcomeResult) -> float:
+    """Time of the first separation, s: infinite if there is none, nan if that is not known."""
+    if math.isnan(result.first_separation) and result.status == "ok":
+        return math.inf
+    return result.first_separation
+
+
+def _middles(known: dict[int, float], horizon: float) -> list[int]:
+    """Middles of the intervals, wider than the lattice's, over which separation begins or ends."""
+    return [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]
 
 
 def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
     """Pairs of neighbours on the lattice of which only one separates within the horizon; nan,
     unknown, is in none."""
-    pairs = ((a, b) for a, b in pairwise(sorted(known)) if not math.isnan(known[a] + known[b]))
-    return [(a, b) for a, b in pairs if (known[a] <= horizon) != (known[b] <= horizon)]
+    changes = []
+    for a, b in pairwise(sorted(known)):
+        decided = not math.isnan(known[a] + known[b])
+        if decided and (known[a] <= horizon) != (known[b] <= horizon):
+            changes.append((a, b))
+    return changes
 
 
 def _crossings(
     known: dict[int, float], horizon: float, speed: Callable[[int], float]
 ) -> dict[str, Any]:
+    """Columns of the crossings for a horizon, and the critical speed."""
     changes = [b for _, b in _changes(known, horizon)]
     # the lowest speed that separates; an unknown speed hides those above it
     first = next((i for i in sorted(known) if not known[i] > horizon), None)
-    lowest = math.nan if first is None or math.isnan(known[first]) else speed(first)
+    lowest = math.nan
+    if first is not None and not math.isnan(known[first]):
+        lowest = speed(first)
     return {
-        "critical_speed": lowest, "n_crossings": len(changes), "crossing": [speed(b) for b in changes],
+        "critical_speed": lowest,
+        "n_crossings": len(changes),
+        "crossing": [speed(b) for b in changes],
         "crossing_kind": ["begins" if known[b] <= horizon else "ends" for b in changes],
-    }  # fmt: skip
+    }

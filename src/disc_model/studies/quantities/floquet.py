@@ -6,10 +6,8 @@ from typing import Any, ClassVar
 
 from disc_model.data.variables import CycleStatus, Variable
 from disc_model.studies.costs import UnitCosts
-from disc_model.studies.quantity import Point, Quantity, State
+from disc_model.studies.quantity import CYCLE_STATUSES, Point, Quantity, State
 from disc_model.units import CycleTolerance
-
-CYCLE_STATUSES = (*(status.value for status in CycleStatus), "failed")
 
 
 class Floquet(Quantity):

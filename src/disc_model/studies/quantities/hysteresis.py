@@ -77,30 +77,47 @@ class Hysteresis(Quantity):
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.attractors import sweep
 
-        speeds, columns, status, message = self.scan.values, self.COLUMNS.items(), "ok", ""
-        values: dict[str, Any] = {
-            name: column.empty((2, len(speeds))) for name, column in columns if column.dims
-        }
-        times = self.dwell, self.max_dwell, self.evaluation_time
-        for index, result, late, reached in sweep(
-            point.parameters, "Omega", speeds, *times, self.tol
-        ):
+        speeds = self.scan.values
+        status = "ok"
+        message = ""
+        values: dict[str, Any] = {}
+        for name, column in self.COLUMNS.items():
+            if column.dims:
+                values[name] = column.empty((2, len(speeds)))
+        steps = sweep(
+            point.parameters,
+            "Omega",
+            speeds,
+            self.dwell,
+            self.max_dwell,
+            self.evaluation_time,
+            self.tol,
+        )
+        for index, result, late, reached in steps:
             if late is None:
-                status, message = (
-                    result.status.value,
-                    f"Omega={speeds[index[1]]:g}: {result.message}",
-                )
+                status = result.status.value
+                message = f"Omega={speeds[index[1]]:g}: {result.message}"
             values["sweep_status"][index] = STATUSES.index(status)
             values["sweep_settled"][index] = ANSWER.flags.index(reached.settling.answer)
             stretch = asdict(late) if late else {}
             for name in values.keys() & stretch.keys():
                 values[name][index] = stretch[name]
+        values.update(self._edges(values))
+        return {**values, "status": status}, message
+
+    def _edges(self, values: dict[str, Any]) -> dict[str, float]:
+        """Speeds at which separation sets in on the way up, and to which it persists on the way
+        down, as far as they are known."""
+        speeds = self.scan.values
+        edges = {}
         done = values["sweep_status"] == STATUSES.index("ok")
         rising, falling = values["separation_rate"] > 0
         if rising.any():
-            values["onset_speed"] = speeds[rising.argmax()]
+            edges["onset_speed"] = speeds[rising.argmax()]
         if falling[-1]:
             quiet = np.flatnonzero(~falling)
-            if not quiet.size or done[1, quiet[-1]]:
-                values["offset_speed"] = speeds[quiet[-1] + 1 if quiet.size else 0]
-        return values | {"status": status}, message
+            if not quiet.size:
+                edges["offset_speed"] = speeds[0]
+            elif done[1, quiet[-1]]:
+                edges["offset_speed"] = speeds[quiet[-1] + 1]
+        return edges

@@ -80,7 +80,8 @@ class Lyapunov(Start, Quantity):
             "converged": np.where(known, 1 + result.converged, 0), "trivial_exponent": result.trivial_exponent,
             "averaging_time": result.duration, "separations": result.separations,
         }  # fmt: skip
-        return values, "" if result.status.complete else result.status.advice
+        message = "" if result.status.complete else result.status.advice
+        return values, message
 
     def state_at(self, point: Point) -> State:
         from disc_model.simulation.starts import state_after

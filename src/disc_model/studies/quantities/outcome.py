@@ -83,27 +83,34 @@ class HorizonOutcome(Start, Quantity):
         reached, result, late = _late(point, self)
         last = reached if result is None else result
         values: dict[str, Any] = {
-            "status": "ok" if last.status.complete else last.status.value, "outcome": reached.word,
-            "first_separation": reached.first_separation, "time_reached": reached.time,
+            "status": "ok" if last.status.complete else last.status.value,
+            "outcome": reached.word,
+            "first_separation": reached.first_separation,
+            "time_reached": reached.time,
             "cycle_distance": reached.distance,
-        }  # fmt: skip
+        }
         if reached.changes:
             values["return_map_residual"] = reached.changes[-1]
-        t, d = np.array(reached.times[-FEWEST:]), np.array(reached.changes[-FEWEST:])
-        if len(t) == FEWEST and np.all(d > 0):
-            values["return_map_residual_rate"] = float(np.polyfit(t, np.log(d), 1)[0])
+        times = np.array(reached.times[-FEWEST:])
+        changes = np.array(reached.changes[-FEWEST:])
+        if len(times) == FEWEST and np.all(changes > 0):
+            rate, _ = np.polyfit(times, np.log(changes), 1)
+            values["return_map_residual_rate"] = float(rate)
         if reached.outcome is Outcome.SEPARATION and result is not None:
             values["time_reached"] = result.final_state.time
         elif reached.outcome is not None and reached.time < self.horizon:
             values["settling_time"] = reached.time
         if late is not None:
-            values |= asdict(late)
-        return values, "" if last.status.complete else last.message
+            values.update(asdict(late))
+        message = "" if last.status.complete else last.message
+        return values, message
 
     def state_at(self, point: Point) -> State:
         reached, result, _ = _late(point, self)
         last = reached.failed or result
-        state = reached.state if last is None else last.raise_for_status().final_state
+        state = reached.state
+        if last is not None:
+            state = last.raise_for_status().final_state
         assert state is not None
         return state
 
@@ -115,7 +122,8 @@ def _late(
     from disc_model.simulation.starts import make_initial_state
     from disc_model.stability.outcome import final_segment, find_outcome
 
-    p, length = point.parameters, options.evaluation_time
+    p = point.parameters
+    length = options.evaluation_time
     start = make_initial_state(p, point.start, options.tol)
     reached = find_outcome(
         p, options.horizon, tol=options.tol, start=start, early=options.early_end, late=length
@@ -127,9 +135,7 @@ def _late(
     if reached.outcome is None or reached.segment is not None:
         return reached, None, reached.segment
     # a stable cycle is known exactly; elsewhere the motion is steady
-    on = (
-        reached.near.cycle.state
-        if reached.near is not None and reached.near.cycle.stable
-        else reached.state
-    )
+    on = reached.state
+    if reached.near is not None and reached.near.cycle.stable:
+        on = reached.near.cycle.state
     return reached, *final_segment(p, on, length, length, options.tol)

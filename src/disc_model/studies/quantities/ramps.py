@@ -68,13 +68,17 @@ class Ramps(Quantity):
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         rows: list[dict[str, Any]] = []
-        status, message = "ok", ""
+        status = "ok"
+        message = ""
         for rate in self.rates.values:
             run, failed = _run(point.parameters.replace(Omega=self.low), rate, self)
-            rows.append({"rate_status": failed.status.value if failed else "ok", **run})
-            if failed:
-                status, message = failed.status.value, f"rate={rate:g}: {failed.message}"
-        return quantity.listed(rows) | {"status": status}, message
+            row: dict[str, Any] = {"rate_status": "ok", **run}
+            if failed is not None:
+                status = failed.status.value
+                message = f"rate={rate:g}: {failed.message}"
+                row["rate_status"] = status
+            rows.append(row)
+        return {**quantity.listed(rows), "status": status}, message
 
 
 def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], Result | None]:
@@ -83,19 +87,21 @@ def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], 
     from disc_model.engine.record import EVENT_ROW, LOSS_OF_CONTACT
     from disc_model.simulation.api import simulate
 
-    time, kind = EVENT_ROW.index("time"), EVENT_ROW.index("kind")
+    time = EVENT_ROW.index("time")
+    kind = EVENT_ROW.index("kind")
     top = (options.high - options.low) / rate
     down = top + options.dwell
     bottom = down + top
-    ways = (options.high, 0.0, top), (options.low, down, bottom)
-    ramps = tuple(Ramp(parameter="Omega", to=to, start=start, end=end) for to, start, end in ways)
+    ramps = (
+        Ramp(parameter="Omega", to=options.high, start=0.0, end=top),
+        Ramp(parameter="Omega", to=options.low, start=down, end=bottom),
+    )
 
-    def on(state: State | None, until: float, **more: Any) -> Result:
+    def on(state: State | None, until: float, *, events: bool = False) -> Result:
         """Continue the motion to a later time."""
-        how: dict[str, Any] = {"events": False, "tol": options.tol} | more
-        return simulate(p, until, initial_state=state, ramps=ramps, **how)
+        return simulate(p, until, initial_state=state, ramps=ramps, events=events, tol=options.tol)
 
-    run = on(None, top, stop_at="first_separation")
+    run = simulate(p, top, ramps=ramps, events=False, tol=options.tol, stop_at="first_separation")
     values = {"onset_speed": options.low + rate * run.first_separation}
     if run.status.value == "stopped":
         run = on(run.final_state, top)
@@ -104,12 +110,14 @@ def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], 
     if not run.status.complete:
         return values, run
     values["top_separation_rate"] = run.statistics["separations"] / options.dwell
-    last, end = math.nan, bottom + options.dwell
+    last = math.nan
+    end = bottom + options.dwell
     while run.final_state.time < end:
         # events of all of the way would fill hundreds of MB
         run = on(run.final_state, min(run.final_state.time + 100.0, end), events=True)
         lost = run.event_rows[run.event_rows[:, kind] == LOSS_OF_CONTACT, time]
-        last = float(lost[-1]) if lost.size else last
+        if lost.size:
+            last = float(lost[-1])
         if not run.status.complete:
             return values, run
     if last < bottom:

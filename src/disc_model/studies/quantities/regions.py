@@ -90,6 +90,9 @@ class Regions(Quantity):
         self, points: Sequence[Sequence[Made]], sampled: Sequence[tuple[int, int]]
     ) -> list[list[Any]]:
         """Rows and messages of a tile, of which at least the places `sampled` are computed."""
-        from disc_model.studies.refinement import Tile
+        from disc_model.studies.refinement import Tile, TileOptions
 
-        return Tile(points, sampled, self).rows()
+        options = TileOptions(self.horizon, self.tol, self.initial_cell_size)
+        tile = Tile(points, sampled, options)
+        tile.compute()
+        return tile.rows()

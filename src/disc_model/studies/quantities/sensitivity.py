@@ -119,11 +119,11 @@ class Sensitivity(Quantity):
     @classmethod
     def _units(cls, data: Mapping[str, Any]) -> dict[str, Units]:
         raw = data.get("distributions")
-        names = map(str, raw if isinstance(raw, Mapping) else ())
-        of_modes = {name: "rad/s" for name in names if name.startswith("omega_")}
-        return super()._units(data) | {
-            "distributions": {name: Parameters.unit(name) for name in NUMBERS} | of_modes
-        }
+        of_modes = {}
+        if isinstance(raw, Mapping):
+            of_modes = {str(x): "rad/s" for x in raw if str(x).startswith("omega_")}
+        of_numbers = {name: Parameters.unit(name) for name in NUMBERS}
+        return {**super()._units(data), "distributions": {**of_numbers, **of_modes}}
 
     _rules = (
         (lambda o: o.samples & (o.samples - 1) == 0, "samples={0.samples} must be a power of two"),
@@ -174,27 +174,36 @@ class Sensitivity(Quantity):
         path = ("options", "distributions")
         faults: dict[str, Fault] = {}  # the first one of each name
         first = next(grid.points_along(grid.dims))
-        varied = {*grid.varied, *(RATIOS[name][0] for name in grid.varied if name in RATIOS)}
         for point in grid.points_of([*self.distributions, *RELATED]):
             case = Parameters(**case_of({**grid.base, **first, **point}, grid.discs))
             own = _own_values(dict(case))
-            for name, distribution in self.distributions.items():
-                nominal = own.get(name)
-                varies = name in varied or (name not in NUMBERS and "disc" in varied)
-                if name not in NUMBERS and (name not in own or name in DEFAULTS):
-                    rule = f"must be of a parameter that is a number{suggestion(name, NUMBERS)}"
-                elif varies and not distribution.relative:
-                    rule = "must be relative, since it varies along an axis as well"
-                elif distribution.relative and not (is_number(nominal) and nominal):
-                    rule = f"must not be relative to {as_text(nominal)}"
-                else:
-                    continue
-                faults.setdefault(name, Fault((*path, name), "", rule))
-            for fault in () if faults else self._out_of_reach(case, own):
+            for name in self.distributions:
+                rule = self._broken_rule(name, own, grid)
+                if rule:
+                    faults.setdefault(name, Fault((*path, name), "", rule))
+            if faults:
+                continue
+            for fault in self._out_of_reach(case, own):
                 inside = path if fault.path[0] in self.distributions else ("base",)
                 rule = f"{fault.rule}; distributions reach that far"
                 faults.setdefault(fault.path[0], Fault((*inside, *fault.path), fault.value, rule))
         yield from faults.values()
+
+    def _broken_rule(self, name: str, own: Mapping[str, Any], grid: Any) -> str:
+        """The rule that the distribution of a number breaks at a point with these values, or
+        ""."""
+        relative = self.distributions[name].relative
+        nominal = own.get(name)
+        of_a_mode = name not in NUMBERS
+        varied = {*grid.varied, *(RATIOS[ratio][0] for ratio in grid.varied if ratio in RATIOS)}
+        varies = name in varied or (of_a_mode and "disc" in varied)
+        if of_a_mode and (name not in own or name in DEFAULTS):
+            return f"must be of a parameter that is a number{suggestion(name, NUMBERS)}"
+        if varies and not relative:
+            return "must be relative, since it varies along an axis as well"
+        if relative and not (is_number(nominal) and nominal):
+            return f"must not be relative to {as_text(nominal)}"
+        return ""
 
     def _out_of_reach(self, p: Parameters, own: Mapping[str, Any]) -> Iterator[Fault]:
         """Rules broken by an end of a distribution at a point; rules between parameters are tested
@@ -204,57 +213,64 @@ class Sensitivity(Quantity):
             scale = own[name] if distribution.relative else 1.0
             ends[name] = [scale * distribution.low, scale * distribution.high]
         related = [name for name in ends if name in RELATED]
-        for side, corner in product((0, 1), product(*(ends[name] for name in related))):
+        corners = product(*(ends[name] for name in related))
+        for side, corner in product((0, 1), corners):
+            values = {name: pair[side] for name, pair in ends.items()}
+            values.update(zip(related, corner, strict=True))
             try:
-                p.replace(
-                    **{name: pair[side] for name, pair in ends.items()}
-                    | dict(zip(related, corner, strict=True))
-                )
+                p.replace(**values)
             except ParameterError as error:
                 yield from error.faults  # type: ignore[misc]
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        p, names = point.parameters, sorted(self.distributions)
-        own = _own_values(dict(p))
+        names = sorted(self.distributions)
+        own = _own_values(dict(point.parameters))
         block, row = divmod(point.sample, BLOCK)
-        draws = zip(names, unit_draws(self.seed, len(names), block)[row], strict=True)
-        drawn = [
-            quantile(self.distributions[name], float(own[name]), float(draw))
-            for name, draw in draws
-        ]
-        p = p.replace(**dict(zip(names, drawn, strict=True)))
-        cycle, message = tried("cycle", evaluate, p, self.tol)
-        outcome: tuple[Row, str] = {"outcome": "not_simulated"}, ""
+        draws = unit_draws(self.seed, len(names), block)[row]
+        drawn = {}
+        for name, draw in zip(names, draws, strict=True):
+            drawn[name] = quantile(self.distributions[name], float(own[name]), float(draw))
+        p = point.parameters.replace(**drawn)
+
+        cycle, remark = tried("cycle", evaluate, p, self.tol)
+        remarks = [remark]
+        outcome: Row = {"outcome": "not_simulated"}
         if point.sample < self.simulated_samples:
-            outcome = tried("outcome", _followed, p, self)
-        values = {"status": "ok", "parameter_values": np.array(drawn), **cycle, **outcome[0]}
-        return values, "; ".join(dict.fromkeys(filter(None, (message, outcome[1]))))
+            outcome, remark = tried("outcome", _followed, p, self)
+            remarks.append(remark)
+        sampled = np.array(list(drawn.values()))
+        values = {"status": "ok", "parameter_values": sampled, **cycle, **outcome}
+        return values, "; ".join(dict.fromkeys(filter(None, remarks)))
 
     def summarise(self, cell: Dataset) -> dict[str, Any]:
         cell = cell.isel(sample=flag_names(cell["status"]) != EXCLUDED)
         if not cell.sizes["sample"]:
             return {}
-        cycles, outcomes = flag_names(cell["cycle"]), flag_names(cell["outcome"])
-        outcomes = outcomes[outcomes != "not_simulated"]
-        values: dict[str, Any] = {}
-        of_cycles, of_outcomes = (
-            ("unstable", cycles, UNSTABLE),
-            ("separation", outcomes, ("separation",)),
-        )
-        for counted, (name, words, hit) in {"cycles": of_cycles, "outcomes": of_outcomes}.items():
-            known = words[words != FAILED]
-            chance = share(int(np.isin(known, hit).sum()), len(known), len(words) - len(known))
-            values |= {
-                f"n_known_{counted}": len(known),
-                **quantity.with_ends(f"probability_{name}", chance),
-            }
-        return values
+        cycles = flag_names(cell["cycle"])
+        outcomes = flag_names(cell["outcome"])
+        simulated = outcomes[outcomes != "not_simulated"]
+        return {
+            "n_known_cycles": int((cycles != FAILED).sum()),
+            "n_known_outcomes": int((simulated != FAILED).sum()),
+            **quantity.with_ends("probability_unstable", _probability(cycles, UNSTABLE)),
+            **quantity.with_ends(
+                "probability_separation", _probability(simulated, ("separation",))
+            ),
+        }
+
+
+def _probability(words: NDArray[Any], hits: tuple[str, ...]) -> tuple[float, float, float]:
+    """Share of samples with certain words, and its confidence interval, in which failed ones count
+    as either."""
+    known = words[words != FAILED]
+    return share(int(np.isin(known, hits).sum()), len(known), len(words) - len(known))
 
 
 def _own_values(values: Mapping[str, Any]) -> dict[str, Any]:
     """A point's own values of all numbers that can be distributed."""
-    numbers = disc.numbers if isinstance(disc := values.get("disc"), Disc) else {}
-    return DEFAULTS | {**values} | numbers
+    disc = values.get("disc")
+    numbers = disc.numbers if isinstance(disc, Disc) else {}
+    return {**DEFAULTS, **values, **numbers}
 
 
 # ---- Samples
@@ -276,17 +292,15 @@ def quantile(distribution: Distribution, nominal: float, share: float) -> float:
     """Quantile of a parameter's distribution, which may be relative to the point's own value."""
     from scipy.special import ndtr, ndtri
 
-    scale, low, high = (
-        nominal if distribution.relative else 1.0,
-        distribution.low,
-        distribution.high,
-    )
+    scale = nominal if distribution.relative else 1.0
+    low = distribution.low
+    high = distribution.high
     if not isinstance(distribution, TruncatedNormal):
         return float(scale * (low + share * (high - low)))
-    first, last = (ndtr((end - distribution.mean) / distribution.deviation) for end in (low, high))
-    value = distribution.mean + distribution.deviation * float(
-        ndtri(first + share * (last - first))
-    )
+    first = ndtr((low - distribution.mean) / distribution.deviation)
+    last = ndtr((high - distribution.mean) / distribution.deviation)
+    deviations = float(ndtri(first + share * (last - first)))
+    value = distribution.mean + distribution.deviation * deviations
     # rounding must not exceed the ends
     return float(scale * min(max(value, low), high))
 
@@ -298,15 +312,15 @@ def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
     from disc_model.stability.cycle import floquet
 
     cycle = floquet(p, tol=tol)
-    word = cycle.motion if cycle.motion in SAMPLE_CYCLES else FAILED
-    return {
-        "cycle": word,
-        "growth_rate": cycle.growth_rate,
-    }, cycle.message if word == FAILED else ""
+    row: dict[str, Any] = {"cycle": cycle.motion, "growth_rate": cycle.growth_rate}
+    if cycle.motion in SAMPLE_CYCLES:
+        return row, ""
+    return {**row, "cycle": FAILED}, cycle.message
 
 
 def _followed(p: Parameters, options: Sensitivity) -> tuple[Row, str]:
     from disc_model.stability.outcome import find_outcome
 
     result = find_outcome(p, options.horizon, tol=options.motion_tol)
-    return {"outcome": result.word, "first_separation": result.first_separation}, result.message
+    row = {"outcome": result.word, "first_separation": result.first_separation}
+    return row, result.message

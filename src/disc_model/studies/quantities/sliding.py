@@ -11,7 +11,8 @@ from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import STATUS, Coordinate, Free, Point, Quantity, Range, listed
 from disc_model.units import Count, Unit
 
-_ONE, _EACH = ("value",), ("value", "mode")
+_ONE = ("value",)
+_EACH = ("value", "mode")
 
 
 class Sliding(Quantity):
@@ -64,10 +65,12 @@ class Sliding(Quantity):
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.sliding import SlidingStatus, follow_modes
 
-        p, values = point.parameters, self.scan.values
+        p = point.parameters
+        values = self.scan.values
         cases = [self._case_at(p, value) for value in values]
         followed = follow_modes(cases)
-        shape, message = (len(values), self.modes), ""
+        shape = (len(values), self.modes)
+        message = ""
         columns = {
             name: column.empty(shape)
             for name, column in self.COLUMNS.items()
@@ -77,17 +80,21 @@ class Sliding(Quantity):
         for i, (sliding, modes, numbers, mac) in enumerate(followed):
             room = numbers < self.modes
             row = {
-                "frequency": modes.frequency, "mode_growth_rate": modes.growth_rate, "mac": mac,
-                "damping_ratio": modes.damping_ratio, "diameters": modes.diameters,
+                "frequency": modes.frequency,
+                "mode_growth_rate": modes.growth_rate,
+                "mac": mac,
+                "damping_ratio": modes.damping_ratio,
+                "diameters": modes.diameters,
                 "forward_wave_fraction": modes.forward,
-            }  # fmt: skip
+            }
             for name, column in row.items():
                 columns[name][i, numbers[room]] = column[room]
             of_value = {
                 "unstable_modes": sliding.growing.size,
                 "contact_force": sliding.contact_force,
             }
-            rows.append(of_value | {"largest_growth_rate": sliding.growth_rate})
+            of_value["largest_growth_rate"] = sliding.growth_rate
+            rows.append(of_value)
             if sliding.status is not SlidingStatus.OK:
                 message = message or f"{self.parameter}={values[i]:g}: {sliding.message}"
-        return columns | listed(rows) | {"status": "ok"}, message
+        return {**columns, **listed(rows), "status": "ok"}, message

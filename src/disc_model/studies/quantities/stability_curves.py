@@ -26,7 +26,8 @@ if TYPE_CHECKING:
 
 KINDS = ("none", "neutral", "fold")
 SIDES = ("no", "yes")
-_one, _each = along("curve"), along("curve", "curve_point")
+_one = along("curve")
+_each = along("curve", "curve_point")
 
 
 class StabilityCurves(Quantity):
