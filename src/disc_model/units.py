@@ -346,7 +346,7 @@ class _Model(ModelMetaclass):
         own = {
             name
             for base in cls.__mro__
-            if issubclass(base, BaseModel) and base is not BaseModel
+            if base not in BaseModel.__mro__
             for name in vars(base)
         }
         own -= {"model_config", "model_post_init"}
