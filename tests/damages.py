@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 
 import xarray as xr
 
-from disc_model.data.dataset import scalars_dataset
+from disc_model.data.columns import scalars_dataset
 from disc_model.parameters import Parameters
 
 Groups = dict[str, xr.Dataset]

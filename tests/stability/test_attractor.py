@@ -20,14 +20,8 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State, static_start
 from disc_model.stability import attractors
 from disc_model.stability.attractors import Arrival, Basins, random_perturbation
-from disc_model.stability.outcome import (
-    OutcomeResult,
-    Segment,
-    Stage,
-    final_segment,
-    find_outcome,
-    growing,
-)
+from disc_model.stability.outcome import OutcomeResult, Stage, find_outcome, growing
+from disc_model.stability.segments import Segment, final_segment
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)

@@ -13,7 +13,8 @@ import xarray as xr
 from disc_model.analysis.classify import Settled, Settling
 from disc_model.errors import Status
 from disc_model.stability import attractors
-from disc_model.stability.outcome import OutcomeResult, Segment
+from disc_model.stability.outcome import OutcomeResult
+from disc_model.stability.segments import Segment
 from disc_model.studies import run
 from disc_model.studies.merge import merge_batches
 from disc_model.studies.quantity import STATUSES, tried

@@ -138,7 +138,7 @@ class Result(Summarised, RunPictures):
     def __getitem__(self, name: str) -> xr.Dataset:
         """The samples of a window along `time`, with units, by the window's name; raises
         `ParameterError`."""
-        from disc_model.data.dataset import series_dataset
+        from disc_model.data.columns import series_dataset
 
         if not isinstance(name, str) or name not in self.samples:
             raise ParameterError(
@@ -156,7 +156,7 @@ class Result(Summarised, RunPictures):
         """
         import xarray as xr
 
-        from disc_model.data.dataset import scalars_dataset, series_dataset
+        from disc_model.data.columns import scalars_dataset, series_dataset
 
         scalars = scalars_dataset(self.parameters, self.scalars(), self.status.value, self.message)
         if self.ramps:

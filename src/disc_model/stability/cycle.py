@@ -5,8 +5,6 @@ Two multipliers of the full system are left out: 1, along the orbit, and 0, of f
 resets f to 0.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -14,21 +12,14 @@ from functools import cached_property
 
 import numpy as np
 
+from disc_model.arrays import Array, ComplexArray
 from disc_model.data.variables import CycleStatus, values_text
 from disc_model.display import Drawn, Summarised, counted, number_text
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, raise_faults, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.return_map import (
-    ENDS,
-    Array,
-    ComplexArray,
-    Orbit,
-    ReturnMap,
-    case_faults,
-    newton,
-)
+from disc_model.stability.return_map import ENDS, Orbit, ReturnMap, case_faults, newton
 from disc_model.stability.sliding import SteadySliding, steady_sliding
 from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
 
@@ -131,7 +122,7 @@ class FloquetResult(Summarised, Drawn):
         motions = (("stick_slip", self.stable), ("steady_sliding", self.sliding.stable))
         return tuple(name for name, stable in motions if stable)
 
-    def raise_for_status(self) -> FloquetResult:
+    def raise_for_status(self) -> "FloquetResult":
         """Return self if a cycle was found; otherwise raise `CycleError`."""
         if self.status is not CycleStatus.OK:
             raise CycleError(f"{self.message}. {self.status.advice}")

@@ -21,6 +21,7 @@ from pydantic import create_model
 
 from disc_model.data.variables import SCALARS, Variable, flag_names
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
+from disc_model.hashing import canonical_json
 from disc_model.mode_choice import choose_when_run
 from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
 from disc_model.simulation.case import SomeParameters, Start
@@ -30,7 +31,7 @@ from disc_model.studies.merge import merge_batches, merge_cases
 from disc_model.studies.quantity import NUMERICAL, Point
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import POINT, coordinates_of, describe, run_batch, variables_of
-from disc_model.units import Finite, Strict, canonical_json, is_whole
+from disc_model.units import Finite, Strict, is_whole
 
 # ---- Quantities of one case
 

@@ -7,7 +7,7 @@ import xarray as xr
 from disc_model.analysis.classify import Settled, Settling
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
-from disc_model.stability.outcome import Segment
+from disc_model.stability.segments import Segment
 from disc_model.studies.quantities.hysteresis import Hysteresis
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import Point

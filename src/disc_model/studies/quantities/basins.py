@@ -17,9 +17,17 @@ from pydantic import Field
 from disc_model.analysis.classify import share
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
 from disc_model.simulation.case import Start
-from disc_model.studies import quantity
-from disc_model.studies.costs import UnitCosts
-from disc_model.studies.quantity import STATUS, Coordinate, OutcomeResult, Point, Quantity, listed
+from disc_model.studies.quantity import (
+    MOST,
+    STATUS,
+    Coordinate,
+    OutcomeResult,
+    Point,
+    Quantity,
+    UnitCosts,
+    listed,
+    with_ends,
+)
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
@@ -42,7 +50,7 @@ _KNOWN = ("attractor",)
 
 def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Variable]:
     ends = ("", ", lower end of its confidence interval", ", upper end of it")
-    return quantity.with_ends(
+    return with_ends(
         what, (Variable("1", f"share of the starts{that}{end}", dims=dims) for end in ends)
     )
 
@@ -54,7 +62,7 @@ class AttractorBasins(Start, Quantity):
     """tolerance of simulations: error of event times after a second of motion"""
     energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,)
     """energies of the perturbations, ascending; 0 adds nothing"""
-    n_starts: Annotated[Count, Field(ge=1, le=quantity.MOST)] = 1
+    n_starts: Annotated[Count, Field(ge=1, le=MOST)] = 1
     """number of starts at each energy, in random directions"""
     seed: Annotated[Count, Field(ge=0)] = 1
     """whole number that determines the directions"""
@@ -178,7 +186,7 @@ class AttractorBasins(Start, Quantity):
             values[name] = fractions
         separating = sum(reached.separates for reached in every)
         shown = share(separating, len(every), confidence=self.confidence)
-        values.update(quantity.with_ends("separating_fraction", shown))
+        values.update(with_ends("separating_fraction", shown))
         return values
 
     def _critical_energy(
@@ -264,4 +272,4 @@ def _shares(
     for row in results:
         counts = Counter(reached.word for reached in row)
         shares.append([share(counts[word], len(row), confidence=confidence) for word in CLASSES])
-    return quantity.with_ends(name, np.moveaxis(np.array(shares), -1, 0))
+    return with_ends(name, np.moveaxis(np.array(shares), -1, 0))
