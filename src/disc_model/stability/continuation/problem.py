@@ -8,7 +8,6 @@ Unknowns are z = (x / size, q / scales). The map is a `SectionMap`; that of the 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
@@ -267,8 +266,3 @@ class CycleProblem:
 def growth_rate(multiplier: complex, period: float) -> float:
     """Growth rate of a multiplier, 1/s."""
     return math.log(abs(multiplier)) / period if multiplier else -math.inf
-
-
-def values_of(problem: CycleProblem, points: Sequence[CurvePoint]) -> Array:
-    """Values of the free parameters at points, (n_points, n_parameters), SI units."""
-    return np.array([point.z[problem.n :] * problem.scales for point in points])
