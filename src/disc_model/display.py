@@ -14,9 +14,15 @@ if TYPE_CHECKING:
 
 def html_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
     """A table for notebooks."""
-    lines = [("th", head), *(("td", row) for row in rows)]
-    cells = ("".join(f"<{tag}>{escape(str(cell))}</{tag}>" for cell in row) for tag, row in lines)
-    return f"<table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
+    lines = [_html_row("th", head)]
+    lines += [_html_row("td", row) for row in rows]
+    return f"<table>{''.join(lines)}</table>"
+
+
+def _html_row(tag: str, row: Iterable[object]) -> str:
+    """Return a row of a table whose cells have a tag."""
+    cells = [f"<{tag}>{escape(str(cell))}</{tag}>" for cell in row]
+    return f"<tr>{''.join(cells)}</tr>"
 
 
 class Summarised:
@@ -35,12 +41,16 @@ class Summarised:
 
 def number_text(value: float, unit: str = "", digits: int = 6) -> str:
     """A number with its unit; empty if there is none."""
-    return "" if math.isnan(value) else f"{value:.{digits}g} {unit}".strip()
+    if math.isnan(value):
+        return ""
+    return f"{value:.{digits}g} {unit}".strip()
 
 
 def counted(number: int, noun: str) -> str:
     """A number with its noun in the singular or the plural."""
-    return f"{number} {noun}{'' if number == 1 else 's'}"
+    if number == 1:
+        return f"{number} {noun}"
+    return f"{number} {noun}s"
 
 
 def brought(module: str, extra: str) -> Any:

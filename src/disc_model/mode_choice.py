@@ -91,12 +91,14 @@ class ModeChoice(Summarised):
         if self.quantity == FREQUENCIES:
             record["band"] = BAND
         else:
-            values = {
-                ",".join(map(str, size)): x if math.isfinite(x) else None
-                for size, x in self.values.items()
-            }
+            values: dict[str, float | None] = {}
+            for size, value in self.values.items():
+                values[",".join(map(str, size))] = value
+                if not math.isfinite(value):
+                    values[",".join(map(str, size))] = None
             record |= {"quantity": self.quantity, "values": values}
-        return json.dumps(record | {"compared_with": list(self.rich)}, sort_keys=True)
+        record["compared_with"] = list(self.rich)
+        return json.dumps(record, sort_keys=True)
 
 
 class ModeRequest(Strict):
@@ -109,15 +111,16 @@ class ModeRequest(Strict):
     @model_validator(mode="before")
     @classmethod
     def _with_tolerance(cls, values: dict[str, Any]) -> dict[str, Any]:
-        return {
-            "tolerance": CHOSEN_BY.get(str(values.get("quantity")), CHOSEN_BY[FREQUENCIES])
-        } | values
+        tolerance = CHOSEN_BY.get(str(values.get("quantity")), CHOSEN_BY[FREQUENCIES])
+        return {"tolerance": tolerance, **values}
 
     @property
     def given(self) -> dict[str, Any]:
         """The request as `read_asked` reads it; the default quantity is left out."""
-        quantity = {} if self.quantity == FREQUENCIES else {"truncation_quantity": self.quantity}
-        return {"n_diameters": AUTO, "truncation_tolerance": self.tolerance, **quantity}
+        given = {"n_diameters": AUTO, "truncation_tolerance": self.tolerance}
+        if self.quantity != FREQUENCIES:
+            given["truncation_quantity"] = self.quantity
+        return given
 
 
 def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
@@ -169,18 +172,18 @@ def resized(p: Parameters, size: tuple[int, ...]) -> Parameters:
 
 def count_modes(p: Parameters, size: tuple[int, ...]) -> int:
     """Number of real modes of `resized`: pairs count as two."""
-    return (
-        real_modes(*size)
-        if p.disc is None
-        else size[0] + sum(l > 0 for l in p.disc.diameters[: size[0]])
-    )
+    if p.disc is None:
+        return real_modes(*size)
+    return size[0] + sum(l > 0 for l in p.disc.diameters[: size[0]])
 
 
 def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | None]:
     """Parameters of a file, and the request for their modes; their own number is then
     meaningless."""
     rest, request = asked_modes(values)
-    return Parameters.model_validate(rest if request is None else rest | {"n_circles": 0}), request
+    if request is not None:
+        rest["n_circles"] = 0
+    return Parameters.model_validate(rest), request
 
 
 def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], ModeRequest | None]:
@@ -322,11 +325,9 @@ def _change(mine: float, other: float) -> float:
     both."""
     if mine == other:
         return 0.0
-    return (
-        abs(mine / other - 1.0)
-        if math.isfinite(mine) and math.isfinite(other) and other
-        else math.inf
-    )
+    if math.isfinite(mine) and math.isfinite(other) and other:
+        return abs(mine / other - 1.0)
+    return math.inf
 
 
 def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:

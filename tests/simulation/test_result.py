@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Poincare, Ramp, Result, State, Window, simulate
+from disc_model.attached.shown import simulated_again
 from disc_model.data.dataset import MissingFile, UnreadableFile
 from disc_model.data.tables import load_tables, save_tables
-from disc_model.simulation.shown import simulated_again
 from tests.simulation.equal import same
 
 P = Parameters(N=200, Omega=50, n_diameters=1)

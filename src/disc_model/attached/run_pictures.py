@@ -62,7 +62,7 @@ def plot(
     >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot().shape
     (3, 2)
     """
-    from disc_model.simulation.shown import shown_windows
+    from disc_model.attached.shown import shown_windows
 
     pictures = drawings()
     case, names = shown_windows(self, windows)
@@ -94,7 +94,7 @@ def plot_phase_portrait(
     >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot_phase_portrait().get_xlabel()
     'Angle ψ (rad)'
     """
-    from disc_model.simulation.shown import shown_window
+    from disc_model.attached.shown import shown_window
 
     pictures = drawings()
     case, name = shown_window(self, window, "end")
@@ -129,7 +129,7 @@ def plot_spectrum(
     >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 10).plot_spectrum(highest=500).get_xlabel()
     'Frequency (Hz)'
     """
-    from disc_model.simulation.shown import shown_window
+    from disc_model.attached.shown import shown_window
 
     pictures = drawings()
     case, name = shown_window(self, window, "late")
@@ -158,7 +158,7 @@ def plot_poincare(
     >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 10).plot_poincare().shape
     (2,)
     """
-    from disc_model.simulation.shown import simulated_again
+    from disc_model.attached.shown import simulated_again
 
     pictures = drawings()
     case = simulated_again(self, "poincare")
@@ -196,8 +196,8 @@ def animate(
     >>> import disc_model as dm
     >>> film = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1).animate("cycle.gif", frames=2)
     """
+    from disc_model.attached.shown import shown_window, states_between
     from disc_model.errors import require
-    from disc_model.simulation.shown import shown_window, states_between
     from disc_model.units import is_whole
 
     pictures = drawings()

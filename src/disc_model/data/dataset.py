@@ -40,10 +40,12 @@ CONVENTIONS = "CF-1.11"
 def series_dataset(columns: Mapping[str, Any], along: str) -> xr.Dataset:
     """Dataset of columns of numbers: samples along `time`, or events along `event`, as two may have
     the same time."""
-    kinds = {name: SERIES[name].dtype if name in SERIES else float for name in columns}
-    data = {
-        name: (along, np.asarray(x, kinds[name]), attributes(name)) for name, x in columns.items()
-    }
+    data: dict[str, Any] = {}
+    for name, column in columns.items():
+        kind: type = float
+        if name in SERIES:
+            kind = SERIES[name].dtype
+        data[name] = (along, np.asarray(column, kind), attributes(name))
     return xr.Dataset(data).set_coords("time")
 
 
@@ -61,27 +63,40 @@ def scalars_dataset(
         if name in CHOICES:
             value = np.int8(CHOICES[name].index(value))
         data[name] = ((), value, attributes(name))
-    attrs = {"Conventions": CONVENTIONS, "parameters": p.canonical_json, "parameters_key": p.key}
-    return xr.Dataset(data, attrs=attrs | {"status": status, "message": message})
+    attrs = {
+        "Conventions": CONVENTIONS,
+        "parameters": p.canonical_json,
+        "parameters_key": p.key,
+        "status": status,
+        "message": message,
+    }
+    return xr.Dataset(data, attrs=attrs)
 
 
 def _parameter_values(p: Parameters) -> dict[str, Any]:
     """The parameters by name: numbers in place of words where these stand for one, and nan for what
     has no value, or does not count beside another one."""
     values: dict[str, Any] = p.model_dump()
-    values["disc"] = p.disc.model_dump_json() if p.disc else ""  # variables hold no mapping
+    values["disc"] = ""
+    if p.disc is not None:
+        values["disc"] = p.disc.model_dump_json()  # variables hold no mapping
     if p.contact_compliance == RESIDUAL:
         # nan if no modes are left out for it, which has made the case fail
         values["contact_compliance"] = math.nan
         with contextlib.suppress(DiscModelError):
             values["contact_compliance"] = contact_compliance(p)
-    if p.friction_offset == SURFACE:  # nan if it follows from the table of a disc
-        values["friction_offset"] = p.h / 2 if p.disc is None else math.nan
-    unused: tuple[str, ...] = () if p.damping_ratio is None else ("D_star",)
+    if p.friction_offset == SURFACE:
+        values["friction_offset"] = p.h / 2
+        if p.disc is not None:  # it follows from the table
+            values["friction_offset"] = math.nan
+
+    unused = [name for name, value in values.items() if value is None]
     if p.disc is not None:
-        unused = tuple(name for name in PLATE if isinstance(values[name], float))
+        unused += [name for name in PLATE if isinstance(values[name], float)]
+    elif p.damping_ratio is not None:
+        unused.append("D_star")
     values |= dict.fromkeys(unused, math.nan)
-    return {name: math.nan if value is None else value for name, value in values.items()}
+    return values
 
 
 # ---- Trees and files
@@ -173,22 +188,24 @@ def common_provenance(datasets: Sequence[xr.Dataset]) -> dict[str, str]:
     """Attributes that say what made datasets; a value that differs between them becomes the list of
     all, as text."""
     names = ("source_hash", "git_commit", "versions")
-    texts = {
-        name: {str(each.attrs[name]) for each in datasets if name in each.attrs} for name in names
-    }
-    return {
-        name: min(text) if len(text) == 1 else json_attribute(sorted(text))
-        for name, text in texts.items()
-        if text
-    }
+    provenance = {}
+    for name in names:
+        texts = {str(each.attrs[name]) for each in datasets if name in each.attrs}
+        if len(texts) == 1:
+            provenance[name] = min(texts)
+        elif texts:
+            provenance[name] = json_attribute(sorted(texts))
+    return provenance
 
 
 def _encode(variable: xr.Variable) -> dict[str, Any]:
     """Encoding with the checksums of HDF5 (fletcher32), which every reader compares."""
     if variable.dtype.kind in "UO":
         return {"dtype": "S1"}
-    compression = {"zlib": True, "complevel": 1, "shuffle": True, "fletcher32": True}
-    return {"_FillValue": None} | (compression if variable.ndim and variable.size else {})
+    encoding: dict[str, Any] = {"_FillValue": None}
+    if variable.ndim and variable.size:
+        encoding |= {"zlib": True, "complevel": 1, "shuffle": True, "fletcher32": True}
+    return encoding
 
 
 # ---- Several files
@@ -235,21 +252,29 @@ def samples(
     and ``_max``."""
     window = group(case, name)
     if any(str(key).endswith("_min") for key in window) != envelope:
-        instead = (
-            "samples, not as ranges: its window needs"
-            if envelope
-            else "ranges, not as samples: its window has"
-        )
+        instead = "ranges, not as samples: its window has"
+        if envelope:
+            instead = "samples, not as ranges: its window needs"
         raise Missing(f"recorded {name} as {instead} an envelope")
-    if (length := window.sizes["time"]) < at_least:
-        raise Missing(
-            f"has {length} {'bins' if envelope else 'samples'} in {name}, at least {at_least} are needed"
-        )
+    length = window.sizes["time"]
+    if length < at_least:
+        kept = "samples"
+        if envelope:
+            kept = "bins"
+        raise Missing(f"has {length} {kept} in {name}, at least {at_least} are needed")
     return window
 
 
 def markdown_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> list[str]:
     """Lines of a table: its head, the rule below it, and one line for each row; a | within a cell
     is escaped."""
-    cells = [[str(cell).replace("|", r"\|") for cell in row] for row in (head, *rows)]
-    return [f"| {' | '.join(row)} |" for row in (cells[0], ["---"] * len(cells[0]), *cells[1:])]
+    names = [*head]
+    lines = [_table_line(names), _table_line(["---"] * len(names))]
+    lines += [_table_line(row) for row in rows]
+    return lines
+
+
+def _table_line(row: Iterable[object]) -> str:
+    """Return a line of a table in Markdown."""
+    cells = [str(cell).replace("|", r"\|") for cell in row]
+    return f"| {' | '.join(cells)} |"

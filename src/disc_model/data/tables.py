@@ -102,10 +102,9 @@ def load_tables(path: str | Path) -> tuple[str, Tables]:
         raise MissingFile(f"{path}: there is no such file")
     text, tables = _load_mat(file) if file.suffix == ".mat" else _load_netcdf(file)
     try:
-        numbers = {
-            name: {key: np.asarray(x, float).ravel() for key, x in table.items()}
-            for name, table in tables.items()
-        }
+        numbers = {}
+        for name, table in tables.items():
+            numbers[name] = {key: np.asarray(x, float).ravel() for key, x in table.items()}
     except (TypeError, ValueError, RecursionError) as error:
         raise unreadable(path, f"a column must hold numbers: {error}") from error
     return text if isinstance(text, str) else "", numbers

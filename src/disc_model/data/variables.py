@@ -88,16 +88,22 @@ class Variable(NamedTuple):
     @property
     def attributes(self) -> dict[str, Any]:
         """The variable's CF attributes; without ``units`` if they are "", as for words."""
-        flags = {
-            "flag_values": np.arange(len(self.flags), dtype=np.int8),
-            "flag_meanings": " ".join(self.flags),
-        }
-        units = {"units": self.units} if self.units else {}
-        return {**units, "long_name": self.long_name, **(flags if self.flags else {})}
+        attributes: dict[str, Any] = {}
+        if self.units:
+            attributes["units"] = self.units
+        attributes["long_name"] = self.long_name
+        if self.flags:
+            attributes["flag_values"] = np.arange(len(self.flags), dtype=np.int8)
+            attributes["flag_meanings"] = " ".join(self.flags)
+        return attributes
 
     @property
     def dtype(self) -> type[np.generic]:
-        return np.int8 if self.flags else np.int64 if self.whole else np.float64
+        if self.flags:
+            return np.int8
+        if self.whole:
+            return np.int64
+        return np.float64
 
     @property
     def missing(self) -> float:
@@ -105,7 +111,9 @@ class Variable(NamedTuple):
         counts, else nan."""
         if "failed" in self.flags:
             return self.flags.index("failed")
-        return 0 if self.flags or self.whole else math.nan
+        if self.flags or self.whole:
+            return 0
+        return math.nan
 
     def empty(self, shape: Sequence[int]) -> NDArray[Any]:
         """An array filled with `missing`."""
@@ -206,10 +214,8 @@ class Shown(NamedTuple):
 
 # numeric parameters, their ratios, perturbations, and sampled variables
 SHOWN = {name: Shown(*entry) for name, entry in _TABLES["shown"].items()}
-SHOWN |= {
-    name: Shown("Ratio", "/".join(SHOWN[part].symbol for part in pair), "")
-    for name, pair in RATIOS.items()
-}
+for _name, (_upper, _lower) in RATIOS.items():
+    SHOWN[_name] = Shown("Ratio", f"{SHOWN[_upper].symbol}/{SHOWN[_lower].symbol}", "")
 _OF_A_MODE = {"omega": ("ω", "rad/s"), "amplitude": ("Ψ", "kg^-1/2"), "damping_ratio": ("ζ", "")}
 
 

@@ -173,11 +173,10 @@ DISC_RULES: dict[str, Callable[[Disc], str]] = {
     "amplitudes of the disc": _modal_mass,
 }
 
+_MEASURED = ("D_star", "k", "k_p", "E", "m", "mu_s", "mu_k", "a", "b", "r_0", "h", "nu", "rho")
 # what each rule says of a case, "" if that is plausible
 RULES: dict[str, Callable[[Parameters], str]] = {
-    name: partial(_far, name, DEFAULTS[name])
-    for name in ("D_star", "k", "k_p", "E", "m", "mu_s", "mu_k", "a", "b", "r_0", "h", "nu", "rho")
-} | {
+    **{name: partial(_far, name, DEFAULTS[name]) for name in _MEASURED},
     "thickness": _thick,
     "modes and damping": _unstated,
     **{kind: partial(_of_disc, doubt) for kind, doubt in DISC_RULES.items()},

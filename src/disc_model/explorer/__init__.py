@@ -16,7 +16,7 @@ import jinja2
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
-from matplotlib.colors import to_hex
+from matplotlib.colors import Colormap, to_hex
 from numpy.typing import NDArray
 from PIL import Image, ImageOps
 
@@ -41,8 +41,10 @@ def study_contents(
     text on these."""
     numbers = {str(name): x for name, x in study.coords.items() if x.dtype.kind == "f"}
     endless = [name for name, x in numbers.items() if np.isinf(x.values).any()]
-    study = _in_words(study.transpose(*study.sizes), endless)
-    motions = None if motions is None else _in_words(motions, endless)
+    study = _as_texts(study.transpose(*study.sizes), endless)
+    shown_motions = None
+    if motions is not None:
+        shown_motions = motion_contents(_as_texts(motions, endless), text)
     base = json.loads(study.attrs.get("base", "{}"))
     drawn = [x for x in study.data_vars.values() if x.ndim and x.dtype.kind in "biuf"]
     return {
@@ -52,7 +54,7 @@ def study_contents(
         "dims": [_dimension(study, str(dim)) for dim in study.sizes],
         "variables": [_variable(variable) for variable in drawn],
         "messages": _messages(study),
-        "motions": None if motions is None else motion_contents(motions, text),
+        "motions": shown_motions,
     }
 
 
@@ -70,7 +72,7 @@ def _messages(study: xr.Dataset) -> dict[str, Any] | None:
     return {"dims": [*messages.dims], "words": words.tolist(), "data": packed(indices, "<u4")}
 
 
-def _in_words(dataset: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
+def _as_texts(dataset: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
     """A dataset with some of its coordinates as texts, because JSON has no infinity."""
     texts = {}
     for name in names:
@@ -191,7 +193,9 @@ def _place(names: Iterable[str], values: Sequence[Any]) -> str:
     """A value along each dimension of a zip, in words."""
     texts = []
     for name, value in zip(names, values, strict=True):
-        text = value if isinstance(value, str) else f"{value:g}"
+        text = value
+        if not isinstance(value, str):
+            text = f"{value:g}"
         texts.append(f"{name} = {text}")
     return ", ".join(texts)
 
@@ -241,13 +245,9 @@ class Picture(NamedTuple):
 
 def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Picture]) -> str:
     """The whole page, for studies as from `study_contents`, and pictures grouped by heading."""
-    maps = {"sequential": cm.batlow, "diverging": cm.vik}
     contents = {
         "studies": studies,
-        "maps": {
-            kind: [to_hex(colour) for colour in colours(range(256))]
-            for kind, colours in maps.items()
-        },
+        "maps": {"sequential": _colours(cm.batlow), "diverging": _colours(cm.vik)},
         "phases": PHASE_COLOURS,
         "parameters": [*Parameters.model_fields, *RATIOS],
     }
@@ -267,6 +267,11 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         ),  # so that none of them ends the enclosing HTML element
         script="\n".join(['"use strict";', *(_part(f"{name}.js") for name in SCRIPTS)]),
     )
+
+
+def _colours(scale: Colormap) -> list[str]:
+    """Return the colours of a scale as texts, in equal steps."""
+    return [to_hex(colour) for colour in scale(range(256))]
 
 
 def embedded(file: Path) -> str:

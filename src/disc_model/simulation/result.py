@@ -162,16 +162,18 @@ class Result(Summarised, RunPictures):
         if self.ramps:
             scalars.attrs["ramps"] = json.dumps([ramp.model_dump() for ramp in self.ramps])
         groups = {"/": scalars, "events": series_dataset(self._event_columns, "event")}
-        return xr.DataTree.from_dict(groups | {name: self[name] for name in self.samples})
+        for name in self.samples:
+            groups[name] = self[name]
+        return xr.DataTree.from_dict(groups)
 
     def scalars(self) -> dict[str, float]:
         """Values of `disc_model.data.variables.SCALARS`, but for the status."""
         values = {name: self.statistics[name] for name in SCALARS if name in self.statistics}
         values |= {name: self.statistics[key] for name, key in COUNTS.items()}
-        values |= {
-            name: getattr(self, name) for name in ("first_separation", "t_end", "tol", "u_0")
-        }
-        return values | {"time_reached": self.final_state.time}
+        for name in ("first_separation", "t_end", "tol", "u_0"):
+            values[name] = getattr(self, name)
+        values["time_reached"] = self.final_state.time
+        return values
 
     def save(self, path: str | Path) -> None:
         """Write the whole result, in one piece; `Result.load` reads it back.
@@ -353,7 +355,8 @@ def _stored_result(header: Header, columns: dict[str, dict[str, Array]]) -> Resu
     for name, words in (("kind", EVENT_KINDS), ("phase", PHASES)):
         known = np.isin(events[name], range(len(words))).all()
         require((known, f"events.{name}", events[name], "must be numbers of their words"))
-    statistics = dict(header.statistics) | {"wall_time": math.nan}
+    statistics = dict(header.statistics)
+    statistics["wall_time"] = math.nan
     return Result(
         parameters=header.parameters,
         windows={name: windows[name] for name in tables},

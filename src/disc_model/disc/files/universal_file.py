@@ -137,7 +137,9 @@ def _disc_of(groups: Sequence[Sequence[Wave]], tangential: bool) -> Disc:
         numbers["tangential"] = _means(groups, "tangential")
     radii = _common_radii(groups)
     if len(radii) > 1:
-        chosen = [[_at(wave, radii) for wave in group] for group in groups]
+        chosen = []
+        for group in groups:
+            chosen.append([_at(wave, radii) for wave in group])
         numbers["radii"] = radii
         numbers["shapes"] = _means(chosen, "shape")
     return Disc(
