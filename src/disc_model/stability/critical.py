@@ -12,10 +12,10 @@ from disc_model.data.variables import STABLE_CYCLES
 from disc_model.display import Drawn, counted, html_table
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import raise_faults, violations
-from disc_model.parameters import Parameters, Quantity
+from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.stability.continuation import free_faults, interval_in_si, spectrum
 from disc_model.stability.cycle import FloquetResult, find_cycle
-from disc_model.stability.return_map import Array, ComplexArray, case_faults
+from disc_model.stability.return_map import Array, ComplexArray
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
 MOST_POINTS = 100_000  # largest number of values: an hour of work
@@ -149,7 +149,7 @@ def critical(
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
         (good, "precision", precision, "must be a number > 0"),
     )
-    raise_faults(case_faults(p, "critical") or wrong + free_faults(p, [name]))
+    raise_faults(foreign_case(p) or wrong + free_faults(p, [name]))
     low, high = ends
     values = np.linspace(low, high, points).tolist()
     for value in values:
