@@ -5,7 +5,6 @@ The first starts of all energies come first, then all second ones: further start
 ones unchanged.
 """
 
-import math
 from collections import Counter
 from collections.abc import Callable, Sequence
 from itertools import chain
@@ -226,9 +225,9 @@ class AttractorBasins(Start, Quantity):
             high = low
             low = low / 4
             if low < SMALLEST * first:
-                return math.nan, high
+                return np.nan, high
         while high > low * (1 + self.precision):
-            middle = math.sqrt(low * high)
+            middle = float(np.sqrt(low * high))
             if follow(middle, i, j).separates:
                 high = middle
             else:
@@ -250,7 +249,7 @@ def _columns_of_starts(
         "lost_contact": [],
     }
     for row in results:
-        kept = [math.isnan(reached.first_separation) for reached in row]
+        kept = [np.isnan(reached.first_separation) for reached in row]
         columns["kind"].append([reached.word for reached in row])
         columns["attractor_index"].append([numbers[reached.attractor] for reached in row])
         columns["simulated_time"].append([reached.simulated for reached in row])
