@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from disc_model import errors
 from disc_model.attachable import RunPictures
+from disc_model.data.files import unreadable
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, values_text
 from disc_model.display import Summarised, counted, number_text
 from disc_model.engine import record
@@ -241,7 +242,6 @@ class Result(Summarised, RunPictures):
             If there is no such file.
         """
         from disc_model.data import tables
-        from disc_model.data.files import unreadable
 
         text, columns = tables.load_tables(path)
         whole = text and {"events", "final_state"} <= columns.keys()

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from pydantic import Field
 
 from disc_model.arrays import Array
+from disc_model.data.files import unreadable
 from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import (
@@ -185,7 +186,6 @@ class State:
             If there is no such file.
         """
         from disc_model.data import tables
-        from disc_model.data.files import unreadable
 
         text, found = tables.load_tables(path)
         holds_state = text and [*found] == ["state"]

@@ -10,6 +10,7 @@ from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIE
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Start
+from disc_model.stability.thresholds import FIRST_LEG
 from disc_model.studies.quantity import (
     MOST,
     STATUS,
@@ -144,7 +145,6 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     from disc_model.simulation.starts import make_initial_state
     from disc_model.stability.attractors import arrival
     from disc_model.stability.segments import shares
-    from disc_model.stability.thresholds import FIRST_LEG
 
     p = point.parameters
     state = make_initial_state(p, point.start, options.tol)
@@ -210,7 +210,6 @@ def _motion_reached(p: Parameters, reached: Arrival, run: Result, tol: float) ->
     """What a motion has come to at the end of a run: by the proof of its arrival, or else by its
     regularity if the record shows that it has settled."""
     from disc_model.stability.attractors import regularity
-    from disc_model.stability.thresholds import FIRST_LEG
 
     if reached.calm is not None:
         return Motion(reached.calm)
