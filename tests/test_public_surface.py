@@ -160,6 +160,8 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (dm.Ramp, {"parameter": "N", "to": 1.0, "start": 0.0, "end": 2.0}, {}),
     (RUN.value_at, {"name": "N", "times": 0.0}, {"times": "negative matrix nothing"}),
     (RUN.save, {}, {}),
+    (RUN.to_csv, {}, {"path": "text"}),
+    (dm.save, {"data": GRID, "path": "x.nc"}, {}),
     *(
         (function, {}, {"path": "text"})
         for function in (RUN.final_state.save, dm.State.load, dm.load, dm.Result.load)

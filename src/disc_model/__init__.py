@@ -19,7 +19,7 @@ import disc_model.attached
 __version__ = "0.3.0"
 
 _NAMES = {
-    "data.dataset": "load",
+    "data.exchange": "load save",
     "disc.flexibility": "residual_flexibility",
     "disc.plate": "plate_modes coupled_natural_frequencies",
     "disc.plausibility": "ImplausibleValue",
@@ -49,7 +49,7 @@ _HOMES = {name: module for module, names in _NAMES.items() for name in names.spl
 __all__ = [*_HOMES, "__version__"]
 
 if TYPE_CHECKING:
-    from disc_model.data.dataset import load
+    from disc_model.data.exchange import load, save
     from disc_model.disc.flexibility import residual_flexibility
     from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
     from disc_model.disc.plausibility import ImplausibleValue

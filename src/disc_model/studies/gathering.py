@@ -46,11 +46,12 @@ def _of_class(name: str) -> dict[str, dict[str, Any]]:
     of_cycle = quantity_of("floquet").COLUMNS
     columns: Mapping[str, Variable] = {}
     if name == "FloquetResult":
-        counted = {
+        others = {
+            "tol": Variable("1", "relative error with which the cycle returns to its start"),
             "releases": Variable("1", "number of stick releases in its period"),
             "separations": Variable("1", "number of separations in its period"),
         }
-        columns = {**of_cycle, **counted}
+        columns = {**of_cycle, **others}
     elif name == "SteadySliding":
         columns = {
             "growth_rate": of_cycle["sliding_growth_rate"],
