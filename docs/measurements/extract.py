@@ -32,7 +32,7 @@ BANDS = {
     "4": (2820.0, 2880.0),
     "5": (4200.0, 4310.0),
     "not planned, 2069 Hz": (2040.0, 2100.0),
-    "not planned, 3506 Hz": (3450.0, 3560.0),
+    "not planned, 3494 Hz": (3450.0, 3560.0),
 }
 """Bands of the wheel's peaks, Hz: planned ones by numbers of nodal diameters, and the two weaker peaks
 of the summed responses that the plan left out."""
