@@ -97,10 +97,8 @@ def _difference(found: np.ndarray, expected: np.ndarray) -> float:
     known = np.isfinite(expected)
     if not np.array_equal(found[~known], expected[~known], equal_nan=True):
         return np.inf
-    apart, size = (
-        np.abs(found - expected)[known].max(initial=0.0),
-        np.abs(expected[known]).max(initial=0.0),
-    )
+    apart = np.abs(found - expected)[known].max(initial=0.0)
+    size = np.abs(expected[known]).max(initial=0.0)
     return float(apart / size) if size else float("inf" if apart else 0.0)
 
 

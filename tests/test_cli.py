@@ -141,7 +141,8 @@ def test_sliding_prints_the_modes_in_the_slider_s_frame(command: Command) -> Non
 def test_a_run_is_drawn_and_saved_and_one_that_does_not_end_is_told(
     command: Command, tmp_path: Path
 ) -> None:
-    picture, file = str(tmp_path / "run.png"), str(tmp_path / "run.nc")
+    picture = str(tmp_path / "run.png")
+    file = str(tmp_path / "run.nc")
     out = command.out(*SHORT, "--plot", picture, "--save", file)
     assert f"saved               {file}\nfigure              {picture}\n" in out
     assert Path(picture).read_bytes().startswith(b"\x89PNG")

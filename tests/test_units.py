@@ -127,7 +127,8 @@ def test_units_of_other_libraries_count() -> None:
 
 def test_arguments_of_functions_are_such_numbers_too() -> None:
     """With float32 the check of a number ended in an OverflowError, and numpy dropped units."""
-    p, ms = Parameters(N=200, Omega=20), UNITS.Quantity([1.0, 2.0], "ms")
+    p = Parameters(N=200, Omega=20)
+    ms = UNITS.Quantity([1.0, 2.0], "ms")
     for time in (np.float32(0.25), np.array(0.25), UNITS.Quantity(250, "ms"), "250 ms"):
         assert simulate(p, time, tol=np.float16(1e-6)).t_end == 0.25
     states = snapshots(p, ms)

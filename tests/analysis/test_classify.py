@@ -107,7 +107,8 @@ def test_zero_one_test_on_the_logistic_map(r: float, expected: float) -> None:
     ],
 )
 def test_where_a_sine_loses_contact(angle: float, share_of_range: float) -> None:
-    f, rate = 100.0, 100_000.0
+    f = 100.0
+    rate = 100_000.0
     time = np.arange(0, 0.2, 1 / rate)
     starts = np.round((np.arange(2, 17) + angle / (2 * np.pi)) / f * rate).astype(int)
     found = separation_location(3e-3 * np.sin(2 * np.pi * f * time), starts)
@@ -120,10 +121,8 @@ def test_where_a_sine_loses_contact(angle: float, share_of_range: float) -> None
 def test_a_share_has_wilsons_interval() -> None:
     z = stats.norm.ppf(0.95)  # two-sided, 0.9
     for k, n in ((9, 40), (1, 3), (0, 7), (7, 7)):
-        centre, half = (
-            (k + z**2 / 2) / (n + z**2),
-            z / (n + z**2) * np.sqrt(k * (n - k) / n + z**2 / 4),
-        )
+        centre = (k + z**2 / 2) / (n + z**2)
+        half = z / (n + z**2) * np.sqrt(k * (n - k) / n + z**2 / 4)
         # the ends at 0 and 1 cancel to roundings here
         expected = pytest.approx((k / n, centre - half, centre + half), rel=1e-12, abs=1e-15)
         assert share(k, n, confidence=0.9) == expected
@@ -171,7 +170,8 @@ def test_what_settled_means(values: np.ndarray, answer: Settled) -> None:
 def test_a_decay_is_not_seen_in_a_record_that_is_much_shorter() -> None:
     """At 200 N the motion decays at 0.009/s; two segments of 1.5 s were alike, and it was called
     steady."""
-    decay, short = BEAT * np.exp(-0.009 * TIME), TIME < 3
+    decay = BEAT * np.exp(-0.009 * TIME)
+    short = TIME < 3
     assert settling(TIME[short], decay[short]).answer is Settled.UNDECIDED
     found = settling(TIME[TIME < 100], decay[TIME < 100])
     assert (found.answer, found.rate) == (
@@ -245,7 +245,8 @@ def test_a_section_has_as_many_points_as_its_motion_shows(
 
 
 def test_a_decaying_transient_does_not_lie_on_the_curve_on_which_it_ends() -> None:
-    curve, turns = around(0.618034, 3000), np.arange(3000)
+    curve = around(0.618034, 3000)
+    turns = np.arange(3000)
     spiral = (1 + 0.5 * np.exp(-turns / 100))[:, None] * curve
     # 0.5 exp(-t) falls to the tolerance between 0.01 of the curve's width and 0.01 of its radius, two and one
     assert (

@@ -8,7 +8,8 @@ from disc_model.parameters import Parameters
 
 RATE = 4000.0
 TIME = 3.0 + np.arange(40_000) / RATE
-F_S, F_DRIVE = 67.63, 2.4032
+F_S = 67.63
+F_DRIVE = 2.4032
 KNOWN = {
     F_DRIVE: 1.0,
     F_S - F_DRIVE: 3e-2,
@@ -47,7 +48,8 @@ def test_a_measured_signal_with_gaps_had_lines_elsewhere_or_none(
 
 
 SHORT = np.arange(10_000) / 1000.0
-NEAR, WITHIN = 206.0, 2.0
+NEAR = 206.0
+WITHIN = 2.0
 
 
 def sine(frequency: float, phase: float = 0.0) -> np.ndarray:

@@ -9,7 +9,9 @@ import pytest
 
 import disc_model as dm
 
-DIAMETERS, FREQUENCIES, AMPLITUDES = (1, 0, 2), (551.0, 929.0, 1212.5), (0.556, 0.431, 0.543)
+DIAMETERS = (1, 0, 2)
+FREQUENCIES = (551.0, 929.0, 1212.5)
+AMPLITUDES = (0.556, 0.431, 0.543)
 RATIOS = (0.001, 0.002, 0.0015)
 OMEGA = 2 * np.pi * np.array(FREQUENCIES)
 

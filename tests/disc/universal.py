@@ -159,7 +159,8 @@ class Dialect:
             motion = motion * [0.0, 0.0, 1.0]
         if self.local:
             return motion
-        cosine, sine = np.cos(angle), np.sin(angle)
+        cosine = np.cos(angle)
+        sine = np.sin(angle)
         x = motion[:, 0] * cosine - motion[:, 1] * sine
         y = motion[:, 0] * sine + motion[:, 1] * cosine
         return np.stack([x, y, motion[:, 2]], axis=1) @ self.basis()
@@ -213,9 +214,11 @@ class Dialect:
         else:
             mass = complex(self.scale).real
             motion = motion * np.sqrt(mass) * half.omega**self.order
-            viscous, hysteretic = half.damping_ratio, 0.0
+            viscous = half.damping_ratio
+            hysteretic = 0.0
             if self.hysteretic:
-                viscous, hysteretic = 0.0, 2 * half.damping_ratio
+                viscous = 0.0
+                hysteretic = 2 * half.damping_ratio
             reals = [half.omega / (2 * np.pi), mass * unit_mass * self.stated, viscous, hysteretic]
             kind = 2
         analysis = self.complex or 2

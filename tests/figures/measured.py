@@ -104,7 +104,8 @@ def _along(ax: Axes, i: int) -> Iterator[ArrayLike]:
                 yield path.vertices[:, i]
     for patch in ax.patches:
         if isinstance(patch, Rectangle):
-            start, size = (patch.get_xy()[i], (patch.get_width(), patch.get_height())[i])
+            start = patch.get_xy()[i]
+            size = (patch.get_width(), patch.get_height())[i]
             yield [start, start + size, start + size / 2, size]
 
 

@@ -16,7 +16,8 @@ from disc_model.figures.onsets import branches
 from tests.figures.reading import draw, labels, lines
 from tests.studies.conftest import SCAN, computed, growth_over
 
-SPEEDS, LOADS = np.linspace(12, 15, 10), [100.0, 200, 400]
+SPEEDS = np.linspace(12, 15, 10)
+LOADS = [100.0, 200, 400]
 NEUTRAL = Curve(SPEEDS, np.linspace(300, 100, 10), "neutral")
 FOLD = Curve(SPEEDS, SPEEDS * 20, "fold", "2 f_s = 135.42 Hz")
 PAPER_POINTS = {"paper": (200, 12.6)}

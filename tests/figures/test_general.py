@@ -19,7 +19,8 @@ from tests.figures.reading import draw, labels, lines
 def study() -> xr.Dataset:
     """Three variables over friction, damping and normalization: of both signs, of one, and
     words."""
-    mu_k, c_p = np.array([0.1, 0.2, 0.3]), np.array([0.01, 0.1, 1.0, 10.0])
+    mu_k = np.array([0.1, 0.2, 0.3])
+    c_p = np.array([0.01, 0.1, 1.0, 10.0])
     both = np.subtract.outer(mu_k, 0.2)[:, None, None] * np.ones((1, 4, 2)) + np.arange(2) * 0.01
     both[0, 0, 0] = np.nan
     dims = ("mu_k", "c_p", "normalization")

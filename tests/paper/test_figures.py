@@ -69,7 +69,8 @@ def test_the_composite_has_phases_from_events() -> None:
     case = simulated(True)
     force = drawn("composite", case).axes[2]
     events = case["events"].to_dataset()
-    kinds, times = flag_names(events["kind"]), events["time"].values
+    kinds = flag_names(events["kind"])
+    times = events["time"].values
     begins = times[(kinds == "separation") & (times > 57) & (times < 57.04)]
     ends = times[(kinds == "reattachment") & (times > 57) & (times < 57.04)]
     shown = {1e3 * (time - 57) for time in (*begins, *ends)}
@@ -90,7 +91,8 @@ def test_captions_say_nothing_that_a_legend_finds_out() -> None:
 
 def test_areas_of_the_figure_on_both_scales_have_names() -> None:
     """Two names stood on white, which was a third area."""
-    plot, maps = STUDY.figures["figB2"], evidence.scans()
+    plot = STUDY.figures["figB2"]
+    maps = evidence.scans()
     figure = render(
         plot,
         {"study": xr.DataTree(maps["map_N"]), **{n: xr.DataTree(maps[n]) for n in plot.overlays}},

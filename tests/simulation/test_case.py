@@ -39,7 +39,8 @@ def test_envelopes_are_the_extremes_of_the_samples():
 def test_a_window_has_the_samples_within_it(begin, duration, start, length, until, envelope):
     """Times are in quarters of the interval between samples, 1/64 s: none is rounded, all digits
     are shown."""
-    end, stop = begin + duration + 1, start + length + 1
+    end = begin + duration + 1
+    stop = start + length + 1
     times = {"last": {"last": length + 1}, "stop": {"start": start, "stop": stop}}.get(
         until, {"start": start}
     )
@@ -51,10 +52,8 @@ def test_a_window_has_the_samples_within_it(begin, duration, start, length, unti
             resolved_windows({"w": window}, begin / 64, end / 64)
         return
     resolved = resolved_windows({"w": window}, begin / 64, end / 64)["w"]
-    first, last = (
-        max(begin, end - length - 1) if until == "last" else start,
-        stop if until == "stop" else end,
-    )
+    first = max(begin, end - length - 1) if until == "last" else start
+    last = stop if until == "stop" else end
     assert (resolved.start, resolved.last) == (first / 64, None)
     assert resolved.stop <= last / 64
     if (
@@ -71,7 +70,8 @@ def test_rounding_loses_no_sample(intervals, rate):
 
 
 def test_a_section_has_one_sample_a_turn():
-    p, turn = P.replace(Omega=500), 2 * np.pi / 500
+    p = P.replace(Omega=500)
+    turn = 2 * np.pi / 500
     windows = {"turns": Poincare(start=1.5 * turn, stop=4.1 * turn, theta=2.0)}
     windows |= {
         f"at {theta:g}": Window(start=2 * turn, rate=1 / turn, theta=theta) for theta in (1.0, 2.0)

@@ -172,7 +172,8 @@ def made_up_samples(normalization: str = "orthonormal") -> tuple[xr.Dataset, xr.
         "base": json.dumps({"normalization": normalization}),
         "options": json.dumps({"section": "stroboscopic"}),
     }
-    known, each = {"flag_meanings": "unknown no yes"}, ("N", "exponent_number")
+    known = {"flag_meanings": "unknown no yes"}
+    each = ("N", "exponent_number")
     samples = {
         "phase": (
             ("N", "sample"),

@@ -176,7 +176,8 @@ def test_times_are_said_in_words() -> None:
 
 
 def test_the_machine_s_factor_is_about_the_same_twice() -> None:
-    first, second = machine_factor(), machine_factor()
+    first = machine_factor()
+    second = machine_factor()
     assert 0.05 < first < 50
     assert 0.3 < first / second < 3
 

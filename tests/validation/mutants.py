@@ -229,10 +229,13 @@ class Trials:
     """
 
     def __init__(self, modules: Iterable[str]) -> None:
-        self.modules, self.survivors, self.tried = tuple(modules), list[str](), list[str]()
+        self.modules = tuple(modules)
+        self.survivors = list[str]()
+        self.tried = list[str]()
         self._noticed: defaultdict[str, list[str]] = defaultdict(list)
         self._spent: Counter[str] = Counter()
-        self._until, self._pipe = 0.0, 0
+        self._until = 0.0
+        self._pipe = 0
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """A failure ends the fork; seconds are the processor's, so that other work beside it leaves
@@ -245,7 +248,8 @@ class Trials:
             os._exit(1)
 
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
-        functions, caches = {}, []
+        functions = {}
+        caches = []
         for found in gc.get_objects():
             if isinstance(found, FunctionType) and (found.__module__ or "").startswith(
                 "disc_model."

@@ -62,7 +62,8 @@ def run(p: Parameters, radians: float, tol: float) -> Result:
 
 def check_laws(result: Result, phase: str = "stick") -> None:
     """``phase`` : in which it starts."""
-    p, events = result.parameters, result.events
+    p = result.parameters
+    events = result.events
     assert np.all(np.diff(events.time) >= 0)
     for kind, entered in zip(events.kind, events.phase, strict=True):
         assert (kind, entered) in LEGAL[phase], (phase, kind, entered)
@@ -89,8 +90,11 @@ def check_laws(result: Result, phase: str = "stick") -> None:
 
 def check_paradox(result: Result) -> None:
     """A paradox is one: the denominator of P in slip is not positive."""
-    p, state, modes = result.parameters, result.final_state, plate_modes(result.parameters)
-    psi, diameters = modes.psi.to_numpy(), modes.diameters.to_numpy()
+    p = result.parameters
+    state = result.final_state
+    modes = plate_modes(result.parameters)
+    psi = modes.psi.to_numpy()
+    diameters = modes.diameters.to_numpy()
     free = 1 + p.m * float(psi @ psi)
     slope = float(psi * diameters @ state.b)
     # the direction that could not be entered is not in the state where stick or separation was to
@@ -205,7 +209,8 @@ def test_switches_are_those_of_fixed_steps(what: str) -> None:
     """The paper's method shares no code with the engine; its error falls sixteenfold where steps
     are half as long."""
     p, start = beginning(what)
-    right, errors = simulate(p, 0.01, tol=1e-13, initial_state=start).events, []
+    right = simulate(p, 0.01, tol=1e-13, initial_state=start).events
+    errors = []
     for step in (2e-5, 1e-5):
         found = METHODS["RK4"].solve(Problem(p, start, 0.01), step)
         assert found.kinds == tuple(right.kind)

@@ -132,7 +132,8 @@ def copy_repository(
     first is run."""
     folder.mkdir(exist_ok=True)
     for part in PARTS:
-        source, target = ROOT / part, folder / part
+        source = ROOT / part
+        target = folder / part
         if source.is_symlink():
             target.symlink_to(os.readlink(source))
         elif source.is_dir():

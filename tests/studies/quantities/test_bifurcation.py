@@ -94,7 +94,8 @@ def test_2000_seconds_more_change_nothing_where_the_motion_is_said_to_have_settl
 ) -> None:
     """Ten points of the diagram over preload: 74 of its 201 were transients, which two stretches of
     5 s hid."""
-    p, start = Parameters(N=N, Omega=15.1), Start(prerun=APART)
+    p = Parameters(N=N, Omega=15.1)
+    start = Start(prerun=APART)
     options = Bifurcation(section="event", transient=15, max_transient=1920, samples=200)
     values, _ = options.compute_point(Point(p, start))
     if values["settled"] != "settled":

@@ -136,7 +136,8 @@ def test_on_ramps_at_385_N_onset_comes_late_and_the_end_is_far_below() -> None:
     10."""
     options = {"low": 8, "high": 22, "dwell": 20, "rates": {"start": 0.05, "stop": 0.1, "count": 2}}
     found = compute(Ramps.model_validate(options), [Point(Parameters(N=385, Omega=1))]).arrays
-    onset, end = found["onset_speed"][0], found["offset_speed"][0]
+    onset = found["onset_speed"][0]
+    end = found["offset_speed"][0]
     assert ((onset > 16) & (onset < 20)).all()
     assert onset[0] < onset[1]
     assert ((end > 8.5) & (end < 10)).all()

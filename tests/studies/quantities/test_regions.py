@@ -181,13 +181,16 @@ def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cel
     }
     options = {"horizon": horizon, "initial_cell_size": 4}
     study = computed(quantity="regions", options=options, axes=axes, batch={"over": PLANE})
-    separates, origin = flag_names(study["outcome"]) == "separation", flag_names(study["method"])
+    separates = flag_names(study["outcome"]) == "separation"
+    origin = flag_names(study["method"])
     beside = np.zeros_like(separates)
     for axis in (0, 1):
         differs = np.diff(separates, axis=axis)
         for end in (0, differs.shape[axis]):
             beside |= np.insert(differs, end, False, axis=axis)
-    rng, wrong, drawn = np.random.default_rng(0), [], 0
+    rng = np.random.default_rng(0)
+    wrong = []
+    drawn = 0
     for there in (beside, (origin == "inferred") & ~beside, (origin == "multipliers") & ~beside):
         for i, j in rng.permutation(np.argwhere(there))[:15]:
             p = Parameters(N=study["N"].values[i], Omega=study["Omega"].values[j])
