@@ -36,7 +36,8 @@ def test_periods_are_found_and_named(period: int) -> None:
     """The search used to end at 12 releases; motions of the paper repeat after 45, 180 and 280."""
     intervals = wandering(period, 20)[: max(2 * period + 7, 40)]
     motion = motion_of(intervals + 1e-12 * np.cos(np.arange(intervals.size)))
-    assert (motion.kind, motion.period) == (Outcome.OTHER_CYCLE, period)
+    assert motion.kind == Outcome.OTHER_CYCLE
+    assert motion.period == period
     assert motion.closure < 1e-8
     assert str(motion) == f"periodic, repeats after {period} releases"
 
@@ -57,9 +58,11 @@ def test_the_near_returns_of_a_quasi_periodic_motion_are_no_period(size: float) 
     found = motion_of(intervals)
     assert classify.closure(intervals, 1000) < 1e-2 * size
     if size > 1e-8:
-        assert (found.kind, found.period) == (Outcome.QUASI_PERIODIC, 0)
+        assert found.kind == Outcome.QUASI_PERIODIC
+        assert found.period == 0
     else:  # smaller than what a period has to close to
-        assert (found.kind, found.period) == (Outcome.OTHER_CYCLE, 1)
+        assert found.kind == Outcome.OTHER_CYCLE
+        assert found.period == 1
 
 
 def test_a_slow_approach_to_a_period_is_periodic_only_to_its_tolerance() -> None:
@@ -86,7 +89,8 @@ def test_what_does_not_repeat_is_quasi_periodic_or_irregular(
     varied: np.ndarray, kind: Outcome
 ) -> None:
     motion = motion_of(0.01 + varied)
-    assert (motion.kind, motion.period) == (kind, 0)
+    assert motion.kind == kind
+    assert motion.period == 0
 
 
 @pytest.mark.parametrize(("r", "expected"), [(3.55, 0.0), (3.9, 1.0), (4.0, 1.0)])
@@ -174,10 +178,9 @@ def test_a_decay_is_not_seen_in_a_record_that_is_much_shorter() -> None:
     short = TIME < 3
     assert settling(TIME[short], decay[short]).answer is Settled.UNDECIDED
     found = settling(TIME[TIME < 100], decay[TIME < 100])
-    assert (found.answer, found.rate) == (
-        Settled.CHANGING,
-        pytest.approx(-0.006, rel=0.2),
-    )  # of the greatest width
+    # of the greatest width
+    assert found.answer == Settled.CHANGING
+    assert found.rate == pytest.approx(-0.006, rel=0.2)
 
 
 def test_events_that_become_rarer_are_a_change() -> None:

@@ -26,7 +26,9 @@ def first(coefficients, x_end: float = 1.0, low: int = 0) -> float:
 def from_roots(roots) -> np.ndarray:
     """Coefficients, lowest first, positive at 0."""
     c = np.polynomial.polynomial.polyfromroots(roots)
-    return c if c[0] > 0 else -c
+    if c[0] > 0:
+        return c
+    return -c
 
 
 # ------------------------------------------------------------------------------------ against an

@@ -95,7 +95,10 @@ def about_to(
     )
     if direction and not thrown:
         start.f = 0.03 * direction
-        start.psi = -0.15 if switch == "reversal" else 0.004
+        if switch == "reversal":
+            start.psi = -0.15
+        else:
+            start.psi = 0.004
     start.u_velocity = q.s @ (start.alpha + q.l * start.f * start.b) + (
         0 if q.rigid or flies else thrown
     )
@@ -114,7 +117,10 @@ def about_to(
 
     if pressed is None:
         pressed = 5.0 if "lost" in switch else -100.0 if "tension" in switch else 400.0
-    bent = 0.0 if flies and not q.rigid else solved(lambda x: forces(x)[0] - pressed)
+    if flies and not q.rigid:
+        bent = 0.0
+    else:
+        bent = solved(lambda x: forces(x)[0] - pressed)
     forces(bent)
     if "release" in switch:
         margin(solved(margin))
@@ -274,7 +280,9 @@ def test_when_contact_is_lost(switch: str, pressed: float) -> None:
         rate = saltation.event_times(
             engine.model, engine.state, t, transitions.CONTACT_LOST, at_once
         )
-        wanted = 0 * expected if at_once and pressed else expected
+        wanted = expected
+        if at_once and pressed:
+            wanted = 0 * expected
         np.testing.assert_allclose(-rate * t.tau.reshape(2, 8)[:, :2].ravel(), wanted, rtol=1e-8)
 
 

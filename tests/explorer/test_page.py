@@ -145,10 +145,8 @@ def test_numbers_flags_and_messages_come_through() -> None:
         values = study[name].transpose(*variables[name]["dims"])
         found = numbers(variables[name], "<f4").reshape(values.shape)
         np.testing.assert_allclose(found, values, rtol=2.0 ** -(BITS + 1))
-    assert (variables["growth_rate"]["unit"], variables["growth_rate"]["title"]) == (
-        "s-1",
-        "growth rate",
-    )
+    assert variables["growth_rate"]["unit"] == "s-1"
+    assert variables["growth_rate"]["title"] == "growth rate"
     words = np.array(variables["outcome"]["flags"])[numbers(variables["outcome"], "u1")]
     assert (
         words.tolist()

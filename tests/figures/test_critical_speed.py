@@ -89,7 +89,9 @@ def test_the_panel_beside_shows_where_both_motions_last(
     }
     basins = xr.Dataset(shares, classes, {"base": '{"N": 385}'})
     (bar,) = chart(hysteresis=sweep, basins=basins).axes[1].patches
-    assert (bar.get_x(), bar.get_width(), bar.get_y() + bar.get_height() / 2) == (13, 1, 385)
+    assert bar.get_x() == 13
+    assert bar.get_width() == 1
+    assert bar.get_y() + bar.get_height() / 2 == 385
 
 
 def test_onset_and_end_of_sweeps_have_their_own_colours(

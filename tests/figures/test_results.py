@@ -142,7 +142,8 @@ def test_critical_values_neutral_curves_and_exponents_are_drawn_with_their_case(
     curves = dm.neutral_curves(case, {"Omega": (14, 15.5), "mu_s": (0.38, 0.42)}, [0.4], points=5)
     axes = curves.plot()
     assert labels(axes.figure) == ["cycle ends in a fold"]
-    assert (axes.get_xlim(), axes.get_ylim()) == ((14, 15.5), (0.38, 0.42))
+    assert axes.get_xlim() == (14, 15.5)
+    assert axes.get_ylim() == (0.38, 0.42)
     exponents = dm.lyapunov_exponents(P, 0.5, count=2)
     assert exponents.plot().get_title(loc="left") == "over 0.5 s, 0 separations"
 

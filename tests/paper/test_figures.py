@@ -60,7 +60,10 @@ def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -
     if damage in ("failed", "nothing recorded"):
         assert all(ax.texts for ax in figure.axes if not ax.has_data())
         lacks = (f"did not record {window}" for window in (*RECORDED, "poincare", "events"))
-        known = {"failed"} if damage == "failed" else {*lacks}
+        if damage == "failed":
+            known = {"failed"}
+        else:
+            known = {*lacks}
         assert set(reasons) <= {f"not shown: the case {reason}" for reason in known}
 
 

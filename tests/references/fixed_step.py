@@ -62,8 +62,13 @@ def motion(q, modes, y, side, consistent, out):
     rate = F / m
     if side == 0:
         # consistent: r_0 f' = v_s' = drift + T2 T
-        T = (r_0 * F - m * drift) / (1 + m * T2) if consistent else r_0 * F
-        rate = (drift + T2 * T) / r_0 if consistent else 0.0
+        if consistent:
+            T = (r_0 * F - m * drift) / (1 + m * T2)
+        else:
+            T = r_0 * F
+        rate = 0.0
+        if consistent:
+            rate = (drift + T2 * T) / r_0
         P = (load + m * B * rate) / (1 + m * S2)
     elif side != 2:
         P = (load + B * F) / (1 + m * S2 + side * mu_k * B / r_0)
@@ -94,7 +99,10 @@ def advance(q, modes, y, side, consistent, bilateral, h):
     P, T, speed, _, w, _ = motion(q, modes, y, side, consistent, k1)
     if side == 2:
         return y, y[-2] - w
-    margin = q[7] * P - abs(T) if side == 0 else side * speed
+    if side == 0:
+        margin = q[7] * P - abs(T)
+    else:
+        margin = side * speed
     return y, margin if bilateral else min(P, margin)
 
 
@@ -119,7 +127,9 @@ def change(q, modes, y, side, consistent, bilateral):
         return np.sign(T)
     y[-3] -= speed / q[9]
     P, T, _, _, _, _ = motion(q, modes, y, 0.0, consistent, out)
-    return 0.0 if abs(T) < q[7] * P else np.sign(T)
+    if abs(T) < q[7] * P:
+        return 0.0
+    return np.sign(T)
 
 
 @njit
@@ -156,9 +166,14 @@ def follow(q, modes, y, t_end, h, consistent, bilateral, stop):
                 step = right + 1e-9
         t += step
         _, _, _, surface, w, _ = motion(q, modes, y, side, consistent, out)
-        fastest = max(fastest, abs(surface)) if np.isnan(first) else fastest
+        if np.isnan(first):
+            fastest = max(fastest, abs(surface))
+        else:
+            fastest = fastest
         if t > t_end - 1:
-            w = y[-2] if side == 2 else w
+            w = w
+            if side == 2:
+                w = y[-2]
             low = min(low, w)
             high = max(high, w)
     return first, high - low, fastest

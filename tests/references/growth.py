@@ -59,7 +59,9 @@ def steady_eigenvalues(values, omega, psi, l, damping, tangential):
         residual, further = (N + k * (psi @ x[:n] - C * force - u_0) - force for force, x in shapes)
         V = V - residual * 0.01 * V / (further - residual)
         slope = np.sum(l * psi * shapes[0][1][n : 2 * n]) / r_0
-        R = V / (1 - mu * slope) if lean else V
+        R = V
+        if lean:
+            R = V / (1 - mu * slope)
     T = mu * R
     q = resting(V, T)
     a, b, alpha, beta = q.reshape(4, n)

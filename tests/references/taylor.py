@@ -59,18 +59,22 @@ class Problem:
         self.w2 = w * w
         D_star, E, h, nu = (LONG(values[name]) for name in ("D_star", "E", "h", "nu"))
         disc = values.get("disc")
-        ratio = (
-            values.get("damping_ratio")
-            if disc is None
-            else [LONG(x) for x in disc["damping_ratio"]]
-        )
-        self.d = (
-            D_star / (E * h**3 / 12 / (1 - nu**2)) * self.w2
-            if ratio is None
-            else 2 * np.array(ratio, LONG) * w
-        )
-        given = None if tangential is None else np.array([LONG(x) for x in tangential], LONG)
-        self.t = -LONG(offset) / self.r_0 * self.l * self.s if given is None else given
+        if disc is None:
+            ratio = values.get("damping_ratio")
+        else:
+            ratio = [LONG(x) for x in disc["damping_ratio"]]
+        if ratio is None:
+            self.d = D_star / (E * h**3 / 12 / (1 - nu**2)) * self.w2
+        else:
+            self.d = 2 * np.array(ratio, LONG) * w
+        if tangential is None:
+            given = None
+        else:
+            given = np.array([LONG(x) for x in tangential], LONG)
+        if given is None:
+            self.t = -LONG(offset) / self.r_0 * self.l * self.s
+        else:
+            self.t = given
         self.S2 = (self.s**2).sum()
         self.w_0 = -self.N * (self.s**2 / self.w2).sum()
         self.u_0 = self.w_0 - self.C * self.N
@@ -89,7 +93,10 @@ def problem_of(p, rates=(0.0, 0.0)):
     values = p.model_dump() | {"contact_compliance": contact_compliance(p)}
     sign = np.sign(modes["psi"].to_numpy())
     offset, tangential = surface_of(p)
-    given = None if tangential is None else sign * np.array(tangential)
+    if tangential is None:
+        given = None
+    else:
+        given = sign * np.array(tangential)
     return Problem(
         values, modes["omega"], sign * modes["psi"], modes["diameters"], rates, offset, given
     )
@@ -100,7 +107,9 @@ def surface_of(p):
     table has them."""
     if p.friction_offset != "surface":
         return p.friction_offset, None
-    return (p.h / 2, None) if p.disc is None else (0.0, p.disc.tangential)
+    if p.disc is None:
+        return (p.h / 2, None)
+    return (0.0, p.disc.tangential)
 
 
 def stored_problem(data):
@@ -155,7 +164,10 @@ class Step:
         q = self.q
         self.B[k] = (q.l * q.s * self.b[k]).sum()
         if q.rigid and self.phase != "separation":
-            fb = product(self.f, self.b, k) if fb is None else fb
+            if fb is None:
+                fb = product(self.f, self.b, k)
+            else:
+                fb = fb
             self.u[k] = (q.s * self.a[k]).sum()
             self.v[k] = (q.s * (self.alpha[k] + q.l * fb)).sum()
 
@@ -302,7 +314,9 @@ def first_zero(c, h):
     if c[0] <= 0:
         return LONG(0)
     found = _search(c, LONG(0), LONG(1), 0)
-    return None if found is None else found * h
+    if found is None:
+        return None
+    return found * h
 
 
 def _search(c, left, right, depth):
@@ -311,17 +325,25 @@ def _search(c, left, right, depth):
     here = _about(c, m)
     width = r ** np.arange(len(c))
     if abs(here[0]) > (abs(here[1:]) * width[1:]).sum():
-        return None if here[0] > 0 else left
+        if here[0] > 0:
+            return None
+        return left
     slope = here[1:] * np.arange(1, len(c))
     single = abs(slope[0]) > (abs(slope[1:]) * width[1:-1]).sum()
     if single:
         if polyval(left, c) <= 0:
             return left
-        return None if polyval(right, c) > 0 else _bisect(c, left, right)
+        if polyval(right, c) > 0:
+            return None
+        return _bisect(c, left, right)
     if depth > 60:
-        return right if polyval(right, c) <= 0 else None
+        if polyval(right, c) <= 0:
+            return right
+        return None
     found = _search(c, left, m, depth + 1)
-    return found if found is not None else _search(c, m, right, depth + 1)
+    if found is not None:
+        return found
+    return _search(c, m, right, depth + 1)
 
 
 def _bisect(c, left, right):
@@ -440,15 +462,23 @@ class Reference:
                 ("stick_to_slip", self.q.mu_s * step.R[:K] - side * step.T[:K]) for side in (1, -1)
             ]
             # a compliant contact does not pull, though friction may hold where it would
-            R = R if self.q.rigid else step.V[self.divide["R"] : K]
-        return ends if self.q.bonded else [("separation", R), *ends]
+            if self.q.rigid:
+                R = R
+            else:
+                R = step.V[self.divide["R"] : K]
+        if self.q.bonded:
+            return ends
+        return [("separation", R), *ends]
 
     # -- switching
     def _enter(self, kind, phase, direction, **divide):
         self.phase = phase
         self.direction = direction
         self.divide = {"f": 0, "gap": 0, "R": 0} | divide
-        P = LONG(0) if phase == "separation" else self.forces(phase, direction)[0]
+        if phase == "separation":
+            P = LONG(0)
+        else:
+            P = self.forces(phase, direction)[0]
         self.events.append(
             {"time": self.time, "kind": kind, "phase": phase, "psi": self.psi, "f": self.f, "P": P}
         )
@@ -463,12 +493,13 @@ class Reference:
                 self._enter("slip_to_stick", "stick", 0)
             else:
                 # f begins at zero; at a release so does its rate where friction does not fall
-                zeros = (
-                    2
-                    if kind == "stick_to_slip" and (self.q.falls or self.q.mu_s == self.q.mu_k)
-                    else 1
-                )
-                kind = "slip_reversal" if kind == "rest" else kind
+                zeros = 1
+                if kind == "stick_to_slip" and (self.q.falls or self.q.mu_s == self.q.mu_k):
+                    zeros = 2
+                if kind == "rest":
+                    kind = "slip_reversal"
+                else:
+                    kind = kind
                 self._enter(kind, "slip", 1 if T > 0 else -1, f=zeros)
         elif kind == "separation":
             self._separate(3 if self.q.rigid else 1)

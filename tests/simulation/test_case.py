@@ -52,9 +52,14 @@ def test_a_window_has_the_samples_within_it(begin, duration, start, length, unti
             resolved_windows({"w": window}, begin / 64, end / 64)
         return
     resolved = resolved_windows({"w": window}, begin / 64, end / 64)["w"]
-    first = max(begin, end - length - 1) if until == "last" else start
-    last = stop if until == "stop" else end
-    assert (resolved.start, resolved.last) == (first / 64, None)
+    first = start
+    if until == "last":
+        first = max(begin, end - length - 1)
+    last = end
+    if until == "stop":
+        last = stop
+    assert resolved.start == first / 64
+    assert resolved.last is None
     assert resolved.stop <= last / 64
     if (
         envelope and until != "stop"
@@ -149,7 +154,9 @@ def test_what_no_memory_holds_is_refused_before_anything_runs(what, monkeypatch)
     """Bins, samples of a step and sections were not counted: they ended in a MemoryError."""
     monkeypatch.setattr(collector, "_memory", lambda: 5e5)
     windows = {f"w{i}": window for i, window in enumerate(GREEDY[what])}
-    p = P.replace(Omega=1e300) if what == "sections" else P
+    p = P
+    if what == "sections":
+        p = P.replace(Omega=1e300)
     with pytest.raises(
         ParameterError,
         match=rf"^windows\.w{len(windows) - 1}: must fit into memory: .* GB of samples",

@@ -150,7 +150,9 @@ def _changeable(node: ast.AST) -> Iterator[ast.AST]:
     if isinstance(node, ast.Subscript):  # what is taken, not from where
         yield from _changeable(node.value)
         return
-    called = node.func.id if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else ""
+    called = ""
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+        called = node.func.id
     if called in NUMBERS_OF_ELEMENTS:
         return
     if _is_changeable(node):

@@ -38,7 +38,9 @@ def _difference(name, runs, tol, audited=False):
     forces = [0.0]
     p = Parameters(**data["parameters"])
     for run in data["runs"][runs]:
-        start = stored.engine_state(run["start"], p) if run["start"] else None
+        start = None
+        if run["start"]:
+            start = stored.engine_state(run["start"], p)
         result = simulate(
             p,
             run["t_end"],

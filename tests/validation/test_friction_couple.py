@@ -22,7 +22,10 @@ def eigenvalues(p):
     psi = modes["psi"]
     values = p.model_dump() | {"contact_compliance": contact_compliance(p)}
     offset, tangential = taylor.surface_of(p)
-    tangential = couple(offset, psi, l, p.r_0) if tangential is None else tangential
+    if tangential is None:
+        tangential = couple(offset, psi, l, p.r_0)
+    else:
+        tangential = tangential
     return steady_eigenvalues(values, modes["omega"], psi, l, modal_damping(p), tangential)
 
 

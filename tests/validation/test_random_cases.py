@@ -31,7 +31,9 @@ def drawn_case(rng):
     """All fields of `Parameters`; many are sometimes zero."""
 
     def sometimes(share, value, otherwise=0.0):
-        return value if rng.random() < share else otherwise
+        if rng.random() < share:
+            return value
+        return otherwise
 
     a = rng.uniform(0.03, 0.06)
     mu_k = sometimes(0.9, rng.uniform(0, 0.6))
@@ -39,9 +41,10 @@ def drawn_case(rng):
     mu_s = mu_k + sometimes(0.8, rng.uniform(0.01, 0.6))
     give = str(rng.choice(["rigid", "number", "residual"], p=[0.5, 0.3, 0.2]))
     # as published the residual flexibility is a sum of a thousand modes, which takes seconds
-    normalization = (
-        "orthonormal" if give == "residual" else str(rng.choice(["as_published", "orthonormal"]))
-    )
+    if give == "residual":
+        normalization = "orthonormal"
+    else:
+        normalization = str(rng.choice(["as_published", "orthonormal"]))
     p = Parameters(
         N=spread(rng, 20, 1000), Omega=spread(rng, 2, 60), c=sometimes(0.5, spread(rng, 1e-2, 10)),
         # without kinetic friction an undamped slider comes to rest where stick is just not
@@ -68,11 +71,9 @@ def fastest(p):
     modes = plate_modes(p)
     found = max(modes["omega"].max() if len(modes) else 0.0, math.sqrt(max(p.k, p.k_p) / p.m))
     give = contact_compliance(p)
-    return (
-        max(found, math.sqrt((1 / p.m + float(modes["psi"] @ modes["psi"])) / give))
-        if give
-        else found
-    )
+    if give:
+        return max(found, math.sqrt((1 / p.m + float(modes["psi"] @ modes["psi"])) / give))
+    return found
 
 
 def drawn_ramps(rng, p, span):
@@ -100,7 +101,9 @@ def drawn_start(rng, p, time):
     if phase == "rest" or (phase == "separation" and p.contact == "bilateral"):
         return rest
     modes = plate_modes(p)
-    direction = int(rng.choice([-1, 1])) if phase == "slip" else 0
+    direction = 0
+    if phase == "slip":
+        direction = int(rng.choice([-1, 1]))
     psi, omega, l = (modes[name].to_numpy() for name in ("psi", "omega", "diameters"))
     pair = l > 0
     size = np.abs(p.N * psi / omega**2)
@@ -167,7 +170,10 @@ class Compared:
         self.span = RADIANS / fastest(p)
         self.ramps = drawn_ramps(rng, p, self.span)
         course = course_of(p, self.ramps)
-        self.begin = 0.0 if self.ramps or rng.random() < 0.5 else rng.uniform(0, 50)
+        if self.ramps or rng.random() < 0.5:
+            self.begin = 0.0
+        else:
+            self.begin = rng.uniform(0, 50)
         self.start, self.theta, end = (
             drawn_start(rng, p, self.begin),
             rng.uniform(0, 6),

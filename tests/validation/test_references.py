@@ -46,7 +46,8 @@ def test_every_event_is_there_with_an_error_that_falls_with_tol(name, count, sep
     data = stored.load(name)
     errors = []
     kinds = data["kinds"]
-    assert (len(kinds), kinds.count("separation")) == (count, separations)
+    assert len(kinds) == count
+    assert kinds.count("separation") == separations
     p = Parameters(**data["parameters"])
     start = data["start"] and stored.engine_state(data["start"], p)
     tolerances = [10.0**-digits for digits in range(4, 16)]
@@ -132,7 +133,10 @@ def test_stored_runs_can_be_computed_again(name):
     them."""
     data = stored.load(name)
     q = taylor.stored_problem(data)
-    runs = [(data, 0.1)] if name in "ABC" else [(run, 0.01) for run in data["runs"][:2]]
+    if name in "ABC":
+        runs = [(data, 0.1)]
+    else:
+        runs = [(run, 0.01) for run in data["runs"][:2]]
     for run, span in runs:
         start = run["start"] or q.equilibrium()
         reference = taylor.Reference(q, start).run(float(start.time) + span)
@@ -187,7 +191,9 @@ def test_rates_of_the_reference_balance_in_coordinates_fixed_in_space(law, phase
         )
     elif phase != "separation":
         assert pytest.approx((w - u) / C, rel=1e-9) == V
-    lean = slope / p.r_0 if p.contact_force == "normal" else 0.0
+    lean = 0.0
+    if p.contact_force == "normal":
+        lean = slope / p.r_0
     load = p.N + p.k * (u - case.w_0 + C * p.N) + p.c * u_rate
     friction = p.r_0 * (case.pull(0.0, y) - p.m * f_rate) - lean * R
     assert [p.m * rise, V, T] == pytest.approx([V - load, R - lean * T, friction], abs=1e-9 * load)
@@ -226,5 +232,8 @@ def test_an_impact_of_the_reference_keeps_momentum_and_loses_energy_by_the_appro
         (run.alpha - alpha).astype(float), (-q.s * impulse).astype(float), rtol=1e-12
     )
     assert float(q.m * q.r_0 * (run.f - f)) == pytest.approx(float(-slope * impulse), rel=1e-12)
-    driven = 0 if q.normal else f * run.disc()[2]
+    if q.normal:
+        driven = 0
+    else:
+        driven = f * run.disc()[2]
     assert float(before - energy()) == pytest.approx(float(impulse * (0.3 / 2 - driven)), rel=1e-9)

@@ -99,7 +99,10 @@ def check_paradox(result: Result) -> None:
     slope = float(psi * diameters @ state.b)
     # the direction that could not be entered is not in the state where stick or separation was to
     # end in slip, nor where slip was to turn round: f = 0 and the direction is the one before
-    directions = [state.direction] if state.direction and state.f != 0 else [-1, 1]
+    if state.direction and state.f != 0:
+        directions = [state.direction]
+    else:
+        directions = [-1, 1]
     # rounding in sums of as many terms as there are modes, and the engine's own margin of 1e-6
     assert min(free + s * p.mu_k * slope / p.r_0 for s in directions) <= 2e-6 * free
 
@@ -168,7 +171,9 @@ def changed(state: State, **changes: float | str) -> State:
         for name in ("a", "alpha")
         if name in changes
     }
-    height = {"u": state.u + changes["u"]} if "u" in changes else {}
+    height = {}
+    if "u" in changes:
+        height = {"u": state.u + changes["u"]}
     return state.replace(time=0.0, _roots=(0, 0), **changes | added | height)
 
 

@@ -51,7 +51,9 @@ class Project:
 
     def command(self, *options: str) -> list[str]:
         """The command of such a run."""
-        named = ["--configfile", self.config] if self.config else []
+        named = []
+        if self.config:
+            named = ["--configfile", self.config]
         return [sys.executable, "-m", "snakemake", *options, *named]
 
     @property

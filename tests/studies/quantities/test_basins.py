@@ -38,7 +38,9 @@ class Made:
         energy, i = state
         if i in self.classes:
             return self.classes[i]
-        attractor = APART if energy > self.least(self.p, i) else QUIET
+        attractor = QUIET
+        if energy > self.least(self.p, i):
+            attractor = APART
         return OutcomeResult(attractor.kind, 50.0, attractor=attractor)
 
 

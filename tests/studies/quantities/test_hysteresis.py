@@ -68,9 +68,12 @@ def test_the_offset_is_above_the_first_gap_on_the_way_down(
     speeds = [10.0, 11.0, 12.0, 13.0]
 
     def sweep(p, name, values, *times):
-        assert (name, values) == ("Omega", speeds)
+        assert name == "Omega"
+        assert values == speeds
         for step in [(0, i) for i in range(4)] + [(1, i) for i in (3, 2, 1, 0)]:
-            rate = falling[step[1]] if step[0] else 0
+            rate = 0
+            if step[0]:
+                rate = falling[step[1]]
             segment = Segment(0, 1, 0, 1, 0.5, 0.5, 0.0, rate)
             yield step, None, segment, attractors.Arrival(Settling(Settled.SETTLED))
 
@@ -107,7 +110,10 @@ def test_on_ramps_the_offset_is_that_of_the_last_separation_unless_it_goes_on(
 
     def simulated(p: Parameters, until: float, **how: Any) -> Any:
         before = how.get("initial_state")
-        begin = 0.0 if before is None else before.time
+        if before is None:
+            begin = 0.0
+        else:
+            begin = before.time
         times = np.arange(1.0, 131.0)
         times = times[(times > begin) & (times <= until)]
         rows = np.zeros((times.size, len(EVENT_ROW)))

@@ -43,7 +43,9 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
     asked: list[Parameters] = []
 
     def trend(tile: refinement.Tile, point: refinement.TilePoint) -> str:
-        return "" if separates(point.parameters) else Outcome.QUIET
+        if separates(point.parameters):
+            return ""
+        return Outcome.QUIET
 
     def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
         asked.append(p)
@@ -164,9 +166,12 @@ def test_motions_without_a_cycle_and_points_that_fail_are_named() -> None:
         [[p.replace(Omega=0), p, ParameterError("N=-1: must be >= 0")]], []
     )
     (rest, _), (slides, _), (wrong, message) = rows
-    assert (rest["outcome"], rest["cycle"]) == ("at_rest", "at_rest")
-    assert (slides["outcome"], slides["cycle"]) == ("steady_sliding", "steady_sliding")
-    assert (wrong["status"], message) == ("failed", "ParameterError: N=-1: must be >= 0")
+    assert rest["outcome"] == "at_rest"
+    assert rest["cycle"] == "at_rest"
+    assert slides["outcome"] == "steady_sliding"
+    assert slides["cycle"] == "steady_sliding"
+    assert wrong["status"] == "failed"
+    assert message == "ParameterError: N=-1: must be >= 0"
 
 
 @pytest.mark.slow
