@@ -36,6 +36,8 @@ WRITTEN = (
 )
 """Columns of `table_text`, in this order, before those of shapes."""
 ROUNDING = 1e-9  # relative: both may be the same sum with different rounding
+LABELS = ("mode", "mode_number", "mode_no", "mode_nr", "number", "no", "nr")
+"""Heads of a first column that only labels modes, in lower case with "_" between words."""
 POLES = ("pole", "pole_real", "pole_imag")  # quantities that stand for frequency and damping
 LIKE = 0.8  # likeness of names above which a typing error is suspected
 _COMPLIANCE_NAMES = (STATIC_COMPLIANCE.lower(), "static_compliance")
@@ -221,7 +223,7 @@ def _with_point(cell: str) -> str:
 
 def _columns(rows: list[list[str]]) -> list[Column]:
     """The columns of a table, checked as a whole."""
-    names, *body = rows or [[]]
+    names, *body = _without_labels(rows) or [[]]
     if body and len(body[0]) == len(names) and not any(map(_begins_a_number, body[0])):
         names = _with_units(names, body.pop(0))
     heads, faults = _heads(names)
@@ -233,6 +235,13 @@ def _columns(rows: list[list[str]]) -> list[Column]:
     raise_faults(uneven[:3])
     cells = zip(*body, strict=True) if body else [()] * len(heads)
     return [Column(head, column) for head, column in zip(heads, cells, strict=True)]
+
+
+def _without_labels(rows: list[list[str]]) -> list[list[str]]:
+    """The rows without a first column that labels modes: what it counts, no other column needs."""
+    if rows and _joined(rows[0][0]).rstrip(".") in LABELS:
+        return [row[1:] for row in rows]
+    return rows
 
 
 def _with_units(names: list[str], units: list[str]) -> list[str]:
