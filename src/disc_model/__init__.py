@@ -19,6 +19,7 @@ import disc_model.attached
 __version__ = "0.3.0"
 
 _NAMES = {
+    "analysis.contact_loss": "pinned_range",
     "data.dataset": "load",
     "disc.flexibility": "residual_flexibility",
     "disc.plate": "plate_modes coupled_natural_frequencies",
@@ -48,6 +49,7 @@ _HOMES = {name: module for module, names in _NAMES.items() for name in names.spl
 __all__ = [*_HOMES, "__version__"]
 
 if TYPE_CHECKING:
+    from disc_model.analysis.contact_loss import pinned_range
     from disc_model.data.dataset import load
     from disc_model.disc.flexibility import residual_flexibility
     from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
