@@ -6,6 +6,9 @@ motion gives the contact force of order k (see `contact` for the letters),
     R_k denominator = (N + k (u - u_0) + c u' + m A + B F)_k + known
 
 On a compliant contact u, u' are states, and R_k denominator = V_k + known with V = (w - u) / C.
+Where the surface on which friction acts moves with the velocity v_s, v_s' = G + S_t H, the rate of
+the contact over the material, f here, is less than the slider's by v_s / r_0; F - m G / r_0 stands in
+place of F, and (1 + m S_t) H in place of H.
 """
 
 from typing import NamedTuple
@@ -13,7 +16,16 @@ from typing import NamedTuple
 from .contact import known_forces, known_numerator, slip_law
 from .jit import inlined
 from .jit.simd import WIDTH, load, store, total
-from .modes import begin_turning, deflection, next_turning, put_last_forces, rest_on_disc, slope
+from .laws import surface_mobility
+from .modes import (
+    begin_turning,
+    deflection,
+    next_turning,
+    put_last_forces,
+    rest_on_disc,
+    slope,
+    surface_velocity,
+)
 
 
 class _Factors(NamedTuple):
@@ -29,7 +41,8 @@ class _Factors(NamedTuple):
     by_u: float
     by_v: float
     by_pull: float  # F / m
-    twist: float  # change of T from one order to the next in -A: 2 l f_0 beta_l
+    inverse_radius: float
+    twist: float  # V in G, by f_0 of the order before; twice this is H in A
 
 
 @inlined
@@ -47,22 +60,29 @@ def slip_series(model, series, order, direction):
     v = series.v[0]
     disc = begin_turning(model, series)
     acceleration = disc.acceleration
+    along = disc.along
     pending = disc.pending
+    surface = surface_velocity(model, series)
+    series.surface[0] = surface
     V_impulse = 0.0
-    T_impulse = 0.0
+    H_impulse = 0.0
     for k in range(order):
         # u'' of the disc without the forces of this order, and F / m
         if k > 0:
             pairs, single, pending = next_turning(
-                model, series, k, f, V_impulse, T_impulse, pending
+                model, series, k, f, V_impulse, H_impulse, pending
             )
             by_speed = disc.by_f + disc.by_f_rate * series.down[k]
             rest = single + f * by_speed + V_impulse * model.damped_inverse_mass
-            if model.has_couple:
-                rest -= factors.twist * T_impulse
-            acceleration = total(pairs) + rest
+            if model.has_moving_surface:
+                rest += 2.0 * factors.twist * H_impulse
+                along = total(pairs.along) + f * disc.along_by_f + factors.twist * V_impulse
+                along -= model.damped_surface_inverse_mass * H_impulse
+            acceleration = total(pairs.up) + rest
         # in this order: only the last term waits for f
         pull = factors.spring * psi + factors.damper * series.drive[k] - factors.damper * f
+        if model.has_moving_surface:
+            pull -= factors.inverse_radius * (along + factors.damper * surface)
 
         # the law of contact
         known = known_forces(model, series, law, k, direction)
@@ -77,16 +97,16 @@ def slip_series(model, series, order, direction):
                 R += factors.inverse * known_numerator(model, law, known)
         series.P[k] = R
         V = law.share_V * R
-        T = law.friction * R
+        H = law.share_H * R
         rate_f = pull - factors.brake * R
         rate_v = acceleration + B * pull - factors.recoil * R
         if model.has_normal_force or model.has_falling_friction:
             V -= known.V
-            T += known.T
+            H += known.H
             braked = factors.lever * known.H
             rate_f -= braked
             rate_v += model.inverse_effective_mass * known.V - B * braked
-            series.friction[k] = T
+            series.friction[k] = law.friction * R + known.T
         if model.has_compliance:
             series.V[k] = V
             rate_v = (V - (series.preload[k] + model.k * u + model.c * v)) / model.m
@@ -94,8 +114,14 @@ def slip_series(model, series, order, direction):
         # the slider
         up = series.up[k]
         V_impulse = V * up
-        T_impulse = T * up
+        H_impulse = H * up
         psi = (series.drive[k] - f) * up
+        if model.has_moving_surface:
+            turn = factors.inverse_radius * surface * up
+            psi -= turn
+            surface = along * up + model.surface_inverse_mass * H_impulse
+            series.turn[k + 1] = turn
+            series.surface[k + 1] = surface
         f = rate_f * up
         u = v * up
         v = rate_v * up
@@ -104,7 +130,7 @@ def slip_series(model, series, order, direction):
         series.u[k + 1] = u
         series.v[k + 1] = v
 
-    put_last_forces(model, series, order, V_impulse, T_impulse)
+    put_last_forces(model, series, order, V_impulse, H_impulse)
     for j in range(0, order + 1, WIDTH):
         store(series.switch, j, direction * load(series.f, j))
     # remains of an earlier step in another phase
@@ -118,7 +144,7 @@ def _factors(model, law, f, B):
     """`_Factors` of a step that begins at the rate f on the slope B."""
     S = model.inverse_effective_mass
     lightness = 1.0 / model.m
-    lever = lightness / model.r_0
+    lever = lightness / model.r_0 * surface_mobility(model, model.m)
     brake = lever * law.share_H
     inverse = 1.0 / law.denominator
     by_acceleration = inverse * model.m
@@ -133,5 +159,6 @@ def _factors(model, law, f, B):
         by_u=inverse * model.k,
         by_v=inverse * model.c,
         by_pull=by_acceleration * B,
-        twist=2.0 * f * model.couple_swing,
+        inverse_radius=1.0 / model.r_0,
+        twist=f * model.surface_swing,
     )
