@@ -131,4 +131,3 @@ def put_weakening(model, series, k, direction):
     excess = series.friction[k] - direction * model.mu_k * series.P[k]
     excess += leverage(series.f, series.weakening, k)
     series.weakening[k] = -fall * excess / (1.0 + fall * series.f[0])
-

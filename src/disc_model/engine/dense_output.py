@@ -5,18 +5,7 @@ from .jit.simd import WIDTH, splat, store
 from .model import ROWS, lane_count
 from .roots import dot, set_powers
 from .series import displacement, load_at_start, velocity
-from .state import (
-    DRIVE,
-    LOAD,
-    PHASE,
-    PHI_RATE,
-    PSI,
-    SEPARATION,
-    STICK,
-    SURFACE_TURN,
-    U_VELOCITY,
-    U,
-)
+from .state import DRIVE, LOAD, PHASE, PHI_RATE, PSI, SEPARATION, STICK, SURFACE_TURN, U_VELOCITY, U
 from .stick_propagator import propagate_stick
 from .transitions import force_in_stick, stick_force
 

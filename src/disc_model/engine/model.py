@@ -95,7 +95,9 @@ class Model(NamedTuple):
     slider_scale: float  # m/s: what u' is compared with where it is not the disc's
     bonded: bool  # whether contact is bilateral
     compliance: float  # of the contact, m/N; 0 if it is rigid
-    tangential: np.ndarray  # t_l of the surface on which friction acts in lanes of b, 0 in lanes of a
+    tangential: (
+        np.ndarray
+    )  # t_l of the surface on which friction acts in lanes of b, 0 in lanes of a
     surface_inverse_mass: float  # S_t = sum t_l^2, 1/kg
     damped_surface_inverse_mass: float  # sum 2 xi_l omega_l t_l^2, 1/(kg s)
     surface_swing: float  # sum l psi_l t_l, 1/kg

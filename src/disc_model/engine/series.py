@@ -37,7 +37,9 @@ class Series(NamedTuple):
     modes: np.ndarray  # pairs, as [row][lane]
     y: np.ndarray  # displacements of the modes without nodal diameter
     g: np.ndarray  # their velocities
-    quantities: np.ndarray  # what has a coefficient an order: those from psi to hold are parts of it
+    quantities: (
+        np.ndarray
+    )  # what has a coefficient an order: those from psi to hold are parts of it
     psi: np.ndarray
     f: np.ndarray  # rate of the contact over the material, g
     u: np.ndarray  # of the slider

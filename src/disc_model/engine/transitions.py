@@ -220,7 +220,9 @@ def _rounding(model, state, i, sizes):
     """Rounding error of V in stick, or of the numerator of P where B F is rounded too."""
     if model.has_compliance:
         return ROUNDING * deflection_size(model, state) / i.compliance
-    return ROUNDING * (i.N + abs(i.k * (i.w - model.u_0)) + abs(i.c * i.w_velocity) + i.m * sizes.up)
+    return ROUNDING * (
+        i.N + abs(i.k * (i.w - model.u_0)) + abs(i.c * i.w_velocity) + i.m * sizes.up
+    )
 
 
 @inlined
