@@ -116,7 +116,12 @@ class SteadySliding:
         for _ in range(50):
             by_x, by_z = self.jacobian(x, z)
             left = np.hstack([by_x[:, free], by_z[:, forces]])
-            step = np.linalg.lstsq(left, -self.residual(x, z), rcond=None)[0]
+            right = -self.residual(x, z)
+            # newtons stand beside micrometres: without scales small singular values would be cut off
+            rows = 1 / np.maximum(abs(left).max(axis=1), STEP)
+            left = rows[:, None] * left
+            columns = 1 / np.maximum(abs(left).max(axis=0), STEP)
+            step = columns * np.linalg.lstsq(left * columns, rows * right, rcond=None)[0]
             x[free] += step[: free.sum()]
             z[forces] += step[free.sum() :]
         return x, z
