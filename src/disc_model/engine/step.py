@@ -6,6 +6,7 @@ from typing import NamedTuple
 from .contact import put_weakening
 from .dense_output import CLOSED_FORM
 from .jit import helper, inlined
+from .laws import surface_mobility
 from .model import drive_now, is_rigid, set_course
 from .roots import NO_ROOT, first_root, set_powers
 from .separation import separation_series
@@ -110,6 +111,7 @@ def series_step(model, series, state, order, tolerance, longest, left):
         # where friction falls steeply, a change of g grows faster than the fastest motion
         put_weakening(model, series, 0, state.x[DIRECTION])
         growth = abs(series.weakening[0]) * model.unit / (model.m * model.r_0)
+        growth *= surface_mobility(model, model.m)
         longest /= max(growth, 1.0)
     longest = min(min(length, longest), left)
     length, cause = first_event(model, series, state, order, longest, tolerance)
