@@ -36,7 +36,7 @@ _NODES = _NODES + 0.5
 _PANEL = 8.0  # time units that the nodes resolve; only stick in closed form is longer
 # Places of the sums in the audit's array. TRANSVERSE, INPLANE: sums of the residuals; *_SCALE:
 # largest energy exchanged in one step; *_TURNOVER: sum of the moduli of all energy put in and taken
-# out; SURFACE: largest abs(v_s) / (r_0 Omega) at the ends of steps,
+# out; SURFACE: largest abs(v_s) / (r_0 Omega) at the starts of steps,
 # audited or not.
 STEPS, WORST, TRANSVERSE, INPLANE, TRANSVERSE_SCALE, INPLANE_SCALE = range(6)
 TRANSVERSE_TURNOVER, INPLANE_TURNOVER, SURFACE, N_SUMS = range(6, 10)
@@ -85,10 +85,11 @@ def inplane_energy(model, state):
 
 
 @inlined
-def surface_share(model, state):
-    """Return abs(v_s) over the speed of the drive point; 0 if that rests."""
-    speed = model.r_0 * drive_now(model, state)
-    return abs(surface_velocity(model, state)) / speed if speed > 0.0 else 0.0
+def surface_share(model, series):
+    """Return abs(v_s) over the speed of the drive point at the start of a step by series; 0 if that
+    rests."""
+    speed = model.r_0 * series.drive[0]
+    return abs(series.surface[0]) / speed if speed > 0.0 else 0.0
 
 
 @inlined

@@ -55,6 +55,7 @@ from .model import (
     lane_count,
 )
 from .series import (
+    ALONG_BY_VELOCITY,
     BY_DISPLACEMENT,
     BY_VELOCITY,
     CARRIED,
@@ -186,9 +187,17 @@ def begin_turning(model, series):
         by_z = by_z + bend * z
         by_z1 = by_z1 + slopes * z_next
         if model.has_moving_surface:
-            now_along = now_along + _known_along(model, f_0, b, e, z)
-            pending_along = pending_along + _known_along(model, f_0, b, e_next, z_next)
-            turning = turning + constants(model, TANGENTIAL_TURN, b) * e
+            turn = constants(model, TANGENTIAL_TURN, b)
+            hand_on(
+                model,
+                series,
+                ALONG_BY_VELOCITY,
+                b,
+                constants(model, TANGENTIAL_DAMPING, b) + f_0 * turn,
+            )
+            now_along = now_along + _known_along(model, series, b, e, z)
+            pending_along = pending_along + _known_along(model, series, b, e_next, z_next)
+            turning = turning + turn * e
     swing = total(by_e)
     by_f = swing + f_0 * total(by_z)
     by_f_rate = total(by_z1)
@@ -267,7 +276,7 @@ def _turning_block(model, series, b, k, f_k, push):
     next_up = _known_acceleration(model, series, b, e_next, z_next, carried)
     next_along = splat(0.0)
     if model.has_moving_surface:
-        next_along = _known_along(model, f_0, b, e_next, z_next)
+        next_along = _known_along(model, series, b, e_next, z_next)
     return Parts(part, along), Parts(next_up, next_along)
 
 
@@ -280,11 +289,11 @@ def _known_acceleration(model, series, b, e, z, carried):
 
 
 @inlined
-def _known_along(model, f_0, b, e, z):
+def _known_along(model, series, b, e, z):
     """A block's part of the acceleration along the path of an order, as far as the order before
     determines it (lanes)."""
-    by_e = constants(model, TANGENTIAL_DAMPING, b) + f_0 * constants(model, TANGENTIAL_TURN, b)
-    return by_e * e + constants(model, TANGENTIAL_STIFFNESS, b) * z
+    by_z = constants(model, TANGENTIAL_STIFFNESS, b) * z
+    return handed_on(model, series, ALONG_BY_VELOCITY, b) * e + by_z
 
 
 @inlined

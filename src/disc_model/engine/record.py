@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .audit import SURFACE, audit_impact, audit_step, surface_share, transverse_energy
-from .dense_output import force_at, move_to
+from .dense_output import CLOSED_FORM, force_at, move_to
 from .jit import helper, inlined
 from .model import drive_angle, drive_now, is_rigid
 from .state import (
@@ -117,8 +117,8 @@ def record_step(model, series, state, probe, step, limits, buffers):
     if len(buffers.samplers) > 0:
         sample_step(model, series, step, state, probe, buffers)
     move_to(model, series, step.order, step.length, phase, state)
-    if model.has_moving_surface:
-        share = surface_share(model, state)
+    if model.has_moving_surface and step.order != CLOSED_FORM:
+        share = surface_share(model, series)
         buffers.audit[SURFACE] = max(buffers.audit[SURFACE], share)
 
 

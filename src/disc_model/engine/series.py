@@ -17,10 +17,16 @@ from .stick_modes import padded
 
 # Rows of ``Series.modes``: displacements and velocities of each order in turn, then what one order
 # of the recurrence hands to the next (see `modes`): inner terms of a pair of orders, the sum s_k,
-# and the two rows of constants of the step.
-INNER_VELOCITY, INNER_DISPLACEMENT, CARRIED, BY_VELOCITY, BY_DISPLACEMENT, _N_ROWS = range(
-    2 * ROWS, 2 * ROWS + 6
-)
+# and the three rows of constants of the step.
+(
+    INNER_VELOCITY,
+    INNER_DISPLACEMENT,
+    CARRIED,
+    BY_VELOCITY,
+    BY_DISPLACEMENT,
+    ALONG_BY_VELOCITY,
+    _N_ROWS,
+) = range(2 * ROWS, 2 * ROWS + 7)
 
 _QUANTITIES = (
     "psi", "f", "u", "v", "P", "switch", "switch2", "powers", "up", "down",

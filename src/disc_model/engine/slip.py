@@ -28,7 +28,20 @@ from .modes import (
 )
 
 
-class _Factors(NamedTuple):
+class SurfaceFactors(NamedTuple):
+    """Constants of a step for a surface that moves."""
+
+    inverse_radius: float
+    by_f: float  # f in G
+    by_V: float  # impulse of V of the order before in G; twice this is that of H in A
+    by_H: float  # impulse of H of the order before in G
+    pull_by_f: float  # f in -F / m + G / r_0
+    pull_by_V: float  # impulses in it
+    pull_by_H: float
+    pull_by_drift: float  # v_s without the impulse of H in it
+
+
+class Factors(NamedTuple):
     """Constants of a step, by which terms are multiplied."""
 
     spring: float  # psi in F / m
@@ -41,8 +54,7 @@ class _Factors(NamedTuple):
     by_u: float
     by_v: float
     by_pull: float  # F / m
-    inverse_radius: float
-    twist: float  # V in G, by f_0 of the order before; twice this is H in A
+    surface: SurfaceFactors
 
 
 @inlined
@@ -54,15 +66,16 @@ def slip_series(model, series, order, direction):
     psi = series.psi[0]
     B = slope(model, series, 0)
     law = slip_law(model, direction, f, B)
-    factors = _factors(model, law, f, B)
     rest_on_disc(model, series, B)
     u = series.u[0]
     v = series.v[0]
     disc = begin_turning(model, series)
+    factors = _factors(model, law, f, B, disc.along_by_f)
     acceleration = disc.acceleration
-    along = disc.along
     pending = disc.pending
+    along_known = disc.along - f * disc.along_by_f
     surface = surface_velocity(model, series)
+    drift = surface
     series.surface[0] = surface
     V_impulse = 0.0
     H_impulse = 0.0
@@ -75,14 +88,17 @@ def slip_series(model, series, order, direction):
             by_speed = disc.by_f + disc.by_f_rate * series.down[k]
             rest = single + f * by_speed + V_impulse * model.damped_inverse_mass
             if model.has_moving_surface:
-                rest += 2.0 * factors.twist * H_impulse
-                along = total(pairs.along) + f * disc.along_by_f + factors.twist * V_impulse
-                along -= model.damped_surface_inverse_mass * H_impulse
+                rest += 2.0 * factors.surface.by_V * H_impulse
+                along_known = total(pairs.along)
             acceleration = total(pairs.up) + rest
-        # in this order: only the last term waits for f
-        pull = factors.spring * psi + factors.damper * series.drive[k] - factors.damper * f
+        # in this order: only the last terms wait for f and the impulses
+        pull = factors.spring * psi + factors.damper * series.drive[k]
         if model.has_moving_surface:
-            pull -= factors.inverse_radius * (along + factors.damper * surface)
+            pull = _pull_on_surface(
+                factors.surface, pull, along_known, drift, f, V_impulse, H_impulse
+            )
+        else:
+            pull -= factors.damper * f
 
         # the law of contact
         known = known_forces(model, series, law, k, direction)
@@ -111,17 +127,19 @@ def slip_series(model, series, order, direction):
             series.V[k] = V
             rate_v = (V - (series.preload[k] + model.k * u + model.c * v)) / model.m
 
-        # the slider
+        # the slider and the surface under it
         up = series.up[k]
-        V_impulse = V * up
-        H_impulse = H * up
         psi = (series.drive[k] - f) * up
         if model.has_moving_surface:
-            turn = factors.inverse_radius * surface * up
+            turn = factors.surface.inverse_radius * surface * up
             psi -= turn
-            surface = along * up + model.surface_inverse_mass * H_impulse
+            of_forces = factors.surface.by_V * V_impulse + factors.surface.by_H * H_impulse
+            drift = (along_known + factors.surface.by_f * f + of_forces) * up
+            surface = drift + model.surface_inverse_mass * (H * up)
             series.turn[k + 1] = turn
             series.surface[k + 1] = surface
+        V_impulse = V * up
+        H_impulse = H * up
         f = rate_f * up
         u = v * up
         v = rate_v * up
@@ -140,15 +158,23 @@ def slip_series(model, series, order, direction):
 
 
 @inlined
-def _factors(model, law, f, B):
-    """`_Factors` of a step that begins at the rate f on the slope B."""
+def _pull_on_surface(by, spring, along, drift, f, V_impulse, H_impulse):
+    """F / m - G / r_0 of an order, from what the spring and the drive give; along: G without f and
+    the impulses of the order before, drift: v_s without that of H."""
+    known = spring - by.inverse_radius * along - by.pull_by_drift * drift
+    return (known - by.pull_by_f * f) - (by.pull_by_V * V_impulse + by.pull_by_H * H_impulse)
+
+
+@inlined
+def _factors(model, law, f, B, along_by_f):
+    """`Factors` of a step that begins at the rate f on the slope B; along_by_f: f in G."""
     S = model.inverse_effective_mass
     lightness = 1.0 / model.m
     lever = lightness / model.r_0 * surface_mobility(model, model.m)
     brake = lever * law.share_H
     inverse = 1.0 / law.denominator
     by_acceleration = inverse * model.m
-    return _Factors(
+    return Factors(
         spring=model.k_p * lightness,
         damper=model.c_p * lightness,
         lever=lever,
@@ -159,6 +185,24 @@ def _factors(model, law, f, B):
         by_u=inverse * model.k,
         by_v=inverse * model.c,
         by_pull=by_acceleration * B,
-        inverse_radius=1.0 / model.r_0,
-        twist=f * model.surface_swing,
+        surface=_surface_factors(model, f, along_by_f),
+    )
+
+
+@inlined
+def _surface_factors(model, f, along_by_f):
+    """`SurfaceFactors` of a step that begins at the rate f; along_by_f: f in G."""
+    inverse_radius = 1.0 / model.r_0
+    damper = model.c_p / model.m
+    by_V = f * model.surface_swing
+    by_H = -model.damped_surface_inverse_mass
+    return SurfaceFactors(
+        inverse_radius=inverse_radius,
+        by_f=along_by_f,
+        by_V=by_V,
+        by_H=by_H,
+        pull_by_f=damper + inverse_radius * along_by_f,
+        pull_by_V=inverse_radius * by_V,
+        pull_by_H=inverse_radius * (by_H + damper * model.surface_inverse_mass),
+        pull_by_drift=inverse_radius * damper,
     )
