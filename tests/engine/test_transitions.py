@@ -1,8 +1,6 @@
 """The impact under the normal force, and how phases begin: laws that compiled runs show only in
 long tests."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
@@ -16,13 +14,10 @@ from tests.contact_laws import COMPILES
 
 
 def test_an_impact_pushes_along_the_normal_of_the_slope_and_leaves_no_gap() -> None:
-    model = SimpleNamespace(
-        has_normal_force=True,
-        has_moving_surface=True,
-        r_0=0.05,
-        inverse_effective_mass=3.0,
-        surface_inverse_mass=7.0,
-    )
+    model = engine_case(
+        Parameters(N=200, Omega=20, contact_force="normal", friction_offset=0.02)
+    ).model
+    assert model.surface_inverse_mass > 1.0
     i = Instant(
         *[1.0] * 8,
         psi=0.0,
@@ -37,7 +32,7 @@ def test_an_impact_pushes_along_the_normal_of_the_slope_and_leaves_no_gap() -> N
         u_velocity=-0.3,
     )
     i = i._replace(m=0.1)
-    p, g = getattr(impact, "py_func", impact)(model, i)
+    p, g = impact(model, i)
     # a height of w rises by B per radian: the tangential part of the impulse, p B / r_0, brakes the
     # slider and pushes the surface
     along = p * i.dw_dtheta / model.r_0
