@@ -278,9 +278,16 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
     assert np.all(np.abs(got - expected) <= allowed * np.abs(expected).max(axis=1, keepdims=True))
 
 
+LOSSES = [("vertical", switch) for switch in SWITCHES if "lost" in switch]
+LOSSES += [("vertical_coupled", switch) for _, switch in LOSSES if "stick" not in switch]
+
+
 @pytest.mark.parametrize("pressed", [5.0, 0.0])
-@pytest.mark.parametrize("switch", [switch for switch in SWITCHES if "lost" in switch])
-def test_when_contact_is_lost(switch: str, pressed: float) -> None:
+@pytest.mark.parametrize(
+    ("law", "switch"),
+    [pytest.param(*loss, marks=COMPILES if loss[0] != "vertical" else ()) for loss in LOSSES],
+)
+def test_when_contact_is_lost(law: str, switch: str, pressed: float) -> None:
     """No motion shows that, because no rate jumps there: the change of what vanishes, the numerator
     of P.
 
@@ -288,14 +295,13 @@ def test_when_contact_is_lost(switch: str, pressed: float) -> None:
     it there, too.
     """
     phase, direction, _ = SWITCHES[switch]
-    p, start = about_to(switch, "vertical", pressed)
+    p, start = about_to(switch, law, pressed)
     disturbances = Disturbances(p, start)
 
     def numerator(q: taylor.Problem, start: stored.State) -> np.ndarray:
         run = taylor.Reference(q, start)
-        return run.forces(phase, direction)[0] * (
-            1 + q.m * q.S2 + direction * q.mu_k * run.disc()[2] / q.r_0
-        )
+        inplane = (1 + q.m * q.St) * direction * q.mu_k * run.disc()[2] / q.r_0
+        return run.forces(phase, direction)[0] * (1 + q.m * q.S2 + inplane)
 
     engine = disturbances.run()
     t = engine.tangent
