@@ -106,16 +106,16 @@ def _hold(model, series, k):
 
 
 @inlined
-def _last_of_hold(model, order):
-    """Return up to which order H is entered, or not zero."""
-    return order - 1 if model.has_moving_surface else 2
+def _orders_of_hold(model, order):
+    """Return how many orders H is entered to, or is not zero."""
+    return order if model.has_moving_surface else 3
 
 
 @inlined
 def _release(model, series, order):
     """Complete both release functions, mu_s press -/+ pull (see `laws.stick_loads`), by the pull,
     which is H."""
-    for k in range(_last_of_hold(model, order) + 1):
+    for k in range(_orders_of_hold(model, order)):
         pull = _hold(model, series, k)
         series.switch[k] -= pull
         series.switch2[k] += pull
@@ -130,7 +130,7 @@ def _release_on_slope(model, series, order):
         pull = _hold(model, series, k)
         pull -= leverage(series.slope, series.P, k) + series.slope[0] * series.P[k]
         press = series.P[k]
-        for j in range(min(k, _last_of_hold(model, order)) + 1):
+        for j in range(min(k + 1, _orders_of_hold(model, order))):
             press += _hold(model, series, j) * series.slope[k - j]
         series.switch[k] = model.mu_s * press - pull
         series.switch2[k] = model.mu_s * press + pull
