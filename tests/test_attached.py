@@ -2,6 +2,7 @@
 
 import pytest
 
+import disc_model
 from tests.processes import python
 
 
@@ -25,3 +26,10 @@ def test_attaching_imports_no_room() -> None:
     code = "import sys, disc_model; print(*sorted(m for m in sys.modules if 'disc_model' in m))"
     rooms = {name.split(".")[1] for name in python(code).stdout.split() if "." in name}
     assert rooms == {"attachable", "attached", "display"}
+
+
+def test_help_and_completion_show_attached_methods() -> None:
+    """`dir` of a model shows the names of the package, and not those of pydantic."""
+    names = dir(disc_model.Disc)
+    assert {"from_csv", "from_uff", "from_section", "to_csv", "first"} <= {*names}
+    assert "model_dump" not in names

@@ -343,12 +343,7 @@ class _Model(ModelMetaclass):
     """Models of which `dir`, and so help and completion, show their own names, not pydantic's."""
 
     def __dir__(cls) -> list[str]:
-        own = {
-            name
-            for base in cls.__mro__
-            if issubclass(base, BaseModel) and base is not BaseModel
-            for name in vars(base)
-        }
+        own = {name for base in cls.__mro__ if base not in BaseModel.__mro__ for name in vars(base)}
         own -= {"model_config", "model_post_init"}
         return sorted(name for name in own if not name.startswith("_"))
 

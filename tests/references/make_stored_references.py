@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from disc_model import benchmarks
-from disc_model.benchmarks.scenes import problem
+from disc_model.benchmarks.scenes import problem, stated
 from disc_model.errors import script
 from tests.contact_laws import LAWS
 from tests.references import stored
@@ -236,7 +236,7 @@ def of_benchmark(name):
     run, difference = repeated(problem_of(p), stored.reference_state(task.start, p), task.t_end)
     final = stored.engine_state(rounded(run.state()), p)
     return {
-        "parameters": p.key,
+        "parameters": stated(p),
         "t_end": task.t_end,
         "largest_difference_to_check_run": difference,
         "kinds": [e["kind"] for e in run.events],
@@ -267,7 +267,7 @@ def rigid_cycle():
     f = p.Omega + excess * omega * math.sin(since) - p.Omega * math.cos(since)
     final = task.start.replace(time=task.t_end, phase="slip", direction=1, psi=psi, f=f)
     return {
-        "parameters": p.key,
+        "parameters": stated(p),
         "t_end": task.t_end,
         "largest_difference_to_check_run": 1e-9 * task.t_end,
         "kinds": ["stick_to_slip", "slip_to_stick", "stick_to_slip"],

@@ -62,6 +62,11 @@ def stored(name: str) -> dict[str, Any]:
     return dict(json.loads(path.read_text(encoding="utf-8")))
 
 
+def stated(p: Parameters) -> dict[str, Any]:
+    """Return the values of a case that differ from the defaults, as JSON has them."""
+    return dict(p.model_dump(mode="json", exclude_defaults=True))
+
+
 def static_start(p: Parameters) -> State:
     """Return the static start as a state made by hand.
 
@@ -159,7 +164,7 @@ def answer(name: str) -> Answer:
         If it is of other parameters.
     """
     right = stored("benchmark_reference")[name]
-    if right["parameters"] != problem(name).parameters.key:
+    if right["parameters"] != stated(problem(name).parameters):
         raise DiscModelError(f"the stored reference of {name} is of other parameters: make it anew")
     return Answer(
         times=np.array([np.longdouble(t) for t in right["times"]]),

@@ -123,9 +123,11 @@ def _fold(cells: Array) -> Array:
 
 def _require_memory(rows: Mapping[str, float], per_step: int) -> None:
     """Raise `ParameterError` unless the rows of windows, and those of a step, fit into memory."""
+    if not rows:
+        return
     size = 8.0 * len(record.SAMPLE_ROW) * (sum(rows.values()) + per_step)
     memory = _memory()
-    if rows and size > memory:
+    if size > memory:
         largest = max(rows, key=rows.__getitem__)
         rule = (
             f"must fit into memory: {size / 1e9:.3g} GB of samples in all, "

@@ -149,18 +149,19 @@ def _span_of(t_end: Any, duration: Any, initial_state: Any) -> _Span:
         name = "duration"
         value = duration
     end = math.nan
-    with suppress(ValueError):  # of what is no number
-        end = number(in_si(value, "s", [], ()))
+    if type(value) is float:  # as nearly always, and at once
+        end = value
+    else:
+        with suppress(ValueError):  # of what is no number
+            end = number(in_si(value, "s", [], ()))
     if duration is not None:
         end += start
 
-    rule = (
-        f"must be finite, in s or as '2 min', and > {as_text(start)}, the time of the initial state"
-    )
-    faults = violations(
-        (is_finite(time), "initial_state.time", time, "must be finite"),
-        (start < end < math.inf, name, value, rule),
-    )
+    faults = violations((is_finite(time), "initial_state.time", time, "must be finite"))
+    if not start < end < math.inf:
+        rule = "must be finite, in s or as '2 min', and > "
+        rule += f"{as_text(start)}, the time of the initial state"
+        faults.append(Fault.of((name,), value, rule))
     return _Span(start, end, faults)
 
 

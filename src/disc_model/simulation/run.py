@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 import time as clock
 from collections.abc import Callable
@@ -197,8 +196,10 @@ class Run:
             message=message,
             event_rows=np.concatenate(self.collector.events),
             first_separation=self.collector.first_separation,
-            final_state=dataclasses.replace(
-                states.read_state(self.case, self.state, self.key),
+            final_state=states.read_state(
+                self.case,
+                self.state,
+                self.key,
                 drive_angle=angle_of_drive(self.pieces, self.time) + self.lead,
             ),
             u_0=self.model.u_0,

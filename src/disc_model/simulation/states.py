@@ -461,9 +461,11 @@ def take_workspace(case: EngineCase, order: int) -> Workspace:
     return workspace
 
 
-def read_state(case: EngineCase, state: EngineState, key: str = "") -> State:
+def read_state(
+    case: EngineCase, state: EngineState, key: str = "", drive_angle: float | None = None
+) -> State:
     """The engine's state as a `State`; key: the `case_key` if it differs from the case's own, as on
-    ramps."""
+    ramps; drive_angle: that of `State`."""
     modal = np.zeros(4 * len(case.amplitudes))
     modal[case.present] = state.disc[case.places]
     modal.setflags(write=False)
@@ -483,6 +485,7 @@ def read_state(case: EngineCase, state: EngineState, key: str = "") -> State:
         _roots=motion.known_roots(state),
         case_key=key or case.key,
         mode_amplitudes=case.amplitudes,
+        drive_angle=drive_angle,
         **values | dict(zip(MODAL, modal.reshape(4, -1), strict=True)),
     )
 
