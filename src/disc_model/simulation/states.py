@@ -147,6 +147,12 @@ class State:
         drive = p.Omega * self.time if self.drive_angle is None else self.drive_angle
         return drive - self.psi
 
+    def material_angle(self, p: Parameters) -> float:
+        """Angle on the disc of the material point under the slider, rad, about which modal
+        coordinates are resolved: `slider_angle` less `surface_turn`. Raises `ParameterError` unless
+        `p` is the case."""
+        return self.slider_angle(p) - self.surface_turn
+
     @property
     def parts(self) -> tuple[dict[str, Any], dict[str, Array]]:
         """What files hold of it: values for JSON text, as `StateValues` reads them, and arrays with
@@ -371,9 +377,7 @@ def deflection(
     shapes = mode_shapes(p, radii)
     w = np.empty((len(states_in_order), len(radii), len(angles)))
     for i, state in enumerate(states_in_order):
-        # modal coordinates are relative to the material under the slider
-        place = state.slider_angle(p) - state.surface_turn
-        turn = np.multiply.outer(modes.diameters, angles - place)
+        turn = np.multiply.outer(modes.diameters, angles - state.material_angle(p))
         w[i] = shapes.T @ (state.a[:, None] * np.cos(turn) + state.b[:, None] * np.sin(turn))
     coords = {
         "time": (
