@@ -506,9 +506,10 @@ def write_state(case: EngineCase, source: State, state: EngineState, key: str = 
     if source.phase != "separation" and not case.model.has_compliance:
         _require_touch(case, source, state)
     direction = source.direction if source.phase == "slip" else 0
-    values = {name: getattr(source, name) for name in PLAIN if name != "f"}
-    values["g"] = _rate_over_material(case, source, state)
-    motion.put_scalars(state, [values[name] for name in motion.SCALAR_NAMES])
+    # the engine's scalars are those of `PLAIN`, with the rate over the material in place of f
+    values = [getattr(source, name) for name in PLAIN]
+    values[PLAIN.index("f")] = _rate_over_material(case, source, state)
+    motion.put_scalars(state, values)
     motion.put_phase(state, PHASES.index(source.phase), direction, source._roots)
     return (
         any(source._roots) and source.case_key != (key or case.key) and _forget_switch(case, state)
@@ -536,7 +537,9 @@ def _rate_over_material(case: EngineCase, source: State, state: EngineState) -> 
     it differ from 0 or from the direction of slip."""
     if source.phase == "stick":
         return 0.0
-    surface = float(case.point[3].dot(state.disc))
+    surface = 0.0
+    if case.model.has_moving_surface:
+        surface = float(case.point[3].dot(state.disc))
     rate = source.f - surface
     if source.phase == "slip":
         begins = source._roots[0] > 0
