@@ -284,6 +284,8 @@ def _end_of_stick(model, series, state, order, x_end, known_force, tolerance):
 @inlined
 def _stays_unloaded(model, series, state):
     """Return whether nothing pulls at a sticking slider throughout the step but the disc's slope."""
+    if (model.k_p + model.c_p) * model.Omega_rate != 0.0:
+        return False  # the drive begins to move, on a ramp
     if model.has_moving_surface:
         return series.hold[0] == 0.0 and series.hold[1] == 0.0
     undriven = model.k_p * model.Omega == 0.0
