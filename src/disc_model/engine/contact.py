@@ -131,3 +131,12 @@ def put_weakening(model, series, k, direction):
     excess = series.friction[k] - direction * model.mu_k * series.P[k]
     excess += leverage(series.f, series.weakening, k)
     series.weakening[k] = -fall * excess / (1.0 + fall * series.f[0])
+
+
+@inlined
+def slip_growth(model, series, direction):
+    """Return the rate at which a change of g grows at the start of a step of slip where friction
+    falls with the speed, 1/s."""
+    put_weakening(model, series, 0, direction)
+    growth = abs(series.weakening[0]) / (model.m * model.r_0)
+    return growth * surface_mobility(model, model.m)

@@ -3,10 +3,9 @@ it."""
 
 from typing import NamedTuple
 
-from .contact import put_weakening
+from .contact import slip_growth
 from .dense_output import CLOSED_FORM
 from .jit import helper, inlined
-from .laws import surface_mobility
 from .model import drive_now, is_rigid, set_course
 from .roots import NO_ROOT, first_root, set_powers
 from .separation import separation_series
@@ -109,10 +108,8 @@ def series_step(model, series, state, order, tolerance, longest, left):
         return Step(NON_FINITE, order, 0.0, NOTHING)
     if model.has_falling_friction and phase == SLIP:
         # where friction falls steeply, a change of g grows faster than the fastest motion
-        put_weakening(model, series, 0, state.x[DIRECTION])
-        growth = abs(series.weakening[0]) * model.unit / (model.m * model.r_0)
-        growth *= surface_mobility(model, model.m)
-        longest /= max(growth, 1.0)
+        growth = slip_growth(model, series, state.x[DIRECTION])
+        longest /= max(growth * model.unit, 1.0)
     longest = min(min(length, longest), left)
     length, cause = first_event(model, series, state, order, longest, tolerance)
     return Step(CONSISTENT, order, length, cause)
