@@ -6,17 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 
 from disc_model.data.variables import axis_of
 from disc_model.errors import require
-from disc_model.figures import drawing
 from disc_model.figures.branches import STABLE, THIN, draw_branch
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.curve import scale_rates
-from disc_model.figures.drawing import BLACK, BLUE, SEPARATED, mark, wide
+from disc_model.figures.drawing import BLACK, BLUE, COLUMN, SEPARATED, mark, sample, wide
 from disc_model.figures.runs import stated
-from disc_model.figures.sizes import COLUMN
+from disc_model.figures.types import Axes
 from disc_model.figures.words import label_of
 
 if TYPE_CHECKING:
@@ -28,6 +26,7 @@ SPECIAL_MARKS = {
     "neimark_sacker": ("o", BLUE, "Neimark-Sacker bifurcation"),
     "branch_point": ("*", BLACK, "branch point"),
     "grazing": ("X", SEPARATED, "grazing"),
+    "hopf": ("^", BLUE, "Hopf point"),
 }
 """Kinds of special points, with their mark, colour and name in the legend."""
 
@@ -58,7 +57,7 @@ def plot_branch(
         if y == "growth_rate" and not second:
             scale_rates(axes)
         handles = [
-            drawing.sample(color=BLACK, linewidth=wide(width), label=text)
+            sample(color=BLACK, linewidth=wide(width), label=text)
             for width, text in ((STABLE, "stable"), (THIN, "unstable"))
         ]
         handles += _mark_special_points(axes, branch, y, (factor, upward))

@@ -8,8 +8,7 @@ from pydantic import Field
 
 from disc_model.data.variables import SAMPLE
 from disc_model.errors import Fault, suggestion
-from disc_model.figures.kinds.base import Compared, Plot, Role, Roles, Values, unknown
-from disc_model.figures.selection import NORM
+from disc_model.figures.kinds.base import NORM, Compared, Plot, Role, Roles, Values, unknown
 from disc_model.units import Finite, Positive, Unit
 
 MOST_POINTS = 4  # greatest number of points that a figure of sensitivity shows
@@ -74,6 +73,28 @@ class BasinShares(Plot):
 
     kind: Literal["basins"] = "basins"
     x: str
+
+
+class RangeLawPlot(Plot):
+    """Range of all motions of a study that separate, against the range at which their vibration
+    loses contact.
+
+    share : least share of height and contact force at one frequency of a motion with a filled mark
+    set_apart : values of a parameter, by the name of its motions, which have marks of their own
+    """
+
+    several = True
+    kind: Literal["range_law"] = "range_law"
+    share: Annotated[Positive, Field(le=1)] = 0.95
+    set_apart: dict[str, dict[str, Finite]] = Field({})
+
+    def wrong_dims(self, values: Values) -> Iterator[Fault]:
+        """Names that do not vary; whatever does, motions are drawn."""
+        for group in self.set_apart.values():
+            for name in group:
+                # the name of a zip has those of all its parameters
+                if not any(f"_{name}_" in f"_{dim}_" for dim in values):
+                    yield Fault.of(("set_apart",), name, "does not vary in this study")
 
 
 class Sensitivity(Plot):
