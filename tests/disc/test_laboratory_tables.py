@@ -9,7 +9,9 @@ import pytest
 
 import disc_model as dm
 
-DIAMETERS, FREQUENCIES, AMPLITUDES = (1, 0, 2), (551.0, 929.0, 1212.5), (0.556, 0.431, 0.543)
+DIAMETERS = (1, 0, 2)
+FREQUENCIES = (551.0, 929.0, 1212.5)
+AMPLITUDES = (0.556, 0.431, 0.543)
 RATIOS = (0.001, 0.002, 0.0015)
 OMEGA = 2 * np.pi * np.array(FREQUENCIES)
 
@@ -80,7 +82,9 @@ def test_spreadsheets_separate_and_end_columns_as_they_like(
         text = text.replace("\n", f"{separator}{separator}\n")
     if tail == "blank":
         text += 3 * separator + "\n\n"
-    begin = "sep=;\n" if separator == ";" else ""
+    begin = ""
+    if separator == ";":
+        begin = "sep=;\n"
     assert_right(read(tmp_path, f"{begin}{head}\n{text}"))
 
 
@@ -97,7 +101,9 @@ POLES = OMEGA * (-np.array(RATIOS) + 1j * np.sqrt(1 - np.array(RATIOS) ** 2))
 
 @pytest.mark.parametrize("factor", [1.0, 1 / (2 * np.pi)])
 def test_poles_stand_for_frequencies_and_damping(factor: float, tmp_path: Path) -> None:
-    unit = "rad/s" if factor == 1 else "Hz"
+    unit = "Hz"
+    if factor == 1:
+        unit = "rad/s"
     poles = [f"{factor * pole.real!r}{factor * pole.imag:+}i" for pole in POLES.tolist()]
     heads = f"diameters,amplitude_per_sqrt_kg,pole ({unit})\n"
     assert_right(read(tmp_path, heads + rows(DIAMETERS, AMPLITUDES, poles)))
@@ -145,7 +151,9 @@ def test_a_table_with_circles_has_its_pairs_by_them(tmp_path: Path) -> None:
         "diameters,circles,frequency_Hz,amplitude_per_sqrt_kg\n2,0,1200,1\n2,1,1210,2\n2,0,1204,3\n"
     )
     disc = read(tmp_path, text, pairs="mean")
-    assert (disc.diameters, disc.circles, disc.amplitude) == ((2, 2), (0, 1), (2, 2))
+    assert disc.diameters == (2, 2)
+    assert disc.circles == (0, 1)
+    assert disc.amplitude == (2, 2)
 
 
 @pytest.mark.parametrize(

@@ -29,47 +29,55 @@ def motion(q, modes, y, side, consistent, out):
     w2, s, l, d, t = modes
     n = len(s)
     f = y[-3]
-    F, w, v, A, B, S2, T2, drift, surface = (
-        k_p * y[-4] + c_p * (Omega - f),
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-    )
+    F = k_p * y[-4] + c_p * (Omega - f)
+    w = 0.0
+    v = 0.0
+    A = 0.0
+    B = 0.0
+    S2 = 0.0
+    T2 = 0.0
+    drift = 0.0
+    surface = 0.0
     for i in range(n):
-        a, b, alpha, beta, turn = y[i], y[n + i], y[2 * n + i], y[3 * n + i], l[i] * f
-        out[i], out[n + i] = alpha + turn * b, beta - turn * a
+        a = y[i]
+        b = y[n + i]
+        alpha = y[2 * n + i]
+        beta = y[3 * n + i]
+        turn = l[i] * f
+        out[i] = alpha + turn * b
+        out[n + i] = beta - turn * a
         out[2 * n + i] = -d[i] * alpha - w2[i] * a + turn * beta
         out[3 * n + i] = -d[i] * beta - w2[i] * b - turn * alpha
-        w, v, B = w + s[i] * a, v + s[i] * out[i], B + l[i] * s[i] * b
+        w = w + s[i] * a
+        v = v + s[i] * out[i]
+        B = B + l[i] * s[i] * b
         A += s[i] * (out[2 * n + i] + turn * out[n + i])
-        S2, T2, drift, surface = (
-            S2 + s[i] ** 2,
-            T2 + t[i] ** 2,
-            drift + t[i] * out[3 * n + i],
-            surface + t[i] * beta,
-        )
+        S2 = S2 + s[i] ** 2
+        T2 = T2 + t[i] ** 2
+        drift = drift + t[i] * out[3 * n + i]
+        surface = surface + t[i] * beta
     load = N + k * (w - u_0) + c * v + m * A
-    P, T, rate = 0.0, 0.0, F / m
+    P = 0.0
+    T = 0.0
+    rate = F / m
     if side == 0:
         # consistent: r_0 f' = v_s' = drift + T2 T
-        T = (r_0 * F - m * drift) / (1 + m * T2) if consistent else r_0 * F
-        rate = (drift + T2 * T) / r_0 if consistent else 0.0
+        if consistent:
+            T = (r_0 * F - m * drift) / (1 + m * T2)
+        else:
+            T = r_0 * F
+        rate = 0.0
+        if consistent:
+            rate = (drift + T2 * T) / r_0
         P = (load + m * B * rate) / (1 + m * S2)
     elif side != 2:
         P = (load + B * F) / (1 + m * S2 + side * mu_k * B / r_0)
         T = side * mu_k * P
         rate = (F - T / r_0) / m
-    out[-4], out[-3], out[-2], out[-1] = (
-        Omega - f,
-        rate,
-        y[-1],
-        -(N + k * (y[-2] - u_0) + c * y[-1]) / m,
-    )
+    out[-4] = Omega - f
+    out[-3] = rate
+    out[-2] = y[-1]
+    out[-1] = -(N + k * (y[-2] - u_0) + c * y[-1]) / m
     for i in range(n):
         out[2 * n + i] -= s[i] * P
         out[3 * n + i] += t[i] * T
@@ -79,7 +87,10 @@ def motion(q, modes, y, side, consistent, out):
 @njit
 def advance(q, modes, y, side, consistent, bilateral, h):
     """The state after h, and what may be negative there if the phase has ended before."""
-    k1, k2, k3, k4 = np.empty_like(y), np.empty_like(y), np.empty_like(y), np.empty_like(y)
+    k1 = np.empty_like(y)
+    k2 = np.empty_like(y)
+    k3 = np.empty_like(y)
+    k4 = np.empty_like(y)
     motion(q, modes, y, side, consistent, k1)
     motion(q, modes, y + h / 2 * k1, side, consistent, k2)
     motion(q, modes, y + h / 2 * k2, side, consistent, k3)
@@ -88,7 +99,10 @@ def advance(q, modes, y, side, consistent, bilateral, h):
     P, T, speed, _, w, _ = motion(q, modes, y, side, consistent, k1)
     if side == 2:
         return y, y[-2] - w
-    margin = q[7] * P - abs(T) if side == 0 else side * speed
+    if side == 0:
+        margin = q[7] * P - abs(T)
+    else:
+        margin = side * speed
     return y, margin if bilateral else min(P, margin)
 
 
@@ -96,7 +110,8 @@ def advance(q, modes, y, side, consistent, bilateral, h):
 def change(q, modes, y, side, consistent, bilateral):
     """The next phase at an event, where contact may be lost or slip may end or turn; changes the
     state."""
-    out, n = np.empty_like(y), len(modes[1])
+    out = np.empty_like(y)
+    n = len(modes[1])
     P, T, speed, _, w, v = motion(q, modes, y, side, consistent, out)
     if side == 2:  # a plastic impact
         y[2 * n : 3 * n] -= modes[1] * (v - y[-1]) / (np.sum(modes[1] ** 2) + 1 / q[2])
@@ -105,50 +120,62 @@ def change(q, modes, y, side, consistent, bilateral):
         if P >= 0:
             return side
     if P < 0 and not bilateral:
-        y[-2], y[-1] = w, v
+        y[-2] = w
+        y[-1] = v
         return 2.0
     if side == 0:
         return np.sign(T)
     y[-3] -= speed / q[9]
     P, T, _, _, _, _ = motion(q, modes, y, 0.0, consistent, out)
-    return 0.0 if abs(T) < q[7] * P else np.sign(T)
+    if abs(T) < q[7] * P:
+        return 0.0
+    return np.sign(T)
 
 
 @njit
 def follow(q, modes, y, t_end, h, consistent, bilateral, stop):
     """From stick: first separation or nan, range of u in the last second, largest abs(v_s) before
     the separation; with ``stop`` no further than to the separation."""
-    t, side, low, high, fastest, first, out = (
-        0.0,
-        0.0,
-        np.inf,
-        -np.inf,
-        0.0,
-        np.nan,
-        np.empty_like(y),
-    )
+    t = 0.0
+    side = 0.0
+    low = np.inf
+    high = -np.inf
+    fastest = 0.0
+    first = np.nan
+    out = np.empty_like(y)
     while t < t_end:
-        before, (y, margin), step = y, advance(q, modes, y, side, consistent, bilateral, h), h
+        before = y
+        y, margin = advance(q, modes, y, side, consistent, bilateral, h)
+        step = h
         if margin < 0:
-            left, right = 0.0, h
+            left = 0.0
+            right = h
             while right - left > 1e-15:
                 middle = (left + right) / 2
                 y, margin = advance(q, modes, before, side, consistent, bilateral, middle)
                 left, right = (left, middle) if margin < 0 else (middle, right)
             y, margin = advance(q, modes, before, side, consistent, bilateral, right)
-            side, step = change(q, modes, y, side, consistent, bilateral), right
+            side = change(q, modes, y, side, consistent, bilateral)
+            step = right
             if side == 2 and np.isnan(first):
                 first = t + right
                 if stop:
                     break
             if right < 1e-9:  # leads away from an event at the start of a phase
-                y, step = advance(q, modes, y, side, consistent, bilateral, 1e-9)[0], right + 1e-9
+                y = advance(q, modes, y, side, consistent, bilateral, 1e-9)[0]
+                step = right + 1e-9
         t += step
         _, _, _, surface, w, _ = motion(q, modes, y, side, consistent, out)
-        fastest = max(fastest, abs(surface)) if np.isnan(first) else fastest
+        if np.isnan(first):
+            fastest = max(fastest, abs(surface))
+        else:
+            fastest = fastest
         if t > t_end - 1:
-            w = y[-2] if side == 2 else w
-            low, high = min(low, w), max(high, w)
+            w = w
+            if side == 2:
+                w = y[-2]
+            low = min(low, w)
+            high = max(high, w)
     return first, high - low, fastest
 
 

@@ -17,9 +17,11 @@ THETA = 0.7
 def compared(p, ramps, t_end, start=None):
     """Switches of a run on ramps, its audit, and samples that also show where the drive has turned
     to."""
-    q, course = taylor.problem_of(p), course_of(p, ramps)
+    q = taylor.problem_of(p)
+    course = course_of(p, ramps)
     reference = taylor.Reference(q, start or q.equilibrium(), course=course)
-    windows, execution = {"w": Window(rate=1e3, theta=THETA)}, Execution(audit_every_step=True)
+    windows = {"w": Window(rate=1e3, theta=THETA)}
+    execution = Execution(audit_every_step=True)
     given = start and stored.engine_state(start, p)
     found = simulate(
         p, t_end, windows, tol=1e-15, initial_state=given, ramps=ramps, execution=execution

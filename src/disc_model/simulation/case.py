@@ -15,18 +15,9 @@ from pydantic import Field, create_model, field_validator, model_serializer, mod
 
 from disc_model.data.variables import BESIDE_WINDOWS
 from disc_model.errors import Fault, ParameterError, as_text, require
+from disc_model.hashing import canonical_json, content_key
 from disc_model.parameters import AUTO, FORMAT, Parameters
-from disc_model.units import (
-    Count,
-    Finite,
-    Positive,
-    Real,
-    Seconds,
-    Strict,
-    Unit,
-    canonical_json,
-    content_key,
-)
+from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
 Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]

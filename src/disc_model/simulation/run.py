@@ -17,13 +17,13 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.engine.model import blocks_of, flags_of, on_ramp, slope_under_slider
 from disc_model.engine.stick_modes import LONGEST_STICK
 from disc_model.errors import Status
+from disc_model.hashing import content_key
 from disc_model.simulation import states
 from disc_model.simulation.case import SampleTimes, angle_of_drive, pieces
 from disc_model.simulation.collector import Collector
 from disc_model.simulation.request import Request
 from disc_model.simulation.rest import holds_for_good, spring_pull
 from disc_model.simulation.result import Result
-from disc_model.units import content_key
 
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
 # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work

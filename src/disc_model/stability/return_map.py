@@ -15,8 +15,8 @@ from functools import cached_property, partial
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import Array, Indices
 from disc_model.engine import columns, loop, section, step_size, tangent, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.model import Model, blocks_of, build_state
@@ -31,9 +31,6 @@ from disc_model.simulation.states import (
     series_tolerance,
     write_state,
 )
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 PARAMETERS = (
     "Omega",
@@ -205,7 +202,7 @@ class SectionMap(Protocol):
     tol: float
     size: int
     scale: Array
-    diameters: NDArray[np.int64]
+    diameters: Indices
     deflection: float
 
     def evaluate(

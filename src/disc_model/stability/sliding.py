@@ -19,8 +19,8 @@ from types import FunctionType, ModuleType, SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
 from disc_model.display import Drawn, Summarised, number_text
@@ -28,7 +28,6 @@ from disc_model.engine import laws
 from disc_model.errors import StatusBase, raise_faults
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import engine_case
-from disc_model.stability.return_map import Array, ComplexArray
 
 
 def _in_python(module: ModuleType) -> Any:
@@ -89,9 +88,7 @@ class SteadySliding(Summarised, Drawn):
     b: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     alpha: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     beta: Array = field(default_factory=lambda: np.zeros(0), repr=False)
-    eigenvalues: NDArray[np.complex128] = field(
-        default_factory=lambda: np.zeros(0, complex), repr=False
-    )
+    eigenvalues: ComplexArray = field(default_factory=lambda: np.zeros(0, complex), repr=False)
     growth_rate: float = math.nan
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
 
@@ -343,7 +340,7 @@ class SlidingModes:
     frequency: Array
     growth_rate: Array
     damping_ratio: Array
-    diameters: NDArray[np.int64]
+    diameters: Indices
     forward: Array
     shapes: ComplexArray = field(repr=False)
 
@@ -401,7 +398,7 @@ class FollowedModes(NamedTuple):
 
     sliding: SteadySliding
     modes: SlidingModes
-    numbers: NDArray[np.int64]
+    numbers: Indices
     mac: Array
 
 
@@ -430,7 +427,7 @@ def _numbered(
     p: Parameters,
     modes: SlidingModes,
     halvings: int,
-) -> tuple[NDArray[np.int64], Array]:
+) -> tuple[Indices, Array]:
     """Numbers and likeness of the modes of a case; `shapes`, by number, become those of this
     case. Where the modes are in doubt, the case `before` is followed to this one by halves of the
     way, up to so many `halvings`."""

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from disc_model.arrays import Array, ComplexArray
 from disc_model.disc.plate import mode_arrays
 from disc_model.engine import columns, saltation, transitions
 from disc_model.engine import state as motion
@@ -36,8 +37,6 @@ from disc_model.stability.return_map import (
     RETURNED,
     STOPS,
     VANISHED,
-    Array,
-    ComplexArray,
     Counts,
     Orbit,
     integrate_in_pieces,

@@ -3,26 +3,23 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
+from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.data.variables import Variable
 from disc_model.display import counted, draw
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.return_map import Array, MapFactory, ReturnMap
+from disc_model.stability.return_map import MapFactory, ReturnMap
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
-LABELS: Mapping[str, str] = {
+LABELS: dict[str, str] = {
     "fold": "LP",
     "period_doubling": "PD",
     "neimark_sacker": "TR",
@@ -32,7 +29,7 @@ LABELS: Mapping[str, str] = {
     "end": "EP",
 }
 """Kinds of special points, and their labels in AUTO and COCO."""
-VARIABLES: Mapping[str, Variable] = {
+VARIABLES: dict[str, Variable] = {
     "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle"),
     "period": Variable("s", "period of the cycle"),
     "stick_fraction": Variable("1", "share of the period spent sticking"),
@@ -115,9 +112,9 @@ class Branch:
     period: Array = field(repr=False)
     stick_fraction: Array = field(repr=False)
     growth_rate: Array = field(repr=False)
-    multipliers: NDArray[np.complex128] = field(repr=False)
-    diameters: NDArray[np.int64] = field(repr=False)
-    separations: NDArray[np.int64] = field(repr=False)
+    multipliers: ComplexArray = field(repr=False)
+    diameters: Indices = field(repr=False)
+    separations: Indices = field(repr=False)
     points: Array = field(repr=False)
     folds: Array
     ended: str
