@@ -69,6 +69,36 @@ class BasinShares(Plot):
     x: str
 
 
+class Staircase(Plot):
+    """Number of separations per release of stick against a parameter, a step for each period.
+
+    zooms : ends of parts of the axis that are shown enlarged, each within the one before
+    """
+
+    roles: ClassVar[Roles] = {"fine": Role("locking"), "slipping": Role("locking")}
+    quantities = ("locking",)
+    kind: Literal["staircase"] = "staircase"
+    x: str
+    zooms: Annotated[tuple[tuple[Finite, Finite], ...], Field(max_length=3)] = ()
+
+    def wrong_axes(self, values: Values, shown: str) -> Iterator[Fault]:
+        yield from super().wrong_axes(values, shown)
+        for low, high in self.zooms:
+            if not low < high:
+                yield Fault.of(("zooms",), (low, high), "must be two ascending values of x")
+
+
+class PhaseMap(Plot):
+    """The map from the phase of a release to that of the next one, at a single point."""
+
+    quantities = ("locking",)
+    kind: Literal["phase_map"] = "phase_map"
+
+    def wrong_dims(self, values: Values) -> Iterator[Fault]:
+        if math.prod(len(along) for along in values.values()) > 1:
+            yield Fault.of(("kind",), self.kind, "can show a study of one point only")
+
+
 class RangeLawPlot(Plot):
     """Range of all motions of a study that separate, against the range at which their vibration
     loses contact.
