@@ -47,7 +47,8 @@ def test_a_run_without_windows_shows_its_range_and_its_last_cycles_with_their_ph
     bars = close.collections[1].get_paths()
     begins = np.array([bar.vertices[:, 0].min() for bar in bars])
     step = (end - start) / 4000  # borders lie halfway between samples
-    assert all(np.abs(begins - time).min() < step for time in separations)
+    for time in separations:
+        assert np.abs(begins - time).min() < step
     assert axes[0, 0].figure.get_suptitle() == "N = 385 N, Ω = 15.1 rad/s"
 
 
@@ -103,7 +104,8 @@ def test_names_of_lines_stay_in_a_narrow_spectrum_and_apart() -> None:
             assert frame.x0 <= box.x0
             assert box.x1 <= frame.x1
             assert box.y1 <= frame.y1
-        assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
+        for one, other in combinations(boxes, 2):
+            assert not one.overlaps(other)
     assert 1940 < ax.get_xlim()[1] < 3000, "to where the energy is"
     assert ax.get_title(loc="left") == ""
     assert ax.get_ylabel() == "Angle ψ, amplitude (rad)"

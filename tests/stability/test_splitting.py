@@ -86,7 +86,8 @@ def test_both_limits_are_reached() -> None:
     p = case(LIGHT, damping=5e-5)
     none = dm.split_growth(p, 0.0)
     large = dm.split_growth(p, 0.03)
-    assert none.growth_rate == none.together == dm.steady_sliding(p).growth_rate
+    assert none.growth_rate == none.together
+    assert none.together == dm.steady_sliding(p).growth_rate
     assert not none.matters
     assert large.apart < 0 < large.together
     scale = large.together - large.apart
@@ -130,7 +131,8 @@ def test_what_cannot_be_computed_is_said(changes: Any, split: Any, phrase: str) 
 def test_a_disc_without_pairs_has_nothing_to_split() -> None:
     disc = dm.Disc(diameters=[0], omega=[3000], amplitude=[0.5])
     found: SplitGrowth = dm.split_growth(case(PAD, disc=disc, friction_offset=0.0), 0.01)
-    assert found.growth_rate == found.together == found.apart
+    assert found.growth_rate == found.together
+    assert found.together == found.apart
     assert len(found.pairs) == 0
 
 
@@ -147,7 +149,8 @@ def test_a_mode_outside_the_pairs_may_grow_most() -> None:
     found = dm.split_growth(p, 0.01)
     [pair] = found.pairs.to_dict("records")
     assert pair["apart"] < pair["together"] < slider.real
-    assert found.apart == found.together == slider.real
+    assert found.apart == found.together
+    assert found.together == slider.real
 
 
 def test_a_damped_slider_is_below_the_mean_of_the_pair() -> None:
