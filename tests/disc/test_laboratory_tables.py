@@ -96,7 +96,9 @@ def test_units_may_have_a_row_of_their_own(tmp_path: Path) -> None:
     assert_right(read(tmp_path, text + table))
 
 
-POLES = OMEGA * (-np.array(RATIOS) + 1j * np.sqrt(1 - np.array(RATIOS) ** 2))
+DAMPED = np.array(RATIOS)
+OSCILLATING = np.sqrt(1 - DAMPED**2)
+POLES = OMEGA * (-DAMPED + 1j * OSCILLATING)
 
 
 @pytest.mark.parametrize("factor", [1.0, 1 / (2 * np.pi)])
@@ -134,7 +136,9 @@ def test_both_halves_of_pairs_become_their_mean(tmp_path: Path) -> None:
     table = table.replace("0,980,0.1,", "0,1980,0.1,")
     disc = read(tmp_path, heads + table, pairs="mean")
     assert disc.diameters == (2, 0, 0, 3)
-    np.testing.assert_allclose(np.array(disc.omega) / (2 * np.pi), [1212, 929, 1980, 1900])
+    turn = 2 * np.pi
+    frequencies = np.array(disc.omega) / turn
+    np.testing.assert_allclose(frequencies, [1212, 929, 1980, 1900])
     np.testing.assert_allclose(disc.amplitude, [0.54, 0.43, 0.1, 0.5])
     np.testing.assert_allclose(disc.damping_ratio, [0.002, 0.001, 0.001, 0.001])
     np.testing.assert_allclose(disc.tangential, [-0.13, 0, 0, -0.1])

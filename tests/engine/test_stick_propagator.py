@@ -127,7 +127,10 @@ def test_stick_holds_as_long_as_promised_and_not_much_longer(variant: str, seed:
     assert lowest > -1e-12 * p.N
     # the bound adds amplitudes that are never all at their worst together: it may not be idle,
     # though
-    bound = p.N - p.r_0 * (p.k_p * state.x[PSI] + p.c_p * p.Omega) / p.mu_s
+    of_spring = p.k_p * state.x[PSI]
+    of_damper = p.c_p * p.Omega
+    friction = p.r_0 * (of_spring + of_damper)
+    bound = p.N - friction / p.mu_s
     assert swing <= bound <= 4.0 * swing
 
 

@@ -32,7 +32,9 @@ def test_an_impact_pushes_along_the_normal_of_the_slope_and_leaves_no_gap() -> N
     p, f = getattr(impact, "py_func", impact)(model, i)
     # a height of w rises by B per radian: m r_0 (f - f before) is the tangential part of the
     # impulse, -p B / r_0
-    assert i.m * model.r_0 * (f - i.f) == pytest.approx(-p * i.dw_dtheta / model.r_0, rel=1e-14)
+    mass = i.m * model.r_0
+    impulse = -p * i.dw_dtheta / model.r_0
+    assert mass * (f - i.f) == pytest.approx(impulse, rel=1e-14)
     w_velocity = i.w_velocity - model.inverse_effective_mass * p + i.dw_dtheta * (f - i.f)
     assert i.u_velocity + p / i.m == pytest.approx(w_velocity, rel=1e-14)
 

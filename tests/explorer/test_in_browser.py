@@ -148,7 +148,10 @@ def shows_motions(shown: Explorer) -> None:
     assert shown.text("motion-note") == "At this point. After the transient."
     expected = force(100.0)
     # half a step of 16 bits, and rounding to float
-    np.testing.assert_allclose(shown.history(), expected, atol=np.ptp(expected) / LEVELS / 2 + 1e-4)
+    drawn = shown.history()
+    step = np.ptp(expected) / LEVELS
+    tolerance = step / 2 + 1e-4
+    np.testing.assert_allclose(drawn, expected, atol=tolerance)
     assert shown.text("phases").split() == ["stick", "slip", "separation"]
     for i, j, outcome, N, Omega in [(3, 0, "quiet", 100, 5), (2, 1, "separation", 385, 20)]:
         shown.point(i, j, click=True)

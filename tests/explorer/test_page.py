@@ -79,7 +79,10 @@ def line() -> xr.Dataset:
 
 def force(N: float) -> np.ndarray:
     """The contact force of a point, N."""
-    return (N * (1 + 0.5 * np.sin(np.linspace(0, 12, SAMPLES)))).astype(np.float32)
+    angle = np.linspace(0, 12, SAMPLES)
+    factor = 1 + 0.5 * np.sin(angle)
+    force = N * factor
+    return force.astype(np.float32)
 
 
 def motions() -> xr.Dataset:

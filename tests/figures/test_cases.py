@@ -117,7 +117,9 @@ def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:
     (mesh,) = (
         asked("spectrogram", window="spectrum_a", variable="psi", highest=400).axes[0].collections
     )
-    centre = (mesh.get_coordinates()[:-1, 0, 1] + mesh.get_coordinates()[1:, 0, 1]) / 2
+    corners = mesh.get_coordinates()
+    heights = corners[:, 0, 1]
+    centre = (heights[:-1] + heights[1:]) / 2
     strongest = centre[int(np.argmax(mesh.get_array().sum(axis=1)))]
     assert strongest == pytest.approx(70, abs=2)  # two steps of the transform
 
@@ -125,7 +127,10 @@ def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:
 def test_a_spectrum_shows_the_frequency_that_is_there() -> None:
     (line,) = asked("spectrum", window="spectrum_a", variable="psi", highest=400).axes[0].lines
     # the rate of releases, within the width of the window's line
-    assert line.get_xdata()[int(np.argmax(line.get_ydata()))] == pytest.approx(67.7, abs=0.7)
+    frequencies = line.get_xdata()
+    powers = line.get_ydata()
+    highest = int(np.argmax(powers))
+    assert frequencies[highest] == pytest.approx(67.7, abs=0.7)
 
 
 @pytest.mark.parametrize("kind", ["history", "poincare", "portrait", "spectrogram", "spectrum"])

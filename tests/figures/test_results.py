@@ -127,7 +127,10 @@ def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
     assert labels(sliding.plot().figure) == ["decays", "grows"]
     unstable = sliding.eigenvalues[(sliding.eigenvalues.real > 0) & (sliding.eigenvalues.imag >= 0)]
     named = [text.get_text() for text in sliding.plot().texts]
-    assert named[: len(unstable)] == [f"{x:.0f} Hz" for x in unstable.imag / 2 / np.pi]
+    frequencies = unstable.imag / 2 / np.pi
+    count = len(unstable)
+    expected = [f"{x:.0f} Hz" for x in frequencies]
+    assert named[:count] == expected
     branch = dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2))
     assert "fold at 15.095" in labels(branch.plot().figure)
     for shown, text in ((run(), "54.418905"), (cycle, "-0.10"), (sliding, "135"), (P, "15.1")):

@@ -79,7 +79,8 @@ def steady_eigenvalues(values, omega, psi, l, damping, tangential):
     left = np.eye(size + 3)
     right = np.zeros((size + 3, size))
     right[: 4 * n, : 4 * n] = modal
-    right[: 4 * n, f_row] = np.concatenate([l * b, -l * a, l * beta, -l * alpha])
+    turned = [l * b, -l * a, l * beta, -l * alpha]
+    right[: 4 * n, f_row] = np.concatenate(turned)
     left[2 * n : 3 * n, vertical] = psi
     left[3 * n : 4 * n, tangent] = -t
     right[psi_row, f_row] = -1

@@ -217,7 +217,10 @@ def test_scans_overlook_nothing_against_dense_ones(seed: int) -> None:
 def test_bounds_may_have_units_and_those_of_another_kind_are_refused():
     p = Parameters(N=385, Omega=14.95, mu_k_over_mu_s=0.6)
     found = critical.critical(p, "Omega", ("142.5 rpm", 15), points=3)
-    assert found.values[[0, -1]].tolist() == pytest.approx([142.5 * math.tau / 60, 15])
+    first = 142.5 * math.tau / 60
+    last = 15
+    ends = found.values[[0, -1]]
+    assert ends.tolist() == pytest.approx([first, last])
     branch = continue_cycle(p, "Omega", ("142.5 rpm", "15 rad/s"))
     assert "the bound Omega = 14.9226 rad/s was reached" in branch.ended
     plane = neutral_curves(

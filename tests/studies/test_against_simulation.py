@@ -128,7 +128,12 @@ def test_critical_speed_scans_the_simulated_motions(law: str) -> None:
 @EACH_LAW
 def test_a_map_has_the_simulated_first_separations(law: str) -> None:
     for p in separating(law, 2):
-        plane = [[p.replace(N=a * p.N, Omega=b * p.Omega) for b in (0.9, 1)] for a in (0.95, 1)]
+        plane = []
+        for a in (0.95, 1):
+            case = p.replace(N=a * p.N)
+            speeds = (0.9 * p.Omega, p.Omega)
+            row = [case.replace(Omega=Omega) for Omega in speeds]
+            plane.append(row)
         rows = Regions(horizon=HORIZON, initial_cell_size=1).compute_tile(plane, [])
         for cases, line in zip(plane, rows, strict=True):
             for case, (row, message) in zip(cases, line, strict=True):

@@ -115,7 +115,8 @@ def _swinging(p, psi=0.0, **modal):
     """The static start, but psi, and one of the mode's coordinates across the slider's
     direction."""
     start = static_start(p)
-    return start.replace(psi=psi, **{name: np.array([0.0, value]) for name, value in modal.items()})
+    arrays = {name: np.array([0.0, value]) for name, value in modal.items()}
+    return start.replace(psi=psi, **arrays)
 
 
 @pytest.mark.parametrize("give", RIGID_OR_NOT)
