@@ -29,7 +29,10 @@ def test_key_depends_on_values_not_on_spelling() -> None:
 
 @given(st.sampled_from(sorted(Parameters.model_fields)))
 def test_key_changes_with_every_field(name: str) -> None:
-    p = Parameters(N=385, Omega=15.1, c=1, c_p=1, n_circles=0 if name == "disc" else 2)
+    n_circles = 2
+    if name == "disc":
+        n_circles = 0
+    p = Parameters(N=385, Omega=15.1, c=1, c_p=1, n_circles=n_circles)
     other = {
         "normalization": "orthonormal",
         "contact": "bilateral",

@@ -70,7 +70,10 @@ def collocated(l: int, inner: float, load: float, nu: float, degree: int = 36) -
         plate = highest - factor / r**2 * d[2] + factor / r**3 * d[1]
         plate += (l**4 - 4 * l**2) / r**4 * d[0]
         for row in plate:
-            add([row, zero] if i == 0 else [zero, row], 0.0)
+            both = [zero, row]
+            if i == 0:
+                both = [row, zero]
+            add(both, 0.0)
     clamp = derivatives(inner, load, np.array([inner]))[:, 0]
     free = derivatives(load, 1.0, np.array([1.0]))[:, 0]
     left, after = (

@@ -29,7 +29,10 @@ def assert_right(disc: dm.Disc, damped: bool = True) -> None:
     assert disc.diameters == DIAMETERS
     np.testing.assert_allclose(disc.omega, OMEGA, rtol=1e-12)
     np.testing.assert_allclose(disc.amplitude, AMPLITUDES, rtol=1e-12)
-    np.testing.assert_allclose(disc.damping_ratio, RATIOS if damped else (0, 0, 0), rtol=1e-9)
+    ratios = (0, 0, 0)
+    if damped:
+        ratios = RATIOS
+    np.testing.assert_allclose(disc.damping_ratio, ratios, rtol=1e-9)
 
 
 def rows(*columns: Any, separator: str = ",") -> str:
@@ -176,7 +179,10 @@ def test_a_comment_states_the_static_compliance(
 ) -> None:
     text = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,551,0.5\n"
     found = read(tmp_path, f"{comment}\n{text}").static_compliance
-    assert found == (pytest.approx(value, rel=1e-12) if value else None)
+    if value:
+        assert found == pytest.approx(value, rel=1e-12)
+    else:
+        assert found is None
 
 
 @pytest.mark.parametrize(

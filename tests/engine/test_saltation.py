@@ -107,15 +107,23 @@ def about_to(
 
     def forces(bent: float) -> tuple[float, float]:
         """R and T (in flight those of slip) where the disc, or the contact, is bent by so much."""
-        start.a = level + (bent if q.rigid else 0) * q.s / q.w2
+        start.a = level
+        if q.rigid:
+            start.a = level + bent * q.s / q.w2
         start.u = q.s @ start.a - bent * q.C
-        return taylor.Reference(q, start).forces(*(("slip", 1) if flies else (phase, direction)))
+        reference = taylor.Reference(q, start)
+        if flies:
+            return reference.forces("slip", 1)
+        return reference.forces(phase, direction)
 
     def margin(psi: float) -> float:
         """Of friction, less 1 N."""
         start.psi = psi
         R, T = forces(bent)
-        return p.mu_s * R + (T if backwards else -T) - 1
+        friction = -T
+        if backwards:
+            friction = T
+        return p.mu_s * R + friction - 1
 
     if pressed is None:
         pressed = 5.0 if "lost" in switch else -100.0 if "tension" in switch else 400.0
@@ -304,7 +312,10 @@ def test_rates_are_those_of_the_reference(law: str, phase: str, direction: int) 
     q = taylor.problem_of(p)
     if phase != "separation":
         start = start.replace(u=start.u - 500 * float(q.C))
-    run = Full(p, start, scalars=4 if phase == "separation" or not q.rigid else 2)
+    scalars = 2
+    if phase == "separation" or not q.rigid:
+        scalars = 4
+    run = Full(p, start, scalars=scalars)
     step = taylor.Step(q, phase, direction, stored.reference_state(start, p))
     sign = np.sign(plate_modes(p)["psi"].to_numpy())
     modal = np.concatenate([sign * x[1] for x in (step.a, step.b, step.alpha, step.beta)])

@@ -37,13 +37,20 @@ RECORDED = {
 def simulated(separates: bool) -> xr.DataTree:
     """A minute with the windows that figures look for."""
     windows = RECORDED | {"poincare": Poincare(theta=0.5)}
-    return simulate(Parameters(N=385, Omega=15.1 if separates else 15), 60, windows).to_tree()
+    Omega = 15.0
+    if separates:
+        Omega = 15.1
+    p = Parameters(N=385, Omega=Omega)
+    result = simulate(p, 60, windows)
+    return result.to_tree()
 
 
 def asked(kind: str, case: xr.DataTree | None = None, **phrase: Any) -> Figure:
     """A figure of a case as a file asks for it; fit for print."""
     plot = kind_of(kind).model_validate({"kind": kind, "case": "A", **phrase})
-    figure = render(plot, {"A": simulated(True) if case is None else case})
+    if case is None:
+        case = simulated(True)
+    figure = render(plot, {"A": case})
     assert_fit_for_print(figure)
     return figure
 

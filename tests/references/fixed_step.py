@@ -103,7 +103,9 @@ def advance(q, modes, y, side, consistent, bilateral, h):
         margin = q[7] * P - abs(T)
     else:
         margin = side * speed
-    return y, margin if bilateral else min(P, margin)
+    if bilateral:
+        return y, margin
+    return y, min(P, margin)
 
 
 @njit
@@ -153,7 +155,10 @@ def follow(q, modes, y, t_end, h, consistent, bilateral, stop):
             while right - left > 1e-15:
                 middle = (left + right) / 2
                 y, margin = advance(q, modes, before, side, consistent, bilateral, middle)
-                left, right = (left, middle) if margin < 0 else (middle, right)
+                if margin < 0:
+                    right = middle
+                else:
+                    left = middle
             y, margin = advance(q, modes, before, side, consistent, bilateral, right)
             side = change(q, modes, y, side, consistent, bilateral)
             step = right
@@ -168,10 +173,7 @@ def follow(q, modes, y, t_end, h, consistent, bilateral, stop):
         _, _, _, surface, w, _ = motion(q, modes, y, side, consistent, out)
         if np.isnan(first):
             fastest = max(fastest, abs(surface))
-        else:
-            fastest = fastest
         if t > t_end - 1:
-            w = w
             if side == 2:
                 w = y[-2]
             low = min(low, w)

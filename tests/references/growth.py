@@ -68,7 +68,10 @@ def steady_eigenvalues(values, omega, psi, l, damping, tangential):
     B = np.sum(l * psi * b)
 
     # coordinates a, b, alpha, beta, psi, f, (u, v); unknowns: their rates, V, R, T
-    size = 4 * n + (4 if C else 2)
+    scalars = 2
+    if C:
+        scalars = 4
+    size = 4 * n + scalars
     psi_row = 4 * n
     f_row = 4 * n + 1
     u_row = 4 * n + 2

@@ -166,8 +166,6 @@ class Step:
         if q.rigid and self.phase != "separation":
             if fb is None:
                 fb = product(self.f, self.b, k)
-            else:
-                fb = fb
             self.u[k] = (q.s * self.a[k]).sum()
             self.v[k] = (q.s * (self.alpha[k] + q.l * fb)).sum()
 
@@ -179,7 +177,9 @@ class Step:
         self._slider(k, fb)
         self.F[k] = q.k_p * self.psi[k] + q.c_p * (self.drive[k] - f[k])
         free = -q.d * self.alpha[k] - q.w2 * self.a[k]
-        height = q.k * self.u[k] + q.c * self.v[k] + self.load[k] - (q.k * q.u_0 if k == 0 else 0)
+        height = q.k * self.u[k] + q.c * self.v[k] + self.load[k]
+        if k == 0:
+            height = height - q.k * q.u_0
         self._forces(k, free, fq, height)
         j = k + 1
         self.a[j] = (self.alpha[k] + q.l * fb) / j
@@ -223,7 +223,8 @@ class Step:
             if q.rigid:
                 # D R = top + B F
                 self.below[k] = product(self.B, self.B, k) / q.r_0**2 - q.m * q.S2 * steep
-                self.below[k] += 1 + q.m * q.S2 if k == 0 else 0
+                if k == 0:
+                    self.below[k] += 1 + q.m * q.S2
                 top += product(self.B, self.F, k)
             else:
                 self.below[k], top = -steep + (1 if k == 0 else 0), self.V[k]
@@ -272,7 +273,10 @@ class Step:
             q.N * q.s / np.sqrt(q.w2)
         ).max(initial=0)
         for x, usual in groups:
-            last = len(x) - (2 if x is self.R else 1)
+            left_out = 1
+            if x is self.R:
+                left_out = 2
+            last = len(x) - left_out
             scale = max(abs(x[0]).max(initial=0), usual)
             if x is self.alpha or x is self.beta:
                 scale = modal
@@ -410,7 +414,11 @@ class Reference:
         turn = self.q.l * (theta - drive + self.psi)
         R, _ = self.forces(self.phase, self.direction)
         held = self.phase != "separation" and q.rigid
-        u, u_velocity = (w, velocity) if held else (self.u, self.v)
+        u = self.u
+        u_velocity = self.v
+        if held:
+            u = w
+            u_velocity = velocity
         along = q.s * np.cos(turn)
         across = q.s * np.sin(turn)
         point = along @ self.a + across @ self.b
@@ -440,7 +448,10 @@ class Reference:
             found = [
                 (t, kind) for kind, c in self._switches(step) if (t := first_zero(c, h)) is not None
             ]
-            t, kind = min(found) if found else (h, None)
+            t = h
+            kind = None
+            if found:
+                t, kind = min(found)
             for name, value in step.at(t).items():
                 setattr(self, name, value)
             self.local += t
@@ -462,9 +473,7 @@ class Reference:
                 ("stick_to_slip", self.q.mu_s * step.R[:K] - side * step.T[:K]) for side in (1, -1)
             ]
             # a compliant contact does not pull, though friction may hold where it would
-            if self.q.rigid:
-                R = R
-            else:
+            if not self.q.rigid:
                 R = step.V[self.divide["R"] : K]
         if self.q.bonded:
             return ends
@@ -498,11 +507,12 @@ class Reference:
                     zeros = 2
                 if kind == "rest":
                     kind = "slip_reversal"
-                else:
-                    kind = kind
                 self._enter(kind, "slip", 1 if T > 0 else -1, f=zeros)
         elif kind == "separation":
-            self._separate(3 if self.q.rigid else 1)
+            least = 1
+            if self.q.rigid:
+                least = 3
+            self._separate(least)
         else:
             self._reattach()
 

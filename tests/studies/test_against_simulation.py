@@ -204,7 +204,10 @@ def test_hysteresis_follows_the_motion_from_speed_to_speed(law: str) -> None:
                 there = found.sel(direction=way, sweep_Omega=speed)
                 for name, value in shares_of(last).items():
                     # an irregular motion is not the same after a stay; its shares are
-                    near = 0.1 * value + (5.0 if name == "separation_rate" else 0.05)
+                    least = 0.05
+                    if name == "separation_rate":
+                        least = 5.0
+                    near = 0.1 * value + least
                     assert there[name].item() == pytest.approx(value, abs=near), (way, speed)
         rates = found["separation_rate"].sel(direction="up").values
         assert found["onset_speed"].item() == speeds[(rates > 0).argmax()]

@@ -40,7 +40,10 @@ def edge(holds, low, high):
     assert not holds(high)
     while high - low > 1e-11 * high:
         middle = (low + high) / 2
-        low, high = (middle, high) if holds(middle) else (low, middle)
+        if holds(middle):
+            low = middle
+        else:
+            high = middle
     return low
 
 

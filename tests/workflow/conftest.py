@@ -124,7 +124,10 @@ class Project:
         not count."""
         assert (self.folder / path).is_file()
         with (self.folder / path).open("a") as file:
-            file.write("\n_CHANGED = True\n" if path.endswith(".py") else "\n# changed\n")
+            change = "\n# changed\n"
+            if path.endswith(".py"):
+                change = "\n_CHANGED = True\n"
+            file.write(change)
 
 
 def copy_repository(

@@ -135,7 +135,11 @@ def test_every_fault_is_shown_and_nothing_runs(
     project: Project, file: str, old: str, new: str, faults: list[str]
 ) -> None:
     project.edit(file, old, new)
-    shown = replace(project, config=SMALL if file == SMALL else None).refused("-j2")
+    config = None
+    if file == SMALL:
+        config = SMALL
+    changed = replace(project, config=config)
+    shown = changed.refused("-j2")
     assert [fault for fault in faults if fault not in shown] == []
     assert "Traceback" not in shown
     assert "Job stats" not in shown

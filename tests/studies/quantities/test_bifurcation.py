@@ -46,7 +46,11 @@ def test_a_transient_is_doubled_until_the_motion_has_settled(
     assert values["kind"] == kind
     assert values["transient_time"] == transient
     assert message == ""
-    assert len(values["psi"]) == (0 if kind in (Outcome.AT_REST, Outcome.STEADY_SLIDING) else 5)
+    calm = (Outcome.AT_REST, Outcome.STEADY_SLIDING)
+    count = 5
+    if kind in calm:
+        count = 0
+    assert len(values["psi"]) == count
 
 
 def test_on_a_rigid_disc_the_slider_is_released_where_the_spring_has_friction_s_limit() -> None:
