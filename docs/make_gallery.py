@@ -55,6 +55,7 @@ OF_GRIDS = (
     "sliding_coalescence",
     "sliding_outcome",
     "ramps",
+    "range_law",
     "brake_range",
     "brake_growth",
     "map_couple",

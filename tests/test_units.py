@@ -62,6 +62,8 @@ def test_a_number_with_a_unit_is_that_in_si(text: str, unit: str, value: float) 
     ("text", "unit", "meant"),
     [
         ("100 gr", "kg", "g"),
+        ("1 Ns/m", "N s/m", "N s"),
+        ("1 Kg", "kg", "kg"),
         ("1 ton", "kg", "t"),
         ("30 grad", "rad", "deg"),
         ("1 Nm", "N m", "N m"),

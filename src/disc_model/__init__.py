@@ -20,6 +20,7 @@ __version__ = "0.3.0"
 
 _NAMES = {
     "data.exchange": "load save",
+    "analysis.contact_loss": "pinned_range",
     "disc.flexibility": "residual_flexibility",
     "disc.plate": "plate_modes coupled_natural_frequencies",
     "disc.plausibility": "ImplausibleValue",
@@ -49,6 +50,7 @@ _HOMES = {name: module for module, names in _NAMES.items() for name in names.spl
 __all__ = [*_HOMES, "__version__"]
 
 if TYPE_CHECKING:
+    from disc_model.analysis.contact_loss import pinned_range
     from disc_model.data.exchange import load, save
     from disc_model.disc.flexibility import residual_flexibility
     from disc_model.disc.plate import coupled_natural_frequencies, plate_modes

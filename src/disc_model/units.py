@@ -82,9 +82,9 @@ _SPELLINGS = str.maketrans(
 them."""
 _OTHER_WORDS = {"rev": "turn", "revs": "turn", "RPM": "rpm", "Rpm": "rpm"}
 _PER_MINUTE = ("1/min", "min**-1", "1/minute", "minute**-1")  # of a speed of rotation: turns
-_MISLEADING = {"gr": "g", "grad": "deg", "ton": "t", "Nm": "N m"}
+_MISLEADING = {"gr": "g", "grad": "deg", "ton": "t", "Nm": "N m", "Ns": "N s", "Kg": "kg"}
 """Words for other units than they seem to be (grain, a hundredth of a right angle, short ton,
-nanometre), and what is meant."""
+nanometre) or for none, and what is meant."""
 
 
 @functools.lru_cache(maxsize=1)

@@ -33,6 +33,21 @@ def test_lines_are_found_with_frequency_and_amplitude() -> None:
     assert [line.amplitude for line in found] == pytest.approx(list(KNOWN.values()), rel=0.02)
 
 
+def test_the_main_vibration_has_its_share_of_the_variance() -> None:
+    found = spectra.main_vibration(TIME, signal({135.42: 3.0, 270.9: 1.0}))
+    assert found.frequency == pytest.approx(135.42, abs=0.005)
+    assert found.amplitude == pytest.approx(3.0, rel=1e-3)
+    assert found.share == pytest.approx(0.9, abs=1e-3)
+    assert spectra.share_at(TIME, signal({135.42: 1.0, 270.9: 1.0}), 270.9) == pytest.approx(
+        0.5, abs=1e-3
+    )
+
+
+def test_a_constant_signal_has_no_main_vibration() -> None:
+    with pytest.raises(ValueError, match="no line"):
+        spectra.main_vibration(TIME, np.full(TIME.size, 0.7))
+
+
 @pytest.mark.parametrize(
     ("time", "values", "fault"),
     [

@@ -40,6 +40,20 @@ def rows(*columns: Any, separator: str = ",") -> str:
     return "".join(separator.join(map(str, row)) + "\n" for row in zip(*columns, strict=True))
 
 
+@pytest.mark.parametrize("label", ["Mode", "mode no.", "No.", "Mode-Nr."])
+@pytest.mark.parametrize("separator", [",", ";"])
+def test_a_first_column_that_labels_modes_is_left_aside(
+    label: str, separator: str, tmp_path: Path
+) -> None:
+    """Software of modal tests numbers modes; it was an unknown column."""
+    heads = [label, "diameters", "frequency (Hz)", "amplitude (1/sqrt(kg))", "damping (1)"]
+    text = rows((1, 2, 5), DIAMETERS, FREQUENCIES, AMPLITUDES, RATIOS, separator=separator)
+    assert_right(read(tmp_path, separator.join(heads) + "\n" + text))
+    units = separator.join(["", "-", "Hz", "1/sqrt(kg)", "-"]) + "\n"
+    heads = [label, "diameters", "frequency", "amplitude", "damping"]
+    assert_right(read(tmp_path, separator.join(heads) + "\n" + units + text))
+
+
 @pytest.mark.parametrize(
     ("heads", "factors"),
     [

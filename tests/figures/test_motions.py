@@ -1,4 +1,4 @@
-"""Figures of motions over one parameter: bifurcation diagrams, basins, ramps."""
+"""Figures of motions over one parameter: bifurcation diagrams, basins, ramps; the range law."""
 
 import re
 
@@ -166,3 +166,48 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(
     assert [text.get_text() for text in ax.texts] == ["15.10"], (
         "the fold of another cycle, at 11 rad/s, was drawn too"
     )
+
+
+# ---- the range law
+
+
+def separating_motions() -> xr.Dataset:
+    """Four motions of two masses: one in contact, one of several frequencies, one far off."""
+    pinned = np.array([[4e-3, 8e-3], [np.nan, 16e-3]])
+    excess = np.array([[0.01, 0.9], [np.nan, 0.03]])
+    shares = np.array([[1.0, 0.99], [np.nan, 0.98]])
+    values = {
+        "range": pinned * (1 + excess),
+        "pinned_range": pinned,
+        "deviation": excess,
+        "separation_fraction": np.array([[0.1, 0.3], [np.nan, 0.15]]),
+        "vibration_share": shares,
+        "force_share": np.array([[1.0, 0.5], [np.nan, 0.97]]),
+    }
+    data = {name: (("m", "begin"), column) for name, column in values.items()}
+    base = {"base": '{"normalization": "as_published"}'}
+    return xr.Dataset(data, {"m": [0.1, 0.2], "begin": ["static", "displaced"]}, base)
+
+
+def test_motions_of_one_frequency_are_filled_and_those_set_apart_have_their_own_mark() -> None:
+    figure = draw("range_law", separating_motions(), set_apart={"heavy": {"m": 0.2}})
+    ranges, excess = figure.axes
+    marks = {}
+    for line in ranges.lines:
+        if line.get_marker() != "None" and line.get_xdata().size:
+            is_filled = line.get_markerfacecolor() != "white"
+            marks[line.get_marker(), is_filled] = line.get_xydata().ravel().tolist()
+    assert marks == {
+        ("o", True): pytest.approx([4.0, 4.04]),
+        ("o", False): pytest.approx([8.0, 15.2]),
+        ("s", True): pytest.approx([16.0, 16.48]),
+    }
+    heights = np.concatenate(
+        [line.get_ydata() for line in excess.lines if line.get_marker() in "os"]
+    )
+    assert sorted(heights) == pytest.approx([1.0, 3.0, 35.0]), "what is far off stands at the edge"
+    assert labels(figure)[:3] == [
+        "modes as published",
+        "heavy",
+        "no frequency carries 95 % of height and contact force",
+    ]

@@ -1,5 +1,7 @@
 """`simulate` on ramps of Omega and of N, against references that know nothing of the engine."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -57,6 +59,29 @@ def test_every_law_on_ramps_of_both(name):
     start = taylor.violent_start(size)
     found = compared(p, ramps, 0.02, start)
     assert {"separation", "reattachment"} <= set(found.events["kind"])
+
+
+def vibrating(p):
+    """The static start of a reference, with a disc that vibrates along the slider's direction."""
+    q = taylor.problem_of(p)
+    rest = q.equilibrium()
+    alpha = 0.02 * np.sqrt(q.w2) * np.abs(rest.a)
+    return replace(rest, alpha=alpha, u_velocity=q.s @ alpha)
+
+
+def test_a_run_up_from_rest():
+    p = Parameters(N=20.0, Omega=0.0, c_p=5.0, n_diameters=1)
+    run_up = Ramp(parameter="Omega", to=0.5, start=0.0, end=0.0078125)
+    kinds = list(compared(p, (run_up,), 0.025, vibrating(p)).events["kind"])
+    assert kinds == ["stick_to_slip", "slip_to_stick"]
+
+
+def test_a_brake_stop_and_the_rest_after_it():
+    p = Parameters(N=50.0, Omega=15.0, c_p=5.0, n_diameters=1)
+    stop = Ramp(parameter="Omega", to=0.0, start=0.0078125, end=0.015625)
+    found = compared(p, (stop,), 0.025, vibrating(p))
+    assert found.final_state.phase == "stick"
+    assert found.message.startswith("at_rest: at t = 0.025 s in stick, the drive stands still")
 
 
 @pytest.mark.parametrize(

@@ -258,7 +258,9 @@ def _end_of_stick(model, series, state, order, x_end, known_force, tolerance):
     """As `first_event`: friction is overcome in either direction, or contact is lost."""
     end = x_end, NOTHING
     known_release = known_force
+    # nor does the drive begin to move, on a ramp
     undriven = model.k_p * model.Omega == 0.0
+    undriven = undriven and (model.k_p + model.c_p) * model.Omega_rate == 0.0
     if not model.bonded and undriven and inplane_force_per_radius(model, state) == 0.0:
         # P = 0 and the friction limit coincide, and it is contact that ends
         end = _end_of_contact(model, series, state, known_force, order, end, tolerance)

@@ -303,6 +303,15 @@ def split_rows(modes: Modes, rows: Any) -> tuple[Any, Any, Any]:
     return (a, alpha, b, beta), slider, height
 
 
+def height_of_slider(p: Parameters, sliding: SteadySliding) -> float:
+    """Height u of the slider on a compliant contact in steady sliding, m."""
+    # the contact's force is that of the slider's spring: (w - u) / compliance = N + k (u - u_0)
+    compliance = contact_compliance(p)
+    load = p.N - p.k * engine_case(p).model.u_0
+    w = float(mode_arrays(p).psi @ sliding.a)
+    return (w - compliance * load) / (1 + p.k * compliance)
+
+
 def join_rows(
     modes: Modes, disc: Sequence[Any], slider: Sequence[Any], height: Sequence[Any]
 ) -> Any:

@@ -11,6 +11,7 @@ from disc_model.studies.quantities.hysteresis import Hysteresis
 from disc_model.studies.quantities.lyapunov import Lyapunov
 from disc_model.studies.quantities.outcome import HorizonOutcome
 from disc_model.studies.quantities.ramps import Ramps
+from disc_model.studies.quantities.range_law import RangeLaw
 from disc_model.studies.quantities.regions import Regions
 from disc_model.studies.quantities.sensitivity import Sensitivity
 from disc_model.studies.quantities.sliding import Sliding
@@ -28,6 +29,7 @@ QUANTITIES: dict[str, type[Quantity]] = {
     "lyapunov": Lyapunov,
     "outcome": HorizonOutcome,
     "ramps": Ramps,
+    "range_law": RangeLaw,
     "regions": Regions,
     "sensitivity": Sensitivity,
     "sliding": Sliding,

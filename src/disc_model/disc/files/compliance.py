@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import re
 
-from disc_model.disc.files.rows import begins_a_number, number_in
+from disc_model.disc.files.rows import begins_a_number, joined, number_in
 from disc_model.disc.plate import modes_of_table
 from disc_model.errors import Fault, raise_faults, require
 from disc_model.parameters import Disc
@@ -36,7 +36,7 @@ def stated_compliance(lines: list[str]) -> str | float | None:
 
 def _is_on_compliance(name: str, value: str) -> bool:
     """Whether a comment seems to state the static compliance, perhaps with a typing error."""
-    words = _joined(name)
+    words = joined(name)
     likeness = max(
         difflib.SequenceMatcher(None, words, known).ratio() for known in _COMPLIANCE_NAMES
     )
@@ -45,7 +45,7 @@ def _is_on_compliance(name: str, value: str) -> bool:
 
 def _compliance(name: str, unit: str | None, value: str) -> str | float:
     """The value of a comment in m/N; its unit stands beside it or beside the name."""
-    words = _joined(name)
+    words = joined(name)
     rule = f"must be named {STATIC_COMPLIANCE}, or static_compliance with a unit of m/N"
     require((words in _COMPLIANCE_NAMES, "comment", name, rule))
     text = f"{value} {unit}" if unit else value
@@ -57,11 +57,6 @@ def _compliance(name: str, unit: str | None, value: str) -> str | float:
     rule = "must be a number in m/N, or with a unit of its kind"
     require((isinstance(number_in(str(compliance)), float), STATIC_COMPLIANCE, text, rule))
     return compliance
-
-
-def _joined(name: str) -> str:
-    """The words of a name in lower case, with "_" between them."""
-    return re.sub(r"[\s_-]+", "_", name.strip().lower())
 
 
 def check_compliance(disc: Disc) -> None:

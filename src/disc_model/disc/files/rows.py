@@ -75,3 +75,8 @@ def number_in(cell: str, factor: float = 1.0) -> float | str:
 def begins_a_number(cell: str) -> bool:
     """Whether a cell begins as a number does, so that its row is no row of units."""
     return bool(re.match(r"[-+]?[.,]?\d(?!/)", cell)) or cell.lower().startswith(("nan", "inf"))
+
+
+def joined(name: str) -> str:
+    """The words of a name in lower case, with "_" between them."""
+    return re.sub(r"[\s_-]+", "_", name.strip().lower())

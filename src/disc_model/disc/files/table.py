@@ -12,7 +12,7 @@ import numpy as np
 
 from disc_model.disc.files.compliance import STATIC_COMPLIANCE, check_compliance, stated_compliance
 from disc_model.disc.files.heads import COLUMNS, Head, read_head
-from disc_model.disc.files.rows import begins_a_number, number_in, rows_of
+from disc_model.disc.files.rows import begins_a_number, joined, number_in, rows_of
 from disc_model.disc.given import SAME_PAIR, DiscReport, ModeOrigin
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import Disc
@@ -31,6 +31,8 @@ WRITTEN = (
     "tangential_per_sqrt_kg",
 )
 """Columns of `table_text`, in this order, before those of shapes."""
+LABELS = ("mode", "mode_number", "mode_no", "mode_nr", "number", "no", "nr")
+"""Heads of a first column that only labels modes, in lower case with "_" between words."""
 POLES = ("pole", "pole_real", "pole_imag")  # quantities that stand for frequency and damping
 
 
@@ -105,7 +107,7 @@ def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
 
 def _columns(rows: list[list[str]]) -> list[Column]:
     """The columns of a table, checked as a whole."""
-    names, *body = rows or [[]]
+    names, *body = _without_labels(rows) or [[]]
     if body and _is_of_units(body[0], names):
         names = _with_units(names, body.pop(0))
     heads, faults = _heads(names)
@@ -123,6 +125,13 @@ def _columns(rows: list[list[str]]) -> list[Column]:
 def _is_of_units(row: list[str], names: list[str]) -> bool:
     """Whether a row below the names has their units: as many cells, none of which is a number."""
     return len(row) == len(names) and not any(map(begins_a_number, row))
+
+
+def _without_labels(rows: list[list[str]]) -> list[list[str]]:
+    """The rows without a first column that labels modes: what it counts, no other column needs."""
+    if rows and joined(rows[0][0]).rstrip(".") in LABELS:
+        return [row[1:] for row in rows]
+    return rows
 
 
 def _with_units(names: list[str], units: list[str]) -> list[str]:

@@ -75,6 +75,28 @@ class BasinShares(Plot):
     x: str
 
 
+class RangeLawPlot(Plot):
+    """Range of all motions of a study that separate, against the range at which their vibration
+    loses contact.
+
+    share : least share of height and contact force at one frequency of a motion with a filled mark
+    set_apart : values of a parameter, by the name of its motions, which have marks of their own
+    """
+
+    several = True
+    kind: Literal["range_law"] = "range_law"
+    share: Annotated[Positive, Field(le=1)] = 0.95
+    set_apart: dict[str, dict[str, Finite]] = Field({})
+
+    def wrong_dims(self, values: Values) -> Iterator[Fault]:
+        """Names that do not vary; whatever does, motions are drawn."""
+        for group in self.set_apart.values():
+            for name in group:
+                # the name of a zip has those of all its parameters
+                if not any(f"_{name}_" in f"_{dim}_" for dim in values):
+                    yield Fault.of(("set_apart",), name, "does not vary in this study")
+
+
 class Sensitivity(Plot):
     """Probability of instability in the lowest and in the highest third of each parameter; for up
     to four points."""

@@ -13,8 +13,7 @@ from disc_model.display import counted, draw
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.continuation.problem import MapFactory
-from disc_model.stability.return_map import ReturnMap
+from disc_model.stability.return_map import MapFactory, ReturnMap
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,6 +25,7 @@ LABELS: dict[str, str] = {
     "neimark_sacker": "TR",
     "branch_point": "BP",
     "grazing": "GR",
+    "hopf": "HB",
     "end": "EP",
 }
 """Kinds of special points, and their labels in AUTO and COCO."""
@@ -44,8 +44,8 @@ class SpecialPoint:
     Attributes
     ----------
     kind : "fold", two cycles meet; "period_doubling", a multiplier is -1; "neimark_sacker", a complex pair of
-        multipliers has modulus one; "grazing", a switch is touched, and an event appears or vanishes; "branch_point",
-        another branch crosses; "end", of the branch
+        multipliers has modulus one; "grazing", a switch is touched, and an event appears or vanishes; "hopf", the
+        cycle shrinks to steady sliding; "branch_point", another branch crosses; "end", of the branch
     values : shape (n_parameters,), SI units
     period : s; stick_fraction; growth_rate : 1/s
     multiplier : the one that is critical; at a grazing and at an end, the leading one
@@ -68,7 +68,7 @@ class SpecialPoint:
 
     @property
     def label(self) -> str:
-        """Label of the kind in AUTO and COCO: LP, PD, TR, BP, GR or EP."""
+        """Label of the kind in AUTO and COCO: LP, PD, TR, BP, HB, EP; GR."""
         return LABELS[self.kind]
 
     @cached_property
@@ -78,7 +78,8 @@ class SpecialPoint:
 
     @cached_property
     def state(self) -> State:
-        """The cycle's state on the section, at the end of stick, at time 0."""
+        """The cycle's state on the section, at the end of stick or, without stick, where the spring
+        is longest, at time 0."""
         return self.make_map(self.case).state(self.point)
 
     def __repr__(self) -> str:
@@ -98,7 +99,7 @@ class Branch:
     multipliers : complex, (n_points, n), largest modulus first
     diameters : int, (n_points,), nodal diameters of the modes with most energy in the leading multiplier's eigenvector
     separations : int, (n_points,), number of separations in a period
-    points : (n_points, n), on the section, in the coordinates of `ReturnMap` for the case followed
+    points : (n_points, n), on the section, in the coordinates of the return map for the case followed
     folds : (n_folds, n_parameters), values at which the first parameter turns, located to rounding; only on a branch
         in one parameter
     ended : reason for which the branch ends; of both ends if they differ, that of the first point first
@@ -136,7 +137,7 @@ class Branch:
     def special_points(self) -> pd.DataFrame:
         """The special points as a table, in their order along the branch.
 
-        Columns: `kind` and `label` (AUTO's LP, PD, TR, BP and EP; GR for a grazing), the parameters
+        Columns: `kind` and `label` (AUTO's LP, PD, TR, BP, HB and EP; GR for a grazing), the parameters
         by their names (SI units), `growth_rate` (1/s), `period` (s), `stick_fraction`,
         `multiplier`, `after` (number of the branch's point before it) and `state`, a `State` of the
         cycle to simulate and draw.
@@ -173,8 +174,8 @@ class Branch:
         return self.case.replace(**dict(zip(self.parameters, values, strict=True)))
 
     def state(self, i: int) -> State:
-        """The state of the i-th cycle on the section, at the end of stick and at time 0, to
-        simulate and draw; the cycle may be unstable.
+        """The state of the i-th cycle on the section, at the end of stick or, without stick, where
+        the spring is longest, and at time 0, to simulate and draw; the cycle may be unstable.
 
         Simulated for a period, the modal coordinates return to those of this state within 1e-7 of
         the largest, times the leading multiplier. Raises `ParameterError` if there is no such
