@@ -14,8 +14,8 @@ import pytest
 import xarray as xr
 
 import disc_model as dm
-from disc_model.studies.functions import run_study
 from disc_model.studies.sweeps import sweep
+from disc_model.studies.whole_study import run_study
 
 P = dm.Parameters(N=385, Omega=14)
 

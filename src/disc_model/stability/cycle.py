@@ -19,7 +19,7 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import State
-from disc_model.stability.return_map import ENDS, Orbit, ReturnMap, SectionMap, newton
+from disc_model.stability.return_map import ENDS, Counts, Orbit, ReturnMap, SectionMap, newton
 from disc_model.stability.sliding import SlidingStatus, SteadySliding, steady_sliding
 from disc_model.stability.slipping_cycle import find_slipping_orbit
 from disc_model.stability.slipping_map import SlippingMap
@@ -386,6 +386,11 @@ def cycle_of(map_: SectionMap, orbit: Orbit) -> FloquetResult:
         sticks=counts.sticks,
         residual=orbit.residual / map_.deflection,
     )
+
+
+def counts_of(cycle: FloquetResult) -> Counts:
+    """Number of events of each kind in a period of a cycle."""
+    return Counts(*(getattr(cycle, event) for event in Counts._fields))
 
 
 def multipliers(jacobian: Array) -> ComplexArray:

@@ -17,12 +17,12 @@ from disc_model.stability.continuation.problem import CycleProblem, growth_rate,
 from disc_model.stability.cycle import (
     SLIPPING,
     STICK_SLIP,
+    counts_of,
     find_cycle,
     find_slipping_cycle,
     guess_faults,
     multipliers,
 )
-from disc_model.stability.return_map import Counts
 from disc_model.stability.slipping_map import SlippingMap
 from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, limits_faults
 
@@ -144,7 +144,7 @@ def continue_cycle(  # noqa: PLR0913
         cycle = find_cycle(p, tol, guess, releases)
         order = None
         if guess is not None:
-            order = Counts(*(getattr(cycle, event) for event in Counts._fields))
+            order = counts_of(cycle)
         problem = CycleProblem(p, (name,), scale, tol, order)
     rising = np.zeros(problem.n + 1)
     rising[-1] = 1.0
