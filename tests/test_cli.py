@@ -111,8 +111,9 @@ def test_the_heads_of_modes_are_whole_in_80_columns(
     table = disc_model.Disc(
         diameters=[0, 12], omega=[9_876.543, 98_765.432], amplitude=[1.23456, 12.3456]
     )
-    table.to_csv(tmp_path / "disc.csv")
-    out = command.out("modes", "--disc", str(tmp_path / "disc.csv"), "--r-0", "0.11")
+    path = tmp_path / "disc.csv"
+    table.to_csv(path)
+    out = command.out("modes", "--disc", str(path), "--r-0", "0.11")
     assert "…" not in out
     for word in ("amplitude", "98765.432", "12.346", "damping"):
         assert word in out
@@ -145,8 +146,10 @@ def test_sliding_prints_the_modes_in_the_slider_s_frame(command: Command) -> Non
 def test_a_run_is_drawn_and_saved_and_one_that_does_not_end_is_told(
     command: Command, tmp_path: Path
 ) -> None:
-    picture = str(tmp_path / "run.png")
-    file = str(tmp_path / "run.nc")
+    run_path = tmp_path / "run.png"
+    picture = str(run_path)
+    run_file = tmp_path / "run.nc"
+    file = str(run_file)
     out = command.out(*SHORT, "--plot", picture, "--save", file)
     assert f"saved               {file}\nfigure              {picture}\n" in out
     assert Path(picture).read_bytes().startswith(b"\x89PNG")
@@ -162,9 +165,11 @@ def test_events_are_written_as_text_and_a_dataset_in_another_format(
     command: Command, tmp_path: Path
 ) -> None:
     file = tmp_path / "run.nc"
-    out = command.out(*SHORT, "--csv", str(tmp_path / "new"), "--save", str(file))
-    assert f"saved               {tmp_path / 'new' / 'events.csv'}\n" in out
-    assert (tmp_path / "new" / "events.csv").read_text().startswith("time (s),kind,phase,")
+    new_path = tmp_path / "new"
+    out = command.out(*SHORT, "--csv", str(new_path), "--save", str(file))
+    events_path = tmp_path / "new" / "events.csv"
+    assert f"saved               {events_path}\n" in out
+    assert events_path.read_text().startswith("time (s),kind,phase,")
     target = tmp_path / "run.mat"
     assert command.out("convert", str(file), str(target)) == f"saved               {target}\n"
     assert disc_model.load(target).identical(disc_model.load(file))

@@ -268,8 +268,9 @@ def test_a_frequency_in_another_unit_is_doubted(
 ) -> None:
     """At each reading, and a table whose modes are far apart is not."""
     text = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n"
-    (tmp_path / "disc.csv").write_text(text + rows((1, 2, 3, 4), frequencies, (1, 1, 1, 1)))
+    path = tmp_path / "disc.csv"
+    path.write_text(text + rows((1, 2, 3, 4), frequencies, (1, 1, 1, 1)))
     for _ in range(2):
         with pytest.warns(dm.ImplausibleValue, match=phrase):
-            dm.Disc.from_csv(tmp_path / "disc.csv")
+            dm.Disc.from_csv(path)
     read(tmp_path, text + rows((1, 2, 3, 4), (12, 100, 2000, 9000), (1, 1, 1, 1)))

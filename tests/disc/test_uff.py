@@ -115,7 +115,8 @@ def test_units_are_those_of_the_file(
 
 def test_a_code_of_units_stands_for_its_factors(tmp_path: Path) -> None:
     """Millimetres and milli-newtons, code 5, in a file that leaves the factors out."""
-    file = Dialect(length=1e3, force=1e3).write(tmp_path / "modes.unv", halves(MODES))
+    path = tmp_path / "modes.unv"
+    file = Dialect(length=1e3, force=1e3).write(path, halves(MODES))
     text = file.read_text()
     name = "mm (milli-newton)   "
     unit = whole(5) + name + whole(2)
@@ -197,7 +198,8 @@ def test_displacements_in_cylindrical_systems_are_turned(tmp_path: Path) -> None
 def test_nodes_in_systems_of_definition_are_placed(number: int, tmp_path: Path) -> None:
     """Dataset 15 has coordinates in them: here cylindrical, with angles in degrees."""
     dialect = Dialect(axial_only=True)
-    file = dialect.write(tmp_path / "modes.unv", halves(MODES))
+    path = tmp_path / "modes.unv"
+    file = dialect.write(path, halves(MODES))
     r, angle, height = dialect.grid()
     nodes = begin(15)
     for i, place in enumerate(zip(r, np.degrees(angle), height, strict=True), 1):
@@ -428,8 +430,9 @@ def replaced(i: int, text: str) -> Callable[[list[str]], None]:
 def test_damaged_records_are_named(
     place: int, change: Callable[[list[str]], None], phrase: str, tmp_path: Path
 ) -> None:
+    path = tmp_path / "m.unv"
     with pytest.raises(dm.ParameterError) as error:
-        dm.Disc.from_uff(damaged(tmp_path / "m.unv", place, change), R_0)
+        dm.Disc.from_uff(damaged(path, place, change), R_0)
     assert phrase in str(error.value)
     assert str(error.value).startswith("m.unv: ")
 
@@ -437,7 +440,8 @@ def test_damaged_records_are_named(
 def test_numbers_that_touch_are_read(tmp_path: Path) -> None:
     """Fields of fixed width need no blanks between them, and exponents of three digits have no
     letter."""
-    file = Dialect(axial_only=True).write(tmp_path / "modes.unv", halves(MODES))
+    path = tmp_path / "modes.unv"
+    file = Dialect(axial_only=True).write(path, halves(MODES))
     lines = file.read_text().splitlines()
     text = "\n".join(
         line.replace("  0.00000E+00  0.00000E+00", "-1.000000E-25 -1.00000-101") for line in lines
@@ -450,11 +454,13 @@ def test_numbers_that_touch_are_read(tmp_path: Path) -> None:
     "content", [b"", b"a text", bytes(range(256)), b"    -1\n    -1\n", b"    -1\n    55\n    -1\n"]
 )
 def test_what_is_no_universal_file_is_refused(content: bytes, tmp_path: Path) -> None:
-    (tmp_path / "x.uff").write_bytes(content)
+    x_path = tmp_path / "x.uff"
+    x_path.write_bytes(content)
     with pytest.raises(dm.ParameterError, match=r"x\.uff: "):
-        dm.Disc.from_uff(tmp_path / "x.uff", R_0)
+        dm.Disc.from_uff(x_path, R_0)
+    none_path = tmp_path / "none.uff"
     with pytest.raises(dm.ParameterError, match=r"must be a universal file that can be read"):
-        dm.Disc.from_uff(tmp_path / "none.uff", R_0)
+        dm.Disc.from_uff(none_path, R_0)
 
 
 def test_a_comment_between_datasets_and_bytes_of_measurements_are_passed_over(
@@ -511,15 +517,15 @@ def test_the_command_line_reads_universal_files(
         "modes", "--from", str(file), "--r-0", "0.1", "--axis", "w"
     )
     assert "save: needs the disc of a file" in command.run("modes", "--save", str(table))[2]
-    assert "none.uff" in command.error(
-        "modes", "--from", str(tmp_path / "none.uff"), "--r-0", "0.1"
-    )
+    none_path = tmp_path / "none.uff"
+    assert "none.uff" in command.error("modes", "--from", str(none_path), "--r-0", "0.1")
 
 
 def test_the_command_line_shows_doubts_as_lines(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    file = Dialect(angles=6).write(tmp_path / "six.unv", halves(MODES))
+    path = tmp_path / "six.unv"
+    file = Dialect(angles=6).write(path, halves(MODES))
     command = Command(capsys)
     code, shown, said = command.run("modes", "--from", str(file), "--r-0", "0.1")
     assert code == 0
@@ -539,6 +545,7 @@ def test_an_export_of_finite_elements_gives_the_disc_of_its_section(tmp_path: Pa
     low = -ring.half
     high = ring.half
     rectangles = [(inner, R_0, low, high), (R_0, outer, low, high)]
+    path = tmp_path / "ring.unv"
     for face in (1, -1):
         section = dm.Disc.from_section(
             rectangles, size=0.006, E=ring.E, nu=ring.nu, rho=ring.rho,
@@ -547,7 +554,7 @@ def test_an_export_of_finite_elements_gives_the_disc_of_its_section(tmp_path: Pa
         )  # fmt: skip
         known = [*zip(section.diameters, section.circles, strict=True)]
         for results, nodes in RECORDS:
-            file = export(tmp_path / "ring.unv", modes, Dialect(results=results, nodes=nodes))
+            file = export(path, modes, Dialect(results=results, nodes=nodes))
             axis = "-z"
             if face > 0:
                 axis = "z"
@@ -583,7 +590,8 @@ def test_a_file_of_another_writer_is_read(tmp_path: Path) -> None:
     x = r * np.cos(angle)
     y = r * np.sin(angle)
     nodes = {"type": 15, "node_nums": numbers, "x": x, "y": y}
-    file = pyuff.UFF(str(tmp_path / "modes.uff"))
+    modes_path = tmp_path / "modes.uff"
+    file = pyuff.UFF(str(modes_path))
     plain = dict.fromkeys(("def_cs", "disp_cs", "color"), 0 * numbers)
     file.write_sets({**nodes, **plain, "z": 0 * r}, "overwrite")
     modes = dm.plate_modes(p)
@@ -602,7 +610,7 @@ def test_a_file_of_another_writer_is_read(tmp_path: Path) -> None:
                     "modal_damp_his": 0.0, "node_nums": numbers, "r1": 0 * z, "r2": 0 * z, "r3": z,
                 }, "add",
             )  # fmt: skip
-    disc = dm.Disc.from_uff(tmp_path / "modes.uff", p.r_0)
+    disc = dm.Disc.from_uff(modes_path, p.r_0)
     assert list(disc.diameters) == modes["diameters"].tolist()
     paired = np.where(modes["diameters"] > 0, 1.005, 1.0)
     omega = modes["omega"] * paired
@@ -613,5 +621,6 @@ def test_a_file_of_another_writer_is_read(tmp_path: Path) -> None:
     largest = np.abs(shapes).max()
     tolerance = 1e-4 * largest
     np.testing.assert_allclose(disc.shapes, signed, atol=tolerance)
-    disc.to_csv(tmp_path / "disc.csv")
-    assert dm.Disc.from_csv(tmp_path / "disc.csv") == disc
+    disc_path = tmp_path / "disc.csv"
+    disc.to_csv(disc_path)
+    assert dm.Disc.from_csv(disc_path) == disc

@@ -49,16 +49,17 @@ class Explorer:
 
 @pytest.mark.parametrize("size", [(1400, 1000), (360, 740)], ids=["wide", "narrow"])
 def test_a_trip_through_the_page(size: tuple[int, int], tmp_path: Path) -> None:
-    Image.new("RGB", (1200, 500), "#0072B2").save(tmp_path / "one.png")
-    pictures = [Picture("Figures", "one", "A caption.", tmp_path / "one.png")]
-    (tmp_path / "explorer.html").write_text(
-        page("Made up", contents()[::-1], pictures), encoding="utf-8"
-    )
-    with browser(tmp_path / "profile") as opened:
+    one_path = tmp_path / "one.png"
+    Image.new("RGB", (1200, 500), "#0072B2").save(one_path)
+    pictures = [Picture("Figures", "one", "A caption.", one_path)]
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", contents()[::-1], pictures), encoding="utf-8")
+    profile_path = tmp_path / "profile"
+    with browser(profile_path) as opened:
         opened.resize(*size)
         for scheme in ("dark", "light"):
             opened.prefer(scheme)
-            opened.open(tmp_path / "explorer.html")
+            opened.open(explorer_path)
             opened.wait_for(READY)
             # what guidelines for accessible pages ask for
             assert opened.contrast(f"{READABLE}, a, h1") >= 4.5, scheme

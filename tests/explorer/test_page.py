@@ -212,11 +212,10 @@ class Reader(HTMLParser):
 
 def test_all_is_in_the_page_and_stays_in_its_place(tmp_path: Path) -> None:
     """Nothing is fetched; a message ends no script, and a title brings no tag."""
-    Image.new("RGB", (PAGE_WIDTH, 500), "#0072B2").save(tmp_path / "fig.png")
+    path = tmp_path / "fig.png"
+    Image.new("RGB", (PAGE_WIDTH, 500), "#0072B2").save(path)
     text = page(
-        "A <title>",
-        contents(),
-        [Picture(f"Sec. {i}", "One", CAPTION, tmp_path / "fig.png") for i in (1, 2)],
+        "A <title>", contents(), [Picture(f"Sec. {i}", "One", CAPTION, path) for i in (1, 2)]
     )
     reader = Reader(text)
     addresses = [

@@ -114,7 +114,8 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
         "that has no value there"
     )
     assert " ".join(ax.get_ylabel().split()) == "Growth rate of disturbances (1/s)"
-    save(figure, tmp_path / "curve.png")
+    path = tmp_path / "curve.png"
+    save(figure, path)
     ends = {"at": {"normalization": "as_published"}, "panels": [[0.1, 10], [1.0, 10]]}
     study["drift"] = study["drift"] + study["c_p"]
     axes = draw("curve", study, variable="drift", x="mu_k", by="c_p", **ends).axes

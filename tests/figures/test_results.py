@@ -112,8 +112,9 @@ def test_names_of_lines_stay_in_a_narrow_spectrum_and_apart() -> None:
 
 
 def test_a_film_has_its_frames(tmp_path: Path) -> None:
-    run().animate(tmp_path / "film.gif", frames=3)
-    with Image.open(tmp_path / "film.gif") as film:
+    path = tmp_path / "film.gif"
+    run().animate(path, frames=3)
+    with Image.open(path) as film:
         assert film.n_frames == 3
 
 

@@ -95,7 +95,8 @@ def test_a_point_of_the_disc_does_not_jump_where_the_speed_of_the_drive_does(
 def test_a_film_shows_the_disc_and_the_slider_of_the_run_with_its_ramps(tmp_path: Path) -> None:
     """They were those of a run without ramps, beside the force of the right one."""
     run = simulate(P, 0.1, {"w": AT_ONE}, ramps=RAMPS)
-    film = run.animate(tmp_path / "film.gif", window="w", frames=2)
+    path = tmp_path / "film.gif"
+    film = run.animate(path, window="w", frames=2)
     disc, circle, _ = film._fig.axes
     (slider,) = (line for line in disc.lines if line.get_marker() == "o")
     angle = np.arctan2(slider.get_ydata()[0], slider.get_xdata()[0])

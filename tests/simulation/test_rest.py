@@ -111,8 +111,9 @@ def test_a_stop_that_is_not_over_and_one_that_a_ramp_ends_are_no_rest() -> None:
 
 def test_a_result_at_rest_survives_its_file(tmp_path) -> None:
     run = simulate(BLOCK, 0.5, ramps=Ramp(parameter="Omega", to=0, start=0, end=0.3))
-    run.save(tmp_path / "run.nc")
-    again = dm.Result.load(tmp_path / "run.nc")
+    path = tmp_path / "run.nc"
+    run.save(path)
+    again = dm.Result.load(path)
     assert again.status == run.status
     assert again.message == run.message
     assert again.ramps == run.ramps

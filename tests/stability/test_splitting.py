@@ -99,8 +99,9 @@ def test_splits_are_those_of_the_file(tmp_path: Any) -> None:
     """Of a table with both halves; one number counts for all pairs."""
     text = "diameters,frequency_Hz,amplitude_per_sqrt_kg,damping_ratio,tangential_per_sqrt_kg\n"
     rows = "2,1200,0.54,0.001,-0.13\n0,929,0.43,0.001,0\n2,1206,0.54,0.001,-0.13\n"
-    (tmp_path / "disc.csv").write_text(text + rows)
-    p = case(PAD, disc=dm.Disc.from_csv(tmp_path / "disc.csv", pairs="mean"))
+    path = tmp_path / "disc.csv"
+    path.write_text(text + rows)
+    p = case(PAD, disc=dm.Disc.from_csv(path, pairs="mean"))
     found = dm.split_growth(p)
     assert found.pairs["split"].tolist() == pytest.approx([6 / 1203])
     assert found.growth_rate == pytest.approx(dm.split_growth(p, 6 / 1203).growth_rate)

@@ -162,4 +162,5 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Project:
 @pytest.fixture
 def project(finished: Project, tmp_path: Path) -> Project:
     """A copy of the finished study, times included."""
-    return finished.copy(tmp_path / "project")
+    file = tmp_path / "project"
+    return finished.copy(file)

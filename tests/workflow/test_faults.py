@@ -147,9 +147,8 @@ def test_every_fault_is_shown_and_nothing_runs(
 
 def test_results_of_another_study_of_the_same_name_are_not_overwritten(tmp_path: Path) -> None:
     """They were, without a word."""
-    project = copy_repository(
-        tmp_path / "project", {"first.yaml": STUDIES["config/small_growth.yaml"]}
-    )
+    path = tmp_path / "project"
+    project = copy_repository(path, {"first.yaml": STUDIES["config/small_growth.yaml"]})
     project.complete("check", "-j1")  # a run in which nothing is computed
     (project.folder / "second.yaml").write_text(
         (project.folder / "first.yaml").read_text().replace("25", "30")
