@@ -119,7 +119,8 @@ def test_a_case_may_have_a_disc_of_its_own(tmp_path: Path) -> None:
 
 def test_keys_given_twice(tmp_path: Path) -> None:
     text = "study: x\ncases:\n  A: {title: a, t_end: 1, parameters: {N: 1, Omega: 2, N: -3}}\n"
-    (path := tmp_path / "twice.yaml").write_text(text)
+    path = tmp_path / "twice.yaml"
+    path.write_text(text)
     for load in (
         load_study,
         lambda file: study_from_config({"study": "x", "cases": {"A": CASE}}, [file]),
@@ -135,7 +136,8 @@ def test_a_file_that_cannot_be_read_is_told_in_one_line(
         read(tmp_path / "none.yaml")
     with pytest.raises(UnreadableFile, match=r"^[^\n]*: cannot be read: Is a directory$"):
         read(tmp_path)
-    (path := tmp_path / "x.yaml").write_bytes(b"study: \xff\xfe")
+    path = tmp_path / "x.yaml"
+    path.write_bytes(b"study: \xff\xfe")
     with pytest.raises(UnreadableFile, match=r"^[^\n]*x\.yaml: cannot be read: 'utf-8' codec"):
         read(path)
 
