@@ -132,8 +132,9 @@ def test_keys_given_twice(tmp_path: Path) -> None:
 def test_a_file_that_cannot_be_read_is_told_in_one_line(
     read: Callable[[Path], object], tmp_path: Path
 ) -> None:
+    file = tmp_path / "none.yaml"
     with pytest.raises(MissingFile, match=r"^[^\n]*none\.yaml: there is no such file$"):
-        read(tmp_path / "none.yaml")
+        read(file)
     with pytest.raises(UnreadableFile, match=r"^[^\n]*: cannot be read: Is a directory$"):
         read(tmp_path)
     path = tmp_path / "x.yaml"

@@ -69,11 +69,9 @@ def test_points_are_the_cycles_of_floquet(branch: Branch) -> None:
             continue
         found = floquet(branch.case_at(i), guess=branch.state(i))
         assert found.status is CycleStatus.OK
-        # residuals of 1e-12 over the distance of a multiplier from 1
-        assert found.period == pytest.approx(branch.period[i], rel=1e-9)
-        expected = branch.multipliers[i]
-        distances = np.abs(found.multipliers[:, None] - expected)
-        apart = distances.min(axis=1)
+        # residuals of 1e-12 over the distance of a multiplier from 1, at least 1e-3, for both cycles
+        assert found.period == pytest.approx(branch.period[i], rel=2e-9)
+        apart = np.abs(found.multipliers[:, None] - branch.multipliers[i][None, :]).min(axis=1)
         assert apart.max() < 1e-6
 
 
@@ -173,10 +171,7 @@ def margins(branch: Branch, i: int) -> dict[str, float]:
     stick = samples["phase"].values == 0
 
     def least(values: np.ndarray, where: np.ndarray) -> float:
-        middle = values[1:-1]
-        before = values[:-2]
-        after = values[2:]
-        inner = (middle < before) & (middle < after)
+        inner = (values[1:-1] < values[:-2]) & (values[1:-1] < values[2:])
         inner &= where[1:-1] & where[:-2] & where[2:]
         return float(values[1:-1][inner].min(initial=np.inf))
 
