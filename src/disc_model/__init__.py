@@ -35,7 +35,8 @@ _NAMES = {
     "simulation.case": "Window Poincare Ramp",
     "simulation.result": "Result",
     "simulation.states": "State deflection",
-    "studies.functions": "outcome critical_speed basins hysteresis run_study",
+    "studies.functions": "outcome critical_speed basins hysteresis",
+    "studies.whole_study": "run_study",
     "studies.sweeps": "sweep",
     "stability.continuation": "continue_cycle",
     "stability.critical": "critical",
@@ -81,8 +82,9 @@ if TYPE_CHECKING:
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
     from disc_model.stability.splitting import split_growth
-    from disc_model.studies.functions import basins, critical_speed, hysteresis, outcome, run_study
+    from disc_model.studies.functions import basins, critical_speed, hysteresis, outcome
     from disc_model.studies.sweeps import sweep
+    from disc_model.studies.whole_study import run_study
 
 
 def __getattr__(name: str) -> Any:

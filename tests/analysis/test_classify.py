@@ -114,7 +114,10 @@ def test_where_a_sine_loses_contact(angle: float, share_of_range: float) -> None
     f = 100.0
     rate = 100_000.0
     time = np.arange(0, 0.2, 1 / rate)
-    starts = np.round((np.arange(2, 17) + angle / (2 * np.pi)) / f * rate).astype(int)
+    turn = 2 * np.pi
+    share = angle / turn
+    periods = np.arange(2, 17) + share
+    starts = np.round(periods / f * rate).astype(int)
     found = separation_location(3e-3 * np.sin(2 * np.pi * f * time), starts)
     assert found == pytest.approx(share_of_range, abs=0.01)
 
@@ -126,7 +129,10 @@ def test_a_share_has_wilsons_interval() -> None:
     z = stats.norm.ppf(0.95)  # two-sided, 0.9
     for k, n in ((9, 40), (1, 3), (0, 7), (7, 7)):
         centre = (k + z**2 / 2) / (n + z**2)
-        half = z / (n + z**2) * np.sqrt(k * (n - k) / n + z**2 / 4)
+        variance = k * (n - k) / n
+        quarter = z**2 / 4
+        root = np.sqrt(variance + quarter)
+        half = z / (n + z**2) * root
         # the ends at 0 and 1 cancel to roundings here
         expected = pytest.approx((k / n, centre - half, centre + half), rel=1e-12, abs=1e-15)
         assert share(k, n, confidence=0.9) == expected
@@ -145,7 +151,10 @@ def test_what_is_unknown_counts_against_both_ends() -> None:
 # ---- whether a record shows that a motion has settled
 
 TIME = np.arange(0.0, 1000.0, 0.05)
-BEAT = np.sin(2 * np.pi * TIME * 0.618) * (1 + 0.1 * np.sin(2 * np.pi * TIME / 7))
+TURN = 2 * np.pi
+FAST = np.sin(TURN * TIME * 0.618)
+SLOW = np.sin(TURN * TIME / 7)
+BEAT = FAST * (1 + 0.1 * SLOW)
 NOISE = np.random.default_rng(1).standard_normal(TIME.size)
 
 

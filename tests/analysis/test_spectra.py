@@ -20,7 +20,11 @@ KNOWN = {
 
 
 def signal(parts: dict[float, float]) -> np.ndarray:
-    return 0.7 + sum(a * np.cos(2 * np.pi * f * TIME + i) for i, (f, a) in enumerate(parts.items()))
+    signal = np.full(TIME.shape, 0.7)
+    for i, (f, a) in enumerate(parts.items()):
+        angle = 2 * np.pi * f * TIME
+        signal = signal + a * np.cos(angle + i)
+    return signal
 
 
 def test_lines_are_found_with_frequency_and_amplitude() -> None:
@@ -142,15 +146,19 @@ def test_a_line_stands_out_or_it_is_noise() -> None:
     as it."""
     t = np.arange(40_000) / 4000
     noise = np.random.default_rng(3).standard_normal(t.size)
-    loud = spectra.strongest(t, noise + 0.2 * np.sin(2 * np.pi * 100.0 * t), 100.0, 1.0)
-    assert spectra.chance(t, noise + 0.2 * np.sin(2 * np.pi * 100.0 * t), loud, 1.0) < 1e-9
+    angle = 2 * np.pi * 100.0 * t
+    tone = 0.2 * np.sin(angle)
+    signal = noise + tone
+    loud = spectra.strongest(t, signal, 100.0, 1.0)
+    assert spectra.chance(t, signal, loud, 1.0) < 1e-9
     chances = [
         spectra.chance(t, noise, spectra.strongest(t, noise, f, 1.0), 1.0)
         for f in range(100, 400, 5)
     ]
     assert min(chances) > 1e-4  # the least of sixty is about 1/60
     assert np.median(chances) > 0.1
-    assert spectra.chance(t, np.sin(2 * np.pi * 100.0 * t), spectra.Line(100.0, 1.0), 1.0) == 0.0
+    line = spectra.Line(100.0, 1.0)
+    assert spectra.chance(t, np.sin(angle), line, 1.0) == 0.0
     with pytest.raises(ValueError, match="no bin of the spectrum is 1 to 6 Hz from 100 Hz"):
         spectra.chance(t[:100], noise[:100], spectra.Line(100.0, 1.0), 1.0)
 

@@ -86,7 +86,9 @@ def test_without_a_drive_the_slider_stops_as_a_block_under_dry_friction(pulls: f
     p = BLOCK.replace(Omega=0)
     limit = p.mu_s * p.N / p.k_p
     expected = block.stop_of_released_block(p, pulls * limit)
-    way = 1 if pulls > 0 else -1
+    way = -1
+    if pulls > 0:
+        way = 1
     start = static_start(p).replace(phase="slip", direction=way, psi=pulls * limit / p.r_0)
     run = simulate(p, 1.0, initial_state=start, tol=1e-13)
     assert run.events["time"].iloc[-1] == pytest.approx(expected.time, rel=1e-11)
@@ -109,9 +111,12 @@ def test_a_stop_that_is_not_over_and_one_that_a_ramp_ends_are_no_rest() -> None:
 
 def test_a_result_at_rest_survives_its_file(tmp_path) -> None:
     run = simulate(BLOCK, 0.5, ramps=Ramp(parameter="Omega", to=0, start=0, end=0.3))
-    run.save(tmp_path / "run.nc")
-    again = dm.Result.load(tmp_path / "run.nc")
-    assert (again.status, again.message, again.ramps) == (run.status, run.message, run.ramps)
+    path = tmp_path / "run.nc"
+    run.save(path)
+    again = dm.Result.load(path)
+    assert again.status == run.status
+    assert again.message == run.message
+    assert again.ramps == run.ramps
 
 
 # ------------------------------------------------------------------------ for good

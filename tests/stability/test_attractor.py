@@ -222,7 +222,10 @@ def test_a_stay_is_doubled_until_it_has_settled_and_no_further(
 
     def settles(p: Parameters, legs: Any) -> Arrival:
         done = len(legs) >= {10.0: 1, 11.0: 3, 12.0: 99}[p.Omega]
-        return Arrival(Settling(Settled.SETTLED if done else Settled.UNDECIDED))
+        answer = Settled.UNDECIDED
+        if done:
+            answer = Settled.SETTLED
+        return Arrival(Settling(answer))
 
     def last(p: Parameters, state: Any, duration: float, late: float, tol: float) -> Any:
         described.append((p.Omega, late))

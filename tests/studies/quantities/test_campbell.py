@@ -89,7 +89,10 @@ def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not
     assert found["crossing_multiple"][0] == 1
     assert found["crossing_growth_rate"][0] == pytest.approx(-0.1)
     # at the window's ends, one step beyond it, the peak has fallen to 1 / (1 + 5.5^2)
-    assert found["crossing_rise"][0] == pytest.approx(0.1 - 0.1 / (1 + 5.5**2), rel=1e-3)
+    square = 5.5**2
+    beside = 0.1 / (1 + square)
+    rise = found["crossing_rise"][0]
+    assert rise == pytest.approx(0.1 - beside, rel=1e-3)
     assert effects(peak) == ["rises"]
     assert effects(peak, min_rise=0.2) == ["no_rise"]
     rate = peak["growth_rate"].values

@@ -26,7 +26,8 @@ def measured(start: dict[str, Any], options: dict[str, Any], **changes: Any) -> 
 def test_a_motion_that_repeats_is_locked_on_a_stable_cycle() -> None:
     found = measured({"parameters": {}, "time": 300}, {"transient": 60}, N=300)
     assert found["motion"] == "locked"
-    assert (found["period_releases"], found["period_separations"]) == (45, 316)
+    assert found["period_releases"] == 45
+    assert found["period_separations"] == 316
     assert found["separations_per_release"] == 316 / 45
     assert found["leading_multiplier"] < 1
     assert 0 < found["real_multiplier"] < found["leading_multiplier"]

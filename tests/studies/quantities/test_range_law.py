@@ -7,9 +7,9 @@ import pytest
 import xarray as xr
 
 from disc_model.parameters import Parameters
-from disc_model.studies.functions import run_study
 from disc_model.studies.quantities.range_law import BEGINS, RangeLaw
 from disc_model.studies.quantity import Point
+from disc_model.studies.whole_study import run_study
 
 SHARE = 0.95  # of height and contact force, that one frequency has to carry
 LIMIT = 0.05  # largest deviation from the law
