@@ -40,7 +40,7 @@ _NAMES = {
     "stability.continuation": "continue_cycle",
     "stability.critical": "critical",
     "stability.curves": "neutral_curves",
-    "stability.cycle": "floquet",
+    "stability.floquet": "floquet",
     "stability.lyapunov": "lyapunov_exponents",
     "stability.sliding": "steady_sliding",
     "stability.splitting": "split_growth",
@@ -77,7 +77,7 @@ if TYPE_CHECKING:
     from disc_model.stability.continuation import continue_cycle
     from disc_model.stability.critical import critical
     from disc_model.stability.curves import neutral_curves
-    from disc_model.stability.cycle import floquet
+    from disc_model.stability.floquet import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
     from disc_model.stability.splitting import split_growth

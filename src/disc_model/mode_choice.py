@@ -19,7 +19,7 @@ from disc_model.errors import DiscModelError, require
 from disc_model.mode_request import FREQUENCIES, ModeRequest
 from disc_model.parameters import Disc, Parameters
 from disc_model.simulation.api import simulate
-from disc_model.stability.cycle import floquet
+from disc_model.stability.floquet import floquet
 
 RICH = (20, 6)  # diameters and circles of the reference model for frequencies
 # diameters and circles of the candidates by a quantity of the motion: the last is compared with 99

@@ -55,6 +55,12 @@ NOT_THERE = [
         for law in CONTACTS
         if "compliant" in law or "residual" in law
     ),
+    # a surface that moves pulls at the slider: friction gives way first
+    *(
+        (law, "contact lost in stick")
+        for law, contact in CONTACTS.items()
+        if "friction_offset" in contact
+    ),
 ]
 THROUGH = [
     pytest.param(law, switch, marks=COMPILES if law != "vertical" else ())
@@ -93,13 +99,17 @@ def about_to(
         np.array(start.b) * (-60 if backwards else 60),
         start.alpha + 6 * thrown * q.s / q.S2,
     )
+    if "release" in switch and (q.t * q.w2 * start.beta).sum() * (-1 if backwards else 1) < 0:
+        start.beta = -np.array(start.beta)  # the surface pulls to the side of the release
+        start.f = surface_rate(q, start)
     if direction and not thrown:
-        start.f = 0.03 * direction
+        start.f = 0.03 * direction + surface_rate(q, start)
         if switch == "reversal":
             start.psi = -0.15
         else:
             start.psi = 0.004
-    start.u_velocity = q.s @ (start.alpha + q.l * start.f * start.b) + (
+    rate = start.f - surface_rate(q, start)
+    start.u_velocity = q.s @ (start.alpha + q.l * rate * start.b) + (
         0 if q.rigid or flies else thrown
     )
 
@@ -115,6 +125,11 @@ def about_to(
         R, T = forces(bent)
         return p.mu_s * R + (T if backwards else -T) - 1
 
+    def unloaded(psi: float) -> float:
+        """Friction that would hold the slider."""
+        start.psi = psi
+        return taylor.Reference(q, start).forces("stick")[1]
+
     if pressed is None:
         pressed = 5.0 if "lost" in switch else -100.0 if "tension" in switch else 400.0
     if flies and not q.rigid:
@@ -124,19 +139,34 @@ def about_to(
     forces(bent)
     if "release" in switch:
         margin(solved(margin))
+    if "at rest" in switch and q.t.any():
+        # nothing pulls at the slider that has come to rest on a moving surface
+        start.psi = solved(unloaded)
+        forces(bent)
     if flies:
         start.u, start.u_velocity = start.u + 1e-5, start.u_velocity - 0.5
     return p, start
 
 
-def flat(state: stored.State) -> np.ndarray:
-    """psi, f, u, u', then a, b, alpha, beta of all modes."""
-    return np.concatenate([np.atleast_1d(x) for x in list(vars(state).values())[3:]])
+def surface_rate(q: taylor.Problem, state: stored.State) -> float:
+    """v_s / r_0 of the surface on which friction acts."""
+    return q.surface_speed(np.array(state.beta)) / q.r_0
 
 
-def moved_to(start: stored.State, y: np.ndarray) -> stored.State:
+def flat(q: taylor.Problem, state: stored.State) -> np.ndarray:
+    """psi, the rate g of the contact over the material, u, u', then a, b, alpha, beta of all
+    modes."""
+    y = np.concatenate([np.atleast_1d(x) for x in list(vars(state).values())[3:]])
+    y[1] -= surface_rate(q, state)
+    return y
+
+
+def moved_to(q: taylor.Problem, start: stored.State, y: np.ndarray) -> stored.State:
     """The same phase at other coordinates, as `flat` has them."""
-    return stored.State(0.0, start.phase, start.direction, *y[:4], *y[4:].reshape(4, -1).tolist())
+    modal = y[4:].reshape(4, -1).tolist()
+    state = stored.State(0.0, start.phase, start.direction, *y[:4], *modal)
+    state.f = state.f + surface_rate(q, state)
+    return state
 
 
 class Disturbances:
@@ -170,11 +200,12 @@ class Disturbances:
                 self.p.replace(**dict(zip(PARAMETERS, self.values + change, strict=True)))
             )
 
-        y = flat(self.start)
         q = taylor.problem_of(self.p)
-        h = np.longdouble(1e-4)
+        # a moving surface pulls with thousands of newtons, which soon changes which event is first
+        h = np.longdouble(1e-5 if q.t.any() else 1e-4)
+        y = flat(q, self.start)
         found = [
-            differences(lambda h, d=d: function(q, moved_to(self.start, y + h * d)), h)
+            differences(lambda h, d=d: function(q, moved_to(q, self.start, y + h * d)), h)
             for d in self.moved.T
         ]
         found += [
@@ -186,7 +217,8 @@ class Disturbances:
     def run(self) -> Full:
         """The engine with these columns: in the first block those of the start, in the second those
         of parameters."""
-        start = moved_to(self.start, flat(self.start))
+        q = taylor.problem_of(self.p)
+        start = moved_to(q, self.start, flat(q, self.start))
         run = Full(self.p, stored.engine_state(start, self.p))
         case = engine_case(self.p)
         t = run.tangent = columns.build_tangent(run.model, 8, run.order, 8)
@@ -225,7 +257,7 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
     def end(q: taylor.Problem, start: stored.State) -> np.ndarray:
         run = taylor.Reference(q, start).run(span)
         assert [event["kind"] for event in run.events] == kinds
-        return flat(run.state())
+        return flat(q, run.state())
 
     engine = disturbances.run()
     sizes = disturbances.sizes
@@ -249,13 +281,22 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
         sizes[2:4] = np.inf  # u and u' are the disc's
     got = disturbances.read(engine) / sizes
     expected = disturbances.expected(end) / sizes
-    # frequencies of other Young's moduli are rounded: 1e-11 was found
-    assert np.all(np.abs(got - expected) <= 1e-9 * np.abs(expected).max(axis=1, keepdims=True))
+    # frequencies of other Young's moduli are rounded: 1e-11 was found, and ten times as much, with ten
+    # times smaller differences, where the surface moves
+    allowed = 1e-8 if p.friction_offset else 1e-9
+    assert np.all(np.abs(got - expected) <= allowed * np.abs(expected).max(axis=1, keepdims=True))
+
+
+LOSSES = [("vertical", switch) for switch in SWITCHES if "lost" in switch]
+LOSSES += [("vertical_coupled", switch) for _, switch in LOSSES if "stick" not in switch]
 
 
 @pytest.mark.parametrize("pressed", [5.0, 0.0])
-@pytest.mark.parametrize("switch", [switch for switch in SWITCHES if "lost" in switch])
-def test_when_contact_is_lost(switch: str, pressed: float) -> None:
+@pytest.mark.parametrize(
+    ("law", "switch"),
+    [pytest.param(*loss, marks=COMPILES if loss[0] != "vertical" else ()) for loss in LOSSES],
+)
+def test_when_contact_is_lost(law: str, switch: str, pressed: float) -> None:
     """No motion shows that, because no rate jumps there: the change of what vanishes, the numerator
     of P.
 
@@ -263,14 +304,13 @@ def test_when_contact_is_lost(switch: str, pressed: float) -> None:
     it there, too.
     """
     phase, direction, _ = SWITCHES[switch]
-    p, start = about_to(switch, "vertical", pressed)
+    p, start = about_to(switch, law, pressed)
     disturbances = Disturbances(p, start)
 
     def numerator(q: taylor.Problem, start: stored.State) -> np.ndarray:
         run = taylor.Reference(q, start)
-        return run.forces(phase, direction)[0] * (
-            1 + q.m * q.S2 + direction * q.mu_k * run.disc()[2] / q.r_0
-        )
+        inplane = (1 + q.m * q.St) * direction * q.mu_k * run.disc()[2] / q.r_0
+        return run.forces(phase, direction)[0] * (1 + q.m * q.S2 + inplane)
 
     engine = disturbances.run()
     t = engine.tangent
@@ -303,6 +343,6 @@ def test_rates_are_those_of_the_reference(law: str, phase: str, direction: int) 
     modal = np.concatenate([sign * x[1] for x in (step.a, step.b, step.alpha, step.beta)])
     expected = np.zeros(run.n_rows)
     expected[case.places] = modal[case.present]
-    expected[-4:] = step.psi[1], step.f[1], step.u[1], step.v[1]
+    expected[-4:] = step.psi[1], step.g[1], step.u[1], step.v[1]
     # sums of terms that cancel: rounding of velocities' rates
     np.testing.assert_allclose(run.rates, expected[run.rows], rtol=1e-9, atol=1e-9)

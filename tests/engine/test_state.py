@@ -53,7 +53,7 @@ def test_every_component_of_a_mode_has_a_place_of_its_own(size: tuple[int, int])
 
 def test_scalars_come_back_under_their_names() -> None:
     here = build_state(model_of(1, 0))
-    values = dict(zip(state.SCALAR_NAMES, np.arange(1.0, 7.0).tolist(), strict=True))
+    values = dict(zip(state.SCALAR_NAMES, np.arange(1.0, 8.0).tolist(), strict=True))
     state.put_scalars(here, values.values())
     state.put_phase(here, state.SLIP, -1, (2, 1))
     assert state.scalars_of(here) == values

@@ -345,6 +345,51 @@ def ramps() -> Example:
     )
 
 
+MOTIONS = ("undecided", "locked", "without_stick")
+
+
+def staircase() -> Example:
+    releases = np.array([34, 34, 35])
+    separations = np.array([371, 371, 372])
+    data = {
+        "motion": flag(("Omega",), ["locked"] * 3, MOTIONS),
+        "period_releases": ("Omega", releases),
+        "period_separations": ("Omega", separations),
+        "separations_per_release": ("Omega", separations / releases),
+        "status": ("Omega", np.zeros(3, np.int8), OK),
+    }
+    study = xr.Dataset(data, over(Omega=SPEEDS), stated())
+    return Example(
+        {"x": "Omega"},
+        {"study": study},
+        (
+            Shown(0, "x", SPEED, SPEEDS, "rad/s", "linear"),
+            Shown(0, "y", "Separations per release", separations / releases, "", "linear"),
+        ),
+    )
+
+
+def phase_map() -> Example:
+    phase = np.array([0.70, 0.75, 0.80, 0.82, 0.84, 0.88])
+    following = np.array([0.90, 0.88, 0.83, 0.80, 0.82, 0.86])
+    data = {
+        "map_phase": ("probe", phase),
+        "map_next_phase": ("probe", following),
+        "map_separations": ("probe", np.array([17.0, 17, 17, 2, 2, 2])),
+        "map_slope": ("probe", np.full(6, 0.9)),
+        "release_phase": ("release", np.array([0.80, 0.83, 0.81])),
+    }
+    study = xr.Dataset(data, {}, stated())
+    return Example(
+        {},
+        {"study": study},
+        (
+            Shown(0, "x", "Phase of a release", phase, ""),
+            Shown(0, "y", "Phase of the next one", following, ""),
+        ),
+    )
+
+
 def range_law() -> Example:
     dims = ("N", "begin")
     pinned = np.array([[4e-3, np.nan], [8e-3, 8e-3], [16e-3, 17e-3]])
@@ -546,6 +591,8 @@ EXAMPLES: dict[str, Callable[[], Example]] = {
         basins,
         branches,
         ramps,
+        staircase,
+        phase_map,
         range_law,
         late_range,
         bifurcation,

@@ -1,4 +1,5 @@
-"""Figures of motions over one parameter: bifurcation diagrams, basins, ramps; the range law."""
+"""Figures of motions over one parameter: bifurcation diagrams, basins, ramps; the range law,
+and locking."""
 
 import re
 
@@ -16,6 +17,7 @@ from disc_model.figures.drawing import BLACK, GREY, SEPARATED
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
+from disc_model.studies.reading import StudyError
 from tests.figures.reading import crosses, draw, labels, lines
 from tests.studies.conftest import computed, made_up_samples, with_failed
 from tests.studies.quantities.test_basins import Made, made
@@ -211,3 +213,71 @@ def test_motions_of_one_frequency_are_filled_and_those_set_apart_have_their_own_
         "heavy",
         "no frequency carries 95 % of height and contact force",
     ]
+
+
+# ---- locking
+
+
+def locked_at(speeds: list[float], releases: list[int], separations: list[int]) -> xr.Dataset:
+    """Motions over the speed; a period of no release is undecided."""
+    words = ["undecided", "locked", "without_stick"]
+    data = {
+        "motion": ("Omega", np.array([int(n > 0) for n in releases], dtype=np.int8)),
+        "period_releases": ("Omega", np.array(releases)),
+        "period_separations": ("Omega", np.array(separations)),
+        "separations_per_release": ("Omega", np.full(len(speeds), 10.7)),
+    }
+    study = xr.Dataset(data, {"Omega": speeds}, {"base": '{"normalization": "as_published"}'})
+    study["motion"].attrs["flag_meanings"] = " ".join(words)
+    return study
+
+
+def test_equal_periods_side_by_side_are_one_step_and_undecided_ones_are_rings() -> None:
+    coarse = locked_at([19.8, 19.9, 20.0, 20.2], [34, 34, 35, 0], [371, 371, 371, 0])
+    fine = locked_at([19.96, 20.0, 20.1], [69, 35, 41], [742, 371, 449])
+    slipping = locked_at([19.8, 20.2], [0, 0], [0, 0])
+    slipping["motion"][:] = 2
+    phrase = {"x": "Omega", "zooms": [[19.95, 20.05]]}
+    overlays = {"fine": fine, "slipping": slipping}
+    figure = draw("staircase", coarse, overlays, **phrase)
+    whole, zoom = figure.axes
+    steps = [line.get_xydata().tolist() for line in whole.lines if line.get_linestyle() == "-"]
+    assert steps == [
+        [[19.8, pytest.approx(371 / 34)], [19.9, pytest.approx(371 / 34)]],
+        [[19.96, pytest.approx(742 / 69)], [19.96, pytest.approx(742 / 69)]],
+        [[20.0, pytest.approx(371 / 35)], [20.0, pytest.approx(371 / 35)]],
+        [[20.1, pytest.approx(449 / 41)], [20.1, pytest.approx(449 / 41)]],
+        [[19.8, 0.9], [20.2, 0.9]],  # the motion that never sticks
+    ]
+    rings = [line.get_xydata().tolist() for line in whole.lines if line.get_linestyle() == "None"]
+    assert rings == [[[20.2, 10.7]]]
+    assert [text.get_text() for text in zoom.texts] == ["69 releases", "35"]
+
+
+def test_zooms_must_ascend() -> None:
+    grid = {"quantity": "locking", "base": {"N": 200}, "axes": {"Omega": [19, 20]}}
+    figures = {"a": {"kind": "staircase", "x": "Omega", "zooms": [[20, 19]]}}
+    with pytest.raises(StudyError, match=r"zooms=.*must be two ascending values of x"):
+        computed(**grid, figures=figures)
+
+
+def test_the_map_of_phases_names_the_pieces_near_the_motion() -> None:
+    phase = np.linspace(0.6, 0.98, 39)
+    study = xr.Dataset(
+        {
+            "map_phase": ("probe", phase),
+            "map_next_phase": ("probe", np.where(phase < 0.8, phase + 0.1, phase - 0.05)),
+            "map_separations": ("probe", np.where(phase < 0.8, 17.0, 2.0)),
+            "map_slope": ("probe", np.where(phase < 0.8, 0.94, 0.97)),
+            "release_phase": ("release", np.array([0.76, 0.86, 0.81, np.nan])),
+        },
+        attrs={"base": '{"normalization": "as_published"}'},
+    )
+    whole, near = draw("phase_map", study).axes
+    assert not whole.texts
+    assert {text.get_text() for text in near.texts} == {
+        "17 separations,\nslope 0.94",
+        "2 separations,\nslope 0.97",
+    }
+    rings = [line for line in near.lines if line.get_marker() == "o"]
+    assert rings[0].get_xydata().tolist() == [[0.76, 0.86], [0.86, 0.81]]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Disc, Parameters, plate_modes, steady_sliding
-from disc_model.disc.plate import mode_arrays
+from disc_model.disc.plate import mode_arrays, tangential_amplitudes
 from disc_model.engine import transitions
 from disc_model.simulation.states import State
 from disc_model.stability.sliding import (
@@ -31,7 +31,8 @@ def state_of(p: Parameters, sliding: SteadySliding) -> State:
     if p.contact_force == "normal":
         weights = modes["diameters"] * modes["psi"]
         slope = float(weights @ sliding.b)
-        falls = 1 + p.friction_decay * p.r_0 * p.Omega
+        surface_speed = float(tangential_amplitudes(p) @ sliding.beta)
+        falls = 1 + p.friction_decay * (p.r_0 * p.Omega - surface_speed)
         mu = p.mu_k + (p.mu_s - p.mu_k) / falls
         share = 1 - mu * slope / p.r_0
     height = w - p.contact_compliance * share * sliding.contact_force

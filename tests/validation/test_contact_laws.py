@@ -233,14 +233,16 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
         wanted *= powers[:, None]
         sizes = np.abs(wanted).max(axis=1, keepdims=True)
         assert np.all(np.abs(own[:, here] - wanted) <= 1e-10 * sizes), name
-    compare(s.f, step.f, degree=order + 1)
+    compare(s.f, step.g, degree=order + 1)
+    if model.has_moving_surface:
+        compare(s.turn, step.shift, degree=order + 1)
     compare(s.psi, step.psi, degree=order + 1)
     if phase != "separation":
         compare(s.P, step.V if phase == "stick" else step.R)
     if phase != "stick":
         compare(
             s.switch,
-            direction * step.f if direction else step.u - step.a @ step.q.s,
+            direction * step.g if direction else step.u - step.a @ step.q.s,
             1e-9,
             order + 1,
         )
@@ -249,10 +251,10 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
         compare(s.v, step.v, degree=order + 1)
     if phase == "stick":
         press = step.V[:order]
-        pull = p.r_0 * step.F[:order]
+        pull = step.H[:order]
         if p.contact_force == "normal":  # over the denominator that both have
-            press = press + np.convolve(step.F, step.B)[:order]
-            pull = pull - np.convolve(step.V, step.B)[:order] / p.r_0
+            press = press + np.convolve(step.H, step.slope)[:order]
+            pull = pull - np.convolve(step.V, step.slope)[:order]
         compare(s.switch, p.mu_s * press - pull, 1e-9)
         compare(s.switch2, p.mu_s * press + pull, 1e-9)
         held = np.array([pull[0], press[0]], float)

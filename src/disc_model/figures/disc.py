@@ -25,7 +25,7 @@ class Motion(NamedTuple):
     parameters : of the case
     time : s, shape (n,)
     amplitudes : m sqrt(kg), cosine + i sine of the angle fixed to the disc, shape (n_modes, n)
-    slider : rad, its angle on the disc, shape (n,)
+    slider : rad, angle on the disc of the material under it, shape (n,)
     u : m, its height, shape (n,)
     phase : shape (n,)
     """
@@ -43,7 +43,7 @@ class Motion(NamedTuple):
         time = np.array([state.time for state in states])
         u = np.array([state.u for state in states])
         phase = np.array([state.phase for state in states])
-        slider = np.array([state.slider_angle(p) for state in states])
+        slider = np.array([state.material_angle(p) for state in states])
         shapes = np.transpose([state.a + 1j * state.b for state in states])
         turned = shapes * np.exp(1j * np.multiply.outer(mode_arrays(p).diameters, slider))
         return cls(p, time, turned, slider, u, phase)

@@ -37,7 +37,6 @@ OPEN_END = ("growing", "undecided")
 def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw a panel for each disc, and in it a line for each preload and contact."""
     ranges = (study["u_max"] - study["u_min"]) / plot.thickness
-    ranges = ranges.where(_valid(plot, ranges))
     outcomes = study["outcome"].copy(data=flag_names(study["outcome"]))
     names = study[plot.by].values
     width = plot.inches
@@ -63,14 +62,6 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     letters(axes, [plot.names.get(str(name), str(name)) for name in names])
     _legend(figure, study["N"].values)
     return figure
-
-
-def _valid(plot: LateRange, ranges: xr.DataArray) -> xr.DataArray:
-    """Points at which the law of friction holds."""
-    valid = xr.ones_like(ranges, dtype=bool)
-    for part in plot.not_valid:
-        valid.loc[{dim: [*chosen] for dim, chosen in part.items()}] = False
-    return valid
 
 
 def _marks() -> dict[str, dict[str, Any]]:

@@ -19,6 +19,7 @@ from disc_model.figures import (
     heat_map,
     history,
     late_range,
+    locking,
     poincare,
     portrait,
     ramps,
@@ -59,6 +60,7 @@ DRAWINGS: Drawings = {
     "heat_map": heat_map.draw,
     "history": history.draw,
     "late_range": late_range.draw,
+    "phase_map": locking.draw_map,
     "poincare": poincare.draw,
     "portrait": portrait.draw,
     "ramps": ramps.draw,
@@ -70,6 +72,7 @@ DRAWINGS: Drawings = {
     "sliding_outcome": sliding_outcome.draw,
     "spectrogram": spectrogram.draw,
     "spectrum": spectrum.draw,
+    "staircase": locking.draw_staircase,
 }
 """Functions that draw a kind: from the figure, its study and further ones by their roles, or from the
 figure and its cases."""

@@ -343,7 +343,6 @@ class Statistics(Strict):
     energy_residual_transverse: Real
     energy_residual_inplane: Real
     audited_steps: Count
-    couple_work: Real
     surface_speed: Real
 
 

@@ -196,9 +196,9 @@ class Run:
             pull = abs(spring_pull(request.parameters, final_state))
             message += f", and friction holds the slider against {pull:.6g} N"
         if status is Status.PARADOX:
-            scalars = motion.scalars_of(self.state)
+            end = states.read_state(self.case, self.state)
             slope = slope_under_slider(self.model, self.state)
-            message += f", psi = {scalars['psi']:.6g} rad, f = {scalars['f']:.6g} rad/s"
+            message += f", psi = {end.psi:.6g} rad, f = {end.f:.6g} rad/s"
             message += f", slope B = {slope:.6g}"
         result = Result(
             parameters=request.parameters,
@@ -251,10 +251,8 @@ class Run:
             statistics["energy_residual_inplane"] = _relative(
                 total[audit.INPLANE], total[audit.INPLANE_SCALE] + total[audit.INPLANE_TURNOVER]
             )
-        if self.model.has_couple:
+        if self.model.has_moving_surface:
             statistics["surface_speed"] = total[audit.SURFACE]
-            if every_step:
-                statistics["couple_work"] = total[audit.COUPLE]
         statistics["wall_time"] = self.wall_time
         return statistics
 
@@ -264,7 +262,6 @@ _ENERGIES = (
     "energy_residual_transverse",
     "energy_residual_inplane",
     "audited_steps",
-    "couple_work",
     "surface_speed",
 )
 

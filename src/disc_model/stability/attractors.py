@@ -24,12 +24,12 @@ from disc_model.analysis.classify import (
     shortest_period,
 )
 from disc_model.data.variables import Outcome
-from disc_model.disc.plate import mode_arrays
+from disc_model.disc.plate import mode_arrays, tangential_amplitudes
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
-from disc_model.simulation.states import State, perturb, static_start
+from disc_model.simulation.states import State, perturb, slip_rate, static_start
 from disc_model.stability import thresholds
 from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.linear_motion import (
@@ -426,7 +426,7 @@ class Basins:
 def random_perturbation(p: Parameters, state: State, energy: float, key: Sequence[int]) -> State:
     """A state after a perturbation of given energy (J), of modes, mass m and spring k, in a random
     direction, by whole numbers, its `key`: uniform in the energy norm of the modes. The slider
-    moves with the disc; f and psi stay."""
+    moves with the disc and its surface; psi and the slip speed stay."""
     if energy == 0:
         return state
     modes = mode_arrays(p)
@@ -438,14 +438,18 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
     beta = draw[3]
     u = float(modes.psi @ a)
     velocity = float(modes.psi @ alpha)
-    energy_drawn = 0.5 * (float(np.sum(draw**2)) + p.k * u**2 + p.m * velocity**2)
+    surface = float(tangential_amplitudes(p) @ beta)
+    squares = p.k * u**2 + p.m * velocity**2 + p.m * surface**2
+    energy_drawn = 0.5 * (float(np.sum(draw**2)) + squares)
     size = math.sqrt(energy / energy_drawn)
-    velocity_of_u = velocity + state.f * float(np.sum(modes.diameters * modes.psi * b))
+    slope = float(np.sum(modes.diameters * modes.psi * b))
+    velocity_of_u = velocity + slip_rate(p, state) * slope
     return state.replace(
         a=state.a + size * a,
         b=state.b + size * b,
         alpha=state.alpha + size * alpha,
         beta=state.beta + size * beta,
+        f=state.f + size * surface / p.r_0,
         u=state.u + size * u,
         u_velocity=state.u_velocity + size * velocity_of_u,
     )

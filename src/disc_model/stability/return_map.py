@@ -1,10 +1,10 @@
 """The return map of the stick-slip cycle, and its fixed points.
 
-The section is the instant before a forward release: f = 0 and r_0 F = mu_s P.  A point of it
-consists of the modal coordinates alone, because psi follows from the release condition, scaled to
-the norm of the disc's energy: omega a, omega b, alpha, beta.  On a rigid disc the section is a
-single point, to which all motions return that stick: size is 0.  Derivatives come from the variational
-equations (`disc_model.engine.section`).
+The section is the instant before a forward release: g = 0 and T = mu_s P.  A point of it consists
+of the modal coordinates alone, because f follows from the speed of the surface and psi from the
+release condition, scaled to the norm of the disc's energy: omega a, omega b, alpha, beta.  On a
+rigid disc the section is a single point, to which all motions return that stick: size is 0.
+Derivatives come from the variational equations (`disc_model.engine.section`).
 """
 
 import math

@@ -8,6 +8,7 @@ from disc_model.studies.quantities.campbell import Campbell
 from disc_model.studies.quantities.critical_speed import CriticalSpeed
 from disc_model.studies.quantities.floquet import Floquet
 from disc_model.studies.quantities.hysteresis import Hysteresis
+from disc_model.studies.quantities.locking import Locking
 from disc_model.studies.quantities.lyapunov import Lyapunov
 from disc_model.studies.quantities.outcome import HorizonOutcome
 from disc_model.studies.quantities.ramps import Ramps
@@ -26,6 +27,7 @@ QUANTITIES: dict[str, type[Quantity]] = {
     "critical_speed": CriticalSpeed,
     "floquet": Floquet,
     "hysteresis": Hysteresis,
+    "locking": Locking,
     "lyapunov": Lyapunov,
     "outcome": HorizonOutcome,
     "ramps": Ramps,
