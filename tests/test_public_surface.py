@@ -120,7 +120,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         start,
         {},
-        dict.fromkeys(("time", "psi", "u_velocity"), "negative")
+        dict.fromkeys(("time", "psi", "u_velocity", "surface_turn"), "negative")
         | {"mode_amplitudes": "None", "case_key": [*WRONG], "drive_angle": "None negative"},
     ),
     (RUN.final_state.slider_angle, {}, {}),
