@@ -19,8 +19,8 @@ import disc_model.attached
 __version__ = "0.3.0"
 
 _NAMES = {
+    "data.exchange": "load save",
     "analysis.contact_loss": "pinned_range",
-    "data.dataset": "load",
     "disc.flexibility": "residual_flexibility",
     "disc.plate": "plate_modes coupled_natural_frequencies",
     "disc.plausibility": "ImplausibleValue",
@@ -35,11 +35,12 @@ _NAMES = {
     "simulation.case": "Window Poincare Ramp",
     "simulation.result": "Result",
     "simulation.states": "State deflection",
-    "studies.functions": "outcome critical_speed basins hysteresis sweep run_study",
+    "studies.functions": "outcome critical_speed basins hysteresis run_study",
+    "studies.sweeps": "sweep",
     "stability.continuation": "continue_cycle",
     "stability.critical": "critical",
     "stability.curves": "neutral_curves",
-    "stability.cycle": "floquet",
+    "stability.floquet": "floquet",
     "stability.lyapunov": "lyapunov_exponents",
     "stability.sliding": "steady_sliding",
     "stability.splitting": "split_growth",
@@ -50,7 +51,7 @@ __all__ = [*_HOMES, "__version__"]
 
 if TYPE_CHECKING:
     from disc_model.analysis.contact_loss import pinned_range
-    from disc_model.data.dataset import load
+    from disc_model.data.exchange import load, save
     from disc_model.disc.flexibility import residual_flexibility
     from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
     from disc_model.disc.plausibility import ImplausibleValue
@@ -76,18 +77,12 @@ if TYPE_CHECKING:
     from disc_model.stability.continuation import continue_cycle
     from disc_model.stability.critical import critical
     from disc_model.stability.curves import neutral_curves
-    from disc_model.stability.cycle import floquet
+    from disc_model.stability.floquet import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
     from disc_model.stability.splitting import split_growth
-    from disc_model.studies.functions import (
-        basins,
-        critical_speed,
-        hysteresis,
-        outcome,
-        run_study,
-        sweep,
-    )
+    from disc_model.studies.functions import basins, critical_speed, hysteresis, outcome, run_study
+    from disc_model.studies.sweeps import sweep
 
 
 def __getattr__(name: str) -> Any:

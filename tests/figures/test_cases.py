@@ -9,10 +9,12 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from disc_model import Parameters, Poincare, Window, simulate
-from disc_model.figures.drawing import save
+from disc_model.data.variables import flag_names
+from disc_model.figures.drawing import PHASE_COLOURS, save
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.render import render
 from tests.damages import damaged
@@ -84,6 +86,33 @@ def test_a_history_has_a_panel_for_each_variable() -> None:
     assert ranges.axes[0].get_xlim() == (0, 30)
 
 
+@pytest.mark.parametrize(("window", "phase"), [("spectrum_a", "stick"), ("zoom", "separation")])
+def test_phases_are_shaded_in_their_colours_while_they_last(window: str, phase: str) -> None:
+    samples = simulated(True)[window].to_dataset()
+    samples = samples.isel(time=samples["time"] < samples["time"][0] + 0.1)
+    case = damaged(simulated(True), lambda groups: groups | {window: samples})
+    [ax] = asked("history", case, window=window, variables=["u"]).axes
+    colour = to_rgb(PHASE_COLOURS[phase])
+    [shade] = [each for each in ax.collections if tuple(each.get_facecolor()[0, :3]) == colour]
+    time = samples["time"].values
+    inside = np.zeros(time.size, dtype=bool)
+    for bar in shade.get_paths():
+        begin, end = bar.get_extents().intervalx
+        inside |= (time >= begin) & (time < end)
+    np.testing.assert_array_equal(inside, flag_names(samples["phase"]) == phase)
+
+
+def test_sections_of_several_cases_share_their_axes() -> None:
+    """Contact is kept in one, whose points take a small part of the axes of the other."""
+    plot = kind_of("poincare")(case="A", below=("B",))
+    figure = render(plot, {"A": simulated(True), "B": simulated(False)})
+    left, right, left_below, right_below = [ax for ax in figure.axes if ax.get_title(loc="left")]
+    assert left.get_xlim() == left_below.get_xlim()
+    assert left.get_ylim() == left_below.get_ylim()
+    assert right.get_xlim() == right_below.get_xlim()
+    assert right.get_ylim() == right_below.get_ylim()
+
+
 def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:
     (mesh,) = (
         asked("spectrogram", window="spectrum_a", variable="psi", highest=400).axes[0].collections
@@ -101,7 +130,10 @@ def test_a_spectrum_shows_the_frequency_that_is_there() -> None:
 
 @pytest.mark.parametrize("kind", ["history", "poincare", "portrait", "spectrogram", "spectrum"])
 def test_what_a_case_lacks_is_said(kind: str) -> None:
-    phrase = {} if kind == "poincare" else {"window": "orbit"}
+    if kind == "poincare":
+        phrase = {}
+    else:
+        phrase = {"window": "orbit"}
     empty = xr.DataTree(xr.Dataset({"first_separation": np.nan, "time_reached": 0.0}))
     assert any("did not record" in text for text in said_in(asked(kind, empty, **phrase)))
     if kind != "poincare":

@@ -26,7 +26,8 @@ from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[2]
 FAULTS = yaml.safe_load(Path(__file__).with_name("faults.yaml").read_text(encoding="utf-8"))
-GRID, CASE = FAULTS["grid"], FAULTS["case"]
+GRID = FAULTS["grid"]
+CASE = FAULTS["case"]
 STUDIES = [
     (whole | change, words)
     for whole, name in ((GRID, "grids"), (CASE, "cases"))
@@ -105,7 +106,8 @@ ARGUMENTS: list[tuple[Callable[[], object], str]] = [
     (lambda: disc(circles=[0, 0, 0]), "omega.2=1820 axisymmetric"),
     (lambda: dm.simulate(p(), 1.0, ramps=(ramp(), ramp(start=0.02))), "ramps.1.start=0.02 0.03"),
     (lambda: from_state(phase="stick", f=1.0), "initial_state.f=1 0 stick"),
-    (lambda: dm.floquet(p(n_diameters=-1)), "n_diameters=-1 modes"),
+    (lambda: dm.split_growth(p(n_diameters=-1)), "n_diameters=-1 modes"),
+    (lambda: dm.basins(p(n_diameters=-1), [1e-3]), "energies rigid"),
     (lambda: lyapunov_exponents(p(), 1.0, count=9), "count=9 8"),
     (lambda: dm.Window(rate=1, start=2, stop=1), "start=2 < stop=1"),
     (lambda: ramp(start=3, end=2), "start=3 < end=2"),

@@ -7,14 +7,13 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.data.variables import axis_of, flag_names
 from disc_model.figures import drawing
-from disc_model.figures.arrays import Array
 from disc_model.figures.drawing import BLACK, BLUE, GREY, VERMILION, large, mark, wide
 from disc_model.figures.kinds.motions import PhaseMap, Staircase
 from disc_model.figures.selection import failed
+from disc_model.figures.types import Array, Figure
 
 ROOM = 0.055  # of a panel's width, least distance of two labels
 HEIGHT = 0.1  # of a panel's height, room that a label needs

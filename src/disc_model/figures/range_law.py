@@ -5,16 +5,14 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.analysis.contact_loss import excess_of_flights
 from disc_model.figures import drawing
-from disc_model.figures.arrays import Array, Mask
 from disc_model.figures.drawing import BLACK, BLUE, GREY, VERMILION, large, mark, wide
 from disc_model.figures.kinds.motions import RangeLawPlot
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import NORM, failed, normalizations
+from disc_model.figures.types import Array, Axes, Figure, Mask
 from disc_model.figures.words import MODES
 
 LOOKS = {"as_published": (BLUE, "o"), "orthonormal": (VERMILION, "^")}

@@ -8,18 +8,17 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from disc_model.analysis.classify import closure, shortest_period
+from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State
 from disc_model.stability.cycle import multipliers
-from disc_model.stability.return_map import Array, ComplexArray, ReturnMap, newton
+from disc_model.stability.return_map import ReturnMap, newton
 
-Counts = NDArray[np.int64]
 FEWEST_SEPARATIONS = 3  # in a record, whose mean interval is that of vibrations
 
 
@@ -37,7 +36,7 @@ class Releases(NamedTuple):
 
     times: Array
     phases: Array
-    vibrations: Counts
+    vibrations: Indices
     vibration: float
     force: Array
 
@@ -152,7 +151,7 @@ class PhaseMap(NamedTuple):
 
     phases: Array
     following: Array
-    vibrations: Counts
+    vibrations: Indices
     slopes: Array
 
 

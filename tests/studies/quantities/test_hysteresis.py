@@ -1,13 +1,18 @@
 """Sweeps up and down, in steps and on ramps."""
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 import xarray as xr
 
 from disc_model.analysis.classify import Settled, Settling
+from disc_model.engine.record import EVENT_ROW, LOSS_OF_CONTACT
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
-from disc_model.stability.outcome import Segment
+from disc_model.stability.segments import Segment
 from disc_model.studies.quantities.hysteresis import Hysteresis
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import Point
@@ -63,9 +68,12 @@ def test_the_offset_is_above_the_first_gap_on_the_way_down(
     speeds = [10.0, 11.0, 12.0, 13.0]
 
     def sweep(p, name, values, *times):
-        assert (name, values) == ("Omega", speeds)
+        assert name == "Omega"
+        assert values == speeds
         for step in [(0, i) for i in range(4)] + [(1, i) for i in (3, 2, 1, 0)]:
-            rate = falling[step[1]] if step[0] else 0
+            rate = 0
+            if step[0]:
+                rate = falling[step[1]]
             segment = Segment(0, 1, 0, 1, 0.5, 0.5, 0.0, rate)
             yield step, None, segment, attractors.Arrival(Settling(Settled.SETTLED))
 
@@ -76,13 +84,66 @@ def test_the_offset_is_above_the_first_gap_on_the_way_down(
     assert "onset_speed" not in values
 
 
+def test_there_is_no_offset_where_the_sweep_fails_before_separation_ends(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def sweep(*_: Any) -> Any:
+        settled = attractors.Arrival(Settling(Settled.SETTLED))
+        segment = Segment(0, 1, 0, 1, 0.5, 0.5, 0.0, 9)
+        for step in [(0, 0), (0, 1), (0, 2), (0, 3), (1, 3), (1, 2)]:
+            yield step, None, segment, settled
+        lost = SimpleNamespace(status=Status.NON_FINITE, message="lost")
+        yield (1, 1), lost, None, attractors.Arrival(Settling())
+
+    monkeypatch.setattr(attractors, "sweep", sweep)
+    options = Hysteresis(scan={"start": 10, "stop": 13, "step": 1}, dwell=9, evaluation_time=1)
+    values, message = options.compute_point(Point(Parameters(N=200, Omega=0)))
+    assert "offset_speed" not in values
+    assert message == "Omega=11: lost"
+
+
+def test_on_ramps_the_offset_is_that_of_the_last_separation_unless_it_goes_on(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Contact is lost once a second until 130 s: on the way down at 0.1 rad/s^2, in the stay at the
+    lowest speed at 0.2 rad/s^2."""
+
+    def simulated(p: Parameters, until: float, **how: Any) -> Any:
+        before = how.get("initial_state")
+        if before is None:
+            begin = 0.0
+        else:
+            begin = before.time
+        times = np.arange(1.0, 131.0)
+        times = times[(times > begin) & (times <= until)]
+        rows = np.zeros((times.size, len(EVENT_ROW)))
+        rows[:, EVENT_ROW.index("time")] = times
+        rows[:, EVENT_ROW.index("kind")] = LOSS_OF_CONTACT
+        return SimpleNamespace(
+            status=Status.OK,
+            first_separation=1.0,
+            statistics={"separations": times.size},
+            event_rows=rows,
+            final_state=SimpleNamespace(time=until),
+        )
+
+    monkeypatch.setattr("disc_model.simulation.api.simulate", simulated)
+    rates = {"start": 0.1, "stop": 0.2, "count": 2}
+    options = Ramps.model_validate({"low": 8, "high": 12, "dwell": 60, "rates": rates})
+    found = compute(options, [Point(Parameters(N=385, Omega=1))]).arrays
+    np.testing.assert_allclose(found["offset_speed"], [[9.0, np.nan]])
+    np.testing.assert_allclose(found["onset_speed"], [[8.1, 8.2]])
+    np.testing.assert_allclose(found["top_separation_rate"], [[1.0, 1.0]])
+
+
 @pytest.mark.compiled
 def test_on_ramps_at_385_N_onset_comes_late_and_the_end_is_far_below() -> None:
     """The cycle ends at 15.09 rad/s; separation takes some 50 s to grow, and persists to below
     10."""
     options = {"low": 8, "high": 22, "dwell": 20, "rates": {"start": 0.05, "stop": 0.1, "count": 2}}
     found = compute(Ramps.model_validate(options), [Point(Parameters(N=385, Omega=1))]).arrays
-    onset, end = found["onset_speed"][0], found["offset_speed"][0]
+    onset = found["onset_speed"][0]
+    end = found["offset_speed"][0]
     assert ((onset > 16) & (onset < 20)).all()
     assert onset[0] < onset[1]
     assert ((end > 8.5) & (end < 10)).all()

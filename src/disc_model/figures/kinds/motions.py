@@ -8,8 +8,7 @@ from pydantic import Field
 
 from disc_model.data.variables import SAMPLE
 from disc_model.errors import Fault, suggestion
-from disc_model.figures.kinds.base import Compared, Plot, Role, Roles, Values, unknown
-from disc_model.figures.selection import NORM
+from disc_model.figures.kinds.base import NORM, Compared, Plot, Role, Roles, Values, unknown
 from disc_model.units import Finite, Positive, Unit
 
 MOST_POINTS = 4  # greatest number of points that a figure of sensitivity shows
@@ -44,7 +43,6 @@ class LateRange(Plot):
 
     by : dimension with a panel for each value
     thickness : of the disc, m; that of the paper unless given
-    not_valid : points at which the law of friction does not hold
     names : words for values of `by`
     """
 
@@ -52,7 +50,6 @@ class LateRange(Plot):
     kind: Literal["late_range"] = "late_range"
     by: str = "disc"
     thickness: Positive = 0.002
-    not_valid: tuple[dict[str, tuple[Finite | str, ...]], ...] = ()
     names: dict[str, str] = Field({})
 
     @property
@@ -62,10 +59,6 @@ class LateRange(Plot):
     def faults(self, values: Values) -> Iterator[Fault]:
         yield from super().faults(values)
         yield from unknown("names", self.names, self.by, values.get(self.by, ()))
-        for part in self.not_valid:
-            for dim, words in part.items():
-                along = values.get(dim, ()) if dim in self.dims else ()
-                yield from unknown("not_valid", words, dim, along)
 
 
 class BasinShares(Plot):
