@@ -56,6 +56,8 @@ OF_GRIDS = (
     "sliding_outcome",
     "ramps",
     "range_law",
+    "locking",
+    "locking_map",
     "brake_range",
     "brake_growth",
     "map_couple",

@@ -145,6 +145,30 @@ class Sources:
             explained=int((single & (rest <= 0.05)).sum()),
         )
 
+    def locked(self, name: str, Omega: float, study: str = "locking") -> float:
+        """Return a variable of a study of `locking` at a speed."""
+        values = self.grid(study)[name]
+        return float(values[int(np.abs(values["Omega"].values - Omega).argmin())])
+
+    def lock_ends(self, releases: int) -> tuple[float, float]:
+        """Return the ends of the step with so many releases in the study `locking`, rad/s."""
+        speeds = self.grid("locking")["Omega"].values
+        there = speeds[self.grid("locking")["period_releases"].values == releases]
+        return float(there.min()), float(there.max())
+
+    def count_of_motions(self, motion: str, study: str = "locking") -> int:
+        """Return the number of points of a study of `locking` with a kind of motion."""
+        return int((flag_names(self.grid(study)["motion"]) == motion).sum())
+
+    def slope_of(self, separations: int) -> float:
+        """Return the mean slope of a piece of the map of phases, among the phases that recur."""
+        point = self.grid("locking_map")
+        recurring = point["release_phase"]
+        phase = point["map_phase"]
+        near = (phase > recurring.min()) & (phase < recurring.max())
+        piece = near & (point["map_separations"] == separations)
+        return float(point["map_slope"].where(piece).mean())
+
     # ---- grid studies of the paper's disc
 
     def grid(self, study: str) -> xr.Dataset:
