@@ -1,6 +1,7 @@
 """Figures of made-up studies in which each mark, colour and class occurs, for their descriptions."""
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,8 +20,10 @@ from disc_model.figures.kinds import kind_of
 from disc_model.figures.render import render
 from disc_model.studies.quantities.campbell import EFFECTS, KINDS, LINES
 from tests.figures import every_kind
+from tests.figures.description import write_all
 from tests.figures.every_kind import column, flag, over, stated
 
+FOLDER = Path(__file__).with_name("descriptions")
 NAN = np.nan
 SEED = 3
 """Of made-up numbers that differ from each other."""
@@ -468,6 +471,16 @@ def curve(variable: str = "period", **phrase: Any) -> Figure:
     return drawn("curve", study, variable=variable, x="c_p", by="k_p", **phrase)
 
 
+# ---- A named case
+
+
+def of_case(kind: str) -> Figure:
+    """Return the example of a kind that shows a named case."""
+    example = every_kind.EXAMPLES[kind]()
+    plot = kind_of(kind).model_validate({"kind": kind, **example.phrase})
+    return render(plot, example.inputs)
+
+
 # ---- All
 
 
@@ -497,5 +510,14 @@ DESCRIBED: dict[str, Callable[[], Figure]] = {
     "sensitivity": sensitivity,
     "sliding modes": sliding_modes,
     "sliding outcome": sliding_outcome,
+    "history": lambda: of_case("history"),
+    "poincare": lambda: of_case("poincare"),
+    "portrait": lambda: of_case("portrait"),
+    "spectrum": lambda: of_case("spectrum"),
+    "spectrogram": lambda: of_case("spectrogram"),
 }
 """Figures by name."""
+
+
+if __name__ == "__main__":
+    write_all(FOLDER, DESCRIBED)

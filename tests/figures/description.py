@@ -1,12 +1,13 @@
 """Figures in words: what each panel shows, in which colours, marks and widths, and where.
 
-Descriptions of examples are kept in ``descriptions/``, a file for each. Who changes a figure writes
-them anew by ``python -m tests.figures.description`` and reads what differs.
+Descriptions of examples are kept in folders ``descriptions``, a file for each. Whoever changes a
+figure writes them anew, by ``python -m tests.figures.described`` or ``python -m
+tests.paper.described``, and reads what differs.
 """
 
 import math
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +30,6 @@ from matplotlib.patches import Patch, Rectangle
 from matplotlib.spines import Spine
 from matplotlib.text import Annotation, Text
 
-FOLDER = Path(__file__).with_name("descriptions")
 MANY = 40
 """Points of which all are listed; of more, their extent and mean."""
 NUMBER = re.compile(r"(?<![#\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)")
@@ -244,9 +244,18 @@ def number(value: float) -> str:
 # ---- Comparison with what is kept
 
 
-def kept(name: str) -> list[str]:
+def kept(folder: Path, name: str) -> list[str]:
     """Return the description of an example that is kept."""
-    return (FOLDER / f"{name}.txt").read_text(encoding="utf-8").splitlines()
+    return (folder / f"{name}.txt").read_text(encoding="utf-8").splitlines()
+
+
+def write_all(folder: Path, figures: Mapping[str, Callable[[], Figure]]) -> None:
+    """Write the descriptions of all examples anew."""
+    mpl.use("agg")
+    folder.mkdir(exist_ok=True)
+    for name, drawn in figures.items():
+        text = "\n".join(describe(drawn())) + "\n"
+        (folder / f"{name}.txt").write_text(text, encoding="utf-8")
 
 
 def differences(found: list[str], expected: list[str]) -> list[str]:
@@ -266,18 +275,3 @@ def agree(one: str, other: str) -> bool:
         return False
     pairs = zip(NUMBER.findall(one), NUMBER.findall(other), strict=True)
     return all(math.isclose(float(a), float(b), rel_tol=AGREE, abs_tol=ZERO) for a, b in pairs)
-
-
-def write_all() -> None:
-    """Write the descriptions of all examples anew."""
-    from tests.figures.described import DESCRIBED
-
-    mpl.use("agg")
-    FOLDER.mkdir(exist_ok=True)
-    for name, drawn in DESCRIBED.items():
-        text = "\n".join(describe(drawn())) + "\n"
-        (FOLDER / f"{name}.txt").write_text(text, encoding="utf-8")
-
-
-if __name__ == "__main__":
-    write_all()

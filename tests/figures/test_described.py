@@ -2,13 +2,13 @@
 
 import pytest
 
-from tests.figures.described import DESCRIBED
-from tests.figures.description import FOLDER, describe, differences, kept
+from tests.figures.described import DESCRIBED, FOLDER
+from tests.figures.description import describe, differences, kept
 
 
 @pytest.mark.parametrize("name", DESCRIBED)
 def test_a_figure_shows_what_its_description_says(name: str) -> None:
-    apart = differences(describe(DESCRIBED[name]()), kept(name))
+    apart = differences(describe(DESCRIBED[name]()), kept(FOLDER, name))
     assert not apart, "\n".join(apart)
 
 
