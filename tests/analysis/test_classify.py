@@ -276,3 +276,45 @@ def test_a_motion_has_settled_from_the_first_point_after_the_last_one_outside(ou
     points[:outside] += 1.0
     assert classify.first_settled(points) == outside
     assert classify.first_settled(points, start=outside + 5) == outside + 5
+
+
+# ---- Sections
+
+
+@pytest.mark.parametrize("settles", [0, 1, 17, 40])
+def test_points_have_settled_from_the_first_that_lies_on_the_set_of_the_later_half(
+    settles: int,
+) -> None:
+    """A transient comes down to a cycle of three points: its last point away is before."""
+    cycle = np.tile([[0.0, 0.0], [1.0, 0.5], [0.3, 1.0]], (40, 1))
+    transient = np.zeros((120, 2))
+    transient[:settles] = 5.0
+    assert classify.first_settled(cycle + transient) == settles
+    # not before the motion is known to have settled
+    assert classify.first_settled(cycle + transient, start=30) == max(settles, 30)
+
+
+def test_points_count_as_one_within_a_hundredth_of_the_range_along_every_axis() -> None:
+    square = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 10.0], [1.0, 10.0]])
+    near = square + np.array([0.009, 0.09])
+    far = square + np.array([0.0, 0.12])
+    assert classify.distinct_points(square) == 4
+    assert classify.distinct_points(np.vstack([square, near])) == 4
+    assert classify.distinct_points(np.vstack([square, far])) == 8
+    assert classify.distinct_points(square, extent=np.array([200.0, 20.0])) == 2
+    assert classify.distinct_points(np.zeros((0, 2))) == 0
+    constant = np.column_stack([np.full(4, 3.0) + 1e-15 * np.arange(4), [0.0, 0, 1, 1]])
+    assert classify.distinct_points(constant) == 2
+
+
+def test_a_motion_has_settled_since_the_part_of_the_record_that_shows_it() -> None:
+    time = np.arange(50.0, 1050.0, 0.05)
+    steady = np.cos(time)
+    whole = settling(time, steady)
+    assert (whole.answer, whole.since) == (Settled.SETTLED, 50.0)
+    # its first tenth is a transient of another width
+    before = np.where(time < 150, 3.0, 1.0)
+    later = settling(time, before * steady)
+    assert later.answer is Settled.SETTLED
+    # parts begin 7 % of the rest apart
+    assert 150 <= later.since < 150 + 0.08 * 900

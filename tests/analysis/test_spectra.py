@@ -220,3 +220,18 @@ def test_the_highest_line_is_that_of_a_hundredth_of_the_strongest() -> None:
     assert spectra.highest_line(TIME, values, 0.01) == pytest.approx(300, abs=0.01)
     assert spectra.highest_line(TIME, values, 0.003) == pytest.approx(700, abs=0.01)
     assert spectra.highest_line(TIME, 0 * TIME, 0.01) == RATE / 2
+
+
+def test_side_lobes_of_the_window_are_no_lines() -> None:
+    """A sine between two bins has one line, however small the others may be."""
+    time = np.arange(0, 4, 1 / 500)
+    found = spectra.lines(time, 2.0 * np.sin(2 * np.pi * 60.1 * time), floor=0.0)
+    [line] = [line for line in found if line.amplitude > 1e-12]
+    assert line.frequency == pytest.approx(60.1, abs=1e-3)
+    # 1e-4 of the strongest is above them
+    small = 2e-4 * np.sin(2 * np.pi * 110.0 * time)
+    both = spectra.lines(time, 2.0 * np.sin(2 * np.pi * 60.1 * time) + small, floor=0.0)
+    assert [line.frequency for line in both] == pytest.approx([60.1, 110.0], abs=1e-2)
+    # and a tenth of that is not told from them
+    smaller = spectra.lines(time, 2.0 * np.sin(2 * np.pi * 60.1 * time) + 0.1 * small, floor=0.0)
+    assert [line.frequency for line in smaller] == pytest.approx([60.1], abs=1e-2)
