@@ -95,6 +95,8 @@ class Model(NamedTuple):
     slider_scale: float  # m/s: what u' is compared with where it is not the disc's
     bonded: bool  # whether contact is bilateral
     compliance: float  # of the contact, m/N; 0 if it is rigid
+    point_amplitude: np.ndarray  # of a single point at r_0, in lanes of a: a pad has the mean
+    point_amplitude0: np.ndarray
     tangential: (
         np.ndarray
     )  # t_l of the surface on which friction acts in lanes of b, 0 in lanes of a
@@ -121,6 +123,7 @@ class DiscModes(NamedTuple):
     diameters: np.ndarray  # l
     omega: np.ndarray  # rad/s
     psi: np.ndarray  # amplitude under the slider, kg^-1/2
+    psi_at_point: np.ndarray  # of a single point at r_0: a pad has the mean over its arc
     damping: np.ndarray  # 2 xi omega, 1/s
     tangential: np.ndarray  # amplitude at the surface on which friction acts, kg^-1/2
 
@@ -178,6 +181,8 @@ def build_model(modes: DiscModes, slider: Mapping[str, Any], contact: Contact) -
         slider_scale=N * (float(np.sum(psi**2 / omega)) + compliance / unit),
         bonded=contact.bonded,
         compliance=compliance,
+        point_amplitude=_point_amplitudes(modes),
+        point_amplitude0=modes.psi_at_point[single],
         tangential=rows[TANGENTIAL],
         surface_inverse_mass=float(np.sum(rows[TANGENTIAL] ** 2)),
         damped_surface_inverse_mass=-float(np.sum(rows[TANGENTIAL] * rows[TANGENTIAL_DAMPING])),
@@ -229,6 +234,14 @@ def _lanes(modes: DiscModes, unit: float) -> np.ndarray:
     rows[FORCES] = rows[AMPLITUDE] + rows[TANGENTIAL]
     rows[SLOPE_RATE:, of_b] = l * psi
     rows[SLOPE_RATE:, of_a] = np.outer(np.arange(1.0, ROWS + 1.0) / unit, l * psi)
+    return lanes
+
+
+def _point_amplitudes(modes: DiscModes) -> np.ndarray:
+    """Return ``Model.point_amplitude``."""
+    pairs = np.flatnonzero(modes.diameters > 0)
+    lanes = np.zeros(lanes_for(len(pairs)))
+    lanes[pair_lanes(len(pairs))] = modes.psi_at_point[pairs]
     return lanes
 
 

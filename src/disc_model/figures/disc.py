@@ -15,7 +15,7 @@ from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
 from disc_model.data.dataset import Missing
-from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
+from disc_model.disc.plate import mode_arrays, mode_shapes, modes_at_point, radial_range
 from disc_model.errors import require
 from disc_model.figures import drawing
 from disc_model.figures.arrays import Array, Words
@@ -60,7 +60,7 @@ class Motion(NamedTuple):
     def deflection(self, i: int, r: Array | None, theta: Array) -> Array:
         """Displacement at sample i, m, at radii (k,) and angles (m,): (k, m); without radii on the
         slider's circle."""
-        modes = mode_arrays(self.parameters)
+        modes = modes_at_point(self.parameters)
         shapes = modes.psi[:, None] if r is None else mode_shapes(self.parameters, r)
         turns = modes.diameters[:, None] * theta
         around = self.amplitudes[:, i, None].conj() * np.exp(1j * turns)

@@ -19,7 +19,13 @@ from disc_model.parameters import DEFAULTS, Parameters
 from disc_model.simulation.states import State
 
 Array = NDArray[np.float64]
-OTHER_LAWS = ("contact_compliance", "contact_force", "friction_decay", "friction_offset")
+OTHER_LAWS = (
+    "contact_compliance",
+    "contact_arc",
+    "contact_force",
+    "friction_decay",
+    "friction_offset",
+)
 """Parameters of laws of contact that only the engine has."""
 
 

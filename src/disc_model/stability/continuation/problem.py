@@ -37,6 +37,7 @@ USUAL = {
     "c": 0.5,
     "c_p": 0.5,
     "contact_compliance": 1e-8,
+    "contact_arc": 0.4,
     "damping_ratio": 1e-3,
     "friction_decay": 1.0,
 }
