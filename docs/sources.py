@@ -265,6 +265,17 @@ class Sources:
         point = self.grid("brake_outcome").sel(disc=disc, N=N, Omega=Omega, contact=contact)
         return float(point["u_max"] - point["u_min"]) / THICKNESS
 
+    def brake_ranges(self, contact: str = "unilateral", least: float = 60) -> xr.DataArray:
+        """Return the ranges of the slider with tangential motion, in thicknesses of the ring, from
+        a speed in rad/s on."""
+        study = self.grid("brake_outcome").sel(disc="surface", contact=contact)
+        study = study.where(study["Omega"] >= least, drop=True)
+        return (study["u_max"] - study["u_min"]) / THICKNESS
+
+    def brake_ratios(self) -> xr.DataArray:
+        """Return these ranges in bilateral contact over those with separation."""
+        return self.brake_ranges("bilateral") / self.brake_ranges()
+
     def brake_separation(self, disc: str, N: float, Omega: float) -> float:
         """Return the time of the first separation, s."""
         study = self.grid("brake_outcome")

@@ -97,9 +97,7 @@ class ModeChoice(Summarised):
         else:
             values: dict[str, float | None] = {}
             for size, value in self.values.items():
-                values[",".join(map(str, size))] = value
-                if not math.isfinite(value):
-                    values[",".join(map(str, size))] = None
+                values[",".join(map(str, size))] = value if math.isfinite(value) else None
             record |= {"quantity": self.quantity, "values": values}
         record["compared_with"] = list(self.rich)
         return json.dumps(record, sort_keys=True)

@@ -209,11 +209,13 @@ def _scalar(value: Any) -> Any:
 def number(value: Any) -> Any:
     """A number, a text such as ``1e-3`` of YAML, or an array of one number without dimensions, as a
     float; raises ValueError for all else, also for a bool."""
+    if type(value) is float:  # as nearly always, and at once
+        return value + 0.0  # adding zero turns -0.0 into 0.0
     value = _scalar(value)
     if isinstance(value, bool) or not isinstance(value, str | int | float | numbers.Real):
         raise ValueError("must be a number")
     try:
-        return float(value) + 0.0  # adding zero turns -0.0 into 0.0
+        return float(value) + 0.0
     except OverflowError:  # a whole number beyond the range of floats
         return math.inf if value > 0 else -math.inf  # type: ignore[operator]
     except ValueError:

@@ -68,15 +68,24 @@ def test_scalars_come_back_under_their_names() -> None:
     assert not other.disc.any()
 
 
+def put_column(here: state.EngineState, model: Model, column: np.ndarray) -> None:
+    """Set a state in stick at time 0 to a column of its entries."""
+    n_disc = columns.n_rows(model) - state.SLIDER
+    state.clear(here)
+    here.disc[:n_disc] = column[:n_disc]
+    here.x[state.PSI : state.PSI + state.SLIDER] = column[n_disc:]
+    here.x[state.PHASE] = state.STICK
+
+
 @pytest.mark.parametrize("size", SIZES)
 def test_a_column_of_a_state_gives_the_state_back(size: tuple[int, int]) -> None:
     model = model_of(*size)
     here, there = build_state(model), build_state(model)
     column = np.random.default_rng(1).normal(size=columns.n_rows(model))
-    columns.put_column(here, model, column)
+    put_column(here, model, column)
     np.testing.assert_array_equal(columns.column_of(here, model), column)
     assert state.phase_of(here) == state.STICK
-    columns.put_column(there, model, columns.column_of(here, model))
+    put_column(there, model, columns.column_of(here, model))
     np.testing.assert_array_equal(there.x, here.x)
 
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures import critical_speed
 from disc_model.figures.borders import Curve
-from disc_model.figures.critical_speed import branches
+from disc_model.figures.onsets import branches
 from tests.figures.reading import draw, labels
 from tests.studies.conftest import SCAN, computed, growth_over
 

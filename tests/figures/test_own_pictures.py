@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model.figures.disc import Motion
-from disc_model.figures.disc import film as film_of
+from disc_model.figures.film import film as film_of
 from disc_model.simulation.api import snapshots
 from tests.figures.measured import Shown, assert_shows, drawn_values
 

@@ -9,11 +9,12 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names
+from disc_model.disc.plate import plate_modes
 from disc_model.figures.kinds import kinds_in
 from disc_model.figures.render import render
-from disc_model.paper.figures import scales
 from disc_model.paper.figures.instants import motion_of
 from disc_model.paper.figures.kinds import STRETCH
+from disc_model.parameters import Parameters
 from tests.figures.measured import Shown, assert_shows, drawn_values
 from tests.figures.test_cases import simulated
 from tests.paper import evidence
@@ -181,12 +182,12 @@ def test_the_schematic_has_radii_in_millimetres() -> None:
 
 
 def test_the_figure_on_both_scales_has_amplitudes_per_kilogram_and_times_in_seconds() -> None:
-    plot, maps = STUDY.figures["figB2"], evidence.scans()
-    figure = render(
-        plot,
-        {"study": xr.DataTree(maps["map_N"]), **{n: xr.DataTree(maps[n]) for n in plot.overlays}},
-    )
-    modes = scales.plate_modes(scales.Parameters(N=385, Omega=15, normalization="orthonormal"))
+    plot = STUDY.figures["figB2"]
+    maps = evidence.scans()
+    inputs = {"study": xr.DataTree(maps["map_N"])}
+    inputs.update((name, xr.DataTree(maps[name])) for name in plot.overlays)
+    figure = render(plot, inputs)
+    modes = plate_modes(Parameters(N=385, Omega=15, normalization="orthonormal"))
     squares = modes["psi"].to_numpy() ** 2
     assert_shows(
         figure, Shown(0, "y", r"Amplitude under the slider \Psi_l^2", squares, "1/kg", "log")

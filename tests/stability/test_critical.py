@@ -9,6 +9,7 @@ import pytest
 from disc_model import ParameterError, Parameters, continue_cycle, floquet, neutral_curves
 from disc_model.data.variables import STABLE_CYCLES
 from disc_model.stability import critical
+from disc_model.stability.continuation import spectrum
 
 
 @pytest.mark.compiled
@@ -112,25 +113,31 @@ def test_a_pair_that_only_touches_the_axis_is_looked_for() -> None:
     assert found.value < 10_235
 
 
+def shares_of_meetings(angles: list[float], turns: list[float]) -> list[float]:
+    """Where undamped multipliers of these angles meet while they turn by these."""
+    before = np.exp(1j * np.array(angles))
+    after = before * np.exp(1j * np.array(turns))
+    return [each.share for each in spectrum.passings(spectrum.turns_of(before, after))]
+
+
 def test_places_where_multipliers_meet_are_found_by_their_angles() -> None:
     """Linear in the share of the way, which is known then."""
     # two that cross each other, at equal angles
-    shares = critical._meetings(np.array([0.5, 0.6]), np.array([0.2, 0.0]))
-    assert shares == pytest.approx([0.5])
+    assert shares_of_meetings([0.5, 0.6], [0.2, 0.0]) == pytest.approx([0.5])
     # one that comes to -1, and one to 1
-    shares = critical._meetings(np.array([math.pi - 0.1]), np.array([0.4]))
-    assert shares == pytest.approx([0.25])
-    shares = critical._meetings(np.array([0.1]), np.array([-0.4]))
-    assert shares == pytest.approx([0.25])
-    shares = critical._meetings(np.array([0.5, 1.0]), np.array([0.1, 0.1]))
-    assert shares == []
+    assert shares_of_meetings([math.pi - 0.1], [0.4]) == pytest.approx([0.25])
+    assert shares_of_meetings([0.1], [-0.4]) == pytest.approx([0.25])
+    assert shares_of_meetings([0.5, 1.0], [0.1, 0.1]) == []
+
+
+def test_pairs_that_may_have_turned_back_at_the_axis_are_found() -> None:
+    """Linear in the share of the way, which is known then."""
     # through the axis and back: from 0.1 to -0.3 looks like 0.3
     one = np.array([0.1, 2.0])
     two = np.array([0.3, 2.1])
-    shares = critical._returns_from_axis(one, two, 0.4)
-    assert shares == pytest.approx([0.25])
-    shares = critical._returns_from_axis(math.pi - one, math.pi - two, 0.4)
-    assert shares == pytest.approx([0.25])
+    assert critical._returns_from_axis(one, two, 0.4) == pytest.approx([0.25])
+    upside_down = critical._returns_from_axis(math.pi - one, math.pi - two, 0.4)
+    assert upside_down == pytest.approx([0.25])
     assert critical._returns_from_axis(one, two, 0.1) == []
 
 

@@ -390,7 +390,7 @@ def fit(
     from scipy.optimize import least_squares
 
     measurements = _checked(p, vary, measured, bounds, confidence)
-    limits = _limits(p, vary, bounds or {})
+    limits = _limits(vary, bounds or {})
     scales = {name: high - low for name, (low, high) in limits.items() if p.numbers[name] == 0}
     problem = _Problem(p, vary, measurements, scales)
     values = np.array([each.value for each in measurements])
@@ -584,9 +584,7 @@ def _bounds_faults(p: Parameters, vary: Sequence[str], bounds: object) -> list[s
     return faults
 
 
-def _limits(
-    p: Parameters, vary: Sequence[str], bounds: Mapping[str, tuple[Any, Any]]
-) -> dict[str, Interval]:
+def _limits(vary: Sequence[str], bounds: Mapping[str, tuple[Any, Any]]) -> dict[str, Interval]:
     """Return the bounds in SI units."""
     found = {}
     for name in vary:

@@ -87,11 +87,12 @@ def arrival(p: Parameters, legs: Sequence[Result], most: int = sys.maxsize) -> A
 
 def cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
     """The cycle near the end of a simulated motion, recorded with its events; the cycle may lose
-    contact. Periods of up to half the releases of the last `FIRST_LEG` are tried, and of up to
-    `most` releases."""
-    last = leg.events[leg.events["time"] > leg.final_state.time - thresholds.FIRST_LEG]
-    releases = int((last["kind"] == "stick_to_slip").sum())
-    if not releases or not may_stick_and_slip(p) or p.n_diameters < 0:
+    contact. Periods of up to half the releases of the last `FIRST_LEG` are tried, or of the whole
+    leg if a slow motion has none there, and of up to `most` releases."""
+    released = leg.events[leg.events["kind"] == "stick_to_slip"]
+    late = released["time"] > leg.final_state.time - thresholds.FIRST_LEG
+    releases = int(late.sum()) or len(released)
+    if not releases or not may_stick_and_slip(p):
         return None
     map_ = ReturnMap(p, patient=True)
     release = map_.next_release(leg.final_state)
@@ -334,7 +335,10 @@ class Basins:
 
     def _approached_by_range(self, ranges: Sequence[float]) -> Attractor | None:
         """The attractor, other than the quiet cycle, whose range of the height those of the last
-        legs (m) approach; None if that is not clear."""
+        legs (m) approach; None if that is not clear, as on a rigid disc, whose height never
+        changes."""
+        if self.static == 0:
+            return None
         others = [attractor for attractor in self.known if attractor.kind is not Outcome.QUIET]
         if len(ranges) < thresholds.NEARING or not others:
             return None

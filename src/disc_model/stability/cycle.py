@@ -18,17 +18,9 @@ from disc_model.data.variables import CycleStatus, values_text
 from disc_model.display import Drawn, Summarised, counted, number_text
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, raise_faults, violations
-from disc_model.parameters import Parameters
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import State
-from disc_model.stability.return_map import (
-    ENDS,
-    Array,
-    ComplexArray,
-    Orbit,
-    ReturnMap,
-    case_faults,
-    newton,
-)
+from disc_model.stability.return_map import ENDS, Array, ComplexArray, Orbit, ReturnMap, newton
 from disc_model.stability.sliding import SteadySliding, steady_sliding
 from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
 
@@ -51,7 +43,7 @@ class FloquetResult(Summarised, Drawn):
     status, message : result of the search; without a cycle numbers are nan, arrays empty and `state` None
     period : s
     multipliers : complex, shape (n,), largest modulus first; n = 4 per pair of modes + 2 per axisymmetric mode, plus 2
-        on a compliant contact
+        on a compliant contact; a single 0 where that is none, as for a block on a rigid disc
     exponents : 1/s, complex, log(multipliers) / period
     growth_rate : 1/s, largest real part of the exponents
     stick_fraction : share of the period in stick
@@ -172,7 +164,7 @@ def floquet(
     (True, ('stick_slip',))
     """
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases)
-    raise_faults(case_faults(p, "floquet") + wrong)
+    raise_faults(foreign_case(p) + wrong)
     return find_cycle(p, float(tol), guess, releases)
 
 
@@ -336,7 +328,10 @@ def cycle_of(map_: ReturnMap, orbit: Orbit) -> FloquetResult:
 
 def multipliers(jacobian: Array) -> ComplexArray:
     """Eigenvalues of the return map's Jacobian, largest modulus first; positive imaginary parts
-    first in each pair."""
+    first in each pair. A section of a single point, as that of a block on a rigid disc, has the
+    multiplier 0: stick ends in one state, whatever the motion was before."""
+    if not jacobian.size:
+        return np.zeros(1, complex)
     values = np.linalg.eigvals(jacobian).astype(complex)
     moduli = np.round(np.abs(values), 14)
     return values[np.lexsort((-values.imag, -values.real, -moduli))]

@@ -28,7 +28,7 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, Sl
     modes = sliding_modes(p, cycle.sliding)
     columns = np.full((3, len(modes.frequency)), math.nan)
     disc = modes.diameters >= 0
-    if cycle.state is None or not len(modes.frequency):
+    if cycle.state is None or not disc.any():
         return cycle, modes, columns
     map_ = ReturnMap(p, tol)
     orbit = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)

@@ -95,7 +95,9 @@ class NearCycle:
 
     def follows_multipliers(self, x: Array) -> bool:
         """Whether the motion at a point of the section departs or approaches as the multipliers
-        predict."""
+        predict. On a section of a single point it is on the cycle."""
+        if not len(x):
+            return True
         return any(self._is_linear(x - self.x, times) for times in thresholds.TEST_TIMES)
 
     def stays_linear_until(self, horizon: float) -> bool:

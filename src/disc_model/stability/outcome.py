@@ -152,7 +152,7 @@ def find_outcome(
     map_: ReturnMap | None = None
     if isinstance(near, NearCycle):
         map_ = near.map  # a new one takes as long as a return to the section ten times over
-    elif p.n_diameters >= 0 and may_stick_and_slip(p):
+    elif may_stick_and_slip(p):
         map_ = ReturnMap(p)
     if early and start is None and map_ is not None:
         if near is None:

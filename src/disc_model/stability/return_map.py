@@ -2,7 +2,8 @@
 
 The section is the instant before a forward release: g = 0 and T = mu_s P.  A point of it consists
 of the modal coordinates alone, because f follows from the speed of the surface and psi from the
-release condition, scaled to the norm of the disc's energy: omega a, omega b, alpha, beta.
+release condition, scaled to the norm of the disc's energy: omega a, omega b, alpha, beta.  On a
+rigid disc the section is a single point, to which all motions return that stick: size is 0.
 Derivatives come from the variational equations (`disc_model.engine.section`).
 """
 
@@ -20,7 +21,7 @@ from disc_model.engine import columns, loop, section, step_size, tangent, transi
 from disc_model.engine import state as motion
 from disc_model.engine.model import Model, blocks_of, build_state
 from disc_model.engine.series import Series, build_series
-from disc_model.errors import raise_faults, violations
+from disc_model.errors import raise_faults
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.simulation.states import (
     State,
@@ -65,13 +66,6 @@ ENDS = {
     transitions.STOPPED: "lost_contact",
     transitions.OFF_SECTION: "off_section",
 }
-
-
-def case_faults(p: Any, analysis: str) -> list[str]:
-    """Faults of a case for ``analysis``: it must be `Parameters`, and have modes, which alone can
-    become unstable."""
-    rule = f"must be >= 0: {analysis} needs modes of the disc"
-    return foreign_case(p) or violations((p.n_diameters >= 0, "n_diameters", p.n_diameters, rule))
 
 
 def longest_step(model: Model, order: int, tolerance: float) -> float:
@@ -226,7 +220,7 @@ class ReturnMap:
         *,
         patient: bool = False,
     ) -> None:
-        raise_faults(case_faults(p, "the return map"))
+        raise_faults(foreign_case(p))
         self.tol = float(tol)  # kernels are compiled for the types of their arguments
         self.parameters = p
         self.patient = patient
@@ -309,8 +303,10 @@ class ReturnMap:
 
         start = np.array(x, dtype=float)
         changes = self._tangent
+        # the engine knows a start by its length, and reads as many numbers as the section has
+        given = start if self.size else np.zeros(1)
         code = integrate_in_pieces(
-            self.model, self._series, self._state, changes, limits, self._section, start
+            self.model, self._series, self._state, changes, limits, self._section, given
         )
 
         log = changes.log

@@ -27,9 +27,9 @@ from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_
 from disc_model.display import Drawn, Summarised, number_text
 from disc_model.engine import laws
 from disc_model.errors import StatusBase, raise_faults
-from disc_model.parameters import Parameters
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import engine_case
-from disc_model.stability.return_map import Array, ComplexArray, case_faults
+from disc_model.stability.return_map import Array, ComplexArray
 
 
 def _in_python(module: ModuleType) -> Any:
@@ -158,7 +158,7 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     >>> print(sliding.message, f"{sliding.growth_rate:.4f} 1/s")
     steady sliding with P = 384.977 N, not stable 0.0339 1/s
     """
-    raise_faults(case_faults(p, "steady_sliding"))
+    raise_faults(foreign_case(p))
     if p.Omega == 0:
         return _absent(SlidingStatus.AT_REST)
     modes = mode_arrays(p)

@@ -24,9 +24,9 @@ from numpy.typing import NDArray
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, mode_arrays
 from disc_model.display import Summarised, number_text
-from disc_model.errors import Fault, ParameterError, raise_faults, require
-from disc_model.parameters import Parameters
-from disc_model.stability.return_map import Array, case_faults
+from disc_model.errors import Fault, ParameterError, raise_faults, require, violations
+from disc_model.parameters import Parameters, foreign_case
+from disc_model.stability.return_map import Array
 from disc_model.stability.sliding import SlidingStatus, split_rows, steady_sliding
 from disc_model.units import is_number
 
@@ -125,7 +125,10 @@ def split_growth(p: Parameters, split: float | Iterable[float] | None = None) ->
     >>> dm.split_growth(case, 0.02).matters
     True
     """
-    raise_faults(case_faults(p, "the split of pairs"))
+    rule = "must be >= 0: the split of pairs needs modes of the disc"
+    raise_faults(
+        foreign_case(p) or violations((p.n_diameters >= 0, "n_diameters", p.n_diameters, rule))
+    )
     modes = mode_arrays(p)
     splits = _splits(p, split, modes)
     sliding = steady_sliding(p)

@@ -193,7 +193,7 @@ def test_where_contact_is_lost_the_branch_ends(monkeypatch):
     monkeypatch.setattr(RoundMap, "step", FoldlessStep.step)
     branch = continue_cycle(P.replace(Omega=25), "Omega", (20.0, 40.0), direction=1)
     assert branch.values[-1, 0] == pytest.approx(30, abs=1e-5)
-    assert branch.ended.endswith("the motion does not return: lost_contact")
+    assert branch.ended.endswith("the motion does not return: it loses contact")
 
 
 class FoldlessStep:
@@ -215,7 +215,7 @@ def test_a_limit_of_the_parameter_ends_the_branch(monkeypatch):
 @pytest.mark.parametrize(
     ("Omega", "why"),
     [
-        (31, "does not return: lost_contact"),
+        (31, "does not return: it loses contact"),
         (0, "vanishes"),
         (-1, "Omega=-1"),
         (17, "does not converge"),  # beyond the fold there is nothing to converge to

@@ -4,7 +4,7 @@ from importlib import import_module
 from typing import Any
 
 from disc_model.errors import Fault, ParameterError, suggestion
-from disc_model.figures.kinds.base import CasePlot, Compared, Kind, Plot
+from disc_model.figures.kinds.base import NORM, CasePlot, Compared, Kind, Plot, si_unit
 from disc_model.figures.kinds.cases import (
     History,
     PoincareSections,
@@ -27,6 +27,7 @@ from disc_model.figures.kinds.motions import (
 
 __all__ = [
     "KINDS",
+    "NORM",
     "CasePlot",
     "Compared",
     "General",
@@ -35,6 +36,8 @@ __all__ = [
     "RegionMap",
     "kind_of",
     "kinds_in",
+    "si_unit",
+    "table_of",
 ]
 
 KINDS: dict[str, type[Kind]] = {

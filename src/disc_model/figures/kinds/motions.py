@@ -8,8 +8,7 @@ from pydantic import Field
 
 from disc_model.data.variables import SAMPLE
 from disc_model.errors import Fault, suggestion
-from disc_model.figures.kinds.base import Compared, Plot, Role, Roles, Values, unknown
-from disc_model.figures.selection import NORM
+from disc_model.figures.kinds.base import NORM, Compared, Plot, Role, Roles, Values, unknown
 from disc_model.units import Finite, Positive, Unit
 
 MOST_POINTS = 4  # greatest number of points that a figure of sensitivity shows

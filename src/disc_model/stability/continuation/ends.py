@@ -54,6 +54,11 @@ class End(NamedTuple):
     text: str
 
 
+def at_most_points(most: int) -> End:
+    """The end of a curve that has as many points as are allowed."""
+    return End(MOST_POINTS, f"max_points={most} were computed")
+
+
 class Event(NamedTuple):
     """An event of a motion: its kind and its time, over the period of the cycle."""
 

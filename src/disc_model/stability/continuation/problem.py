@@ -8,7 +8,6 @@ Unknowns are z = (x / size, q / scales). The map is a `SectionMap`; that of the 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
@@ -44,6 +43,16 @@ USUAL = {
 SMALLEST = 0.2  # of a parameter's scale, over its typical value
 SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value of interest
 DIFFERENCE = 1e-5  # over a parameter's scale: orbits are accurate to 1e-13, their second derivatives of order one
+
+WITHOUT_RETURN = {
+    "time_over": "the slider slips on without sticking",
+    "lost_contact": "the motion does not return: it loses contact",
+    "off_section": "the motion does not return: it is not released, or not in contact, where it starts",
+    "paradox": "the motion does not return: it runs into Painleve's paradox",
+    "stalled": "the motion does not return: switches follow each other without the clock moving",
+    "non_finite": "the motion does not return: it overflows",
+}
+"""Words for the end of a motion that does not return to the section."""
 
 
 class SectionMap(Protocol):
@@ -190,7 +199,7 @@ class CycleProblem:
         """The motion from a point to its return, and F."""
         orbit = self.follow(z, tangent=tangent)
         if not orbit.returned:
-            raise Rejected(f"the motion does not return: {ENDS[orbit.outcome]}")
+            raise Rejected(WITHOUT_RETURN[ENDS[orbit.outcome]])
         residual = (orbit.end - orbit.start) * self._turn(self.map_at(z)) / self.size
         return orbit, residual
 
@@ -257,10 +266,13 @@ class CycleProblem:
         return curve_point(z - newton_step(np.vstack([found.by, rows]), left), found, along)
 
     def leading_diameters(self, point: CurvePoint) -> int:
-        """Nodal diameters of the modes with most energy in the leading multiplier's eigenvector."""
+        """Nodal diameters of the modes with most energy in the leading multiplier's eigenvector; -1
+        on a rigid disc."""
         spectrum = point.spectrum
-        leading = int(np.argmax(np.abs(spectrum.values)))
         diameters = self.reference.diameters
+        if not len(diameters):
+            return -1
+        leading = int(np.argmax(np.abs(spectrum.values)))
         energy = np.abs(spectrum.right[: len(diameters), leading]) ** 2
         return int(np.argmax(np.bincount(diameters, energy)))
 
@@ -268,8 +280,3 @@ class CycleProblem:
 def growth_rate(multiplier: complex, period: float) -> float:
     """Growth rate of a multiplier, 1/s."""
     return math.log(abs(multiplier)) / period if multiplier else -math.inf
-
-
-def values_of(problem: CycleProblem, points: Sequence[CurvePoint]) -> Array:
-    """Values of the free parameters at points, (n_points, n_parameters), SI units."""
-    return np.array([point.z[problem.n :] * problem.scales for point in points])

@@ -16,6 +16,7 @@ from pydantic import Field
 
 from disc_model.analysis.classify import share
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
+from disc_model.errors import require
 from disc_model.simulation.case import Start
 from disc_model.studies import quantity
 from disc_model.studies.costs import UnitCosts
@@ -138,6 +139,9 @@ class AttractorBasins(Start, Quantity):
         from disc_model.stability.attractors import Basins, random_perturbation
 
         p = point.parameters
+        modes_or_none = p.n_diameters >= 0 or not any(self.energies)
+        rule = "must be 0 on a rigid disc, which has no modes to perturb; perturb f of the start"
+        require((modes_or_none, "energies", self.energies, rule))
         start = make_initial_state(p, point.start, self.tol) or static_start(p)
         basins = Basins(p, self.horizon, near=self.attractor_tol, tol=self.tol)
 

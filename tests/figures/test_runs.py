@@ -6,7 +6,7 @@ import xarray as xr
 
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
-from disc_model.figures.phases import spans_between, spans_in
+from disc_model.figures.runs import spans_between, spans_in
 
 TIMES = [0.0, 1.0, 2.0, 2.5, 4.0]  # s
 WORDS = ["slip", "stick", "slip", "slip", "separation"]

@@ -1,9 +1,0 @@
-"""Types of arrays."""
-
-import numpy as np
-from numpy.typing import NDArray
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-Words = NDArray[np.str_]
-Indices = NDArray[np.int64]
