@@ -64,6 +64,7 @@ _WITHOUT_LAW = {
     "contact_arc": 0,
     "friction_offset": 0,
     "friction_decay": math.inf,
+    "viscous_friction": 0,
 }
 _Distance = Annotated[
     Real, AfterValidator(must(lambda value: 0 <= value < math.inf, "must be a finite number >= 0"))
@@ -173,8 +174,16 @@ class Parameters(Strict):
     friction_decay: Annotated[Real, AfterValidator(_DECAY)] = _field(
         math.inf,
         "s/m",
-        "d of friction mu_k + (mu_s - mu_k)/(1 + d v) at slip speed v; inf: mu_k at any speed",
+        "d, by which friction falls from mu_s to mu_k with the slip speed; inf: mu_k at any speed",
         ge=0,
+    )
+    friction_law: Literal["hyperbolic", "exponential"] = _field(
+        "hyperbolic",
+        "",
+        "how friction falls with the slip speed v: as 1/(1 + d v), or as exp(-d v)",
+    )
+    viscous_friction: Finite = _field(
+        0.0, "s/m", "increase of the coefficient of friction with the slip speed", ge=0
     )
     damping_ratio: Annotated[Real, Field(ge=0, lt=1, allow_inf_nan=False)] | None = _field(
         None, "1", "damping ratio of every mode of the plate, from 0 to below 1, instead of D_star"
@@ -192,7 +201,8 @@ class Parameters(Strict):
             nu: Quantity = ..., rho: Quantity = ..., n_diameters: Quantity = ..., n_circles: Quantity = ...,
             normalization: str = ..., contact: str = ..., contact_compliance: Quantity = ...,
             contact_arc: Quantity = ..., contact_force: str = ..., friction_offset: Quantity = ...,
-            friction_decay: Quantity = ..., damping_ratio: Quantity | None = ..., disc: Disc | None = ...,
+            friction_decay: Quantity = ..., friction_law: str = ..., viscous_friction: Quantity = ...,
+            damping_ratio: Quantity | None = ..., disc: Disc | None = ...,
             mu_k_over_mu_s: float = ..., k_p_over_k: float = ..., c_p_over_c: float = ...,
             a_over_b: float = ..., r_0_over_b: float = ..., h_over_b: float = ...,
         ) -> None: ...  # fmt: skip

@@ -3,7 +3,7 @@ it."""
 
 from typing import NamedTuple
 
-from .contact import put_weakening
+from .contact import put_sensitivity
 from .dense_output import CLOSED_FORM
 from .jit import helper, inlined
 from .laws import surface_mobility
@@ -107,10 +107,11 @@ def series_step(model, series, state, order, tolerance, longest, left):
     length = step_size(model, series, order, tolerance, phase)
     if not length > 0.0:
         return Step(NON_FINITE, order, 0.0, NOTHING)
-    if model.has_falling_friction and phase == SLIP:
-        # where friction falls steeply, a change of g grows faster than the fastest motion
-        put_weakening(model, series, 0, state.x[DIRECTION])
-        growth = abs(series.weakening[0]) * model.unit / (model.m * model.r_0)
+    if model.has_varying_friction and phase == SLIP:
+        # where friction falls or rises steeply, a change of g grows or decays faster than the fastest
+        # motion
+        put_sensitivity(model, series, 0, state.x[DIRECTION])
+        growth = abs(series.sensitivity[0]) * model.unit / (model.m * model.r_0)
         growth *= surface_mobility(model, model.m)
         longest /= max(growth, 1.0)
     longest = min(min(length, longest), left)

@@ -42,7 +42,7 @@ def step_size(model, series, order, tolerance, phase):
     )
     speed = _scale(series.drive[0], abs(series.f[0]), abs(series.f[1]))
     weight = 1.0
-    if model.has_falling_friction and phase == SLIP and model.decay > 0.0:
+    if model.has_varying_friction and phase == SLIP and model.decay > 0.0:
         # slow slip grows by itself, and where friction falls the series converges like that of a
         # fraction
         slow = abs(series.f[0]) + 1.0 / model.decay

@@ -440,6 +440,8 @@ def engine_case(p: Parameters) -> EngineCase:
             compliance=contact_compliance(p),
             normal=p.contact_force == "normal",
             friction_decay=p.friction_decay,
+            exponential=p.friction_law == "exponential",
+            viscous_friction=p.viscous_friction,
         ),
     )
     pairs = np.flatnonzero(modes.diameters > 0)

@@ -25,6 +25,7 @@ OTHER_LAWS = (
     "contact_force",
     "friction_decay",
     "friction_offset",
+    "viscous_friction",
 )
 """Parameters of laws of contact that only the engine has."""
 

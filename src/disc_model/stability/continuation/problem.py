@@ -39,6 +39,7 @@ USUAL = {
     "contact_arc": 0.4,
     "damping_ratio": 1e-3,
     "friction_decay": 1.0,
+    "viscous_friction": 0.01,
 }
 SMALLEST = 0.2  # of a parameter's scale, over its typical value
 SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value of interest
