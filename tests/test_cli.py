@@ -152,9 +152,24 @@ def test_a_run_is_drawn_and_saved_and_one_that_does_not_end_is_told(
     assert (code, "status              paradox" in out) == (1, True)
 
 
+def test_events_are_written_as_text_and_a_dataset_in_another_format(
+    command: Command, tmp_path: Path
+) -> None:
+    file = tmp_path / "run.nc"
+    out = command.out(*SHORT, "--csv", str(tmp_path / "new"), "--save", str(file))
+    assert f"saved               {tmp_path / 'new' / 'events.csv'}\n" in out
+    assert (tmp_path / "new" / "events.csv").read_text().startswith("time (s),kind,phase,")
+    target = tmp_path / "run.mat"
+    assert command.out("convert", str(file), str(target)) == f"saved               {target}\n"
+    assert disc_model.load(target).identical(disc_model.load(file))
+    assert "must end in .nc or .mat" in command.error("convert", str(file), "x.txt")
+    assert "there is no such file" in command.error("convert", "none.nc", str(target))
+
+
 @pytest.mark.parametrize(
     ("option", "name", "rule"),
     [
+        ("--csv", "/dev/null", "must be a folder, and is a file"),
         ("--save", "x.txt", "must end in .nc or .mat"),
         ("--save", "/dev/null", "must be the name of a file"),
         ("--save", "no/x.nc", "must be the name of a file in a folder that exists"),

@@ -19,7 +19,7 @@ import disc_model.attached
 __version__ = "0.3.0"
 
 _NAMES = {
-    "data.dataset": "load",
+    "data.exchange": "load save",
     "disc.flexibility": "residual_flexibility",
     "disc.plate": "plate_modes coupled_natural_frequencies",
     "disc.plausibility": "ImplausibleValue",
@@ -34,7 +34,8 @@ _NAMES = {
     "simulation.case": "Window Poincare Ramp",
     "simulation.result": "Result",
     "simulation.states": "State deflection",
-    "studies.functions": "outcome critical_speed basins hysteresis sweep run_study",
+    "studies.functions": "outcome critical_speed basins hysteresis run_study",
+    "studies.sweeps": "sweep",
     "stability.continuation": "continue_cycle",
     "stability.critical": "critical",
     "stability.curves": "neutral_curves",
@@ -48,7 +49,7 @@ _HOMES = {name: module for module, names in _NAMES.items() for name in names.spl
 __all__ = [*_HOMES, "__version__"]
 
 if TYPE_CHECKING:
-    from disc_model.data.dataset import load
+    from disc_model.data.exchange import load, save
     from disc_model.disc.flexibility import residual_flexibility
     from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
     from disc_model.disc.plausibility import ImplausibleValue
@@ -78,14 +79,8 @@ if TYPE_CHECKING:
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
     from disc_model.stability.splitting import split_growth
-    from disc_model.studies.functions import (
-        basins,
-        critical_speed,
-        hysteresis,
-        outcome,
-        run_study,
-        sweep,
-    )
+    from disc_model.studies.functions import basins, critical_speed, hysteresis, outcome, run_study
+    from disc_model.studies.sweeps import sweep
 
 
 def __getattr__(name: str) -> Any:

@@ -3,6 +3,7 @@ changed."""
 
 import random
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +13,10 @@ import scipy.io
 import xarray as xr
 from netCDF4 import Dataset
 
-from disc_model import ParameterError, Parameters, Result, State, Window, load, simulate
+import disc_model as dm
+from disc_model import ParameterError, Parameters, Result, State, Window, simulate
 from disc_model.data import files
-from disc_model.data.dataset import UnreadableFile, WriteError, save
+from disc_model.data.dataset import UnreadableFile, WriteError, load, save
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
 RUN = simulate(P, 0.02, {"all": Window(rate=2000)})
@@ -24,6 +26,7 @@ LOADERS: dict[str, tuple[Callable[[Path], object], Callable[[Any], Any]]] = {
     "state.nc": (RUN.final_state.save, State.load),
     "state.mat": (RUN.final_state.save, State.load),
     "tree.nc": (RUN.save, load),
+    "dataset.mat": (partial(dm.save, RUN.to_tree()), dm.load),
 }
 
 

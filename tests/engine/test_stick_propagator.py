@@ -5,11 +5,11 @@ import pytest
 
 from disc_model import Execution, Parameters, Window, simulate
 from disc_model.engine import dense_output, stick_modes, stick_propagator
+from disc_model.engine.laws import stick_loads, vertical_in_stick
 from disc_model.engine.model import Model, build_state
 from disc_model.engine.series import Series, build_series, load_state
 from disc_model.engine.state import PSI, U_VELOCITY, EngineState, U
 from disc_model.engine.stick import stick_series
-from disc_model.engine.laws import stick_loads, vertical_in_stick
 from disc_model.engine.transitions import instant, stick_force
 from disc_model.simulation.states import engine_case
 from tests.contact_laws import COMPILES, by_series

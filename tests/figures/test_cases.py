@@ -9,10 +9,12 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from disc_model import Parameters, Poincare, Window, simulate
-from disc_model.figures.drawing import save
+from disc_model.data.variables import flag_names
+from disc_model.figures.drawing import PHASE_COLOURS, save
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.render import render
 from tests.damages import damaged
@@ -82,6 +84,33 @@ def test_a_history_has_a_panel_for_each_variable() -> None:
     ranges = asked("history", window="history", variables=["P", "psi"], until=30)
     assert all(len(ax.collections) == 1 for ax in ranges.axes), "as bands"
     assert ranges.axes[0].get_xlim() == (0, 30)
+
+
+@pytest.mark.parametrize(("window", "phase"), [("spectrum_a", "stick"), ("zoom", "separation")])
+def test_phases_are_shaded_in_their_colours_while_they_last(window: str, phase: str) -> None:
+    samples = simulated(True)[window].to_dataset()
+    samples = samples.isel(time=samples["time"] < samples["time"][0] + 0.1)
+    case = damaged(simulated(True), lambda groups: groups | {window: samples})
+    [ax] = asked("history", case, window=window, variables=["u"]).axes
+    colour = to_rgb(PHASE_COLOURS[phase])
+    [shade] = [each for each in ax.collections if tuple(each.get_facecolor()[0, :3]) == colour]
+    time = samples["time"].values
+    inside = np.zeros(time.size, dtype=bool)
+    for bar in shade.get_paths():
+        begin, end = bar.get_extents().intervalx
+        inside |= (time >= begin) & (time < end)
+    np.testing.assert_array_equal(inside, flag_names(samples["phase"]) == phase)
+
+
+def test_sections_of_several_cases_share_their_axes() -> None:
+    """Contact is kept in one, whose points take a small part of the axes of the other."""
+    plot = kind_of("poincare")(case="A", below=("B",))
+    figure = render(plot, {"A": simulated(True), "B": simulated(False)})
+    left, right, left_below, right_below = [ax for ax in figure.axes if ax.get_title(loc="left")]
+    assert left.get_xlim() == left_below.get_xlim()
+    assert left.get_ylim() == left_below.get_ylim()
+    assert right.get_xlim() == right_below.get_xlim()
+    assert right.get_ylim() == right_below.get_ylim()
 
 
 def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:

@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures import critical_speed
 from disc_model.figures.borders import Curve
+from disc_model.figures.drawing import BLUE, SEPARATED
 from disc_model.figures.onsets import branches
-from tests.figures.reading import draw, labels
+from tests.figures.reading import draw, labels, lines
 from tests.studies.conftest import SCAN, computed, growth_over
 
 SPEEDS, LOADS = np.linspace(12, 15, 10), [100.0, 200, 400]
@@ -88,6 +89,14 @@ def test_the_panel_beside_shows_where_both_motions_last(
     basins = xr.Dataset(shares, classes, {"base": '{"N": 385}'})
     (bar,) = chart(hysteresis=sweep, basins=basins).axes[1].patches
     assert (bar.get_x(), bar.get_width(), bar.get_y() + bar.get_height() / 2) == (13, 1, 385)
+
+
+def test_onset_and_end_of_sweeps_have_their_own_colours(
+    chart: Callable[..., Figure], sweep: xr.Dataset
+) -> None:
+    marks = lines(chart(hysteresis=sweep).axes[1])
+    assert marks["sweep up: separation begins"].get_color() == SEPARATED
+    assert marks["sweep down: separation ends"].get_color() == BLUE
 
 
 def test_only_the_longest_horizon_is_drawn(speeds: xr.Dataset) -> None:

@@ -91,6 +91,14 @@ def test_regions_have_borders_marks_and_what_does_not_fit(
     save(figure, tmp_path / "map.png")
 
 
+def test_a_stable_cycle_ends_towards_lower_values_as_well() -> None:
+    study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
+    loads = study["N"]
+    turned = study.isel(N=slice(None, None, -1)).assign_coords(N=loads)
+    panels = [draw("region_map", each, x="Omega", y="N").axes[0] for each in (study, turned)]
+    assert lengths(panels[0]) == lengths(panels[1]) == [2, 2]
+
+
 def test_curves_are_shown_in_a_region_map(plane: xr.Dataset) -> None:
     figure = draw(
         "region_map",

@@ -1,5 +1,7 @@
 """Figures of motions over one parameter: bifurcation diagrams, basins, ramps."""
 
+import re
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -36,6 +38,16 @@ def test_diagrams_mark_points_that_failed_and_not_those_that_slide() -> None:
     assert not crosses(ax)
     assert lines(ax)["steady sliding"].get_xdata() == [2]
     assert lines(ax)["no event while sampled"].get_xdata() == [3]
+
+
+def test_bands_of_exponents_are_as_wide_as_the_legend_says() -> None:
+    samples, exponents = made_up_samples()
+    exponents["exponent_error"] = 0.2 * exponents["exponent_error"]
+    ax = draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes[2]
+    [errors] = re.findall(r"± (\d+) standard errors", " ".join(labels(ax)))
+    heights = ax.collections[0].get_paths()[0].vertices[:, 1]
+    half_width = 0.2 * int(errors)
+    assert (heights.min(), heights.max()) == pytest.approx((1 - half_width, 1 + half_width))
 
 
 def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.MonkeyPatch) -> None:

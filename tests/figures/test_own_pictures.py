@@ -11,10 +11,13 @@ from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import disc_model as dm
+from disc_model.data.variables import CycleStatus
 from disc_model.figures.disc import Motion
 from disc_model.figures.film import film as film_of
 from disc_model.simulation.api import snapshots
+from disc_model.stability.cycle import FloquetResult
 from tests.figures.measured import Shown, assert_shows, drawn_values
+from tests.figures.reading import lines
 
 P = dm.Parameters(N=385, Omega=15.1)
 
@@ -68,6 +71,14 @@ def test_multipliers_come_with_growth_per_second_and_the_period_in_milliseconds(
     assert float(period[1]) == pytest.approx(1e3 * cycle.period, rel=5e-4)
     assert_shows(figure, Shown(0, "x", "Re κ", cycle.multipliers.real))
     assert_shows(figure, Shown(0, "y", "Im κ", cycle.multipliers.imag))
+
+
+def test_multipliers_outside_the_unit_circle_grow_whatever_their_angle() -> None:
+    values = np.array([0.9 + 0.9j, 0.9 - 0.9j, -1.2, 0.99, -0.3])
+    cycle = FloquetResult(P, 1e-12, CycleStatus.OK, "made up", 0.015, values, growth_rate=16.1)
+    shown = lines(figure_of(cycle.plot()).axes[0])
+    assert shown["grows"].get_xdata().tolist() == [0.9, 0.9, -1.2]
+    assert shown["decays"].get_xdata().tolist() == [0.99, -0.3]
 
 
 def test_eigenvalues_are_in_hertz_and_per_second() -> None:

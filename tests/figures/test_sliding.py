@@ -8,7 +8,7 @@ from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.render import render
 from disc_model.figures.selection import common_points
-from disc_model.figures.sliding_outcome import AGREEMENTS, agreement
+from disc_model.figures.sliding_outcome import AGREEMENTS, ROUNDING, agreement
 from tests.studies.conftest import SMALL, computed
 
 SCAN = {"start": 0, "stop": 0.4, "count": 5}
@@ -36,6 +36,18 @@ def test_modes_are_drawn_along_the_parameter(
     assert "Kinetic friction $μ_k$" in [
         label for ax in figure.axes for label in (ax.get_xlabel(), ax.get_ylabel())
     ]
+
+
+def test_modes_have_thick_lines_where_they_grow(over_mu: xr.Dataset) -> None:
+    figure = render(kind_of("sliding_modes")(), {"study": xr.DataTree(over_mu)})
+    shown = [line for line in figure.axes[1].lines if line.get_marker() == "."]
+    thickest = max(line.get_linewidth() for line in shown)
+    heights = [line.get_ydata() for line in shown if line.get_linewidth() == thickest]
+    thick = np.concatenate(heights)
+    rates = over_mu["mode_growth_rate"].values
+    growing = rates[rates > ROUNDING]
+    assert growing.size
+    np.testing.assert_array_equal(np.sort(thick[np.isfinite(thick)]), np.sort(growing))
 
 
 def test_linear_analysis_beside_the_motion() -> None:

@@ -54,3 +54,26 @@ def test_damping_follows_the_square_of_the_width_to_which_a_motion_has_grown() -
     assert large == pytest.approx(4 * small, rel=0.02)
     with pytest.raises(Absent, match=r"maintained contact comes to 13\.\d mm only"):
         at_width(history, 0.1)
+
+
+def numbered(*numbers: float) -> list[Powers]:
+    """Return powers of which each is a multiple of a number, in the order of their fields."""
+    return [Powers(*(number * np.arange(1.0, 6.0))) for number in numbers]
+
+
+@pytest.mark.parametrize(
+    ("numbers", "mean_of_last"), [((1, 2, 3, 4, 5, 6, 7, 9), 8.0), ((5, 7, 1, 3), 3.0)]
+)
+def test_the_end_is_the_last_quarter_of_the_stages(
+    numbers: tuple[float, ...], mean_of_last: float
+) -> None:
+    assert in_the_end(numbered(*numbers)) == numbered(mean_of_last)[0]
+
+
+def test_powers_are_interpolated_in_the_square_of_the_width_where_it_is_first_reached() -> None:
+    history = numbered(1, 2, 4, 3, 5)
+    # half of the way from 1 to 4, and a third of that from 4 to 16
+    assert at_width(history, np.sqrt(2.5)) == pytest.approx(numbered(1.5)[0])
+    assert at_width(history, np.sqrt(8.0)) == pytest.approx(numbered(2 + 2 / 3)[0])
+    with pytest.raises(Absent, match=r"comes to 5e\+03 mm only"):
+        at_width(history, 5.0)

@@ -171,6 +171,9 @@ GRID_CASES = [
     (ONSET, onset("qssqgs", *STABLE_AND_NOT), FALSE),  # one from a stable cycle
     (ONSET, onset("qqqqgg", *ALL_KNOWN), NOT_COMPUTED),  # nothing separates
     (ONSET, onset("qqsqss", *MORE_STABLE, fold=20.2), FALSE),  # the cycle continues
+    (ONSET, onset("qqsqss", *MORE_STABLE, fold=20.05), TRUE),  # a fold just above the speed
+    (ONSET, onset("qqsqss", *MORE_STABLE, fold=20.0), TRUE),
+    (ONSET, onset("qqsqss", *MORE_STABLE, fold=19.95), FALSE),  # at the speed, the cycle is beyond
     (ONSET, onset("xqsqgs", *MORE_STABLE), NOT_COMPUTED),
     (FOLD, at_fold(BELOW_FOLD, 15.1), TRUE),  # at 15.05, within 15.0 .. 15.1
     (FOLD, at_fold(OFF_FOLD, 15.1), FALSE),  # at 15.17

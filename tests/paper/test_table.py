@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters
+from disc_model.analysis.spectra import Line
 from disc_model.paper import SCANS, SURVIVAL_GRIDS, paper_tables, survival
 from disc_model.paper.ledger import COLUMNS, MODULES, ROWS, check_claims
 from disc_model.paper.measures import CaseView
@@ -163,3 +164,75 @@ def test_a_period_is_told_with_the_speeds_between_which_it_is_the_same(
     assert set(table["8 nodal diameters"]) == {"irregular"}
     # known to an eighth
     assert 0.03 * 7 / 8 < table["width"][0] < 0.03
+
+
+# ---- Table 2
+
+F_S = 67.0
+"""Frequency of stick and slip in the spectra that are made up, Hz."""
+
+
+class Spectrum:
+    """Spectra of a case: of psi with f_s, and of the disc's point near the frequencies of Table 2.
+
+    What is asked of the latter is kept.
+    """
+
+    drive = 15 / (2 * np.pi)
+
+    def __init__(self) -> None:
+        self.searched: dict[float, float] = {}
+
+    def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> object:
+        assert (window, start, stop) == ("spectrum_a", 0, 10)
+        if name == "psi":
+            return SimpleNamespace(lines=self.lines_of_psi)
+        return SimpleNamespace(strongest=self.strongest)
+
+    def lines_of_psi(self, count: int, above: float) -> list[Line]:
+        assert (count, above) == (1, 20.0)
+        return [Line(F_S, 0.3)]
+
+    def strongest(self, near: float, within: float) -> Line:
+        self.searched[near] = within
+        return self.lines[near]
+
+    @property
+    def lines(self) -> dict[float, Line]:
+        """The drive's line, two of which the stronger is ten times as high, and weak ones."""
+        weak = {listed: Line(listed + 0.5, 1e-3) for listed in paper_tables.LISTED}
+        known = {
+            2.4: Line(self.drive, 0.01),
+            65.5: Line(F_S - self.drive + 0.29, 0.1),
+            133.0: Line(2 * F_S, 0.001),
+            138.0: Line(2 * F_S + 2 * self.drive - 0.31, 0.02),
+        }
+        return weak | known
+
+
+def test_table_2_has_levels_in_decibels_of_amplitude_and_names_of_lines() -> None:
+    case = Spectrum()
+    table = paper_tables.table_2(case).set_index("paper_Hz")
+    assert [*table.reset_index()[paper_tables.COLUMNS]] == paper_tables.COLUMNS
+    # a factor of ten in amplitude is 20 dB, relative to the drive's line
+    levels = table["level_dB"][[2.4, 65.5, 133.0]]
+    assert levels.tolist() == pytest.approx([0, 20, -20])
+    assert table["level_dB"][138.0] == pytest.approx(20 * np.log10(2))
+    assert table["ours_Hz"][133.0] == 2 * F_S
+    assert table["ours_is"][2.4] == "f_Ω"
+    # named up to 0.3 Hz from a combination
+    assert table["ours_is"][65.5] == "f_s − f_Ω"
+    assert table["ours_is"][133.0] == "2 f_s"
+    assert table["ours_is"][138.0] == paper_tables.UNNAMED
+    assert table["predicted_Hz"][138.0] == pytest.approx(2 * F_S + 2 * case.drive)
+    assert table["predicted_Hz"][65.5] == pytest.approx(F_S - case.drive)
+    # the drive's line is near others
+    assert case.searched == {2.4: 0.5, **dict.fromkeys(paper_tables.LISTED[1:], 2.0)}
+
+
+def test_table_1_has_the_papers_value_beside_that_of_a_case() -> None:
+    table = paper_tables.table_1(Parameters(N=200, Omega=20, k_p=1e4)).set_index("symbol")
+    assert table.loc["k_p", ["unit", "paper", "ours"]].tolist() == ["N/m", 2e4, 1e4]
+    assert table.loc["a", ["unit", "paper", "ours"]].tolist() == ["m", 0.044, 0.044]
+    same = table.drop("k_p")
+    assert (same["paper"] == same["ours"]).all()

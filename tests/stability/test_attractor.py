@@ -45,6 +45,33 @@ TEXTS = yaml.safe_load(Path(__file__).with_name("outcomes.yaml").read_text(encod
 OUTCOMES = TEXTS["each outcome"]
 
 
+@pytest.mark.parametrize(
+    ("changes", "grows"),
+    [
+        ([], False),
+        ([1e-3, 1e-2], False),
+        ([1e-3, 1e-2, 1e-2], True),
+        ([1e-3, 1e-4, 1e-2, 1e-4, 1e-2, 1e-4], False),  # single ones are high
+        ([1e-3, 1e-4, 1e-2, 1e-2, 1e-5], True),  # bounded later
+        ([1e-2, 1e-2, 1e-2, 1e-2], False),
+        ([1e-2, 1.4e-2, 1.4e-2], False),
+        ([1e-2, 1.6e-2, 1.6e-2], True),
+        ([1e-2, 1.4e-2, 1.8e-2, 1.9e-2], True),  # above the least of all that came before
+        ([1e-2, 1e-3, 8e-3, 9e-3], True),
+        ([1e-2, 8e-3, 4e-3, 1e-3], False),
+        ([1e-9, 8e-9, 9e-9], False),  # the motion has arrived: rounding
+        ([1e-9, 2e-8, 2e-8], True),
+        ([1e-3, np.nan, 1e-2, np.nan], True),  # nan: there was no close return
+        ([np.nan, 1e-3, 1e-2, 1e-2], True),
+        ([np.nan] * 4, False),
+    ],
+)
+def test_two_successive_changes_that_have_risen_are_growth(
+    changes: list[float], grows: bool
+) -> None:
+    assert growing(changes) is grows
+
+
 @pytest.mark.compiled
 @pytest.mark.parametrize("which", OUTCOMES)
 def test_each_outcome_is_told(which: str) -> None:

@@ -3,6 +3,7 @@ map."""
 
 import cmath
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,9 @@ from scipy.optimize import linear_sum_assignment
 
 from disc_model import Parameters, coupled_natural_frequencies, plate_modes
 from disc_model.analysis.spectra import modes_at_rest, nearest_resonance
+from disc_model.stability import frequencies as frequencies_module
 from disc_model.stability.frequencies import frequencies
+from disc_model.stability.return_map import ReturnMap
 
 BASE = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1)
@@ -87,3 +90,31 @@ def test_a_multiplier_is_given_the_mode_that_turns_it(shift, diameters, sign):
     assert resonance.label.startswith(f"{resonance.harmonic:g} f_s = {frequency:.2f} Hz")
     shift_text = {1: f"+ {diameters} Ω/2π", -1: f"- {diameters} Ω/2π", 0: " Hz"}[sign]
     assert resonance.label.endswith(shift_text)
+
+
+def test_of_two_real_multipliers_a_mode_grows_by_the_larger(monkeypatch: pytest.MonkeyPatch):
+    """In a resonance both multipliers of a mode are real. The return map is changed so that its
+    pairs become real in the plane in which they turn."""
+    cycle, modes, (_, growth_rate, _) = frequencies(SMALL)
+    map_ = ReturnMap(SMALL, 1e-12)
+    jacobian = map_.evaluate(map_.point(cycle.state)).jacobian
+    values, vectors = np.linalg.eig(jacobian)
+    upper = values.imag > 0
+    planes = vectors[:, upper].T
+    own_rates = np.log(np.abs(values[upper])) / cycle.period
+    larger = np.array([0.97, -0.99, 0.98])
+    smaller = np.array([0.5, -0.4, 0.3])
+    basis = np.hstack([planes.real.T, planes.imag.T])
+    real = basis @ np.diag([*larger, *smaller]) @ np.linalg.inv(basis)
+
+    monkeypatch.setattr(frequencies_module, "floquet", lambda *_, **__: cycle)
+    monkeypatch.setattr(ReturnMap, "evaluate", lambda *_, **__: SimpleNamespace(jacobian=real))
+    _, _, (frequency, found, _) = frequencies(SMALL)
+    rate = 1 / cycle.period
+    for own, value in zip(own_rates, larger, strict=True):
+        mode = np.nanargmin(np.abs(growth_rate - own))
+        assert found[mode] == pytest.approx(math.log(abs(value)) * rate, rel=1e-8)  # by rounding
+        # a multiple of f_s, or half of one where the multiplier is negative, next to the mode
+        turns = frequency[mode] * cycle.period
+        assert turns % 1 == pytest.approx(0 if value > 0 else 0.5, abs=1e-9)
+        assert abs(frequency[mode] - modes.frequency[mode]) <= 0.5 * rate

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Status, floquet, plate_modes, steady_sliding
-from disc_model.stability.lyapunov import lyapunov_exponents
+from disc_model.simulation.states import static_start
+from disc_model.stability.lyapunov import _averaged, lyapunov_exponents
 from tests.stability.test_attractor import paradox
 from tests.stability.test_sliding import state_of
 
@@ -99,3 +100,19 @@ def test_on_a_cycle_they_are_its_exponents_and_zero():
     assert found.trivial_exponent == pytest.approx(0, abs=0.1)
     rate = np.mean(cycle.exponents.real[:2])
     assert np.mean(found.exponents) == pytest.approx(rate, rel=1e-3)
+
+
+def test_errors_are_standard_errors_of_16_segments_unless_both_halves_differ_by_more():
+    """Of an exponent of 1/s in the mean: segments alternate about it, or rise in the second
+    half."""
+    start = static_start(STICK)
+    segment = np.arange(16)
+    alternating = 1 + 0.4 * (-1.0) ** segment
+    rising = np.where(segment < 8, 0.5, 1.5)
+    logs = np.repeat(np.column_stack([alternating, rising]), 5, axis=0) * 0.01
+    found = _averaged(Status.OK, logs, 0.01, 2, np.zeros(16), start, False)
+    assert found.exponents == pytest.approx([1.0, 1.0], rel=1e-12)
+    # the standard error of a mean of n values is their deviation over the root of n
+    standard_error = np.std(alternating, ddof=1) / np.sqrt(16)
+    assert found.errors == pytest.approx([standard_error, 1.0], rel=1e-12)
+    assert found.converged.tolist() == [True, False]

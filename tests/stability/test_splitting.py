@@ -3,6 +3,7 @@
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.integrate import solve_ivp
 
@@ -131,3 +132,59 @@ def test_a_disc_without_pairs_has_nothing_to_split() -> None:
     found: SplitGrowth = dm.split_growth(case(PAD, disc=disc, friction_offset=0.0), 0.01)
     assert found.growth_rate == found.together == found.apart
     assert len(found.pairs) == 0
+
+
+def heavily_damped(**changes: Any) -> dm.Parameters:
+    """A case whose pair decays faster than another mode."""
+    return case(PAD, damping=0.1, **changes)
+
+
+def test_a_mode_outside_the_pairs_may_grow_most() -> None:
+    """The slider in the disc's plane, whose frequency and damping are nearly its own."""
+    p = heavily_damped(c_p=0.0)
+    values = dm.steady_sliding(p).eigenvalues
+    [slider] = values[np.abs(values.imag - np.sqrt(p.k_p / p.m)) < 30]
+    found = dm.split_growth(p, 0.01)
+    [pair] = found.pairs.to_dict("records")
+    assert pair["apart"] < pair["together"] < slider.real
+    assert found.apart == found.together == slider.real
+
+
+def test_a_damped_slider_is_below_the_mean_of_the_pair() -> None:
+    p = case(PAD)
+    values = dm.steady_sliding(p).eigenvalues
+    of_pair = values[(values.imag > 2000) & (values.imag < 4000)].real
+    assert len(of_pair) == 2
+    found = dm.split_growth(p, 0.01)
+    assert found.apart == pytest.approx(of_pair.mean(), rel=1e-12)
+    [pair] = found.pairs.to_dict("records")
+    expected = {
+        "diameters": 2,
+        "circles": 0,
+        "frequency_Hz": 3000 / (2 * np.pi),
+        "split": 0.01,
+        "together": of_pair.max(),
+        "apart": of_pair.mean(),
+    }
+    assert pair == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("together", "growth_rate", "matters"),
+    [
+        (10.0, 10.9, False),
+        (10.0, 11.1, True),
+        (10.0, 8.9, True),
+        (-10.0, -9.1, False),
+        (-10.0, -11.1, True),
+        (0.01, -0.0001, True),
+        (-0.0001, 0.0001, True),
+        (0.0, 0.0, False),
+    ],
+)
+def test_a_split_matters_from_a_tenth_of_the_rate_or_if_the_sign_changes(
+    together: float, growth_rate: float, matters: bool
+) -> None:
+    found = SplitGrowth(together, growth_rate, 0.0, pd.DataFrame())
+    assert found.matters is matters
+    assert dict(found.summary())["the split matters"] == ("yes" if matters else "no")

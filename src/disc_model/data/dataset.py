@@ -133,34 +133,8 @@ def _write(tree: xr.DataTree, name: str) -> None:
 
 
 def load(path: str | Path) -> xr.DataTree:
-    """Read a dataset of a study, or a netCDF file of `Result.save`, into memory.
-
-    Parameters
-    ----------
-    path : of a netCDF file
-
-    Returns
-    -------
-    xarray.DataTree
-        Of a run: single numbers at its root, and a group for the events and for each window.
-
-    Raises
-    ------
-    ParameterError
-        If the name is not allowed for a file.
-    disc_model.data.dataset.UnreadableFile
-        If the file is damaged, or is no netCDF file.
-    disc_model.data.dataset.MissingFile
-        If there is no such file.
-
-    Examples
-    --------
-    >>> import disc_model as dm
-    >>> case = dm.Parameters(N=385, Omega=15.1)
-    >>> dm.simulate(case, 1, {"late": dm.Window(last=0.5, rate=1e4)}).save("run.nc")
-    >>> sorted(dm.load("run.nc").children)
-    ['events', 'final_state', 'late']
-    """
+    """Read a netCDF file as a tree, into memory; raises `ParameterError`, `UnreadableFile` or
+    `MissingFile`."""
     return read_tree(regular_file(path))
 
 

@@ -8,9 +8,10 @@ for the a-components and l = 0; a compliant contact adds the coordinate u. The b
 
     (1 + m t t^T) d'' + (2 xi omega + c_p t t^T) d' + (omega^2 + k_p t t^T) d = t Q,
 
-carry the slider along if they move the surface, t being their amplitudes there. Q is the pull of the
-spring and the damper in the plane as if the surface rested, and grows steadily with the drive. The modes are q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are lanes of
-real parts, then of imaginary parts.
+carry the slider along if they move the surface, t being their amplitudes there. Q is the pull of
+the spring and the damper in the plane as if the surface rested, and grows steadily with the drive.
+The modes are q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are lanes of real parts, then of
+imaginary parts.
 """
 
 from collections.abc import Mapping

@@ -105,6 +105,8 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     usual = next(iter([*preferred, *numeric, *choices]), "")
     named = variable or usual
     rule = f"must be one over the grid{suggestion(named, choices)}"
+    if any(dim not in study.coords for dim in study.get("status", study).dims):
+        rule = "varies along paired values: study.plot.scatter(x=..., y=...) of xarray draws points"
     require((named in choices, "variable", named, rule))
     return named
 

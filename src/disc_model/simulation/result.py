@@ -210,6 +210,35 @@ class Result(Summarised, RunPictures):
         columns |= self.samples
         tables.save_tables(columns, self._header(states).model_dump_json(), path, self.to_tree())
 
+    def to_csv(self, path: str | Path) -> None:
+        """Write the events and the samples of each window as tables of text.
+
+        Parameters
+        ----------
+        path : of a folder, made if it is missing, which gets "events.csv" and a file for each window, such as
+            "late.csv", with units in the heads of columns
+
+        Raises
+        ------
+        ParameterError
+            If there can be no such folder.
+        disc_model.data.dataset.WriteError
+            If a file cannot be written.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> run = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1, windows={"late": dm.Window(last=0.1, rate=2e4)})
+        >>> run.to_csv("run")
+        >>> print(open("run/events.csv").readline().strip())
+        time (s),kind,phase,psi (rad),f (rad s-1),u (m),u_velocity (m s-1),P (N)
+        """
+        from disc_model.data.dataset import series_dataset
+        from disc_model.data.tables import save_csv
+
+        tables = {name: self[name] for name in self.samples}
+        save_csv({"events": series_dataset(self._event_columns, "event"), **tables}, path)
+
     def _header(self, states: Mapping[str, tuple[dict[str, Any], Any]]) -> Header:
         """What a file holds beside the arrays; states : the `State.parts` by name."""
         kinds: dict[type, dict[str, Any]] = {Window: {}, Poincare: {}}

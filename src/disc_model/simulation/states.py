@@ -507,35 +507,50 @@ def write_state(case: EngineCase, source: State, state: EngineState, key: str = 
     state.disc[case.places] = np.concatenate((source.a, source.b, source.alpha, source.beta))[
         case.present
     ]
-    row = case.point[0]
-    if (
-        source.phase != "separation" and not case.model.has_compliance
-    ):  # the disc determines u, which would be ignored
-        w = float(row.dot(state.disc))
-        off = abs(source.u - w)
-        # the cheap comparison with w itself nearly always suffices
-        if off > SAME_HEIGHT * abs(w) and off > SAME_HEIGHT * float(
-            np.abs(row).dot(np.abs(state.disc))
-        ):
-            rule = (
-                f"must be the disc's displacement under the slider in contact, {w:.9g}; "
-                "change a with it, or the phase"
-            )
-            raise ParameterError(Fault.of(("initial_state", "u"), source.u, rule))
+    if source.phase != "separation" and not case.model.has_compliance:
+        _require_touch(case, source, state)
     direction = source.direction if source.phase == "slip" else 0
-    surface = float(case.point[3].dot(state.disc))
-    rate = source.f - surface
-    rounding = SAME_SPEED * (case.model.Omega + abs(surface))
-    begins = source._roots[0] > 0 and source.phase == "slip" and abs(rate) <= rounding
-    if source.phase == "stick" or begins or rate * direction < 0:  # rounding, as `_check` has found
-        rate = 0.0
-    values = {name: getattr(source, name) for name in PLAIN if name != "f"}
-    values["g"] = rate
-    motion.put_scalars(state, [values[name] for name in motion.SCALAR_NAMES])
+    # the engine's scalars are those of `PLAIN`, with the rate over the material in place of f
+    values = [getattr(source, name) for name in PLAIN]
+    values[PLAIN.index("f")] = _rate_over_material(case, source, state)
+    motion.put_scalars(state, values)
     motion.put_phase(state, PHASES.index(source.phase), direction, source._roots)
     return (
         any(source._roots) and source.case_key != (key or case.key) and _forget_switch(case, state)
     )
+
+
+def _require_touch(case: EngineCase, source: State, state: EngineState) -> None:
+    """Raise `ParameterError` if the slider has another height than the disc under it, which
+    determines it in rigid contact."""
+    row = case.point[0]
+    w = float(row.dot(state.disc))
+    off = abs(source.u - w)
+    if off <= SAME_HEIGHT * abs(w):  # as nearly always, and at once
+        return
+    if off > SAME_HEIGHT * float(np.abs(row).dot(np.abs(state.disc))):
+        rule = (
+            f"must be the disc's displacement under the slider in contact, {w:.9g}; "
+            "change a with it, or the phase"
+        )
+        raise ParameterError(Fault.of(("initial_state", "u"), source.u, rule))
+
+
+def _rate_over_material(case: EngineCase, source: State, state: EngineState) -> float:
+    """The rate g of a state that `_check` has found good: 0 in stick, and where only rounding makes
+    it differ from 0 or from the direction of slip."""
+    if source.phase == "stick":
+        return 0.0
+    surface = 0.0
+    if case.model.has_moving_surface:
+        surface = float(case.point[3].dot(state.disc))
+    rate = source.f - surface
+    if source.phase == "slip":
+        begins = source._roots[0] > 0
+        rounding = SAME_SPEED * (case.model.Omega + abs(surface))
+        if (begins and abs(rate) <= rounding) or rate * source.direction < 0:
+            return 0.0
+    return rate
 
 
 def _forget_switch(case: EngineCase, state: EngineState) -> bool:

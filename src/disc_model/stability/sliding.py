@@ -280,10 +280,11 @@ def _zero(residual: Callable[[ComplexArray], ComplexArray], x: Array) -> Array:
     found."""
     steps = 1j * laws.TINY * np.eye(len(x))
     for _ in range(_MOST_ITERATIONS):
-        slopes = np.array([residual(x + step).imag for step in steps]).T / laws.TINY
+        slopes: Array = np.array([residual(x + step).imag for step in steps]).T / laws.TINY
         if not np.isfinite(slopes).all():
             break
-        change = np.linalg.solve(slopes, residual(x + 0j).real)
+        left: Array = residual(np.asarray(x, dtype=complex)).real
+        change = np.linalg.solve(slopes, left)
         x = x - change
         if np.all(np.abs(change) <= _SETTLED * np.abs(x)):
             return x
@@ -309,7 +310,8 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     free_across = -l * g * alpha - d * beta - w2 * b
     w = np.sum(weight * a, axis=0)
     velocity = np.sum(weight * rate_a, axis=0)
-    u, v = (w, velocity)
+    u = w
+    v = velocity
     if len(height):
         u, v = height
     i = laws.Instant(

@@ -1,36 +1,26 @@
-"""What studies compute, as functions: a quantity of one case, a sweep of any function, and a whole
-study."""
+"""What studies compute, as functions: a quantity of one case, and a whole study."""
 
 from __future__ import annotations
 
-import inspect
-import math
-import re
-from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
-from dataclasses import fields, is_dataclass
-from functools import cache, partial
-from itertools import product
+from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
-from pydantic import create_model
 
-from disc_model.data.variables import SCALARS, Variable, flag_names
-from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
+from disc_model.data.variables import flag_names
+from disc_model.errors import Fault, ParameterError, raise_faults, require
 from disc_model.mode_choice import choose_when_run
-from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
-from disc_model.simulation.case import SomeParameters, Start
+from disc_model.parameters import Parameters, foreign_case
+from disc_model.simulation.case import Start
 from disc_model.simulation.named_case import run_case
-from disc_model.simulation.result import Result
 from disc_model.studies.merge import merge_batches, merge_cases
-from disc_model.studies.quantity import NUMERICAL, Point
-from disc_model.studies.registry import quantity_names, quantity_of
-from disc_model.studies.run import POINT, coordinates_of, describe, run_batch, variables_of
-from disc_model.units import Finite, Strict, canonical_json, is_whole
+from disc_model.studies.quantity import Point
+from disc_model.studies.registry import quantity_of
+from disc_model.studies.run import POINT, coordinates_of, run_batch, variables_of
+from disc_model.studies.workers import checked_workers
 
 # ---- Quantities of one case
 
@@ -299,335 +289,23 @@ def hysteresis(
     return _quantity("hysteresis", case, options)
 
 
-# ---- Sweeps
-
-
-def sweep(
-    function: Callable[..., Any],
-    case: Parameters,
-    *,
-    workers: int = 1,
-    processes: bool = False,
-    **named: Any,
-) -> xr.Dataset:
-    """Call a function for each combination of values of parameters, and gather the results.
-
-    Parameters
-    ----------
-    function : one that takes a case first, such as `floquet`, `simulate`, `outcome` or a function of your own
-    case : values of all parameters that do not vary
-    workers : number of calls at a time; compiled code runs beside other threads
-    processes : whether they are processes instead of threads: the function must then be importable
-    **named : values of numbers of the case, each of which becomes a dimension; other names are passed to the function
-
-    Returns
-    -------
-    xarray.Dataset
-        Numbers, words and arrays of the results along the dimensions in their order. `status` is "ok", the result's own
-        status, or "failed" where the function raised an error of this package; `message` then says which
-
-    Raises
-    ------
-    ParameterError
-        If `case` is no case, a name is neither a number of it nor an argument of the function, or a value breaks a rule
-        by itself; and if an argument of the function is missing, or refused at the first point. Where values of the
-        case break a rule together, the point has failed.
-
-    Examples
-    --------
-    >>> import disc_model as dm
-    >>> case = dm.Parameters(N=385, Omega=15)
-    >>> growth = dm.sweep(dm.floquet, case, Omega=[10, 12, 14], mu_k_over_mu_s=[0.5, 0.6], workers=2)
-    >>> growth["growth_rate"].dims, growth["growth_rate"].attrs["units"]
-    (('Omega', 'mu_k_over_mu_s'), 's-1')
-    >>> growth["status"].sel(Omega=10).values.tolist()
-    ['ok', 'ok']
-    """
-    call = _checked_call(function, case, named)
-    points = [dict(zip(call.axes, values, strict=True)) for values in product(*call.axes.values())]
-    row = partial(_row, partial(function, **call.options), case, call.arguments)
-    rows = _in_parallel(row, [*enumerate(points)], workers, processes)
-
-    coordinates: dict[str, Any] = {}
-    for name, values in call.axes.items():
-        attrs = describe(name) if name in (*Parameters.model_fields, *RATIOS) else {}
-        floats = [float(value) if isinstance(value, int) else value for value in values]
-        coordinates[name] = (name, floats, attrs)
-    sizes = {name: len(values) for name, values in call.axes.items()}
-    variables, fixed = _stacked(rows, sizes)
-    base = canonical_json({**case.stated, "disc": case.canonical.get("disc")})
-    attrs = {"function": call.title, "parameters": case.canonical_json, "base": base}
-    return xr.Dataset(variables, {**fixed, **coordinates}, attrs)
-
-
-class _Call(NamedTuple):
-    """What a sweep calls.
-
-    Attributes
-    ----------
-    title : name of the function
-    axes : values of numbers of the case, by name
-    options : arguments of the function that do not vary
-    arguments : names of all arguments of the function beside the case
-    """
-
-    title: str
-    axes: Mapping[str, list[Any]]
-    options: Mapping[str, Any]
-    arguments: frozenset[str]
-
-
-def _checked_call(function: Any, case: Any, named: Mapping[str, Any]) -> _Call:
-    """Return the call of a sweep; raises `ParameterError` with all that is wrong with it."""
-    rule = "must be a function, such as disc_model.floquet"
-    faults = [
-        *foreign_case(case, "case"),
-        *violations((callable(function), "function", function, rule)),
-    ]
-    raise_faults(faults)
-
-    # what is named is a number of the case, or an argument of the function
-    parameters = inspect.signature(function).parameters
-    numbers = case.numbers.keys() | Parameters.model_fields.keys() | RATIOS.keys()
-    axes = {}
-    options = {}
-    for name, value in named.items():
-        if name in numbers and name not in parameters:
-            axes[name] = _values(name, value, faults)
-        else:
-            options[name] = value
-
-    takes_all = any(each.kind is each.VAR_KEYWORD for each in parameters.values())
-    if not takes_all:
-        for name in options.keys() - parameters.keys():
-            rule = "is no number of the case, and no argument of the function"
-            told = suggestion(name, case.numbers)
-            faults.append(Fault.of((name,), named[name], f"{rule}{told}"))
-
-    title = getattr(function, "__name__", type(function).__name__)
-    arguments = []
-    for each in [*parameters.values()][1:]:
-        if each.kind in (each.VAR_POSITIONAL, each.VAR_KEYWORD):
-            continue
-        arguments.append(each.name)
-        if each.default is each.empty and each.name not in named:
-            faults.append(Fault((each.name,), "", f"is required by {title}"))
-    raise_faults(faults)
-    return _Call(title, axes, options, frozenset(arguments))
-
-
-def _values(name: str, values: Any, faults: list[str]) -> list[Any]:
-    """The values of an axis in SI units; what is wrong with them, each by itself, is added to the
-    faults."""
-    several = np.iterable(values) and not isinstance(values, str | Mapping | Disc)
-    raw = list(values) if several else [values]
-    if not raw:
-        faults.append(Fault.of((name,), values, "must have one value or more"))
-    model: type[Strict] = SomeParameters
-    if name not in Parameters.model_fields:  # a ratio, or a number of a disc's mode
-        number: dict[str, Any] = {name: Finite}
-        model = create_model("Number", __base__=Strict, **number)
-    checked = []
-    for value in raw:
-        plain = value.item() if isinstance(value, np.generic) else value
-        try:
-            checked.append(getattr(model(**{name: plain}), name))
-        except ParameterError as error:
-            faults += [Fault((name,), fault.value, fault.rule) for fault in error.faults]
-    return checked
-
-
-def _in_parallel(
-    call: Callable[[Any], Any], arguments: Sequence[Any], workers: int, processes: bool
-) -> list[Any]:
-    """The results of the calls, in order."""
-    require(
-        (is_whole(workers) and workers >= 1, "workers", workers, "must be a whole number >= 1"),
-        (isinstance(processes, bool), "processes", processes, "must be True or False"),
-    )
-    kind = ProcessPoolExecutor if processes else ThreadPoolExecutor
-    if workers == 1:
-        return [call(argument) for argument in arguments]
-    with kind(workers) as pool:
-        return list(pool.map(call, arguments))
-
-
-def _row(
-    function: Any, case: Parameters, names: frozenset[str], numbered: tuple[int, Any]
-) -> dict[str, xr.Variable]:
-    """The variables of one call; a fault of the function's own arguments at the first point is that
-    of all."""
-    number, point = numbered
-    try:
-        result = function(case.replace(**point))
-    except NUMERICAL as error:
-        refused = {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}
-        if number == 0 and names & refused:
-            raise
-        return {
-            "status": xr.Variable((), "failed"),
-            "message": xr.Variable((), f"{type(error).__name__}: {error}"),
-        }
-    if isinstance(result, xr.Dataset):  # whose attributes are also those of the object
-        status = "ok"
-        message = result.attrs.get("message", "")
-    else:
-        status = str(getattr(result, "status", "ok"))
-        message = getattr(result, "message", "")
-    words = {"status": xr.Variable((), status), "message": xr.Variable((), message)}
-    return {**words, **_variables(result)}
-
-
-@cache
-def _common() -> dict[str, dict[str, Any]]:
-    """Units and names that all quantities and simulations give a variable of this name; what they
-    disagree about is left out, since such a name says nothing of another result's variable."""
-    tables = [quantity_of(name).COLUMNS for name in quantity_names()]
-    found: dict[str, list[dict[str, Any]]] = {}
-    for table in (*tables, SCALARS):
-        for name, column in table.items():
-            if column.units and not column.flags:
-                found.setdefault(name, []).append(column.attributes)
-    common = {}
-    for name, several in found.items():
-        first = several[0]
-        common[name] = {
-            key: first[key] for key in first if all(each[key] == first[key] for each in several)
-        }
-    return common
-
-
-@cache
-def _of_class(name: str) -> dict[str, dict[str, Any]]:
-    """Units and names of the variables of a result of a class, which has names of its own: a cycle
-    and steady sliding both have a growth rate."""
-    of_cycle = quantity_of("floquet").COLUMNS
-    columns: Mapping[str, Variable] = {}
-    if name == "FloquetResult":
-        counted = {
-            "releases": Variable("1", "number of stick releases in its period"),
-            "separations": Variable("1", "number of separations in its period"),
-        }
-        columns = {**of_cycle, **counted}
-    elif name == "SteadySliding":
-        columns = {
-            "growth_rate": of_cycle["sliding_growth_rate"],
-            "psi": Variable("rad", "angle of the drive point ahead of the slider"),
-        }
-    elif name == "Lyapunov":
-        columns = {
-            "exponents": Variable("s-1", "Lyapunov exponent"),
-            "errors": Variable("s-1", "uncertainty of the Lyapunov exponent"),
-            "duration": Variable("s", "time over which exponents are taken"),
-            "separations": Variable("1", "number of separations in that time"),
-        }
-    return {
-        name: column.attributes
-        for name, column in columns.items()
-        if column.units and not column.flags
-    }
-
-
-def _attributes_of(result: Any, name: str) -> dict[str, Any]:
-    """Unit and name of a variable of a result; empty if they are not known."""
-    kind = type(result).__name__
-    if (
-        kind == "Critical"
-        and name == "value"
-        and result.name in (*Parameters.model_fields, *RATIOS)
-    ):
-        parameter = describe(result.name)
-        return {**parameter, "long_name": f"critical value of {parameter['long_name']}"}
-    return _of_class(kind).get(name) or _common().get(name, {})
-
-
-def _variables(result: Any) -> dict[str, xr.Variable]:
-    """Numbers, words and one-dimensional arrays of a result."""
-    if isinstance(result, xr.Dataset):
-        return {str(name): variable for name, variable in result.variables.items()}
-    variables = {}
-    for name, value in _named_values(result).items():
-        array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
-        if array.ndim <= 1 and array.dtype.kind in "biufcU":
-            variables[name] = xr.Variable(
-                (f"{name}_index",)[: array.ndim], array, _attributes_of(result, name)
-            )
-    return variables
-
-
-def _named_values(result: Any) -> Mapping[str, Any]:
-    """The values of a result by name."""
-    if isinstance(result, Result):
-        return result.scalars()
-    if is_dataclass(result):
-        values = {field.name: getattr(result, field.name) for field in fields(result)}
-        if hasattr(result, "stable"):
-            values["stable"] = result.stable
-        if hasattr(result, "sliding"):
-            values["sliding_growth_rate"] = result.sliding.growth_rate
-        return values
-    return result if isinstance(result, Mapping) else {"value": result}
-
-
-def _stacked(
-    rows: Sequence[dict[str, xr.Variable]], sizes: Mapping[str, int]
-) -> tuple[dict[str, xr.Variable], dict[str, xr.Variable]]:
-    """Variables along the dimensions of a sweep, and the function's own coordinates; nan or ""
-    where one is missing."""
-    first: dict[str, xr.Variable] = {}
-    for row in reversed(rows):
-        first.update(row)
-    fixed = {}
-    stacked = {}
-    for name, variable in first.items():
-        if variable.dims == (name,):
-            fixed[name] = variable
-            continue
-        values = [row[name].values if name in row else None for row in rows]
-        array = _padded(values)
-        whole = array.reshape((*sizes.values(), *array.shape[1:]))
-        stacked[name] = xr.Variable((*sizes, *variable.dims), whole, variable.attrs)
-    return stacked, fixed
-
-
-def _padded(rows: Sequence[NDArray[Any] | None]) -> NDArray[Any]:
-    """Arrays of one number of dimensions as the rows of one array, shape (len(rows), ...); what is
-    missing is nan, or "" among words."""
-    present = [row for row in rows if row is not None]
-    shapes = [row.shape for row in present]
-    shape = tuple(max(sizes) for sizes in zip(*shapes, strict=True))
-    complete = all(row is not None and row.shape == shape for row in rows)
-    kinds = {row.dtype.kind for row in present}
-    missing: Any = math.nan
-    dtype: Any = float
-    if kinds <= {"U"}:
-        missing = ""
-        dtype = object
-    elif "c" in kinds:
-        dtype = complex
-    elif kinds <= {"b"} and complete:
-        missing = False
-        dtype = bool
-    array = np.full((len(rows), *shape), missing, dtype)
-    for i, row in enumerate(rows):
-        if row is not None:
-            place: Any = (i, *map(slice, row.shape))
-            array[place] = row
-    return array.astype(str) if dtype is object else array
-
-
 # ---- Studies
 
 
 def run_study(
-    source: str | Path | Mapping[str, Any], *, workers: int = 1, processes: bool = False
+    source: str | Path | Mapping[str, Any],
+    *,
+    workers: int = 1,
+    processes: bool = False,
+    executor: Any = None,
+    progress: bool = False,
 ) -> xr.Dataset | xr.DataTree:
     """Compute a study in this process, without files, and return its merged dataset.
 
     Parameters
     ----------
     source : path of a study file, or the mapping that such a file holds
-    workers, processes : as in `sweep`, for its batches
+    workers, processes, executor, progress : as in `sweep`, for its batches
 
     Returns
     -------
@@ -653,6 +331,7 @@ def run_study(
 
     named = isinstance(source, str | Path | Mapping)
     require((named, "source", source, "must be the path of a study file, or a mapping"))
+    calls = checked_workers(workers, processes, executor, progress)
     if isinstance(source, Mapping):
         folder = Path()
         study = parse_study(source, folder)
@@ -663,11 +342,11 @@ def run_study(
     datasets: dict[str, Any] = {}
     for grid in (grids[name] for name in names):
         texts = [text for _, text in sorted(grid.batches.items())]
-        batches = _in_parallel(run_batch, texts, workers, processes)
+        batches = calls.results(run_batch, texts, grid.name)
         datasets[grid.name] = merge_batches(batches, grid.grid, grid.attrs)
     if study.specs:
         run = partial(run_case, choose=choose_when_run)
-        cases = _in_parallel(run, [*study.specs.values()], workers, processes)
+        cases = calls.results(run, [*study.specs.values()], "cases")
         datasets["cases"] = merge_cases(dict(zip(study.specs, cases, strict=True)), study.labels)
     if len(datasets) == 1:
         return next(iter(datasets.values()))

@@ -74,3 +74,17 @@ def test_the_least_kick_is_bisected_along_the_start_that_separates_first(made: N
     low, high = table["critical_energy_lower"][0], table["critical_energy"][0]
     assert low <= 0.02 < high <= low * 1.01
     assert np.isnan(found(energies=[0.01], n_starts=3).arrays["critical_energy"][0])
+
+
+def test_directions_depend_on_the_seed_the_energy_and_the_start(
+    made: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    keys = []
+
+    def kicked(p: Parameters, state: object, energy: float, key: tuple[int, int, int]) -> object:
+        keys.append(key)
+        return energy, key[2]
+
+    monkeypatch.setattr(attractors, "random_perturbation", kicked)
+    found(energies=[0.05, 1.0], n_starts=2, seed=7, n_bisection_directions=0)
+    assert set(keys) == {(7, 0, 0), (7, 0, 1), (7, 1, 0), (7, 1, 1)}

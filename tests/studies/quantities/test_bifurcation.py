@@ -54,6 +54,8 @@ def test_on_a_rigid_disc_the_slider_is_released_where_the_spring_has_friction_s_
     assert values["psi"] == pytest.approx(
         [p.mu_s * p.N / (p.r_0 * p.k_p)] * 5, rel=1e-9
     )  # at a tolerance of 1e-10
+    # the drive point moves ahead of the slider, which still rests on the disc
+    assert values["psi_velocity"] == pytest.approx([p.Omega] * 5, rel=1e-9)
 
 
 @pytest.mark.compiled

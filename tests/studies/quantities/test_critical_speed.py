@@ -1,12 +1,20 @@
 """The speed of onset, and every crossing."""
 
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from disc_model.data.variables import flag_names
+from disc_model.errors import Status
+from disc_model.parameters import Parameters
+from disc_model.stability.outcome import OutcomeResult
+from disc_model.studies.quantities.critical_speed import CriticalSpeed
+from disc_model.studies.quantity import Point
+from tests.studies.conftest import SCAN, compute
 
 
 def test_every_crossing_is_found(speeds: xr.Dataset) -> None:
@@ -23,6 +31,24 @@ def test_every_crossing_is_found(speeds: xr.Dataset) -> None:
     assert shorter["critical_speed"] == 14.0
     assert one["simulations"].sel(N=200) > 7
     assert flag_names(one["status"]).tolist() == ["ok", "ok"]
+
+
+@pytest.mark.parametrize(("lost", "lowest"), [(13.0, np.nan), (14.5, 14.0)])
+def test_a_speed_that_failed_hides_those_above_it(
+    lost: float, lowest: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Separation comes from 14 rad/s on, as far as is known."""
+
+    def motion(p: Parameters, horizon: float, **_: Any) -> OutcomeResult:
+        if p.Omega == lost:
+            return OutcomeResult(failed=SimpleNamespace(status=Status.NON_FINITE, message="lost"))
+        return OutcomeResult(first_separation=10.0 if p.Omega >= 14 else np.nan)
+
+    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", motion)
+    options = CriticalSpeed.model_validate({"horizons": [900], "scan": SCAN, "precision": 0.1})
+    found = compute(options, [Point(Parameters(N=200, Omega=1))])
+    np.testing.assert_array_equal(found.arrays["critical_speed"], [[lowest]])
+    assert found.messages == [f"Omega={lost:g}: lost"]
 
 
 RESULTS = Path(__file__).parents[3] / "results"

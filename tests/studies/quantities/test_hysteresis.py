@@ -1,10 +1,15 @@
 """Sweeps up and down, in steps and on ramps."""
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 import xarray as xr
 
 from disc_model.analysis.classify import Settled, Settling
+from disc_model.engine.record import EVENT_ROW, LOSS_OF_CONTACT
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
 from disc_model.stability.outcome import Segment
@@ -74,6 +79,55 @@ def test_the_offset_is_above_the_first_gap_on_the_way_down(
     values, _ = options.compute_point(Point(Parameters(N=200, Omega=0)))
     assert values.get("offset_speed") == offset
     assert "onset_speed" not in values
+
+
+def test_there_is_no_offset_where_the_sweep_fails_before_separation_ends(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def sweep(*_: Any) -> Any:
+        settled = attractors.Arrival(Settling(Settled.SETTLED))
+        segment = Segment(0, 1, 0, 1, 0.5, 0.5, 0.0, 9)
+        for step in [(0, 0), (0, 1), (0, 2), (0, 3), (1, 3), (1, 2)]:
+            yield step, None, segment, settled
+        lost = SimpleNamespace(status=Status.NON_FINITE, message="lost")
+        yield (1, 1), lost, None, attractors.Arrival(Settling())
+
+    monkeypatch.setattr(attractors, "sweep", sweep)
+    options = Hysteresis(scan={"start": 10, "stop": 13, "step": 1}, dwell=9, evaluation_time=1)
+    values, message = options.compute_point(Point(Parameters(N=200, Omega=0)))
+    assert "offset_speed" not in values
+    assert message == "Omega=11: lost"
+
+
+def test_on_ramps_the_offset_is_that_of_the_last_separation_unless_it_goes_on(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Contact is lost once a second until 130 s: on the way down at 0.1 rad/s^2, in the stay at the
+    lowest speed at 0.2 rad/s^2."""
+
+    def simulated(p: Parameters, until: float, **how: Any) -> Any:
+        before = how.get("initial_state")
+        begin = 0.0 if before is None else before.time
+        times = np.arange(1.0, 131.0)
+        times = times[(times > begin) & (times <= until)]
+        rows = np.zeros((times.size, len(EVENT_ROW)))
+        rows[:, EVENT_ROW.index("time")] = times
+        rows[:, EVENT_ROW.index("kind")] = LOSS_OF_CONTACT
+        return SimpleNamespace(
+            status=Status.OK,
+            first_separation=1.0,
+            statistics={"separations": times.size},
+            event_rows=rows,
+            final_state=SimpleNamespace(time=until),
+        )
+
+    monkeypatch.setattr("disc_model.simulation.api.simulate", simulated)
+    rates = {"start": 0.1, "stop": 0.2, "count": 2}
+    options = Ramps.model_validate({"low": 8, "high": 12, "dwell": 60, "rates": rates})
+    found = compute(options, [Point(Parameters(N=385, Omega=1))]).arrays
+    np.testing.assert_allclose(found["offset_speed"], [[9.0, np.nan]])
+    np.testing.assert_allclose(found["onset_speed"], [[8.1, 8.2]])
+    np.testing.assert_allclose(found["top_separation_rate"], [[1.0, 1.0]])
 
 
 @pytest.mark.compiled

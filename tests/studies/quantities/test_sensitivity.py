@@ -57,6 +57,12 @@ def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     unstable = np.isin(known, ("unstable", "no_cycle", "separates", "unstable_sliding"))
     assert found["probability_unstable"] == unstable.mean()
     assert found["probability_unstable_low"] < 4 / 7 < found["probability_unstable_high"]
+    hits = int(unstable.sum())
+    failed = len(words) - len(known)
+    least = stats.binomtest(hits, 64).proportion_ci(0.95, "wilson").low
+    most = stats.binomtest(hits + failed, 64).proportion_ci(0.95, "wilson").high
+    ends = (found["probability_unstable_low"], found["probability_unstable_high"])
+    assert [float(end) for end in ends] == pytest.approx([least, most], rel=1e-12)
     assert found["n_known_outcomes"] == 0
     assert np.isnan(found["probability_separation"])
 
