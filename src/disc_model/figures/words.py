@@ -19,10 +19,17 @@ MODES = {
     "orthonormal": "orthonormal modes",
     "given": "modes of a table",
 }
-WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}
+WORDS = {
+    **MODES,
+    "vertical": "vertical contact force",
+    "normal": "normal contact force",
+    "hyperbolic": "hyperbolic friction",
+    "exponential": "exponential friction",
+}
 """Names of words along a dimension, in the order in which they are drawn: those of the paper first."""
 MODELS = {
     "normal": WORDS["normal"],
+    "exponential": WORDS["exponential"],
     "residual": "residual flexibility",
     "surface": "friction on the surface",
     "bilateral": "bilateral contact",
