@@ -274,8 +274,12 @@ class Status(StatusBase):
         "non_finite",
         "The state overflowed: check the parameters' magnitudes; tighten tol if they are meant.",
     )
+    AT_REST = (
+        "at_rest",
+        "The simulation reached t_end, where the drive stands still and friction holds the slider for good.",
+    )
 
     @property
     def complete(self) -> bool:
         """Whether the simulation reached ``t_end`` or the event at which it had to stop."""
-        return self in (Status.OK, Status.STOPPED)
+        return self in (Status.OK, Status.STOPPED, Status.AT_REST)

@@ -1,6 +1,5 @@
-"""How many modes a case needs: `choose_modes`, and requests for it in study files and on the
-command line. By a quantity of the motion it is the first model with which two larger ones agree; a
-table is its own last candidate.
+"""How many modes a case needs: `choose_modes`. By a quantity of the motion it is the first model with
+which two larger ones agree; a table is its own last candidate.
 """
 
 from __future__ import annotations
@@ -10,27 +9,20 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
-from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
 from disc_model.display import Summarised, counted
-from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, require
-from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters
-from disc_model.units import Finite, Strict
+from disc_model.errors import DiscModelError, require
+from disc_model.mode_request import FREQUENCIES, SLIDING_GROWTH, ModeRequest
+from disc_model.parameters import Disc, Parameters
+from disc_model.simulation.api import simulate
+from disc_model.stability.cycle import floquet
+from disc_model.stability.sliding import steady_sliding
 
-FREQUENCIES = "frequencies"  # the quantity by which modes are chosen by default
-# quantities by which modes may be chosen, and their default relative tolerances
-SLIDING_GROWTH = "sliding_growth"  # the growth rate of steady sliding
-CHOSEN_BY = {FREQUENCIES: 1e-3, "growth": 1e-2, SLIDING_GROWTH: 1e-2, "first_separation": 1e-2}
 RICH = (20, 6)  # diameters and circles of the reference model for frequencies
-# Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5
-# as published, 2e-4 orthonormal, against 30 diameters and 8 circles), and growth rates and times
-# depend on the frequencies.
-TRUSTED = 1e-4
 # diameters and circles of the candidates by a quantity of the motion: the last is compared with 99
 # modes
 CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
@@ -39,7 +31,6 @@ CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
 LARGER = ((10, 1), (10, 2), (14, 2), (10, 3), (14, 3))
 GIVEN_UP = (4, 0)  # the search ends here if no model so far, of up to 34 modes, has the quantity
 HORIZON = 600.0  # s, simulated at most until the first separation
-_PREFIX = "truncation_"  # begins the names of `CHOOSING`, beside the parameters of a case
 BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
 
 
@@ -103,28 +94,6 @@ class ModeChoice(Summarised):
         return json.dumps(record, sort_keys=True)
 
 
-class ModeRequest(Strict):
-    """Quantity and tolerance for the choice of the number of modes; `CHOSEN_BY` has the default
-    tolerances."""
-
-    quantity: Literal[*CHOSEN_BY] = FREQUENCIES  # type: ignore[valid-type]
-    tolerance: Annotated[Finite, Field(ge=TRUSTED)] = CHOSEN_BY[FREQUENCIES]
-
-    @model_validator(mode="before")
-    @classmethod
-    def _with_tolerance(cls, values: dict[str, Any]) -> dict[str, Any]:
-        tolerance = CHOSEN_BY.get(str(values.get("quantity")), CHOSEN_BY[FREQUENCIES])
-        return {"tolerance": tolerance, **values}
-
-    @property
-    def given(self) -> dict[str, Any]:
-        """The request as `read_asked` reads it; the default quantity is left out."""
-        given = {"n_diameters": AUTO, "truncation_tolerance": self.tolerance}
-        if self.quantity != FREQUENCIES:
-            given["truncation_quantity"] = self.quantity
-        return given
-
-
 def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
     """Find the model with the fewest real modes whose `frequency_error` is within ``tolerance``."""
     sizes: Sequence[tuple[int, ...]]
@@ -179,33 +148,6 @@ def count_modes(p: Parameters, size: tuple[int, ...]) -> int:
     return size[0] + sum(l > 0 for l in p.disc.diameters[: size[0]])
 
 
-def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | None]:
-    """Parameters of a file, and the request for their modes; their own number is then
-    meaningless."""
-    rest, request = asked_modes(values)
-    if request is not None:
-        rest["n_circles"] = 0
-    return Parameters.model_validate(rest), request
-
-
-def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], ModeRequest | None]:
-    """Values without those of `CHOOSING`, and the request that these make."""
-    rest = {name: value for name, value in values.items() if name not in CHOOSING}
-    stated = {name.removeprefix(_PREFIX): values[name] for name in CHOOSING if name in values}
-    if rest.get("n_diameters") != AUTO:
-        rule = f"is used with n_diameters={AUTO!r} only"
-        raise_faults([Fault.of((_PREFIX + name,), value, rule) for name, value in stated.items()])
-        return rest, None
-    del rest["n_diameters"]
-    try:
-        return rest, ModeRequest(**stated)
-    except ParameterError as error:
-        faults = (
-            Fault((_PREFIX + fault.path[0],), fault.value, fault.rule) for fault in error.faults
-        )
-        raise ParameterError(*faults) from None
-
-
 def frequency_error(p: Parameters, rich: Parameters) -> float:
     """Largest relative error, against `rich`, of the coupled frequencies up to `BAND` times the
     disc's lowest one."""
@@ -227,7 +169,7 @@ def real_modes(diameters: int, circles: int) -> int:
 
 
 def choose_modes(
-    case: Parameters | Mapping[str, Any],
+    case: Parameters | Mapping[str, object],
     tolerance: float | None = None,
     *,
     quantity: str = FREQUENCIES,
@@ -353,27 +295,21 @@ def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:
     return ", ".join(str(count_modes(p, size)) for size in sizes) + " modes"
 
 
-# ---- Quantities of the motion; most importers of this module do not need a simulation
+# ---- Quantities of the motion
 
 
 def growth(p: Parameters) -> float:
     """Growth rate of the stick-slip cycle, 1/s; nan without a cycle."""
-    from disc_model.stability.cycle import floquet
-
     return float(floquet(p).growth_rate)
 
 
 def sliding_growth(p: Parameters) -> float:
     """Growth rate of steady sliding, 1/s; nan if there is none."""
-    from disc_model.stability.sliding import steady_sliding
-
     return steady_sliding(p).growth_rate
 
 
 def first_separation(p: Parameters) -> float:
     """Time of the first separation, s; nan if there is none within `HORIZON`."""
-    from disc_model.simulation.api import simulate
-
     result = simulate(p, HORIZON, stop_at="first_separation", events=False)
     return result.raise_for_status().first_separation
 

@@ -1,14 +1,12 @@
-"""Numbers and their units, strict bases of all schemas, and names by content."""
+"""Numbers and their units, and strict bases of all schemas."""
 
 from __future__ import annotations
 
 import functools
-import hashlib
 import inspect
 import json
 import math
 import numbers
-import operator
 import re
 import types
 from collections.abc import Callable, Mapping
@@ -85,9 +83,9 @@ _SPELLINGS = str.maketrans(
 them."""
 _OTHER_WORDS = {"rev": "turn", "revs": "turn", "RPM": "rpm", "Rpm": "rpm"}
 _PER_MINUTE = ("1/min", "min**-1", "1/minute", "minute**-1")  # of a speed of rotation: turns
-_MISLEADING = {"gr": "g", "grad": "deg", "ton": "t", "Nm": "N m"}
+_MISLEADING = {"gr": "g", "grad": "deg", "ton": "t", "Nm": "N m", "Ns": "N s", "Kg": "kg"}
 """Words for other units than they seem to be (grain, a hundredth of a right angle, short ton,
-nanometre), and what is meant."""
+nanometre) or for none, and what is meant."""
 
 
 @functools.lru_cache(maxsize=1)
@@ -319,7 +317,10 @@ def plain_type(annotation: Any) -> Any:
     if not parts or get_origin(annotation) is Literal:
         return annotation
     if isinstance(annotation, types.UnionType) or get_origin(annotation) is Union:
-        return functools.reduce(operator.or_, map(plain_type, parts))
+        joined = plain_type(parts[0])
+        for part in parts[1:]:
+            joined = joined | plain_type(part)
+        return joined
     if get_origin(annotation) in (tuple, list, dict):
         return types.GenericAlias(get_origin(annotation), tuple(map(plain_type, parts)))
     return annotation
@@ -429,28 +430,3 @@ def given_values(model: Strict) -> dict[str, Any]:
         for name in type(model).model_fields
         if name in model.model_fields_set
     }
-
-
-# ---- Names by content
-
-
-def content_key(text: str) -> str:
-    """First 12 hexadecimal digits of the sha256 of a text."""
-    return hashlib.sha256(text.encode()).hexdigest()[:12]
-
-
-def canonical_json(value: Any) -> str:
-    """JSON with sorted keys; infinities as text, since JSON has none; -0.0 as 0.0."""
-
-    def plain(item: Any) -> Any:
-        if isinstance(item, float):
-            return item + 0.0 if math.isfinite(item) else str(item)
-        if isinstance(item, list | tuple):
-            return [plain(value) for value in item]
-        return (
-            {str(key): plain(value) for key, value in item.items()}
-            if isinstance(item, Mapping)
-            else item
-        )
-
-    return json.dumps(plain(value), sort_keys=True, separators=(",", ":"), allow_nan=False)

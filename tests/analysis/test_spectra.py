@@ -8,7 +8,8 @@ from disc_model.parameters import Parameters
 
 RATE = 4000.0
 TIME = 3.0 + np.arange(40_000) / RATE
-F_S, F_DRIVE = 67.63, 2.4032
+F_S = 67.63
+F_DRIVE = 2.4032
 KNOWN = {
     F_DRIVE: 1.0,
     F_S - F_DRIVE: 3e-2,
@@ -47,7 +48,8 @@ def test_a_measured_signal_with_gaps_had_lines_elsewhere_or_none(
 
 
 SHORT = np.arange(10_000) / 1000.0
-NEAR, WITHIN = 206.0, 2.0
+NEAR = 206.0
+WITHIN = 2.0
 
 
 def sine(frequency: float, phase: float = 0.0) -> np.ndarray:
@@ -142,7 +144,9 @@ def test_a_line_stands_out_or_it_is_noise() -> None:
 @pytest.mark.parametrize("n", [1, 5, 12])
 def test_combinations_of_up_to_three_times_the_drive_are_named(n: int, m: int) -> None:
     found = spectra.identify(n * F_S + m * F_DRIVE, F_S, F_DRIVE)
-    assert (found.n, found.m, found.deviation) == (n, m, pytest.approx(0, abs=1e-12))
+    assert found.n == n
+    assert found.m == m
+    assert found.deviation == pytest.approx(0, abs=1e-12)
 
 
 @pytest.mark.parametrize("amplitude", [1.0, 3.0])
@@ -181,7 +185,9 @@ def test_the_detuning_is_how_far_the_multiple_lies_above_the_mode() -> None:
         period = 2 / (seen + detuning)  # 2 f_s lies so far above it
         multiplier = np.exp(2j * np.pi * seen * period)
         found = spectra.nearest_resonance(p, period, complex(multiplier), l)
-        assert (found.harmonic, found.diameters, found.sign) == (2, l, -1)
+        assert found.harmonic == 2
+        assert found.diameters == l
+        assert found.sign == -1
         assert found.detuning == pytest.approx(detuning, abs=1e-9)
         assert found.frequency == pytest.approx(frequency)
 

@@ -66,7 +66,8 @@ def damages(whole: bytes, cut: bool) -> Iterator[bytes]:
 def test_a_tree_that_is_cut_is_unreadable_or_whole(tmp_path: Path) -> None:
     path = tmp_path / "tree.nc"
     RUN.save(path)
-    whole, tree = path.read_bytes(), load(path)
+    whole = path.read_bytes()
+    tree = load(path)
     for left in (0, 1, 100, len(whole) // 2, len(whole) - 500, len(whole) - 60, len(whole) - 1):
         path.write_bytes(whole[:left])
         with pytest.raises(UnreadableFile):
@@ -96,7 +97,8 @@ def test_other_programs_read_what_is_sealed(tmp_path: Path) -> None:
     assert text.startswith(b"MATLAB 5.0 MAT-file")
     assert text[116:] == b"\x00" * 8 + b"\x00\x01IM"
     content = scipy.io.loadmat(tmp_path / "r.mat", simplify_cells=True)
-    events, meanings = content["events"], content["meanings"]
+    events = content["events"]
+    meanings = content["meanings"]
     words = [meanings["kind"][int(kind)] for kind in events["kind"]]
     assert words == RUN.events["kind"].tolist()
     phases = [meanings["phase"][int(phase)] for phase in content["all"]["phase"]]

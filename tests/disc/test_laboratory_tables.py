@@ -9,7 +9,9 @@ import pytest
 
 import disc_model as dm
 
-DIAMETERS, FREQUENCIES, AMPLITUDES = (1, 0, 2), (551.0, 929.0, 1212.5), (0.556, 0.431, 0.543)
+DIAMETERS = (1, 0, 2)
+FREQUENCIES = (551.0, 929.0, 1212.5)
+AMPLITUDES = (0.556, 0.431, 0.543)
 RATIOS = (0.001, 0.002, 0.0015)
 OMEGA = 2 * np.pi * np.array(FREQUENCIES)
 
@@ -33,6 +35,20 @@ def assert_right(disc: dm.Disc, damped: bool = True) -> None:
 def rows(*columns: Any, separator: str = ",") -> str:
     """Lines of a table from its columns."""
     return "".join(separator.join(map(str, row)) + "\n" for row in zip(*columns, strict=True))
+
+
+@pytest.mark.parametrize("label", ["Mode", "mode no.", "No.", "Mode-Nr."])
+@pytest.mark.parametrize("separator", [",", ";"])
+def test_a_first_column_that_labels_modes_is_left_aside(
+    label: str, separator: str, tmp_path: Path
+) -> None:
+    """Software of modal tests numbers modes; it was an unknown column."""
+    heads = [label, "diameters", "frequency (Hz)", "amplitude (1/sqrt(kg))", "damping (1)"]
+    text = rows((1, 2, 5), DIAMETERS, FREQUENCIES, AMPLITUDES, RATIOS, separator=separator)
+    assert_right(read(tmp_path, separator.join(heads) + "\n" + text))
+    units = separator.join(["", "-", "Hz", "1/sqrt(kg)", "-"]) + "\n"
+    heads = [label, "diameters", "frequency", "amplitude", "damping"]
+    assert_right(read(tmp_path, separator.join(heads) + "\n" + units + text))
 
 
 @pytest.mark.parametrize(
@@ -80,7 +96,9 @@ def test_spreadsheets_separate_and_end_columns_as_they_like(
         text = text.replace("\n", f"{separator}{separator}\n")
     if tail == "blank":
         text += 3 * separator + "\n\n"
-    begin = "sep=;\n" if separator == ";" else ""
+    begin = ""
+    if separator == ";":
+        begin = "sep=;\n"
     assert_right(read(tmp_path, f"{begin}{head}\n{text}"))
 
 
@@ -97,7 +115,9 @@ POLES = OMEGA * (-np.array(RATIOS) + 1j * np.sqrt(1 - np.array(RATIOS) ** 2))
 
 @pytest.mark.parametrize("factor", [1.0, 1 / (2 * np.pi)])
 def test_poles_stand_for_frequencies_and_damping(factor: float, tmp_path: Path) -> None:
-    unit = "rad/s" if factor == 1 else "Hz"
+    unit = "Hz"
+    if factor == 1:
+        unit = "rad/s"
     poles = [f"{factor * pole.real!r}{factor * pole.imag:+}i" for pole in POLES.tolist()]
     heads = f"diameters,amplitude_per_sqrt_kg,pole ({unit})\n"
     assert_right(read(tmp_path, heads + rows(DIAMETERS, AMPLITUDES, poles)))
@@ -145,7 +165,9 @@ def test_a_table_with_circles_has_its_pairs_by_them(tmp_path: Path) -> None:
         "diameters,circles,frequency_Hz,amplitude_per_sqrt_kg\n2,0,1200,1\n2,1,1210,2\n2,0,1204,3\n"
     )
     disc = read(tmp_path, text, pairs="mean")
-    assert (disc.diameters, disc.circles, disc.amplitude) == ((2, 2), (0, 1), (2, 2))
+    assert disc.diameters == (2, 2)
+    assert disc.circles == (0, 1)
+    assert disc.amplitude == (2, 2)
 
 
 @pytest.mark.parametrize(

@@ -64,10 +64,14 @@ def test_coupled_frequencies_are_the_shifted_ones(p: Parameters, lowest: float) 
 def test_coupled_shapes_solve_the_equations_of_motion(give: float) -> None:
     """In rigid contact u is the disc's; on a compliant one it is a coordinate, and the contact is a
     spring."""
-    modes, n = mode_arrays(P), 5
+    modes = mode_arrays(P)
+    n = 5
     frequencies, shapes = coupled_shapes(P, give)
     assert_allclose(frequencies[::-1], coupled_frequencies(P, give), rtol=1e-12)
-    slider = np.append(modes.psi, 0) if give == 0 else np.eye(n + 1)[n]
+    if give == 0:
+        slider = np.append(modes.psi, 0)
+    else:
+        slider = np.eye(n + 1)[n]
     stiff = np.diag(np.append(modes.omega**2, 0)) + P.k * np.outer(slider, slider)
     inert = np.diag(np.append(np.ones(n), 0)) + P.m * np.outer(slider, slider)
     if give:

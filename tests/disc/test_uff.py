@@ -527,14 +527,17 @@ def test_a_file_of_another_writer_is_read(tmp_path: Path) -> None:
     import pyuff
 
     p = dm.Parameters(N=0, Omega=0, normalization="orthonormal")
-    radii, angles, mass = np.array([0.06, 0.08, 0.1, 0.12]), np.arange(24) * np.pi / 12, 2.5
+    radii = np.array([0.06, 0.08, 0.1, 0.12])
+    angles = np.arange(24) * np.pi / 12
+    mass = 2.5
     r, angle = (grid.ravel() for grid in np.meshgrid(radii, angles, indexing="ij"))
     numbers = np.arange(1, r.size + 1)
     nodes = {"type": 15, "node_nums": numbers, "x": r * np.cos(angle), "y": r * np.sin(angle)}
     file = pyuff.UFF(str(tmp_path / "modes.uff"))
     plain = dict.fromkeys(("def_cs", "disp_cs", "color"), 0 * numbers)
     file.write_sets({**nodes, **plain, "z": 0 * r}, "overwrite")
-    modes, shapes = dm.plate_modes(p), mode_shapes(p, radii)
+    modes = dm.plate_modes(p)
+    shapes = mode_shapes(p, radii)
     for l, omega, shape in zip(modes["diameters"], modes["omega"], shapes, strict=True):
         for half in range(1 + (l > 0)):
             wave = np.cos(l * (angle - 0.3) + half * np.pi / 2)

@@ -20,7 +20,8 @@ def check_table(name: str) -> None:
     """The same words, and numbers to two units of their last digits: three are shown."""
     found = report.marked(name).search(PAGE)
     assert found is not None
-    shown, computed = found[0], report.SECTIONS[name]()
+    shown = found[0]
+    computed = report.SECTIONS[name]()
     assert NUMBER.sub("", shown) == NUMBER.sub("", computed)
     numbers = [np.array(NUMBER.findall(text), dtype=float) for text in (shown, computed)]
     # errors of shapes, from 0.028 on, are shown with three decimals
@@ -64,7 +65,8 @@ def test_the_spread_of_slips_is_computed() -> None:
 def test_the_headline_on_slips_holds_with_every_least_fall(
     ratios: dict[float, list[robustness.Ratio]],
 ) -> None:
-    falls, fast = [], []
+    falls = []
+    fast = []
     for column in ratios.values():
         falls += [each for each in column if each.what.startswith("fall")]
         fast += [each for each in column if re.match("period.* 4300 ", each.what)]
@@ -259,7 +261,9 @@ def test_sentences_on_damping_and_loads_are_computed() -> None:
 
 def test_slips_of_a_known_force_are_found() -> None:
     """A saw tooth that rises in 0.4 s and falls by 0.1 in a half wave of 20 ms."""
-    rise, fall, periods = 800, 40, 5
+    rise = 800
+    fall = 40
+    periods = 5
     up = np.linspace(0.2, 0.3, rise, endpoint=False)
     down = 0.25 + 0.05 * np.cos(np.linspace(0, np.pi, fall, endpoint=False))
     force = np.tile(np.concatenate([up, down]), periods)

@@ -21,11 +21,9 @@ def test_the_closed_form_of_stick_knows_the_places_of_the_state(compliance: floa
     """At rest under the preload all modes of cos and those without diameter are bent, and on a
     compliant contact u."""
     model = engine_case(case(compliance)).model
-    disc, width, n0 = (
-        build_state(model).disc,
-        len(model.mode_amplitude),
-        len(model.mode_amplitude0),
-    )
+    disc = build_state(model).disc
+    width = len(model.mode_amplitude)
+    n0 = len(model.mode_amplitude0)
     bent = [*np.flatnonzero(model.mode_amplitude), *range(2 * width, 2 * width + n0)]
     if compliance:
         bent.append(2 * (width + n0))

@@ -98,7 +98,8 @@ def draws_every_choice(shown: Explorer) -> None:
 
 def tells_of_points(shown: Explorer) -> None:
     """Values, messages, the case as a call of the package, an address, and a table."""
-    study, seen = plane(), set()
+    study = plane()
+    seen = set()
     for label, option in {
         "Study": "plane",
         "Across": "Omega",
@@ -123,7 +124,8 @@ def tells_of_points(shown: Explorer) -> None:
     assert "no result" in shown.text("legend")
     shown.point(3, 1, click=True)
     assert shown.text("message") == ""
-    case, link = shown.text("call"), "return document.getElementById('link').getAttribute('href')"
+    case = shown.text("call")
+    link = "return document.getElementById('link').getAttribute('href')"
     assert case.startswith("dm.Parameters(k=50000, ")
     assert f"Omega={study['Omega'].values[3]:g}" in case
     address = shown.page.run(link)

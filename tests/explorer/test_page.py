@@ -38,13 +38,14 @@ def flagged(words: str, first: int = 0) -> dict[str, object]:
 
 def plane() -> xr.Dataset:
     """Two axes that are numbers and one of words."""
-    place, shape = tuple(FAILED.values()), tuple(map(len, AXES.values()))
-    status, outcome, message = (
-        np.zeros(shape, np.int8),
-        np.zeros(shape, np.int8),
-        np.full(shape, "", dtype=object),
-    )
-    status[place], outcome[1:, 2:], message[place] = 1, 1, MESSAGE
+    place = tuple(FAILED.values())
+    shape = tuple(map(len, AXES.values()))
+    status = np.zeros(shape, np.int8)
+    outcome = np.zeros(shape, np.int8)
+    message = np.full(shape, "", dtype=object)
+    status[place] = 1
+    outcome[1:, 2:] = 1
+    message[place] = MESSAGE
     growth = np.linspace(-0.2, 0.4, status.size).reshape(shape)
     growth[place] = np.nan
     data = {
@@ -135,7 +136,8 @@ def numbers(stored: dict[str, Any], kind: str) -> np.ndarray:
 
 def test_numbers_flags_and_messages_come_through() -> None:
     """Each as its words, whatever numbers stand for them; as JSON, and with units."""
-    told, study = contents()[0], plane()
+    told = contents()[0]
+    study = plane()
     assert json.loads(json.dumps(told, allow_nan=False)) == told
     variables = {variable["name"]: variable for variable in told["variables"]}
     assert set(variables) == set(study.data_vars) - {"message"}
@@ -143,10 +145,8 @@ def test_numbers_flags_and_messages_come_through() -> None:
         values = study[name].transpose(*variables[name]["dims"])
         found = numbers(variables[name], "<f4").reshape(values.shape)
         np.testing.assert_allclose(found, values, rtol=2.0 ** -(BITS + 1))
-    assert (variables["growth_rate"]["unit"], variables["growth_rate"]["title"]) == (
-        "s-1",
-        "growth rate",
-    )
+    assert variables["growth_rate"]["unit"] == "s-1"
+    assert variables["growth_rate"]["title"] == "growth rate"
     words = np.array(variables["outcome"]["flags"])[numbers(variables["outcome"], "u1")]
     assert (
         words.tolist()

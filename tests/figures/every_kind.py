@@ -18,7 +18,8 @@ from tests.figures.measured import Shown
 from tests.figures.test_cases import simulated
 from tests.studies.conftest import computed
 
-SPEED, LOAD = "Speed Ω", "Preload N"
+SPEED = "Speed Ω"
+LOAD = "Preload N"
 SPEEDS = np.array([8.0, 11.0, 14.5])  # rad/s
 LOADS = np.array([120.0, 310.0, 475.0])  # N
 OK = {"flag_meanings": "ok failed"}
@@ -64,7 +65,9 @@ def column(quantity: str, name: str) -> dict[str, Any]:
 # ---- General kinds
 
 PERIOD = np.array([[0.0148, 0.0151, 0.0153], [0.0161, 0.0164, 0.0172]])  # s
-DAMPERS, SPRINGS = np.array([0.02, 0.05, 0.08]), np.array([2e4, 5e4])  # N s/m and N/m
+# N s/m and N/m
+DAMPERS = np.array([0.02, 0.05, 0.08])
+SPRINGS = np.array([2e4, 5e4])
 
 
 def general() -> xr.Dataset:
@@ -156,7 +159,9 @@ def portrait() -> Example:
     )
 
 
-TONE, SIZE = 70.0, 2e-3  # Hz and m, of a vibration of the disc
+# Hz and m, of a vibration of the disc
+TONE = 70.0
+SIZE = 2e-3
 
 
 def vibration() -> xr.DataTree:
@@ -254,8 +259,10 @@ def critical_speed() -> Example:
 
 def basins() -> Example:
     shares = np.array([[1.0, 0.0], [0.25, 0.75], [0.5, 0.5]])  # quiet and separating
-    ranges, critical = np.array([2e-5, 0.031, 0.029]), np.array([0.4, 0.1, 0.2])
-    classes, energies = ["quiet", "separating"], [0.01]
+    ranges = np.array([2e-5, 0.031, 0.029])
+    critical = np.array([0.4, 0.1, 0.2])
+    classes = ["quiet", "separating"]
+    energies = [0.01]
     data = {
         "basin_fraction": (("Omega", "attractor_class"), shares),
         "basin_fraction_by_energy": (("Omega", "energy", "attractor_class"), shares[:, None]),
@@ -291,7 +298,8 @@ def basins() -> Example:
 
 
 def branches() -> Example:
-    values, ranges = np.array([[8.0, 11.0, 14.5]]), np.array([[2e-5, 4e-4, 2.5e-2]])
+    values = np.array([[8.0, 11.0, 14.5]])
+    ranges = np.array([[2e-5, 4e-4, 2.5e-2]])
     data = {
         "status": ((), np.int8(0), OK),
         "n_branches": ((), 1),
@@ -318,7 +326,9 @@ def branches() -> Example:
 
 
 def ramps() -> Example:
-    rates, onset, end = np.array([0.01, 0.1, 1.0]), np.array([15.2, 15.4, 16.1]), [9.7, 9.6, 9.1]
+    rates = np.array([0.01, 0.1, 1.0])
+    onset = np.array([15.2, 15.4, 16.1])
+    end = [9.7, 9.6, 9.1]
     data = {
         "onset_speed": ("rate", onset, column("ramps", "onset_speed")),
         "offset_speed": ("rate", end, column("ramps", "offset_speed")),

@@ -130,7 +130,10 @@ def test_a_spectrum_shows_the_frequency_that_is_there() -> None:
 
 @pytest.mark.parametrize("kind", ["history", "poincare", "portrait", "spectrogram", "spectrum"])
 def test_what_a_case_lacks_is_said(kind: str) -> None:
-    phrase = {} if kind == "poincare" else {"window": "orbit"}
+    if kind == "poincare":
+        phrase = {}
+    else:
+        phrase = {"window": "orbit"}
     empty = xr.DataTree(xr.Dataset({"first_separation": np.nan, "time_reached": 0.0}))
     assert any("did not record" in text for text in said_in(asked(kind, empty, **phrase)))
     if kind != "poincare":

@@ -19,7 +19,8 @@ from tests.figures.reading import draw, labels, lines
 def study() -> xr.Dataset:
     """Three variables over friction, damping and normalization: of both signs, of one, and
     words."""
-    mu_k, c_p = np.array([0.1, 0.2, 0.3]), np.array([0.01, 0.1, 1.0, 10.0])
+    mu_k = np.array([0.1, 0.2, 0.3])
+    c_p = np.array([0.01, 0.1, 1.0, 10.0])
     both = np.subtract.outer(mu_k, 0.2)[:, None, None] * np.ones((1, 4, 2)) + np.arange(2) * 0.01
     both[0, 0, 0] = np.nan
     dims = ("mu_k", "c_p", "normalization")
@@ -58,7 +59,8 @@ def test_axes_and_titles_have_the_units_of_the_reader(study: xr.Dataset) -> None
     assert all(text in plain.get_suptitle() for text in ("E = 70 GPa", "k = 60 kN/m"))
     assert "k = 60 N/mm" in other.get_suptitle()
     ax = other.axes[0]
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Speed Ω (rpm)", "Preload N (kN)")
+    assert ax.get_xlabel() == "Speed Ω (rpm)"
+    assert ax.get_ylabel() == "Preload N (kN)"
     assert ax.get_xlim() == plain.axes[0].get_xlim(), "what is drawn stays"
     other.canvas.draw()
     low, high = ax.get_xlim()

@@ -14,7 +14,8 @@ from disc_model.studies.quantities.regions import Regions
 from tests.figures.reading import ON_EACH_SCALE, draw, labels
 
 NORMS = ["as_published", "orthonormal"]
-LOADS, SPEEDS = np.linspace(200, 400, 5), np.linspace(5, 18, 9)
+LOADS = np.linspace(200, 400, 5)
+SPEEDS = np.linspace(5, 18, 9)
 
 # ---- cells
 

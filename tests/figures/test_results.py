@@ -119,7 +119,8 @@ def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
     cycle = dm.floquet(P.replace(Omega=15))
     words = " ".join(cycle.plot().get_title(loc="left").split())
     assert "stable, growth rate -0.105/s" in words
-    sliding, neutral = dm.steady_sliding(P), dm.steady_sliding(P.replace(mu_s=0, mu_k=0, D_star=0))
+    sliding = dm.steady_sliding(P)
+    neutral = dm.steady_sliding(P.replace(mu_s=0, mu_k=0, D_star=0))
     assert labels(neutral.plot().figure) == ["decays"]
     assert labels(sliding.plot().figure) == ["decays", "grows"]
     unstable = sliding.eigenvalues[(sliding.eigenvalues.real > 0) & (sliding.eigenvalues.imag >= 0)]
@@ -141,7 +142,8 @@ def test_critical_values_neutral_curves_and_exponents_are_drawn_with_their_case(
     curves = dm.neutral_curves(case, {"Omega": (14, 15.5), "mu_s": (0.38, 0.42)}, [0.4], points=5)
     axes = curves.plot()
     assert labels(axes.figure) == ["cycle ends in a fold"]
-    assert (axes.get_xlim(), axes.get_ylim()) == ((14, 15.5), (0.38, 0.42))
+    assert axes.get_xlim() == (14, 15.5)
+    assert axes.get_ylim() == (0.38, 0.42)
     exponents = dm.lyapunov_exponents(P, 0.5, count=2)
     assert exponents.plot().get_title(loc="left") == "over 0.5 s, 0 separations"
 

@@ -217,7 +217,8 @@ def test_a_number_of_a_table_of_modes_can_be_fitted() -> None:
 
 def test_texts_with_units_are_read() -> None:
     measurement = dm.Measurement("frequency_2_0", "0.29 kHz", "3 Hz", at={"h": "2 mm"})
-    assert (measurement.value, measurement.uncertainty) == (290.0, 3.0)
+    assert measurement.value == 290.0
+    assert measurement.uncertainty == 3.0
     assert measurement.name == "frequency_2_0 (h=2 mm)"
 
 

@@ -20,7 +20,9 @@ from tests.figures.test_cases import simulated
 from tests.paper import evidence
 from tests.paper.test_figures import FIGURES, STUDY, drawn
 
-ZOOM_START, SPAN = 56.0, 0.035  # s, of the window of the case
+# s, of the window of the case
+ZOOM_START = 56.0
+SPAN = 0.035
 
 
 def case() -> xr.DataTree:
@@ -39,7 +41,8 @@ def ranges(variable: str, last: float = 60.0) -> np.ndarray:
 
 def first_complete_separation() -> tuple[float, float]:
     """Its begin and end in the closer window, s, by the samples there."""
-    time, apart = window("zoom", "time"), flag_names(case()["zoom"]["phase"]) == "separation"
+    time = window("zoom", "time")
+    apart = flag_names(case()["zoom"]["phase"]) == "separation"
     starts = np.flatnonzero(~apart[:-1] & apart[1:]) + 1
     ends = np.flatnonzero(apart[:-1] & ~apart[1:])
     first = int(starts[0])

@@ -184,13 +184,16 @@ class Spectrum:
         self.searched: dict[float, float] = {}
 
     def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> object:
-        assert (window, start, stop) == ("spectrum_a", 0, 10)
+        assert window == "spectrum_a"
+        assert start == 0
+        assert stop == 10
         if name == "psi":
             return SimpleNamespace(lines=self.lines_of_psi)
         return SimpleNamespace(strongest=self.strongest)
 
     def lines_of_psi(self, count: int, above: float) -> list[Line]:
-        assert (count, above) == (1, 20.0)
+        assert count == 1
+        assert above == 20.0
         return [Line(F_S, 0.3)]
 
     def strongest(self, near: float, within: float) -> Line:

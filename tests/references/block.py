@@ -110,3 +110,57 @@ def slipping_cycle(p: Parameters, low: float, high: float) -> tuple[float, float
 
     stretch = float(brentq(growth, low, high, xtol=1e-16, rtol=1e-14))
     return next_extreme_pull(p, stretch)[0], stretch
+
+
+# ---- Run-up and stop, without falling friction
+
+
+def release_on_run_up(p: Parameters, acceleration: float) -> float:
+    """Time (s) at which a block is released whose drive starts from rest with an acceleration
+    (m/s^2): k_p V t / 2 + c_p V = mu_s N."""
+    by_speed = p.c_p * acceleration
+    by_way = 0.5 * p.k_p * acceleration
+    root = math.sqrt(by_speed**2 + 4 * by_way * p.mu_s * p.N)
+    return 2 * p.mu_s * p.N / (by_speed + root)
+
+
+class Stop(NamedTuple):
+    """Where a block comes to rest: time in s, stretch of the spring in m."""
+
+    time: float
+    stretch: float
+
+
+def stop_of_overdamped_block(p: Parameters, deceleration: float) -> Stop:
+    """The stop of a block that slides steadily until the time 0, where the drive begins to slow down
+    by a deceleration (m/s^2), until it stands still.
+
+    In slip m y'' + c_p y' + k_p y = mu_k N - m abs(V'), of which both solutions decay.
+    """
+    damping = p.c_p / (2 * p.m)
+    root = math.sqrt(damping**2 - p.k_p / p.m)
+    rates = np.array([-damping + root, -damping - root])
+    shift = p.m * deceleration / p.k_p  # of the equilibrium under way
+    standstill = p.r_0 * p.Omega / deceleration
+
+    # y from the equilibrium under way, at rest there but for the shift
+    shares = shift * np.array([-rates[1], rates[0]]) / (rates[0] - rates[1])
+    then = shares * np.exp(rates * standstill)
+    # y from the equilibrium that follows, whose y' is the same
+    away = then.sum() - shift
+    speed = (rates * then).sum()
+    later = np.array([speed - rates[1] * away, rates[0] * away - speed]) / (rates[0] - rates[1])
+    # y' vanishes, and the block with it
+    time = math.log(-later[1] * rates[1] / (later[0] * rates[0])) / (rates[0] - rates[1])
+    stretch = p.mu_k * p.N / p.k_p + (later * np.exp(rates * time)).sum()
+    return Stop(standstill + time, float(stretch))
+
+
+def stop_of_released_block(p: Parameters, stretch: float) -> Stop:
+    """The stop of an undamped block without a drive that is let go at a stretch: friction takes
+    2 mu_k N / k_p of the stretch in each half of a period, until it can hold the rest."""
+    halves = 0
+    while abs(stretch) > p.mu_s * p.N / p.k_p:
+        stretch = -(stretch - math.copysign(2 * p.mu_k * p.N / p.k_p, stretch))
+        halves += 1
+    return Stop(halves * math.pi * math.sqrt(p.m / p.k_p), stretch)

@@ -224,7 +224,9 @@ def from_slider_frame(state, diameters):
 
     phase = state.phase
     if phase == "slip":
-        phase = "slip+" if state.direction > 0 else "slip-"
+        phase = "slip-"
+        if state.direction > 0:
+            phase = "slip+"
     displacement = complex_modes(state.a, state.b)
     velocity = complex_modes(state.alpha, state.beta)
     modes = np.concatenate([displacement, velocity]).astype(complex).view(float)

@@ -53,7 +53,10 @@ def lively(phase, direction=0, p=P):
     psi = modes["psi"].to_numpy()
     l = modes["diameters"].to_numpy()
     paired = l > 0
-    held = 0.0 if phase == "separation" else p.N
+    if phase == "separation":
+        held = 0.0
+    else:
+        held = p.N
 
     a = -held * psi / omega**2 + 1e-5 * rng.normal(size=n) * 1500 / omega
     b = (1e-4 * np.sign(psi) * rng.uniform(0.5, 1, n) * 1500 / omega) * paired

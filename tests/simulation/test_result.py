@@ -43,7 +43,8 @@ def test_a_result_survives_its_file_to_the_last_bit(
     tmp_path: Path, suffix: str, events: bool
 ) -> None:
     ramps = (Ramp(parameter="N", to=190, start=0.01, end=0.02),)
-    result, path = simulate(P, 0.05, WINDOWS, events=events, ramps=ramps), tmp_path / f"r{suffix}"
+    result = simulate(P, 0.05, WINDOWS, events=events, ramps=ramps)
+    path = tmp_path / f"r{suffix}"
     result.save(path)
     assert b"unilateral" in path.read_bytes(), "and not the older word of texts that identify cases"
     again = Result.load(path)
@@ -111,7 +112,8 @@ def test_a_height_that_contradicts_contact_is_refused() -> None:
 @pytest.mark.parametrize("suffix", [".nc", ".mat"])
 def test_a_result_keeps_the_ratio_by_which_its_case_was_given(tmp_path: Path, suffix: str) -> None:
     p = P.replace(mu_k_over_mu_s=0.6)
-    result, path = simulate(p, 0.02), tmp_path / f"r{suffix}"
+    result = simulate(p, 0.02)
+    path = tmp_path / f"r{suffix}"
     result.save(path)
     for again in (Result.load(path), pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
         assert again.parameters == p
@@ -185,7 +187,8 @@ def test_what_is_no_result_is_an_unreadable_file_whatever_it_is(
     path = tmp_path / "r.mat"
     RECORDED.save(path)
     text, tables = load_tables(path)
-    header, refused = json.loads(text), 0
+    header = json.loads(text)
+    refused = 0
     changed: list[Any] = [edited(header, *edit) for edit in edits(header)]
     changed += [None, 1, [], "x", {}]
     texts = [json.dumps(each) for each in changed] + ["{", "[" * 100_000, "\0"]
@@ -239,10 +242,12 @@ def test_a_state_that_cannot_be_is_an_unreadable_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A phase "x" and a psi of nan were read, and refused by simulate."""
-    path, state = tmp_path / "s.nc", RECORDED.final_state
+    path = tmp_path / "s.nc"
+    state = RECORDED.final_state
     state.save(path)
     text, tables = load_tables(path)
-    values, arrays = json.loads(text), tables["state"]
+    values = json.loads(text)
+    arrays = tables["state"]
     found = []
     for name, wrong in (
         ("phase", "x"), ("psi", "NaN"), ("time", "Infinity"), ("direction", 2), ("roots", [9, 0]),

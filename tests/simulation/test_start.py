@@ -163,7 +163,8 @@ def test_a_switch_continued_under_other_parameters_keeps_the_digits_of_its_clock
     switch: Callable[..., State],
 ) -> None:
     """The phase is found by a run of no duration, with a clock of fewer digits."""
-    p, start = APART.replace(N=386.0), switch()
+    p = APART.replace(N=386.0)
+    start = switch()
     late = start.replace(time=1e6)
     digit = math.ulp(late.time)
     ends = [
@@ -213,26 +214,29 @@ def test_a_blow_changes_the_velocity_of_slider_and_disc_alike() -> None:
 
 def test_a_kick_along_the_disc_makes_the_slider_slip() -> None:
     start = static_start(P)
-    assert (start.phase, start.direction) == ("stick", 0)
-    forward, backward = perturb(P, start, f=3.0), perturb(P, start, f=-3.0)
+    assert start.phase == "stick"
+    assert start.direction == 0
+    forward = perturb(P, start, f=3.0)
+    backward = perturb(P, start, f=-3.0)
     assert [(s.phase, s.direction, s.f) for s in (forward, backward)] == [
         ("slip", 1, 3.0),
         ("slip", -1, -3.0),
     ]
     stopped = perturb(P, forward, f=-3.0)
-    assert (stopped.phase, stopped.direction, stopped.f) == ("stick", 0, 0.0)
+    assert stopped.phase == "stick"
+    assert stopped.direction == 0
+    assert stopped.f == 0.0
     apart = perturb(P, start.replace(phase="separation"), f=3.0)
-    assert (apart.phase, apart.f) == ("separation", 3.0)
+    assert apart.phase == "separation"
+    assert apart.f == 3.0
     for state in (forward, backward, stopped):
         assert simulate(P, 0.01, initial_state=state).status.complete
 
 
 def test_a_state_of_another_case_starts_where_this_ones_disc_is() -> None:
     """The modes weigh otherwise at another radius, so that the height in contact is another."""
-    p, start = (
-        Parameters(N=200, Omega=20, r_0=0.09),
-        Start(prerun={"parameters": {"r_0": 0.1}, "time": 0.1}),
-    )
+    p = Parameters(N=200, Omega=20, r_0=0.09)
+    start = Start(prerun={"parameters": {"r_0": 0.1}, "time": 0.1})
     state = make_initial_state(p, start, 1e-10)
     assert state is not None
     other = simulate(p.replace(r_0=0.1), 0.1).final_state
@@ -250,7 +254,8 @@ def test_on_a_compliant_contact_the_slider_keeps_its_distance_and_its_velocity_o
     None
 ):
     p = Parameters(N=200, Omega=20)
-    former, rest = mode_arrays(p), static_start(p)
+    former = mode_arrays(p)
+    rest = static_start(p)
     moving = {
         "f": 5.0,
         "u_velocity": 1.0,
@@ -263,7 +268,8 @@ def test_on_a_compliant_contact_the_slider_keeps_its_distance_and_its_velocity_o
     rise = state.alpha + state.f * former.diameters * state.b
     for compliance, distance in ((0.0, 0.0), (1e-7, -1e-5)):
         case = p.replace(r_0=0.09, contact_compliance=compliance)
-        found, psi = transfer_state(case, state), mode_arrays(case).psi
+        found = transfer_state(case, state)
+        psi = mode_arrays(case).psi
         # to the rounding of the static deflection
         assert found.u - psi @ state.a == pytest.approx(distance, abs=1e-15)
         assert found.u_velocity - psi @ rise == pytest.approx(1.0 - former.psi @ rise, rel=1e-12)

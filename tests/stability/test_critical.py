@@ -45,7 +45,9 @@ def scan_of(
 
     def find_cycle(p: Parameters, tol: float) -> SimpleNamespace:
         grows = any(low < p.c < high for low, high in stretches)
-        word = "unstable_sliding" if grows else "steady_sliding"
+        word = "steady_sliding"
+        if grows:
+            word = "unstable_sliding"
         return SimpleNamespace(motion=word, multipliers=np.zeros(0), growth_rate=math.nan)
 
     monkeypatch.setattr(critical, "find_cycle", find_cycle)

@@ -44,7 +44,9 @@ def test_a_light_slider_sees_waves_that_turn_with_and_against_it() -> None:
             expected[int(mode.diameters), side] = mode.omega / math.tau - shift
     for i, l in enumerate(found.diameters.tolist()):
         if l > 0:
-            side = 1 if found.forward[i] > 0.5 else -1
+            side = -1
+            if found.forward[i] > 0.5:
+                side = 1
             frequency = expected.pop((l, side))
             assert found.frequency[i] == pytest.approx(frequency, abs=1e-4)
     assert not expected

@@ -73,8 +73,12 @@ def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
     sliding = steady_sliding(p)
     duration = 1e-3
     assert sliding.status is SlidingStatus.OK
-    name = "R" if p.contact_force == "normal" else "P"
-    verdict = "stable" if sliding.growth_rate < 0 else "not stable"
+    name = "P"
+    if p.contact_force == "normal":
+        name = "R"
+    verdict = "not stable"
+    if sliding.growth_rate < 0:
+        verdict = "stable"
     force = f"{sliding.contact_force:.6g} N"
     assert sliding.message == f"steady sliding with {name} = {force}, {verdict}"
     run = Full(p, state_of(p, sliding), scalars=4 if p.contact_compliance else 2)

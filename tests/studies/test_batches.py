@@ -83,7 +83,8 @@ def test_a_perturbation_along_an_axis_is_added_to_that_of_the_start() -> None:
 
 def test_extra_values_leave_the_batches_that_there_are() -> None:
     """So does a further block; a value that is there already is not computed twice."""
-    axis, base = {"start": 0, "stop": 4, "count": 3}, {"N": 1, "Omega": 1}
+    axis = {"start": 0, "stop": 4, "count": 3}
+    base = {"N": 1, "Omega": 1}
     for finer in (axis | {"extra": [2, 3.3]}, {"blocks": [axis, [2, 3.3]]}):
         before, after = (
             parse_grid({"study": "x", "quantity": "floquet", "base": base, "axes": {"c": given}})

@@ -96,7 +96,8 @@ def test_a_message_shows_the_first_of_many_faults(tmp_path: Path) -> None:
         load_study(path)
     assert len(error.value.faults) == 70
     lines = str(error.value).splitlines()
-    assert (len(lines), lines[-1]) == (52, "  and 20 more")
+    assert len(lines) == 52
+    assert lines[-1] == "  and 20 more"
 
 
 GRID = {

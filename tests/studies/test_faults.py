@@ -26,7 +26,8 @@ from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[2]
 FAULTS = yaml.safe_load(Path(__file__).with_name("faults.yaml").read_text(encoding="utf-8"))
-GRID, CASE = FAULTS["grid"], FAULTS["case"]
+GRID = FAULTS["grid"]
+CASE = FAULTS["case"]
 STUDIES = [
     (whole | change, words)
     for whole, name in ((GRID, "grids"), (CASE, "cases"))

@@ -27,7 +27,10 @@ SAME = [
 
 
 def the_study(quantity: str, options: dict[str, Any]) -> dict[str, Any]:
-    base = {"N": 385} if "scan" in options else {"N": 385, "Omega": 14}
+    if "scan" in options:
+        base = {"N": 385}
+    else:
+        base = {"N": 385, "Omega": 14}
     return {
         "study": "s",
         "quantity": quantity,
@@ -45,7 +48,10 @@ def test_a_function_gives_what_a_study_does(function: Any, arguments: Any, optio
     assert set(of_function) == set(of_study) - {"message"}
     for variable, values in of_function.items():
         stored = of_study[variable]
-        stored = flag_names(stored) if "flag_meanings" in stored.attrs else stored.values
+        if "flag_meanings" in stored.attrs:
+            stored = flag_names(stored)
+        else:
+            stored = stored.values
         np.testing.assert_array_equal(values.values, stored, err_msg=variable)
 
 

@@ -70,7 +70,8 @@ def test_a_batch_of_a_grid_has_the_results_of_its_points(name: str) -> None:
     if name == "regions":
         tiled = grid(name)
         tiled["axes"] |= {"normalization": ["as_published", "orthonormal"]}
-        alone, together = ({"over": ["c_p", "Omega"]}, {"over": ["c_p", "Omega", "normalization"]})
+        alone = {"over": ["c_p", "Omega"]}
+        together = {"over": ["c_p", "Omega", "normalization"]}
         one, all_ = (computed(**tiled | {"batch": batch}) for batch in (alone, together))
     else:
         one, all_ = (computed(**grid(name, size=size)) for size in (1, 100))

@@ -59,7 +59,8 @@ def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:
     growth = GRID["figures"]["growth"] | {"study": "other", "section": "1 First"}
     study = parse_study(CASES | {"figures": {"f": growth}})
     grids, asked = study.grids([tmp_path])
-    assert (list(grids), asked) == (["other"], ())
+    assert list(grids) == ["other"]
+    assert asked == ()
     entries = study.entries(grids)
     assert entries[CASES["study"], "f"].inputs == {"study": "other"}
     assert list(entries) == [(CASES["study"], "f"), ("other", "growth")]
@@ -78,7 +79,8 @@ def test_cases_inherit_and_override() -> None:
     a, b = parse_study(CASES).specs.values()
     assert a.parameters == Parameters(N=385, Omega=15, c=0.1)
     assert b.parameters == Parameters(N=50, Omega=15.1, c=0.1)
-    assert (a.tol, b.tol) == (1e-10, 1e-8)
+    assert a.tol == 1e-10
+    assert b.tol == 1e-8
     assert a.events == (8.0, 10.0)
     assert b.events == (0.0, 1.0), "the last 2 s of a run of 1 s are all of it"
     assert a.windows == (("history", Window(start=0, stop=10, rate=100)),)
@@ -94,7 +96,8 @@ def test_a_value_of_null_drops_what_is_inherited() -> None:
 
 def test_a_tolerance_is_that_of_all_cases_but_those_with_their_own() -> None:
     a, b = parse_study(CASES | {"tol": 1e-7}).specs.values()
-    assert (a.tol, b.tol) == (1e-7, 1e-8)
+    assert a.tol == 1e-7
+    assert b.tol == 1e-8
 
 
 def test_a_case_may_have_a_disc_of_its_own(tmp_path: Path) -> None:

@@ -33,10 +33,14 @@ EACH_LAW = [
 def _difference(name, runs, tol, audited=False):
     """Largest difference of event times (s) and of contact forces (N), all switches being there, in
     order."""
-    data, times, forces = stored.load(f"contact_{name}"), [0.0], [0.0]
+    data = stored.load(f"contact_{name}")
+    times = [0.0]
+    forces = [0.0]
     p = Parameters(**data["parameters"])
     for run in data["runs"][runs]:
-        start = stored.engine_state(run["start"], p) if run["start"] else None
+        start = None
+        if run["start"]:
+            start = stored.engine_state(run["start"], p)
         result = simulate(
             p,
             run["t_end"],
@@ -158,10 +162,8 @@ def test_a_compliant_contact_does_not_pull_where_friction_holds_on_a_steep_slope
     start = _swinging(p, 0.01, b=0.8 * p.r_0 / psi[1]).replace(
         alpha=upward, u_velocity=float(psi @ upward)
     )
-    windows, execution = (
-        {"all": Window(start=0.0, stop=2e-4, rate=1e6)},
-        Execution(audit_every_step=True),
-    )
+    windows = {"all": Window(start=0.0, stop=2e-4, rate=1e6)}
+    execution = Execution(audit_every_step=True)
     result = simulate(p, 2e-4, windows, initial_state=start, tol=1e-14, execution=execution)
     assert list(result.events["kind"]) == ["separation"]
     sample = result.samples["all"]
@@ -185,7 +187,8 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
     """One block of lanes and two; each coefficient in units of the largest, ``rates`` are those of
     Omega and N."""
     p = P.replace(n_diameters=n_diameters, **ALL_LAWS.get(name, {}))
-    start, order = lively(phase, direction, p).replace(time=1e-3 if rates else 0.0), 16
+    start = lively(phase, direction, p).replace(time=1e-3 if rates else 0.0)
+    order = 16
     if p.contact_compliance:
         start = start.replace(
             u=start.u - 500 * contact_compliance(p), u_velocity=start.u_velocity + 0.01
@@ -196,11 +199,13 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
         direction,
         stored.reference_state(start, p),
     )
-    case, sign = engine_case(p), np.sign(plate_modes(p)["psi"].to_numpy())
+    case = engine_case(p)
+    sign = np.sign(plate_modes(p)["psi"].to_numpy())
     model = case.model
     if rates:
         model = on_ramp(model, 0.0, 0.0, Omega=p.Omega, Omega_rate=rates[0], N=p.N, N_rate=rates[1])
-    s, state = build_series(model, order), build_state(model)
+    s = build_series(model, order)
+    state = build_state(model)
     write_state(case, start, state)
     if rates:
         set_course(model, state)
@@ -213,7 +218,8 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
             own[:degree], wanted, atol=1e-12 * np.abs(wanted).max(), rtol=rtol
         )
 
-    width, n0 = len(model.mode_amplitude), len(model.mode_amplitude0)
+    width = len(model.mode_amplitude)
+    n0 = len(model.mode_amplitude0)
     # displacements and velocities of the pairs in turn
     rows = s.modes.reshape(-1, width)[: 2 * order + 2]
     pairs = [rows[0::2], rows[1::2]]
@@ -244,7 +250,8 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
         compare(s.u, step.u, degree=order + 1)
         compare(s.v, step.v, degree=order + 1)
     if phase == "stick":
-        press, pull = step.V[:order], step.H[:order]
+        press = step.V[:order]
+        pull = step.H[:order]
         if p.contact_force == "normal":  # over the denominator that both have
             press = press + np.convolve(step.H, step.slope)[:order]
             pull = pull - np.convolve(step.V, step.slope)[:order]
@@ -280,7 +287,8 @@ def test_energy_balances_over_ten_thousand_switches(name):
 )
 def test_energy_balances_with_the_couple_on_more_modes_than_fill_a_block(phase, direction):
     p = P.replace(n_diameters=5, **COUPLE)
-    start, execution = lively(phase, direction, p), Execution(audit_every_step=True)
+    start = lively(phase, direction, p)
+    execution = Execution(audit_every_step=True)
     result = simulate(p, 1e-4, tol=1e-14, initial_state=start, execution=execution)
     assert result.statistics["energy_residual"] < 1e-12
 

@@ -62,7 +62,8 @@ def run(p: Parameters, radians: float, tol: float) -> Result:
 
 def check_laws(result: Result, phase: str = "stick") -> None:
     """``phase`` : in which it starts."""
-    p, events = result.parameters, result.events
+    p = result.parameters
+    events = result.events
     assert np.all(np.diff(events.time) >= 0)
     for kind, entered in zip(events.kind, events.phase, strict=True):
         assert (kind, entered) in LEGAL[phase], (phase, kind, entered)
@@ -89,13 +90,19 @@ def check_laws(result: Result, phase: str = "stick") -> None:
 
 def check_paradox(result: Result) -> None:
     """A paradox is one: the denominator of P in slip is not positive."""
-    p, state, modes = result.parameters, result.final_state, plate_modes(result.parameters)
-    psi, diameters = modes.psi.to_numpy(), modes.diameters.to_numpy()
+    p = result.parameters
+    state = result.final_state
+    modes = plate_modes(result.parameters)
+    psi = modes.psi.to_numpy()
+    diameters = modes.diameters.to_numpy()
     free = 1 + p.m * float(psi @ psi)
     slope = float(psi * diameters @ state.b)
     # the direction that could not be entered is not in the state where stick or separation was to
     # end in slip, nor where slip was to turn round: f = 0 and the direction is the one before
-    directions = [state.direction] if state.direction and state.f != 0 else [-1, 1]
+    if state.direction and state.f != 0:
+        directions = [state.direction]
+    else:
+        directions = [-1, 1]
     # rounding in sums of as many terms as there are modes, and the engine's own margin of 1e-6
     assert min(free + s * p.mu_k * slope / p.r_0 for s in directions) <= 2e-6 * free
 
@@ -164,7 +171,9 @@ def changed(state: State, **changes: float | str) -> State:
         for name in ("a", "alpha")
         if name in changes
     }
-    height = {"u": state.u + changes["u"]} if "u" in changes else {}
+    height = {}
+    if "u" in changes:
+        height = {"u": state.u + changes["u"]}
     return state.replace(time=0.0, _roots=(0, 0), **changes | added | height)
 
 
@@ -205,7 +214,8 @@ def test_switches_are_those_of_fixed_steps(what: str) -> None:
     """The paper's method shares no code with the engine; its error falls sixteenfold where steps
     are half as long."""
     p, start = beginning(what)
-    right, errors = simulate(p, 0.01, tol=1e-13, initial_state=start).events, []
+    right = simulate(p, 0.01, tol=1e-13, initial_state=start).events
+    errors = []
     for step in (2e-5, 1e-5):
         found = METHODS["RK4"].solve(Problem(p, start, 0.01), step)
         assert found.kinds == tuple(right.kind)

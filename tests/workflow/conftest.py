@@ -51,7 +51,9 @@ class Project:
 
     def command(self, *options: str) -> list[str]:
         """The command of such a run."""
-        named = ["--configfile", self.config] if self.config else []
+        named = []
+        if self.config:
+            named = ["--configfile", self.config]
         return [sys.executable, "-m", "snakemake", *options, *named]
 
     @property
@@ -132,7 +134,8 @@ def copy_repository(
     first is run."""
     folder.mkdir(exist_ok=True)
     for part in PARTS:
-        source, target = ROOT / part, folder / part
+        source = ROOT / part
+        target = folder / part
         if source.is_symlink():
             target.symlink_to(os.readlink(source))
         elif source.is_dir():

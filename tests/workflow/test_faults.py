@@ -17,7 +17,8 @@ pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
 def assert_recovered(project: Project, finished: Project) -> None:
     """Inputs of finished files may be missing: nothing asks for them."""
-    found, wanted = project.products(), finished.products()
+    found = project.products()
+    wanted = finished.products()
     assert {name for name in found if found[name] != wanted.get(name)} == set()
     assert not {
         name
@@ -87,10 +88,8 @@ def test_check_finds_damage_that_left_the_times_and_puts_times_right(
     project: Project, finished: Project
 ) -> None:
     results = project.folder / "results"
-    damaged, early = (
-        sorted(results.glob("small/cases/*.nc")),
-        sorted(results.glob("small_map/batches/*.nc")),
-    )
+    damaged = sorted(results.glob("small/cases/*.nc"))
+    early = sorted(results.glob("small_map/batches/*.nc"))
     for path in damaged:
         times = path.stat()
         os.truncate(path, times.st_size - 1)

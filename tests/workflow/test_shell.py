@@ -25,7 +25,8 @@ def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
     tries."""
     shutil.copy(TEXTS / "long.yaml", tmp_path / "mine.yaml")
     processes.run(PROGRAM, "compile", cwd=tmp_path, timeout=600)
-    moments, locks = random.Random(27), tmp_path / ".snakemake" / "locks"
+    moments = random.Random(27)
+    locks = tmp_path / ".snakemake" / "locks"
     for _ in range(10):
         with (tmp_path / "log").open("w+") as log:
             study = subprocess.Popen([PROGRAM, "study", "mine.yaml", "-j2"], cwd=tmp_path, stdout=log, stderr=log,

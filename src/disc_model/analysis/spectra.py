@@ -7,14 +7,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import Array, Indices
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_shapes, mode_arrays
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-
-Array = NDArray[np.float64]
 
 AROUND = (1.0, 6.0)
 """Hz, distances from a line between which the level of its neighbourhood is determined."""
@@ -290,7 +288,7 @@ def coverage(time: Array, values: Array, low: float, high: float, floor: float =
     return float(np.mean(amplitude[band] > floor * strongest))
 
 
-def _maxima(amplitude: Array, distance: int) -> NDArray[np.int64]:
+def _maxima(amplitude: Array, distance: int) -> Indices:
     """Bins of local maxima that are not side lobes and at least `distance` bins apart; the higher
     one is kept."""
     from scipy.signal import find_peaks

@@ -9,8 +9,7 @@ from typing import Any
 import xarray as xr
 
 from disc_model import mode_choice
-from disc_model.benchmarks import study
-from disc_model.benchmarks.study import CONTACTS, TABLES, Row
+from disc_model.benchmarks.study import CONTACTS, TABLES, Row, run
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies
 from disc_model.parameters import Parameters
@@ -66,7 +65,7 @@ def contact_study(
         "contact": [*CONTACTS],
         "model": [f"{diameters},{circles}" for diameters, circles in models],
     }
-    return study.run(
+    return run(
         "contact_truncation",
         axes,
         measure,

@@ -21,15 +21,14 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import Array, Indices
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults
 from disc_model.parameters import SURFACE, Disc, Parameters, foreign_case
 
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 
 POINTS_PER_ROOT = 6  # grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought
 WIDEST = 1e11  # greatest ratio of squared frequencies of disc and slider: their error is 1e-5, compared with 60 digits
@@ -85,8 +84,8 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
 class Modes:
     """The columns of `plate_modes` as read-only arrays of shape (n_modes,)."""
 
-    circles: NDArray[np.int64]
-    diameters: NDArray[np.int64]
+    circles: Indices
+    diameters: Indices
     omega: Array
     psi: Array
 
@@ -118,7 +117,7 @@ def modes_at_point(p: Parameters, normalization: str = "") -> Modes:
     return _modes(_PLATE(p), (normalization or p.normalization) == "orthonormal")
 
 
-def pad_factors(diameters: NDArray[np.int64] | Array, arc: float) -> Array:
+def pad_factors(diameters: Indices | Array, arc: float) -> Array:
     """Mean displacement under a pad over that at its middle, of modes with these numbers of nodal
     diameters (n,): sin(l d)/(l d), 2 d being the pad's arc (rad)."""
     return np.asarray(np.sinc(diameters * (arc / math.tau)))
@@ -337,7 +336,7 @@ class _Shapes:
     """
 
     inner: float
-    l: NDArray[np.int64]
+    l: Indices
     lam: Array
     coefficients: Array
     exponents: Array
@@ -398,9 +397,7 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     return _Shapes(inner, l, lam, coefficients, exponents, norm)
 
 
-def _evaluate(
-    l: NDArray[np.int64], lam: Array, coefficients: Array, exponents: Array, x: Array
-) -> Array:
+def _evaluate(l: Indices, lam: Array, coefficients: Array, exponents: Array, x: Array) -> Array:
     """R of n modes at the radii `x` (k,), roughly in units of its largest value: (n, k)."""
     values, logs = _bessel(l[:, None], lam[:, None] * x)
     return np.sum(coefficients[..., None] * values * np.exp(logs - exponents[..., None]), axis=0)
@@ -481,7 +478,7 @@ def _refine(function: Callable[[Array], Array], low: Array, high: Array) -> Arra
     return best
 
 
-def _determinant(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> Array:
+def _determinant(l: Indices, lam: Array, inner: float, nu: float) -> Array:
     """Determinant of the scaled edge conditions, up to a positive factor, for `l` and `lam` (n,):
     (n,)."""
     m, _ = _columns(l, lam, inner, nu)
@@ -496,7 +493,7 @@ def _determinant(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> A
     return np.sum(sign * clamped * free[partner], axis=0)
 
 
-def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple[Array, Array]:
+def _columns(l: Indices, lam: Array, inner: float, nu: float) -> tuple[Array, Array]:
     """Matrix of the edge conditions, (4 conditions, 4 functions, n), and logarithms (4, n) taken
     out of its columns. Its rows are R and R' at the inner edge, radial moment and Kirchhoff shear
     at the outer one, over lambda x."""
@@ -514,7 +511,7 @@ def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple
     return np.stack([value[:, 0], slope[:, 0], moment, shear]), exponents
 
 
-def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
+def _with_slope(l: Indices, x: Array) -> tuple[Array, Array, Array]:
     """J, Y, I, K of order l and their derivatives at `x` (..., n), the larger of them 1 in
     magnitude, and the logarithms of their factors: (4, ..., n) each."""
     value, exponent = _bessel(l, x)
@@ -525,7 +522,7 @@ def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
     return value / size, slope / size, exponent + np.log(size)
 
 
-def _bessel(l: NDArray[np.int64], x: Array) -> tuple[Array, Array]:
+def _bessel(l: Indices, x: Array) -> tuple[Array, Array]:
     """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of
     x)."""
     from scipy import special  # takes 0.2 s, and merges and figures do without

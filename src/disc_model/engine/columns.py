@@ -17,7 +17,7 @@ from .jit.packing import packed
 from .jit.simd import WIDTH, aligned, load, store
 from .laws import N_ENTRIES
 from .model import Model
-from .state import PHI_RATE, PSI, SLIDER, U_VELOCITY, EngineState, U
+from .state import PHASE, PHI_RATE, PSI, SLIDER, STICK, U_VELOCITY, EngineState, U, clear
 from .stick_modes import padded
 
 # Rows of the inputs, in the order of an `Instant`: changes of N - k u_0, k, c, m, k_p, c_p, Omega,
@@ -185,6 +185,15 @@ def column_of(state: EngineState, model: Model) -> np.ndarray:
     """Return the entries of a state in the order of a column, shape (rows,)."""
     n_disc = n_rows(model) - SLIDER
     return np.concatenate([state.disc[:n_disc], state.x[PSI : PSI + SLIDER]])
+
+
+def put_column(state: EngineState, model: Model, column: np.ndarray) -> None:
+    """Set a state in stick at time 0 to a column of its entries."""
+    n_disc = n_rows(model) - SLIDER
+    clear(state)
+    state.disc[:n_disc] = column[:n_disc]
+    state.x[PSI : PSI + SLIDER] = column[n_disc:]
+    state.x[PHASE] = STICK
 
 
 def input_column(

@@ -159,3 +159,12 @@ def put_sensitivity(model, series, k, direction):
         excess += leverage(series.f, series.weakening, k)
         series.weakening[k] = -fall * excess / (1.0 + fall * series.f[0])
     series.sensitivity[k] = series.weakening[k] + model.viscous * series.P[k]
+
+
+@inlined
+def slip_growth(model, series, direction):
+    """Return the rate at which a change of g grows or decays at the start of a step of slip where
+    friction depends on the speed, 1/s."""
+    put_sensitivity(model, series, 0, direction)
+    growth = abs(series.sensitivity[0]) / (model.m * model.r_0)
+    return growth * surface_mobility(model, model.m)

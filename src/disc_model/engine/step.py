@@ -3,10 +3,9 @@ it."""
 
 from typing import NamedTuple
 
-from .contact import put_sensitivity
+from .contact import slip_growth
 from .dense_output import CLOSED_FORM
 from .jit import helper, inlined
-from .laws import surface_mobility
 from .model import drive_now, is_rigid, set_course
 from .roots import NO_ROOT, first_root, set_powers
 from .separation import separation_series
@@ -110,10 +109,8 @@ def series_step(model, series, state, order, tolerance, longest, left):
     if model.has_varying_friction and phase == SLIP:
         # where friction falls or rises steeply, a change of g grows or decays faster than the fastest
         # motion
-        put_sensitivity(model, series, 0, state.x[DIRECTION])
-        growth = abs(series.sensitivity[0]) * model.unit / (model.m * model.r_0)
-        growth *= surface_mobility(model, model.m)
-        longest /= max(growth, 1.0)
+        growth = slip_growth(model, series, state.x[DIRECTION])
+        longest /= max(growth * model.unit, 1.0)
     longest = min(min(length, longest), left)
     length, cause = first_event(model, series, state, order, longest, tolerance)
     return Step(CONSISTENT, order, length, cause)
@@ -285,6 +282,8 @@ def _end_of_stick(model, series, state, order, x_end, known_force, tolerance):
 @inlined
 def _stays_unloaded(model, series, state):
     """Return whether nothing pulls at a sticking slider throughout the step but the disc's slope."""
+    if (model.k_p + model.c_p) * model.Omega_rate != 0.0:
+        return False  # the drive begins to move, on a ramp
     if model.has_moving_surface:
         return series.hold[0] == 0.0 and series.hold[1] == 0.0
     undriven = model.k_p * model.Omega == 0.0

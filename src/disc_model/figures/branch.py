@@ -26,6 +26,7 @@ SPECIAL_MARKS = {
     "neimark_sacker": ("o", BLUE, "Neimark-Sacker bifurcation"),
     "branch_point": ("*", BLACK, "branch point"),
     "grazing": ("X", SEPARATED, "grazing"),
+    "hopf": ("^", BLUE, "Hopf point"),
 }
 """Kinds of special points, with their mark, colour and name in the legend."""
 

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from disc_model import errors
 from disc_model.attachable import RunPictures
+from disc_model.data.files import unreadable
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, values_text
 from disc_model.display import Summarised, counted, number_text
 from disc_model.engine import record
@@ -138,7 +139,7 @@ class Result(Summarised, RunPictures):
     def __getitem__(self, name: str) -> xr.Dataset:
         """The samples of a window along `time`, with units, by the window's name; raises
         `ParameterError`."""
-        from disc_model.data.dataset import series_dataset
+        from disc_model.data.columns import series_dataset
 
         if not isinstance(name, str) or name not in self.samples:
             raise ParameterError(
@@ -156,7 +157,7 @@ class Result(Summarised, RunPictures):
         """
         import xarray as xr
 
-        from disc_model.data.dataset import scalars_dataset, series_dataset
+        from disc_model.data.columns import scalars_dataset, series_dataset
 
         scalars = scalars_dataset(self.parameters, self.scalars(), self.status.value, self.message)
         if self.ramps:
@@ -233,7 +234,7 @@ class Result(Summarised, RunPictures):
         >>> print(open("run/events.csv").readline().strip())
         time (s),kind,phase,psi (rad),f (rad s-1),u (m),u_velocity (m s-1),P (N)
         """
-        from disc_model.data.dataset import series_dataset
+        from disc_model.data.columns import series_dataset
         from disc_model.data.tables import save_csv
 
         tables = {name: self[name] for name in self.samples}
@@ -270,7 +271,6 @@ class Result(Summarised, RunPictures):
             If there is no such file.
         """
         from disc_model.data import tables
-        from disc_model.data.files import unreadable
 
         text, columns = tables.load_tables(path)
         whole = text and {"events", "final_state"} <= columns.keys()

@@ -13,9 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from pydantic import Field
 
+from disc_model.arrays import Array
+from disc_model.data.files import unreadable
 from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import (
@@ -38,7 +40,6 @@ from disc_model.units import Count, Real, Strict, in_si, is_number, is_quantity
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 MODAL = ("a", "b", "alpha", "beta")
 """Names of the variables of a state with one value a mode."""
 PLAIN = ("time", "time_low", "psi", "f", "u", "u_velocity", "surface_turn")
@@ -196,7 +197,6 @@ class State:
             If there is no such file.
         """
         from disc_model.data import tables
-        from disc_model.data.files import unreadable
 
         text, found = tables.load_tables(path)
         holds_state = text and [*found] == ["state"]

@@ -39,16 +39,9 @@ from disc_model.stability.linear_motion import (
     find_cycle_near,
 )
 from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
-from disc_model.stability.outcome import (
-    Attractor,
-    OutcomeResult,
-    Segment,
-    final_segment,
-    find_equilibrium,
-    segment_of,
-    switch_angles,
-)
+from disc_model.stability.outcome import Attractor, OutcomeResult, find_equilibrium
 from disc_model.stability.return_map import Array, ReturnMap
+from disc_model.stability.segments import Segment, final_segment, segment_of, switch_angles
 
 
 class Arrival(NamedTuple):

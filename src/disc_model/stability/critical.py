@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
+from disc_model.arrays import Array, ComplexArray, Mask
 from disc_model.data.variables import STABLE_CYCLES
 from disc_model.display import Drawn, counted, html_table
 from disc_model.engine.jit.cache import compiling
@@ -15,7 +15,6 @@ from disc_model.errors import raise_faults, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.stability.continuation import free_faults, interval_in_si, spectrum
 from disc_model.stability.cycle import FloquetResult, find_cycle
-from disc_model.stability.return_map import Array, ComplexArray
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
 MOST_POINTS = 100_000  # largest number of values: an hour of work
@@ -60,7 +59,7 @@ class Critical(Drawn):
     name: str
     value: float
     crossings: Array
-    unstable_above: NDArray[np.bool_]
+    unstable_above: Mask
     values: Array
     growth_rate: Array
     resolution: float

@@ -1,29 +1,34 @@
-"""`floquet`: the stick-slip cycle as a fixed point of `disc_model.stability.return_map`, and its
-stability.
+"""`floquet`: a cycle as a fixed point of a return map, and its stability.
 
-Two multipliers of the full system are left out: 1, along the orbit, and 0, of f, because stick
-resets f to 0.
+A stick-slip cycle is one of `disc_model.stability.return_map`, a cycle that slips all the time one
+of `disc_model.stability.slipping_map`. The multiplier 1, along the orbit, is left out; of stick-slip
+also 0, of f, because stick resets f to 0.
 """
-
-from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
+from disc_model.arrays import Array, ComplexArray
 from disc_model.data.variables import CycleStatus, values_text
 from disc_model.display import Drawn, Summarised, counted, number_text
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import DiscModelError, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import State
-from disc_model.stability.return_map import ENDS, Array, ComplexArray, Orbit, ReturnMap, newton
-from disc_model.stability.sliding import SteadySliding, steady_sliding
+from disc_model.stability.return_map import ENDS, Orbit, ReturnMap, SectionMap, newton
+from disc_model.stability.sliding import SlidingStatus, SteadySliding, steady_sliding
+from disc_model.stability.slipping_cycle import find_slipping_orbit
+from disc_model.stability.slipping_map import SlippingMap
 from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
 
+STICK_SLIP = "stick_slip"
+SLIPPING = "slipping"
+KINDS = (STICK_SLIP, SLIPPING)
+"""Kinds of cycles that can be sought, by whether they stick."""
 RETURNS_TRIED = (1, 2, 3)  # numbers of releases in a period of the cycles that are sought
 TRANSIENT = 60  # returns simulated from the static start before Newton's method is tried again
 
@@ -34,7 +39,7 @@ class CycleError(DiscModelError):
 
 @dataclass(frozen=True, eq=False)
 class FloquetResult(Summarised, Drawn):
-    """The stick-slip cycle of a case; `plot` draws the multipliers in the complex plane, and the
+    """A cycle of a case; `plot` draws the multipliers in the complex plane, and the
     unit circle.
 
     Attributes
@@ -43,15 +48,17 @@ class FloquetResult(Summarised, Drawn):
     status, message : result of the search; without a cycle numbers are nan, arrays empty and `state` None
     period : s
     multipliers : complex, shape (n,), largest modulus first; n = 4 per pair of modes + 2 per axisymmetric mode, plus 2
-        on a compliant contact; a single 0 where that is none, as for a block on a rigid disc
+        on a compliant contact; a single 0 where that is none, as for a block on a rigid disc; one more of a cycle that
+        slips all the time
     exponents : 1/s, complex, log(multipliers) / period
     growth_rate : 1/s, largest real part of the exponents
     stick_fraction : share of the period in stick
-    state : on the section, at the end of stick
+    state : on the section, at the end of stick; of a cycle that slips all the time, where the spring is longest
     bifurcation_type : bifurcation if the leading multiplier crosses the unit circle: "fold" (real, positive),
         "period_doubling" (real, negative) or "neimark_sacker" (complex); "" without a cycle
     releases, backward_releases, reversals, separations, sticks : numbers of these events in a period
     residual : residual of the return map, relative to the norm of the static deflection
+    kind : "stick_slip", or "slipping" for a cycle that slips all the time
     sliding : steady sliding of the same case
     """
 
@@ -73,6 +80,7 @@ class FloquetResult(Summarised, Drawn):
     separations: int = 0
     sticks: int = 0
     residual: float = math.nan
+    kind: str = STICK_SLIP
 
     def __repr__(self) -> str:
         p = self.parameters
@@ -119,11 +127,11 @@ class FloquetResult(Summarised, Drawn):
 
     @property
     def attractors(self) -> tuple[str, ...]:
-        """Those of "stick_slip" and "steady_sliding" that exist and are stable."""
-        motions = (("stick_slip", self.stable), ("steady_sliding", self.sliding.stable))
+        """Those of "stick_slip", or "slipping", and "steady_sliding" that exist and are stable."""
+        motions = ((self.kind, self.stable), ("steady_sliding", self.sliding.stable))
         return tuple(name for name, stable in motions if stable)
 
-    def raise_for_status(self) -> FloquetResult:
+    def raise_for_status(self) -> "FloquetResult":
         """Return self if a cycle was found; otherwise raise `CycleError`."""
         if self.status is not CycleStatus.OK:
             raise CycleError(f"{self.message}. {self.status.advice}")
@@ -132,9 +140,17 @@ class FloquetResult(Summarised, Drawn):
 
 @compiling()
 def floquet(
-    p: Parameters, *, tol: float = 1e-12, guess: State | None = None, releases: int = 1
+    p: Parameters,
+    *,
+    tol: float = 1e-12,
+    guess: State | None = None,
+    releases: int = 1,
+    kind: str = STICK_SLIP,
 ) -> FloquetResult:
     """Find the stick-slip cycle near the static start, or near a given state, and its multipliers.
+
+    A case may also have a cycle that slips all the time, usually an unstable one, which separates
+    the motions that come to stick-slip from those that come to steady sliding.
 
     Parameters
     ----------
@@ -143,6 +159,8 @@ def floquet(
     guess : state, such as the last one of a simulation; the cycle is sought near the next release after it and may
         lose contact
     releases : number of releases in a period of the cycle near that state
+    kind : "stick_slip"; or "slipping" for the smallest cycle round steady sliding, or near a given state in slip, that
+        slips all the time, in contact
 
     Returns
     -------
@@ -162,19 +180,37 @@ def floquet(
     FloquetResult(N=385 N, Omega=15 rad/s: growth rate -0.105494 1/s, period 0.014821021 s, 18 multipliers)
     >>> cycle.stable, cycle.attractors
     (True, ('stick_slip',))
+
+    Where friction falls with the speed, stick-slip and steady sliding may both be stable:
+
+    >>> block = dm.Parameters(n_diameters=-1, m=0.5, k=0, k_p=7e3, c_p=6, N=10, mu_s=0.6, mu_k=0.2,
+    ...     friction_decay=10, r_0=0.1, Omega=2)
+    >>> dm.floquet(block).attractors
+    ('stick_slip', 'steady_sliding')
+    >>> between = dm.floquet(block, kind="slipping")
+    >>> between.stable, between.multipliers.real.round(3)
+    (False, array([1.262]))
     """
-    wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases)
+    wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
     raise_faults(foreign_case(p) + wrong)
+    if kind == SLIPPING:
+        return find_slipping_cycle(p, float(tol), guess)
     return find_cycle(p, float(tol), guess, releases)
 
 
-def guess_faults(guess: object, releases: object) -> list[str]:
-    """Faults of a guess for the search for a cycle, and of the number of its releases."""
-    counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or releases == 1)
+def guess_faults(guess: object, releases: object, kind: object) -> list[str]:
+    """Faults of a guess for the search for a cycle, of the number of its releases, and of its
+    kind."""
+    several = is_whole(releases) and releases > 1
+    counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or not several)
+    known = isinstance(kind, str) and kind in KINDS
+    released = several and counts and kind == SLIPPING
     rule = "must be a whole number >= 1, and 1 without a state to look near"
     return violations(
         (isinstance(guess, State | None), "guess", guess, "must be a State"),
         (counts, "releases", releases, rule),
+        (known, "kind", kind, f"must be one of {', '.join(KINDS)}"),
+        (not released, "releases", releases, "must be left out of a cycle that never sticks"),
     )
 
 
@@ -206,6 +242,31 @@ def find_cycle(
         without = f"no cycle with {counted(releases, 'release')} near the given state"
         return _none(p, tol, CycleStatus.NO_CYCLE, without)
     return cycle_of(map_, solution)
+
+
+def find_slipping_cycle(p: Parameters, tol: float, guess: State | None) -> FloquetResult:
+    """The cycle that slips all the time which Newton's method finds near a state in slip, or the
+    smallest one round steady sliding."""
+    sliding = steady_sliding(p)
+    missing = sliding.status is not SlidingStatus.OK
+    if missing or min(p.N, p.k_p) <= 0:
+        none = _none(p, tol, CycleStatus.NO_CYCLE, "there is no steady sliding on a spring")
+        return replace(none, kind=SLIPPING)
+
+    map_ = SlippingMap(p, tol)
+    orbit = None
+    where = "round steady sliding"
+    if guess is None:
+        orbit = find_slipping_orbit(map_, sliding)
+    else:
+        where = "near the given state"
+        x = map_.next_passage(guess)
+        if x is not None:
+            orbit = newton(map_, x)
+    if orbit is None:
+        without = f"no cycle {where} slips all the time"
+        return replace(_none(p, tol, CycleStatus.NO_CYCLE, without), kind=SLIPPING)
+    return replace(cycle_of(map_, orbit), kind=SLIPPING)
 
 
 def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
@@ -288,7 +349,7 @@ def _none(p: Parameters, tol: float, status: CycleStatus, reason: str) -> Floque
     return FloquetResult(p, tol, status, f"{status}: {reason}")
 
 
-def cycle_of(map_: ReturnMap, orbit: Orbit) -> FloquetResult:
+def cycle_of(map_: SectionMap, orbit: Orbit) -> FloquetResult:
     """The result for a cycle that Newton's method has found to the tolerance."""
     values = multipliers(orbit.jacobian)
     leading = complex(values[0])
@@ -305,11 +366,12 @@ def cycle_of(map_: ReturnMap, orbit: Orbit) -> FloquetResult:
         "separation": counts.separations,
     }
     events = ", ".join(counted(count, name) for name, count in named.items() if count)
+    course = f"with {events}" if events else "that slips all the time"
     return FloquetResult(
         parameters=map_.parameters,
         tol=map_.tol,
         status=CycleStatus.OK,
-        message=f"{CycleStatus.OK}: cycle of {orbit.period:.9g} s with {events}",
+        message=f"{CycleStatus.OK}: cycle of {orbit.period:.9g} s {course}",
         period=orbit.period,
         multipliers=values,
         exponents=exponents,

@@ -10,12 +10,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.arrays import Array, ComplexArray
 from disc_model.disc.plate import mode_arrays
 from disc_model.engine.jit.cache import compiling
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from disc_model.stability.cycle import FloquetResult, floquet
-from disc_model.stability.return_map import Array, ComplexArray, ReturnMap
+from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.sliding import SlidingModes, sliding_modes, split_rows
 
 

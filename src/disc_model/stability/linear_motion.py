@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from disc_model.arrays import Array, ComplexArray
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.parameters import Parameters
 from disc_model.stability import thresholds
@@ -23,7 +24,7 @@ from disc_model.stability.cycle import (
     may_stick_and_slip,
     run_through_once,
 )
-from disc_model.stability.return_map import Array, ComplexArray, Orbit, Passage, ReturnMap, newton
+from disc_model.stability.return_map import Orbit, Passage, ReturnMap, newton
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,11 +12,11 @@ import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import Array, Indices
 from disc_model.engine import columns, loop, section, step_size, tangent, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.model import Model, blocks_of, build_state
@@ -31,9 +31,6 @@ from disc_model.simulation.states import (
     series_tolerance,
     write_state,
 )
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 PARAMETERS = (
     "Omega",
@@ -57,6 +54,9 @@ MOST_HALVINGS = 7  # of such a step, before it is given up
 SLOW = 0.05  # a step that leaves more of the residual needs the Jacobian at its own point
 MOST_JACOBIANS = 14  # in a search for a fixed point
 COARSE_JACOBIANS = 3  # of these, which only give a direction
+# ends of motions that slip all the time, see `disc_model.stability.slipping_map`
+STOPS = -1
+VANISHED = -2
 ENDS = {
     transitions.RETURNED: "returned",
     transitions.TIME_OVER: "time_over",
@@ -65,6 +65,8 @@ ENDS = {
     transitions.NON_FINITE: "non_finite",
     transitions.STOPPED: "lost_contact",
     transitions.OFF_SECTION: "off_section",
+    STOPS: "stops",
+    VANISHED: "vanished",
 }
 
 
@@ -183,6 +185,59 @@ class Orbit:
         """Distance of the end from the start: 0 for a cycle."""
         change = self.end - self.start
         return math.sqrt(change.dot(change))  # as np.linalg.norm, in a quarter of the time
+
+
+class SectionMap(Protocol):
+    """The return map of one case to a section; see `ReturnMap`, which is one.
+
+    parameters : the case
+    tol : relative tolerance of the residual of its fixed points
+    size : dimension n of the section
+    scale : (n,), units of its coordinates, which may depend on the case
+    diameters : nodal diameters of the coordinates that belong to modes, which come first
+    deflection : unit of distances
+    """
+
+    parameters: Parameters
+    tol: float
+    size: int
+    scale: Array
+    diameters: Indices
+    deflection: float
+
+    def evaluate(
+        self,
+        x: Array,
+        *,
+        releases: int = 1,
+        tangent: bool = True,
+        may_separate: bool = False,
+        coarse: bool = False,
+    ) -> Orbit:
+        """The motion from x to its return, with derivatives by x and the map's parameters;
+        `coarse` suffices for a direction."""
+        ...
+
+    def point(self, state: State) -> Array:
+        """The point of the section of a state on it."""
+        ...
+
+    def state(self, x: Array) -> State:
+        """The state of a point of the section."""
+        ...
+
+
+class MapFactory(Protocol):
+    """What makes the map of a case; `parameters` are those by which it is differentiated."""
+
+    def __call__(
+        self,
+        p: Parameters,
+        tol: float = 1e-12,
+        parameters: tuple[str, ...] = (),
+        *,
+        patient: bool = False,
+    ) -> SectionMap: ...
 
 
 class Passage(NamedTuple):
@@ -395,7 +450,7 @@ def rounding(tol: float, factor: float) -> float:
 
 
 def newton(
-    map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool = False
+    map_: SectionMap, x: Array, *, releases: int = 1, may_separate: bool = False
 ) -> Orbit | None:
     """The orbit from a fixed point of the map, by Newton's method with a line search; None if it
     finds none.
@@ -461,7 +516,7 @@ def _search_along_step(
     return None
 
 
-def _is_fixed_point(map_: ReturnMap, orbit: Orbit) -> bool:
+def _is_fixed_point(map_: SectionMap, orbit: Orbit) -> bool:
     """Whether an orbit returns to its start, but for what rounding may leave, with derivatives."""
     largest = rounding(map_.tol, 1e4) * map_.deflection
     close = orbit.returned and orbit.residual <= largest

@@ -20,8 +20,8 @@ from types import FunctionType, ModuleType, SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
 from disc_model.display import Drawn, Summarised, number_text
@@ -29,7 +29,6 @@ from disc_model.engine import laws
 from disc_model.errors import StatusBase, raise_faults
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import engine_case
-from disc_model.stability.return_map import Array, ComplexArray
 
 
 def _in_python(module: ModuleType) -> Any:
@@ -92,9 +91,7 @@ class SteadySliding(Summarised, Drawn):
     b: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     alpha: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     beta: Array = field(default_factory=lambda: np.zeros(0), repr=False)
-    eigenvalues: NDArray[np.complex128] = field(
-        default_factory=lambda: np.zeros(0, complex), repr=False
-    )
+    eigenvalues: ComplexArray = field(default_factory=lambda: np.zeros(0, complex), repr=False)
     growth_rate: float = math.nan
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
 
@@ -360,6 +357,15 @@ def split_rows(modes: Modes, rows: Any) -> tuple[Any, Any, Any]:
     return (a, alpha, b, beta), slider, height
 
 
+def height_of_slider(p: Parameters, sliding: SteadySliding) -> float:
+    """Height u of the slider on a compliant contact in steady sliding, m."""
+    # the contact's force is that of the slider's spring: (w - u) / compliance = N + k (u - u_0)
+    compliance = contact_compliance(p)
+    load = p.N - p.k * engine_case(p).model.u_0
+    w = float(mode_arrays(p).psi @ sliding.a)
+    return (w - compliance * load) / (1 + p.k * compliance)
+
+
 def join_rows(
     modes: Modes, disc: Sequence[Any], slider: Sequence[Any], height: Sequence[Any]
 ) -> Any:
@@ -388,7 +394,7 @@ class SlidingModes:
     frequency: Array
     growth_rate: Array
     damping_ratio: Array
-    diameters: NDArray[np.int64]
+    diameters: Indices
     forward: Array
     shapes: ComplexArray = field(repr=False)
 
@@ -446,7 +452,7 @@ class FollowedModes(NamedTuple):
 
     sliding: SteadySliding
     modes: SlidingModes
-    numbers: NDArray[np.int64]
+    numbers: Indices
     mac: Array
 
 
@@ -475,7 +481,7 @@ def _numbered(
     p: Parameters,
     modes: SlidingModes,
     halvings: int,
-) -> tuple[NDArray[np.int64], Array]:
+) -> tuple[Indices, Array]:
     """Numbers and likeness of the modes of a case; `shapes`, by number, become those of this
     case. Where the modes are in doubt, the case `before` is followed to this one by halves of the
     way, up to so many `halvings`."""

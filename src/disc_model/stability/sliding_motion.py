@@ -9,11 +9,17 @@ from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.states import State, engine_case
+from disc_model.simulation.states import State
 from disc_model.stability import thresholds
 from disc_model.stability.linear_motion import grows_at_rate, left_vector
 from disc_model.stability.return_map import Array
-from disc_model.stability.sliding import SteadySliding, energy_weights, join_rows, steady_sliding
+from disc_model.stability.sliding import (
+    SteadySliding,
+    energy_weights,
+    height_of_slider,
+    join_rows,
+    steady_sliding,
+)
 
 _sliding = lru_cache(maxsize=1)(steady_sliding)  # needed at the end of each leg of a motion
 
@@ -76,8 +82,6 @@ def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:
     )
     height = []
     if compliance:
-        # the contact's force is that of the slider's spring: (w - u) / compliance = N + k (u - u_0)
-        load = p.N - p.k * engine_case(p).model.u_0
-        rest = (modes.psi @ sliding.a - compliance * load) / (1 + p.k * compliance)
+        rest = height_of_slider(p, sliding)
         height = [float(state.u - rest), float(state.u_velocity)]
     return join_rows(modes, disc, (state.psi - sliding.psi, state.f - p.Omega), height)

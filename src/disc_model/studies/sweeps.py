@@ -9,13 +9,13 @@ from typing import Any
 
 import xarray as xr
 
+from disc_model.hashing import canonical_json
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.studies.calls import checked_call
 from disc_model.studies.gathering import stacked, variables_of_result
 from disc_model.studies.quantity import NUMERICAL
 from disc_model.studies.run import describe
 from disc_model.studies.workers import checked_workers
-from disc_model.units import canonical_json
 
 
 def sweep(

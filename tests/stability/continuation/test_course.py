@@ -52,7 +52,8 @@ def test_a_branch_goes_both_ways_and_round_its_fold_to_its_bounds(branch):
     # grows
     leading = {bifurcation_type(complex(branch.multipliers[i, 0])) for i in (0, -1)}
     assert leading == {"fold", "neimark_sacker"}
-    assert (branch.diameters[0], branch.diameters[-1]) == (1, 0)
+    assert branch.diameters[0] == 1
+    assert branch.diameters[-1] == 0
 
 
 def test_the_fold_is_located_to_rounding(branch):
@@ -209,7 +210,8 @@ def test_a_limit_of_the_parameter_ends_the_branch(monkeypatch):
     assert branch.values[-1, 0] == pytest.approx(0, abs=1e-5)
     assert "the case is not valid: mu_k=-" in branch.ended
     many = continue_cycle(P, "Omega", (3.0, 17.0), steps=StepControl(max_points=5), direction=-1)
-    assert (len(many), many.ended) == (5, "max_points=5 were computed")
+    assert len(many) == 5
+    assert many.ended == "max_points=5 were computed"
 
 
 @pytest.mark.parametrize(

@@ -34,11 +34,15 @@ def test_a_crossing_is_where_root_finding_says() -> None:
     assert count
     for i in range(count):
         one = found.isel(crossing=i)
-        mode, multiple = int(one["crossing_mode"]) - 1, float(one["crossing_multiple"])
+        mode = int(one["crossing_mode"]) - 1
+        multiple = float(one["crossing_multiple"])
 
         def detuning(speed: float, mode: int = mode, multiple: float = multiple) -> float:
             cycle, modes, (of_cycle, *_) = frequencies(Parameters(Omega=speed, **base))
-            own = of_cycle if np.isfinite(of_cycle[mode]) else modes.frequency
+            if np.isfinite(of_cycle[mode]):
+                own = of_cycle
+            else:
+                own = modes.frequency
             return multiple / cycle.period - float(own[mode])
 
         speed = float(one["crossing_Omega"])

@@ -43,7 +43,9 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
     asked: list[Parameters] = []
 
     def trend(tile: refinement.Tile, point: refinement.TilePoint) -> str:
-        return "" if separates(point.parameters) else Outcome.QUIET
+        if separates(point.parameters):
+            return ""
+        return Outcome.QUIET
 
     def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
         asked.append(p)
@@ -164,9 +166,12 @@ def test_motions_without_a_cycle_and_points_that_fail_are_named() -> None:
         [[p.replace(Omega=0), p, ParameterError("N=-1: must be >= 0")]], []
     )
     (rest, _), (slides, _), (wrong, message) = rows
-    assert (rest["outcome"], rest["cycle"]) == ("at_rest", "at_rest")
-    assert (slides["outcome"], slides["cycle"]) == ("steady_sliding", "steady_sliding")
-    assert (wrong["status"], message) == ("failed", "ParameterError: N=-1: must be >= 0")
+    assert rest["outcome"] == "at_rest"
+    assert rest["cycle"] == "at_rest"
+    assert slides["outcome"] == "steady_sliding"
+    assert slides["cycle"] == "steady_sliding"
+    assert wrong["status"] == "failed"
+    assert message == "ParameterError: N=-1: must be >= 0"
 
 
 @pytest.mark.slow
@@ -181,13 +186,16 @@ def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cel
     }
     options = {"horizon": horizon, "initial_cell_size": 4}
     study = computed(quantity="regions", options=options, axes=axes, batch={"over": PLANE})
-    separates, origin = flag_names(study["outcome"]) == "separation", flag_names(study["method"])
+    separates = flag_names(study["outcome"]) == "separation"
+    origin = flag_names(study["method"])
     beside = np.zeros_like(separates)
     for axis in (0, 1):
         differs = np.diff(separates, axis=axis)
         for end in (0, differs.shape[axis]):
             beside |= np.insert(differs, end, False, axis=axis)
-    rng, wrong, drawn = np.random.default_rng(0), [], 0
+    rng = np.random.default_rng(0)
+    wrong = []
+    drawn = 0
     for there in (beside, (origin == "inferred") & ~beside, (origin == "multipliers") & ~beside):
         for i, j in rng.permutation(np.argwhere(there))[:15]:
             p = Parameters(N=study["N"].values[i], Omega=study["Omega"].values[j])

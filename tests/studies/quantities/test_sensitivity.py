@@ -10,8 +10,9 @@ import xarray as xr
 from scipy import stats
 
 from disc_model.parameters import Parameters
+from disc_model.studies.distributions import quantile
 from disc_model.studies.quantities import sensitivity
-from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity, quantile
+from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity
 from disc_model.studies.quantity import Row
 from tests.studies.conftest import computed
 from tests.studies.refused import parse_grid

@@ -8,15 +8,15 @@ are mass-normalised over the whole solid.
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.disc.plate import Array
+from disc_model.arrays import Array
+from disc_model.disc.files.mesh import pieces_of
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import brought
 from disc_model.errors import Fault, ParameterError, require
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from skfem import MeshQuad
 
 SAME_PLACE = 1e-9  # m; the slider must run through a node of the mesh
-MOST_ELEMENTS = 100_000  # in the rectangle around a section; more indicate a mistake in units
 MOST_EQUAL = 64  # modes of equal nodal diameters; more indicate a mistake in units
 MOST_DIAMETERS = 60  # of the modes of a `Disc`
 UNMOVED = 1e-6  # share of the largest amplitude below which a mode moves in the disc's plane alone
@@ -73,48 +72,6 @@ class SectionMode(NamedTuple):
     shape: list[float]
 
 
-def section(rectangles: Iterable[tuple[float, float, float, float]], size: float) -> MeshQuad:
-    """Mesh a union of rectangles (r from, r to, z from, z to), m, with a line of nodes along every
-    edge of each; `size`: m, largest edge of an element."""
-    mesh_type = brought("skfem", "fe").MeshQuad
-    boxes = [tuple(map(float, rectangle)) for rectangle in rectangles]
-    for i, box in enumerate(boxes or [()]):
-        if not _is_rectangle(box):
-            rule = "must be (r from, r to, z from, z to) with 0 < r from < r to and z from < z to"
-            raise ParameterError(Fault.of(("rectangles", str(i)), box, rule))
-    require((is_number(size) and size > 0, "size", size, "must be > 0"))
-
-    inner, outer, low, high = zip(*boxes, strict=True)
-    count = (max(outer) - min(inner)) / size * ((max(high) - min(low)) / size)
-    rule = f"must give at most {MOST_ELEMENTS:,} elements, not {count:.2g}: "
-    rule += "size and rectangles are in m"
-    require((count <= MOST_ELEMENTS, "size", size, rule))
-
-    mesh = mesh_type.init_tensor(_divided({*inner, *outer}, size), _divided({*low, *high}, size))
-    r, z = mesh.p[:, mesh.t].mean(axis=1)
-    inside = np.zeros(r.shape, dtype=bool)
-    for r_from, r_to, z_from, z_to in boxes:
-        inside |= (r_from < r) & (r < r_to) & (z_from < z) & (z < z_to)
-    return mesh.remove_elements(np.flatnonzero(~inside))
-
-
-def _is_rectangle(box: tuple[float, ...]) -> bool:
-    """Whether these are the edges of a rectangle of finite size beside the axis."""
-    if len(box) != 4 or not all(map(math.isfinite, box)):
-        return False
-    r_from, r_to, z_from, z_to = box
-    return 0 < r_from < r_to and z_from < z_to
-
-
-def _divided(edges: set[float], size: float) -> Array:
-    """Coordinates with every edge among them, and no gap larger than `size`."""
-    ends = sorted(edges)
-    parts = [
-        np.linspace(a, b, math.ceil((b - a) / size) + 1)[:-1] for a, b in itertools.pairwise(ends)
-    ]
-    return np.concatenate([*parts, ends[-1:]])
-
-
 def disc_of_section(
     mesh: MeshQuad,
     material: Mapping[str, Any],
@@ -133,7 +90,7 @@ def disc_of_section(
     points = _points(basis, slider)
     held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()
     rule = "must hold nodes of the section: coordinates are in m"
-    pieces = _pieces(mesh)
+    pieces = pieces_of(mesh)
     require(
         (len(held) > 0, "clamped", len(held), rule),
         (pieces == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
@@ -201,17 +158,6 @@ def _is_below(mesh: Any, slider: tuple[float, float]) -> bool:
         axis=0,
     )
     return bool(np.all(low[1, touching] >= slider[1] - SAME_PLACE))
-
-
-def _pieces(mesh: Any) -> int:
-    """Number of parts of a mesh that have no node in common."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    size = mesh.p.shape[1]
-    links = coo_matrix((np.ones(mesh.facets.shape[1]), mesh.facets), shape=(size, size))
-    _, labels = connected_components(links, directed=False)
-    return len(np.unique(labels[mesh.t]))
 
 
 def _modes(

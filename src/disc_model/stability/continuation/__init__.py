@@ -1,7 +1,7 @@
 """Continuation of a cycle in one parameter, and of its stability borders in two, by
 pseudo-arclength.
 
-A cycle is a zero of F(x, q) = R(x, q) - x.  R is the return map, x the point of the section and q
+A cycle is a zero of F(x, q) = R(x, q) - x.  R is a return map, x the point of the section and q
 the free parameters; the Jacobian of F by both comes from the variational equations.  A fold, where
 two cycles meet, is a regular point of the curve F = 0.  Distances mix x, over the norm of the
 static deflection, with q, over the parameters' scales.

@@ -1,21 +1,19 @@
 """F(x, q) = R(x, q) - x of a return map R: its zeros are cycles, as a curve or surface over the
 free parameters q.
 
-Unknowns are z = (x / size, q / scales). The map is a `SectionMap`; that of the stick-slip cycle is
-`disc_model.stability.return_map.ReturnMap`, and another section needs another map only.
+Unknowns are z = (x / size, q / scales). The map is a `SectionMap`: that of stick-slip cycles is
+`disc_model.stability.return_map.ReturnMap`, that of cycles that slip all the time
+`disc_model.stability.slipping_map.SlippingMap`.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from disc_model.errors import ModeError, ParameterError
 from disc_model.parameters import DEFAULTS, Parameters
-from disc_model.simulation.states import State
 from disc_model.stability.continuation.compliance import CompliantPlate
 from disc_model.stability.continuation.curve import CurvePoint, Evaluation, Rejected, curve_point
 from disc_model.stability.cycle import FloquetResult
@@ -24,8 +22,10 @@ from disc_model.stability.return_map import (
     PARAMETERS,
     Array,
     Counts,
+    MapFactory,
     Orbit,
     ReturnMap,
+    SectionMap,
     newton_step,
 )
 
@@ -52,50 +52,10 @@ WITHOUT_RETURN = {
     "paradox": "the motion does not return: it runs into Painleve's paradox",
     "stalled": "the motion does not return: switches follow each other without the clock moving",
     "non_finite": "the motion does not return: it overflows",
+    "stops": "the motion does not return: the slider stops",
+    "vanished": "the cycle shrinks to steady sliding",
 }
 """Words for the end of a motion that does not return to the section."""
-
-
-class SectionMap(Protocol):
-    """The return map of one case to a section; see `ReturnMap`, which is one.
-
-    size : dimension n of the section
-    scale : (n,), units of its coordinates, which may depend on the case
-    diameters : nodal diameters of the coordinates that belong to modes, which come first
-    deflection : unit of distances
-    """
-
-    size: int
-    scale: Array
-    diameters: NDArray[np.int64]
-    deflection: float
-
-    def evaluate(
-        self, x: Array, *, releases: int = 1, tangent: bool = True, may_separate: bool = False
-    ) -> Orbit:
-        """The motion from x to its return, with derivatives by x and the map's parameters."""
-        ...
-
-    def point(self, state: State) -> Array:
-        """The point of the section of a state on it."""
-        ...
-
-    def state(self, x: Array) -> State:
-        """The state of a point of the section."""
-        ...
-
-
-class MapFactory(Protocol):
-    """What makes the map of a case; `parameters` are those by which it is differentiated."""
-
-    def __call__(
-        self,
-        p: Parameters,
-        tol: float = 1e-12,
-        parameters: tuple[str, ...] = (),
-        *,
-        patient: bool = False,
-    ) -> SectionMap: ...
 
 
 def parameter_scale(p: Parameters, name: str, farthest: float = 0.0) -> float:

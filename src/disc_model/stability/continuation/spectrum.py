@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from disc_model.stability.return_map import Array, ComplexArray
+from disc_model.arrays import Array, ComplexArray
 
 STRONGLY_DAMPED = 0.5  # modulus below which a multiplier causes neither a resonance nor a loss
 

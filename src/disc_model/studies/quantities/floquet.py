@@ -5,8 +5,7 @@ import math
 from typing import Any, ClassVar
 
 from disc_model.data.variables import CycleStatus, Variable
-from disc_model.studies.costs import UnitCosts
-from disc_model.studies.quantity import CYCLE_STATUSES, Point, Quantity, State
+from disc_model.studies.quantity import CYCLE_STATUSES, Point, Quantity, State, UnitCosts
 from disc_model.units import CycleTolerance
 
 
