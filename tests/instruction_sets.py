@@ -105,7 +105,9 @@ def _difference(found: np.ndarray, expected: np.ndarray) -> float:
     size = np.abs(expected[known]).max(initial=0.0)
     if size:
         return float(apart / size)
-    return float("inf" if apart else 0.0)
+    if apart:
+        return float("inf")
+    return 0.0
 
 
 if __name__ == "__main__":

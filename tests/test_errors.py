@@ -13,7 +13,8 @@ from disc_model.studies.study import StudyError
 def test_a_fault_is_its_text_and_knows_its_parts() -> None:
     fault = Fault(("N",), "-1", "must be >= 0")
     copy = pickle.loads(pickle.dumps(fault))
-    assert fault == copy == "N=-1: must be >= 0"
+    assert fault == copy
+    assert copy == "N=-1: must be >= 0"
     assert copy.path == ("N",)
     assert copy.value == "-1"
     assert copy.rule == "must be >= 0"

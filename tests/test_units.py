@@ -147,7 +147,10 @@ def test_arguments_of_functions_are_such_numbers_too() -> None:
     assert run.value_at("N", UNITS.Quantity(5, "ms")) == pytest.approx(150)
     with pytest.raises(ParameterError, match=r"^times=.*: must be finite"):
         snapshots(p, UNITS.Quantity([1.0], "kg"))
-    assert repr(floquet(p, tol=np.float32(1e-10))) == repr(floquet(p, tol=float(np.float32(1e-10))))
+    short = np.float32(1e-10)
+    of_numpy = floquet(p, tol=short)
+    of_python = floquet(p, tol=float(short))
+    assert repr(of_numpy) == repr(of_python)
 
 
 MS = {"units": "ms"}

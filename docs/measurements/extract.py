@@ -107,7 +107,8 @@ def wheel(folder: Path) -> None:
     for peak, (low, high) in BANDS.items():
         band = (frequency > low) & (frequency < high)
         strength = np.abs(response[band]).sum(axis=1).max() / strongest
-        for modes in (1, 2) if peak.isdigit() else (1,):
+        most = 2 if peak.isdigit() else 1
+        for modes in range(1, most + 1):
             found = resonances(frequency[band], response[band], modes)
             if modes == 1:
                 nearest = np.abs(frequency - found.frequency[0]).argmin()
@@ -129,8 +130,15 @@ def wheel(folder: Path) -> None:
         "Found by docs/measurements/extract.py from Data.mat of\n"
         "github.com/Alessandra200107/Advanced_Dynamic_Project, whose responses are not kept here."
     )
-    digits = {"frequency_Hz": 2, "damping_ratio": 6, "rest": 5, "strength": 4}
-    digits |= dict.fromkeys(("error_real", "error_complex", "error_other"), 4)
+    digits = {
+        "frequency_Hz": 2,
+        "damping_ratio": 6,
+        "error_real": 4,
+        "error_complex": 4,
+        "error_other": 4,
+        "rest": 5,
+        "strength": 4,
+    }
     write("wheel.csv", comment, pd.DataFrame(rows, columns=head).round(digits))
 
 

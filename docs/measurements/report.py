@@ -38,11 +38,17 @@ def verdict(comparison: Comparison) -> str:
     return "yes" if comparison.agrees else "no"
 
 
+def crossed(text: str, agrees: bool) -> str:
+    """Return a cell, with a cross if it disagrees."""
+    return text if agrees else f"{text} ✗"
+
+
 def compared(comparisons: Iterable[Comparison], scale: float = 1.0) -> list[list[str]]:
     """Return rows of measured and predicted values, their ratio and the verdict."""
     rows = []
     for each in comparisons:
-        measured, predicted = scale * each.measured, scale * each.predicted
+        measured = scale * each.measured
+        predicted = scale * each.predicted
         row = [each.what, digits(measured), digits(predicted), f"{each.ratio:.2f}"]
         rows.append([*row, verdict(each)])
     return rows
@@ -58,9 +64,9 @@ def slips() -> str:
     for quantity, scale in (("duration", 1e3), ("period", 1e3), ("fall", 1.0)):
         cells = {}
         for each in medians[quantity]:
-            measured, predicted = scale * each.measured, scale * each.predicted
-            mark = "" if each.agrees else " ✗"
-            cells[each.what] = f"{digits(measured)}, {digits(predicted)}{mark}"
+            measured = scale * each.measured
+            predicted = scale * each.predicted
+            cells[each.what] = crossed(f"{digits(measured)}, {digits(predicted)}", each.agrees)
         for run, row in rows.items():
             row.append(cells.get(run, "fitted"))
     head = ("run", "duration, ms", "period, ms", "fall of force over weight")
@@ -106,9 +112,10 @@ def mass() -> str:
     for quantity in ("period", "fall", "duration"):
         cells = {}
         for each in medians[quantity]:
-            fitted = quantity == "period" and f" {stick_slip.FASTEST} " in each.what
-            mark = "" if each.agrees else " ✗"
-            cells[each.what] = f"{each.ratio:.2f}{mark}" + (" (fitted)" if fitted else "")
+            cell = crossed(f"{each.ratio:.2f}", each.agrees)
+            if quantity == "period" and f" {stick_slip.FASTEST} " in each.what:
+                cell += " (fitted)"
+            cells[each.what] = cell
         for run, row in rows.items():
             row.append(cells.get(run, "friction from here"))
     head = ("predicted over measured", "period", "fall", "duration")
@@ -121,7 +128,7 @@ def spread() -> str:
     others = LEAST_FALLS[1:]
     for least_fall in others:
         for row, each in zip(rows, stick_slip.spreads(least_fall), strict=True):
-            row.append(f"{each.ratio:.2f}" + ("" if each.agrees else " ✗"))
+            row.append(crossed(f"{each.ratio:.2f}", each.agrees))
     head = ["run", "measured", "predicted", "ratio", "agrees"]
     return table([*head, *(f"ratio, {least_fall:.2f}" for least_fall in others)], rows)
 
@@ -132,7 +139,7 @@ def shapes() -> str:
     for each in wheel.shapes():
         cells = []
         for error in (each.real, each.complex, each.fitted):
-            cells.append(f"{error:.3f}" + ("" if error < wheel.SHAPES else " ✗"))
+            cells.append(crossed(f"{error:.3f}", error < wheel.SHAPES))
         rows.append([each.mode, *cells, f"{each.other:.2f}"])
     head = (
         "mode",
@@ -152,8 +159,10 @@ def frequencies() -> str:
         rows.append([each.what, *values, verdict(each)])
     for nu in wheel.POISSON:
         for row, each in zip(rows, wheel.frequencies(nu), strict=True):
-            mark = "" if each.agrees else " ✗"
-            row.append(f"{each.ratio:.3f}{mark}" if each.what.startswith("wheel") else "stated")
+            cell = "stated"
+            if each.what.startswith("wheel"):
+                cell = crossed(f"{each.ratio:.3f}", each.agrees)
+            row.append(cell)
     for row, ratio in zip(rows, wheel.squares(), strict=True):
         row.append(f"{ratio:.3f}")
     head = ["mode", "measured, Hz", "predicted, Hz", "ratio", "agrees"]

@@ -250,7 +250,7 @@ def floquet(p: Parameters, _: Strict) -> None:
     """Find the stick-slip cycle and its multipliers: whether the quiet motion lasts, without
     simulating it."""
     from disc_model.data.variables import CycleStatus
-    from disc_model.stability.cycle import floquet as cycle_of
+    from disc_model.stability.floquet import floquet as cycle_of
 
     cycle = cycle_of(p)
     print_rows([*cycle.summary(), model_line(p)])
@@ -285,7 +285,7 @@ def sliding(p: Parameters, _: Strict) -> None:
 def compile_() -> None:
     """Compile the kernels of the default model into the cache, which a first use otherwise does."""
     from disc_model.simulation.api import simulate
-    from disc_model.stability.cycle import floquet
+    from disc_model.stability.floquet import floquet
 
     began = time.perf_counter()
     p = Parameters(N=385, Omega=15)

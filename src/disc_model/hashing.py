@@ -20,10 +20,8 @@ def canonical_json(value: Any) -> str:
             return item + 0.0 if math.isfinite(item) else str(item)
         if isinstance(item, list | tuple):
             return [plain(value) for value in item]
-        return (
-            {str(key): plain(value) for key, value in item.items()}
-            if isinstance(item, Mapping)
-            else item
-        )
+        if isinstance(item, Mapping):
+            return {str(key): plain(value) for key, value in item.items()}
+        return item
 
     return json.dumps(plain(value), sort_keys=True, separators=(",", ":"), allow_nan=False)

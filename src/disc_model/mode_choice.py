@@ -19,7 +19,7 @@ from disc_model.errors import DiscModelError, require
 from disc_model.mode_request import FREQUENCIES, SLIDING_GROWTH, ModeRequest
 from disc_model.parameters import Disc, Parameters
 from disc_model.simulation.api import simulate
-from disc_model.stability.cycle import floquet
+from disc_model.stability.floquet import floquet
 from disc_model.stability.sliding import steady_sliding
 
 RICH = (20, 6)  # diameters and circles of the reference model for frequencies
@@ -107,24 +107,24 @@ def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
     right = coupled_frequencies(p, contact_compliance(p))
     top = BAND * float(modes.omega.min())
     for size in sizes:
-        of_size = (
-            slice(*size)
-            if p.disc is not None
-            else (modes.diameters <= size[0]) & (modes.circles <= size[1])
-        )
         chosen = resized(p, size)
-        error = _worst(coupled_frequencies(p, contact_compliance(chosen), of_size), right, top)
+        frequencies = coupled_frequencies(p, contact_compliance(chosen), _modes_within(p, size))
+        error = _worst(frequencies, right, top)
         if error <= tolerance:
-            return ModeChoice(
-                chosen,
-                tolerance,
-                error,
-                count_modes(p, size),
-                RICH if p.disc is None else sizes[-1],
-            )
+            rich = sizes[-1] if p.disc is not None else RICH
+            return ModeChoice(chosen, tolerance, error, count_modes(p, size), rich)
     raise DiscModelError(
         f"tolerance={tolerance:g}: no model up to {RICH} (diameters, circles) meets it; enlarge it"
     )
+
+
+def _modes_within(p: Parameters, size: tuple[int, ...]) -> slice | np.ndarray:
+    """The modes of a case that are those of a size, as an index of arrays."""
+    if p.disc is not None:
+        return slice(*size)
+    modes = mode_arrays(p)
+    diameters, circles = size
+    return (modes.diameters <= diameters) & (modes.circles <= circles)
 
 
 def counts(disc: Disc) -> range:
@@ -207,9 +207,10 @@ def choose_modes(
     >>> dm.choose_modes({"N": 385, "Omega": 15.1}, 1e-3).parameters.n_diameters
     3
     """
-    request = ModeRequest(
-        quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance})
-    )
+    if tolerance is None:
+        request = ModeRequest(quantity=quantity)
+    else:
+        request = ModeRequest(quantity=quantity, tolerance=tolerance)
     known = isinstance(case, Parameters | Mapping)
     require((known, "case", case, "must be Parameters, or a mapping of names to values"))
     if not isinstance(case, Parameters):

@@ -58,11 +58,10 @@ class Unit:
     of: str = ""
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        return (
-            {**handler(schema), "unit": self.name}
-            if self.name and isinstance(self.name, str)
-            else handler(schema)
-        )
+        described = dict(handler(schema))
+        if self.name and isinstance(self.name, str):
+            described["unit"] = self.name
+        return described
 
 
 UNITS: dict[str, str] = {}  # units of parameters by their names, filled by `disc_model.parameters`
@@ -107,7 +106,8 @@ def _plain_unit(text: str) -> str:
 def _converted(magnitude: float, text: str, unit: str) -> float:
     """A number with a unit, as the number in another unit; raises ValueError, or an error of pint
     or of Python's tokenizer, which have no common base."""
-    text, target = _plain_unit(text), "" if unit == "1" else unit
+    text = _plain_unit(text)
+    target = "" if unit == "1" else unit
     if not _UNIT.fullmatch(text):
         raise ValueError("no unit")
     if unit.startswith("rad") and not any(word in text for word in _ANGLES):
@@ -154,12 +154,14 @@ def _data_in_si(value: Any, text: str, unit: str) -> Any:
 
 def _unit_fault(path: tuple[str, ...], value: Any, text: str, unit: str) -> Fault:
     """The fault of a number whose unit is unknown, ambiguous or of another kind."""
-    rule = "must be a number " + (
-        "without a unit" if unit == "1" else f"in {unit}, or with a unit of its kind"
-    )
-    rule += ", such as rpm; Hz may mean turns or radians" * (unit == "rad/s")
+    rule = f"must be a number in {unit}, or with a unit of its kind"
+    if unit == "1":
+        rule = "must be a number without a unit"
+    if unit == "rad/s":
+        rule += ", such as rpm; Hz may mean turns or radians"
     meant = [_MISLEADING[word] for word in re.findall(r"\w+", text) if word in _MISLEADING]
-    rule += f", did you mean {meant[0]}?" if meant else ""
+    if meant:
+        rule += f", did you mean {meant[0]}?"
     return Fault.of(path, value, rule)
 
 
@@ -296,11 +298,9 @@ def _marks(model: type[BaseModel]) -> dict[str, Unit]:
     marks = {}
     for name, field in model.model_fields.items():
         extra = field.json_schema_extra
-        parts = (
-            [Unit(str(extra["unit"]))]
-            if isinstance(extra, dict) and "unit" in extra
-            else [*field.metadata]
-        )
+        parts = [*field.metadata]
+        if isinstance(extra, dict) and "unit" in extra:
+            parts = [Unit(str(extra["unit"]))]
         parts.append(field.annotation)
         for part in parts:
             parts += get_args(part)

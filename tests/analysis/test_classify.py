@@ -114,7 +114,10 @@ def test_where_a_sine_loses_contact(angle: float, share_of_range: float) -> None
     f = 100.0
     rate = 100_000.0
     time = np.arange(0, 0.2, 1 / rate)
-    starts = np.round((np.arange(2, 17) + angle / (2 * np.pi)) / f * rate).astype(int)
+    turn = 2 * np.pi
+    share = angle / turn
+    periods = np.arange(2, 17) + share
+    starts = np.round(periods / f * rate).astype(int)
     found = separation_location(3e-3 * np.sin(2 * np.pi * f * time), starts)
     assert found == pytest.approx(share_of_range, abs=0.01)
 
@@ -126,7 +129,10 @@ def test_a_share_has_wilsons_interval() -> None:
     z = stats.norm.ppf(0.95)  # two-sided, 0.9
     for k, n in ((9, 40), (1, 3), (0, 7), (7, 7)):
         centre = (k + z**2 / 2) / (n + z**2)
-        half = z / (n + z**2) * np.sqrt(k * (n - k) / n + z**2 / 4)
+        variance = k * (n - k) / n
+        quarter = z**2 / 4
+        root = np.sqrt(variance + quarter)
+        half = z / (n + z**2) * root
         # the ends at 0 and 1 cancel to roundings here
         expected = pytest.approx((k / n, centre - half, centre + half), rel=1e-12, abs=1e-15)
         assert share(k, n, confidence=0.9) == expected
@@ -145,7 +151,10 @@ def test_what_is_unknown_counts_against_both_ends() -> None:
 # ---- whether a record shows that a motion has settled
 
 TIME = np.arange(0.0, 1000.0, 0.05)
-BEAT = np.sin(2 * np.pi * TIME * 0.618) * (1 + 0.1 * np.sin(2 * np.pi * TIME / 7))
+TURN = 2 * np.pi
+FAST = np.sin(TURN * TIME * 0.618)
+SLOW = np.sin(TURN * TIME / 7)
+BEAT = FAST * (1 + 0.1 * SLOW)
 NOISE = np.random.default_rng(1).standard_normal(TIME.size)
 
 
@@ -267,3 +276,45 @@ def test_a_motion_has_settled_from_the_first_point_after_the_last_one_outside(ou
     points[:outside] += 1.0
     assert classify.first_settled(points) == outside
     assert classify.first_settled(points, start=outside + 5) == outside + 5
+
+
+# ---- Sections
+
+
+@pytest.mark.parametrize("settles", [0, 1, 17, 40])
+def test_points_have_settled_from_the_first_that_lies_on_the_set_of_the_later_half(
+    settles: int,
+) -> None:
+    """A transient comes down to a cycle of three points: its last point away is before."""
+    cycle = np.tile([[0.0, 0.0], [1.0, 0.5], [0.3, 1.0]], (40, 1))
+    transient = np.zeros((120, 2))
+    transient[:settles] = 5.0
+    assert classify.first_settled(cycle + transient) == settles
+    # not before the motion is known to have settled
+    assert classify.first_settled(cycle + transient, start=30) == max(settles, 30)
+
+
+def test_points_count_as_one_within_a_hundredth_of_the_range_along_every_axis() -> None:
+    square = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 10.0], [1.0, 10.0]])
+    near = square + np.array([0.009, 0.09])
+    far = square + np.array([0.0, 0.12])
+    assert classify.distinct_points(square) == 4
+    assert classify.distinct_points(np.vstack([square, near])) == 4
+    assert classify.distinct_points(np.vstack([square, far])) == 8
+    assert classify.distinct_points(square, extent=np.array([200.0, 20.0])) == 2
+    assert classify.distinct_points(np.zeros((0, 2))) == 0
+    constant = np.column_stack([np.full(4, 3.0) + 1e-15 * np.arange(4), [0.0, 0, 1, 1]])
+    assert classify.distinct_points(constant) == 2
+
+
+def test_a_motion_has_settled_since_the_part_of_the_record_that_shows_it() -> None:
+    time = np.arange(50.0, 1050.0, 0.05)
+    steady = np.cos(time)
+    whole = settling(time, steady)
+    assert (whole.answer, whole.since) == (Settled.SETTLED, 50.0)
+    # its first tenth is a transient of another width
+    before = np.where(time < 150, 3.0, 1.0)
+    later = settling(time, before * steady)
+    assert later.answer is Settled.SETTLED
+    # parts begin 7 % of the rest apart
+    assert 150 <= later.since < 150 + 0.08 * 900

@@ -20,13 +20,32 @@ KNOWN = {
 
 
 def signal(parts: dict[float, float]) -> np.ndarray:
-    return 0.7 + sum(a * np.cos(2 * np.pi * f * TIME + i) for i, (f, a) in enumerate(parts.items()))
+    signal = np.full(TIME.shape, 0.7)
+    for i, (f, a) in enumerate(parts.items()):
+        angle = 2 * np.pi * f * TIME
+        signal = signal + a * np.cos(angle + i)
+    return signal
 
 
 def test_lines_are_found_with_frequency_and_amplitude() -> None:
     found = spectra.lines(TIME, signal(KNOWN), floor=1e-3)
     assert [line.frequency for line in found] == pytest.approx(list(KNOWN), abs=0.005)
     assert [line.amplitude for line in found] == pytest.approx(list(KNOWN.values()), rel=0.02)
+
+
+def test_the_main_vibration_has_its_share_of_the_variance() -> None:
+    found = spectra.main_vibration(TIME, signal({135.42: 3.0, 270.9: 1.0}))
+    assert found.frequency == pytest.approx(135.42, abs=0.005)
+    assert found.amplitude == pytest.approx(3.0, rel=1e-3)
+    assert found.share == pytest.approx(0.9, abs=1e-3)
+    assert spectra.share_at(TIME, signal({135.42: 1.0, 270.9: 1.0}), 270.9) == pytest.approx(
+        0.5, abs=1e-3
+    )
+
+
+def test_a_constant_signal_has_no_main_vibration() -> None:
+    with pytest.raises(ValueError, match="no line"):
+        spectra.main_vibration(TIME, np.full(TIME.size, 0.7))
 
 
 @pytest.mark.parametrize(
@@ -127,15 +146,19 @@ def test_a_line_stands_out_or_it_is_noise() -> None:
     as it."""
     t = np.arange(40_000) / 4000
     noise = np.random.default_rng(3).standard_normal(t.size)
-    loud = spectra.strongest(t, noise + 0.2 * np.sin(2 * np.pi * 100.0 * t), 100.0, 1.0)
-    assert spectra.chance(t, noise + 0.2 * np.sin(2 * np.pi * 100.0 * t), loud, 1.0) < 1e-9
+    angle = 2 * np.pi * 100.0 * t
+    tone = 0.2 * np.sin(angle)
+    signal = noise + tone
+    loud = spectra.strongest(t, signal, 100.0, 1.0)
+    assert spectra.chance(t, signal, loud, 1.0) < 1e-9
     chances = [
         spectra.chance(t, noise, spectra.strongest(t, noise, f, 1.0), 1.0)
         for f in range(100, 400, 5)
     ]
     assert min(chances) > 1e-4  # the least of sixty is about 1/60
     assert np.median(chances) > 0.1
-    assert spectra.chance(t, np.sin(2 * np.pi * 100.0 * t), spectra.Line(100.0, 1.0), 1.0) == 0.0
+    line = spectra.Line(100.0, 1.0)
+    assert spectra.chance(t, np.sin(angle), line, 1.0) == 0.0
     with pytest.raises(ValueError, match="no bin of the spectrum is 1 to 6 Hz from 100 Hz"):
         spectra.chance(t[:100], noise[:100], spectra.Line(100.0, 1.0), 1.0)
 
@@ -197,3 +220,18 @@ def test_the_highest_line_is_that_of_a_hundredth_of_the_strongest() -> None:
     assert spectra.highest_line(TIME, values, 0.01) == pytest.approx(300, abs=0.01)
     assert spectra.highest_line(TIME, values, 0.003) == pytest.approx(700, abs=0.01)
     assert spectra.highest_line(TIME, 0 * TIME, 0.01) == RATE / 2
+
+
+def test_side_lobes_of_the_window_are_no_lines() -> None:
+    """A sine between two bins has one line, however small the others may be."""
+    time = np.arange(0, 4, 1 / 500)
+    found = spectra.lines(time, 2.0 * np.sin(2 * np.pi * 60.1 * time), floor=0.0)
+    [line] = [line for line in found if line.amplitude > 1e-12]
+    assert line.frequency == pytest.approx(60.1, abs=1e-3)
+    # 1e-4 of the strongest is above them
+    small = 2e-4 * np.sin(2 * np.pi * 110.0 * time)
+    both = spectra.lines(time, 2.0 * np.sin(2 * np.pi * 60.1 * time) + small, floor=0.0)
+    assert [line.frequency for line in both] == pytest.approx([60.1, 110.0], abs=1e-2)
+    # and a tenth of that is not told from them
+    smaller = spectra.lines(time, 2.0 * np.sin(2 * np.pi * 60.1 * time) + 0.1 * small, floor=0.0)
+    assert [line.frequency for line in smaller] == pytest.approx([60.1], abs=1e-2)

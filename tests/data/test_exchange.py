@@ -88,10 +88,12 @@ def test_groups_come_back_as_a_tree(suffix: str, tmp_path: Path) -> None:
 
 
 def test_a_part_without_the_other_stays_what_it_is(tmp_path: Path) -> None:
-    dm.save(every_kind(), tmp_path / "data.nc")
-    with xr.open_dataset(tmp_path / "data.nc") as opened:
-        opened.drop_vars("roots_imag").to_netcdf(tmp_path / "other.nc")
-    found = dm.load(tmp_path / "other.nc")
+    data_path = tmp_path / "data.nc"
+    dm.save(every_kind(), data_path)
+    other_path = tmp_path / "other.nc"
+    with xr.open_dataset(data_path) as opened:
+        opened.drop_vars("roots_imag").to_netcdf(other_path)
+    found = dm.load(other_path)
     np.testing.assert_array_equal(found["roots_real"], every_kind()["roots"].values.real)
 
 
@@ -100,8 +102,9 @@ def test_a_part_without_the_other_stays_what_it_is(tmp_path: Path) -> None:
 
 def test_netcdf_has_real_and_imaginary_parts(tmp_path: Path) -> None:
     data = every_kind()
-    dm.save(data, tmp_path / "data.nc")
-    with xr.open_dataset(tmp_path / "data.nc") as opened:
+    path = tmp_path / "data.nc"
+    dm.save(data, path)
+    with xr.open_dataset(path) as opened:
         np.testing.assert_array_equal(opened["roots_real"], data["roots"].values.real)
         np.testing.assert_array_equal(opened["roots_imag"], data["roots"].values.imag)
         assert opened["roots_real"].attrs["units"] == "s-1"
@@ -110,15 +113,16 @@ def test_netcdf_has_real_and_imaginary_parts(tmp_path: Path) -> None:
 
 def test_a_mat_file_has_arrays_along_the_dimensions_in_their_order(tmp_path: Path) -> None:
     data = every_kind()
-    dm.save(data, tmp_path / "data.mat")
-    content = scipy.io.loadmat(tmp_path / "data.mat", simplify_cells=True)
+    path = tmp_path / "data.mat"
+    dm.save(data, path)
+    content = scipy.io.loadmat(path, simplify_cells=True)
     np.testing.assert_array_equal(content["roots"], data["roots"])
     np.testing.assert_array_equal(content["Omega"], [1.0, 2.0, 3.0])
     assert content["dimensions"]["growth"].tolist() == ["N", "Omega"]
     assert content["units"] == {"roots": "s-1", "one": "m", "N": "N", "Omega": "rad s-1"}
     assert content["meanings"]["phase"].tolist() == ["stick", "slip"]
     assert content["word"] == "quiet"
-    plain = scipy.io.loadmat(tmp_path / "data.mat")
+    plain = scipy.io.loadmat(path)
     assert plain["N"].shape == (2, 1), "a column, as MATLAB's users expect"
     assert plain["status"][0, 0][0] == "ok"
 
@@ -128,8 +132,9 @@ def test_a_merged_grid_is_written_for_matlab(tmp_path: Path) -> None:
     base = {"Omega": 50, "n_diameters": 1}
     study = {"study": "s", "quantity": "outcome", "base": base, "axes": axes}
     grid = dm.run_study({**study, "options": {"horizon": 1}})
-    dm.save(grid, tmp_path / "grid.mat")
-    content = scipy.io.loadmat(tmp_path / "grid.mat", simplify_cells=True)
+    path = tmp_path / "grid.mat"
+    dm.save(grid, path)
+    content = scipy.io.loadmat(path, simplify_cells=True)
     assert content["dimensions"]["outcome"].tolist() == ["N", "mu_k"]
     words = content["meanings"]["outcome"][content["outcome"]]
     known = grid["outcome"].attrs["flag_meanings"].split()
@@ -138,10 +143,11 @@ def test_a_merged_grid_is_written_for_matlab(tmp_path: Path) -> None:
 
 def test_names_that_matlab_does_not_allow_are_changed_in_the_file_alone(tmp_path: Path) -> None:
     data = xr.Dataset({"growth rate": ("a-b", [1.0]), "_x": ((), 2.0)})
-    dm.save(data, tmp_path / "data.mat")
-    content = scipy.io.loadmat(tmp_path / "data.mat", simplify_cells=True)
+    path = tmp_path / "data.mat"
+    dm.save(data, path)
+    content = scipy.io.loadmat(path, simplify_cells=True)
     assert {"growth_rate", "x_x"} <= content.keys()
-    xr.testing.assert_identical(dm.load(tmp_path / "data.mat"), data)
+    xr.testing.assert_identical(dm.load(path), data)
 
 
 # ---- What cannot be written or read
@@ -185,9 +191,10 @@ def test_an_index_of_two_levels_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_mat_file_of_a_result_is_said_to_be_one(tmp_path: Path) -> None:
-    RUN.save(tmp_path / "run.mat")
+    path = tmp_path / "run.mat"
+    RUN.save(path)
     with pytest.raises(dm.DiscModelError, match=r"run\.mat: .*Result\.load and State\.load read"):
-        dm.load(tmp_path / "run.mat")
+        dm.load(path)
 
 
 # ---- Tables of text
@@ -207,7 +214,8 @@ def test_events_and_samples_are_written_as_text_with_units_and_words(tmp_path: P
 
 
 def test_a_folder_that_cannot_be_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("")
+    path = tmp_path / "file"
+    path.write_text("")
     for name in ("file", "file/below", "a\0b"):
         with pytest.raises(dm.ParameterError, match=r"^path=.*: must be the name of a folder"):
             save_csv({"all": RUN["all"]}, f"{tmp_path}/{name}")

@@ -66,10 +66,15 @@ def collocated(l: int, inner: float, load: float, nu: float, degree: int = 36) -
         )
         d = derivatives(low, high, nodes)
         r = nodes[:, None]
-        plate = d[4] + 2 / r * d[3] - (1 + 2 * l**2) / r**2 * d[2] + (1 + 2 * l**2) / r**3 * d[1]
+        factor = 1 + 2 * l**2
+        highest = d[4] + 2 / r * d[3]
+        plate = highest - factor / r**2 * d[2] + factor / r**3 * d[1]
         plate += (l**4 - 4 * l**2) / r**4 * d[0]
         for row in plate:
-            add([row, zero] if i == 0 else [zero, row], 0.0)
+            both = [zero, row]
+            if i == 0:
+                both = [row, zero]
+            add(both, 0.0)
     clamp = derivatives(inner, load, np.array([inner]))[:, 0]
     free = derivatives(load, 1.0, np.array([1.0]))[:, 0]
     left, after = (
@@ -78,7 +83,9 @@ def collocated(l: int, inner: float, load: float, nu: float, degree: int = 36) -
     add([clamp[0], zero], 0.0)
     add([clamp[1], zero], 0.0)
     add([zero, free[2] + nu * (free[1] - l**2 * free[0])], 0.0)
-    slope_of_laplacian = free[3] + free[2] - (1 + l**2) * free[1] + 2 * l**2 * free[0]
+    square = l**2
+    value, slope, second, third = free[:4]
+    slope_of_laplacian = third + second - (1 + square) * slope + 2 * square * value
     add([zero, slope_of_laplacian - (1 - nu) * l**2 * (free[1] - free[0])], 0.0)
     for k, jump in enumerate((0.0, 0.0, 0.0, 1 / load)):
         add([-left[k], after[k]], jump)

@@ -29,7 +29,10 @@ def assert_right(disc: dm.Disc, damped: bool = True) -> None:
     assert disc.diameters == DIAMETERS
     np.testing.assert_allclose(disc.omega, OMEGA, rtol=1e-12)
     np.testing.assert_allclose(disc.amplitude, AMPLITUDES, rtol=1e-12)
-    np.testing.assert_allclose(disc.damping_ratio, RATIOS if damped else (0, 0, 0), rtol=1e-9)
+    ratios = (0, 0, 0)
+    if damped:
+        ratios = RATIOS
+    np.testing.assert_allclose(disc.damping_ratio, ratios, rtol=1e-9)
 
 
 def rows(*columns: Any, separator: str = ",") -> str:
@@ -110,7 +113,9 @@ def test_units_may_have_a_row_of_their_own(tmp_path: Path) -> None:
     assert_right(read(tmp_path, text + table))
 
 
-POLES = OMEGA * (-np.array(RATIOS) + 1j * np.sqrt(1 - np.array(RATIOS) ** 2))
+DAMPED = np.array(RATIOS)
+OSCILLATING = np.sqrt(1 - DAMPED**2)
+POLES = OMEGA * (-DAMPED + 1j * OSCILLATING)
 
 
 @pytest.mark.parametrize("factor", [1.0, 1 / (2 * np.pi)])
@@ -148,7 +153,9 @@ def test_both_halves_of_pairs_become_their_mean(tmp_path: Path) -> None:
     table = table.replace("0,980,0.1,", "0,1980,0.1,")
     disc = read(tmp_path, heads + table, pairs="mean")
     assert disc.diameters == (2, 0, 0, 3)
-    np.testing.assert_allclose(np.array(disc.omega) / (2 * np.pi), [1212, 929, 1980, 1900])
+    turn = 2 * np.pi
+    frequencies = np.array(disc.omega) / turn
+    np.testing.assert_allclose(frequencies, [1212, 929, 1980, 1900])
     np.testing.assert_allclose(disc.amplitude, [0.54, 0.43, 0.1, 0.5])
     np.testing.assert_allclose(disc.damping_ratio, [0.002, 0.001, 0.001, 0.001])
     np.testing.assert_allclose(disc.tangential, [-0.13, 0, 0, -0.1])
@@ -186,7 +193,10 @@ def test_a_comment_states_the_static_compliance(
 ) -> None:
     text = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,551,0.5\n"
     found = read(tmp_path, f"{comment}\n{text}").static_compliance
-    assert found == (pytest.approx(value, rel=1e-12) if value else None)
+    if value:
+        assert found == pytest.approx(value, rel=1e-12)
+    else:
+        assert found is None
 
 
 @pytest.mark.parametrize(
@@ -258,8 +268,9 @@ def test_a_frequency_in_another_unit_is_doubted(
 ) -> None:
     """At each reading, and a table whose modes are far apart is not."""
     text = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n"
-    (tmp_path / "disc.csv").write_text(text + rows((1, 2, 3, 4), frequencies, (1, 1, 1, 1)))
+    path = tmp_path / "disc.csv"
+    path.write_text(text + rows((1, 2, 3, 4), frequencies, (1, 1, 1, 1)))
     for _ in range(2):
         with pytest.warns(dm.ImplausibleValue, match=phrase):
-            dm.Disc.from_csv(tmp_path / "disc.csv")
+            dm.Disc.from_csv(path)
     read(tmp_path, text + rows((1, 2, 3, 4), (12, 100, 2000, 9000), (1, 1, 1, 1)))

@@ -73,7 +73,8 @@ def test_a_plate_given_by_its_modes_moves_as_the_plate(
     """Seventeen digits bring every number back; rounding is left to the damping, which comes as a
     ratio."""
     plate = P.replace(**change)
-    table = written(tmp_path / "disc.csv", plate)
+    path = tmp_path / "disc.csv"
+    table = written(path, plate)
     times = [dm.simulate(p, 1.0).events["time"].to_numpy() for p in (plate, table)]
     np.testing.assert_allclose(*times, rtol=0, atol=1e-13)
     of_plate, of_table = (engine_case(p).model for p in (plate, table))
@@ -98,8 +99,9 @@ def test_shapes_of_a_table_give_the_deflection_of_the_plate(tmp_path: Path) -> N
         diameters=given.diameters.tolist(), omega=given.omega.tolist(), amplitude=given.psi.tolist(),
         radii=radii.tolist(), shapes=mode_shapes(plate, radii).tolist(),
     )  # fmt: skip
-    (tmp_path / "disc.csv").write_text(disc_table(P.replace(disc=disc)))
-    table = P.replace(disc=dm.Disc.from_csv(tmp_path / "disc.csv"))
+    path = tmp_path / "disc.csv"
+    path.write_text(disc_table(P.replace(disc=disc)))
+    table = P.replace(disc=dm.Disc.from_csv(path))
     assert table.disc == disc
     state = dm.snapshots(plate, [0.3])
     right, found = (dm.deflection(p, state, r, theta) for p in (plate, table))
@@ -118,8 +120,9 @@ def test_a_table_is_read_as_a_spreadsheet_writes_it(tmp_path: Path) -> None:
     disc = dm.Disc(**THREE, radii=[0.073, 0.1], shapes=[[1.0, 0.1]] * 3)
     text = disc_table(P.replace(disc=disc))
     assert "shape_at_0.073_m" in text
-    (tmp_path / "disc.csv").write_text("\ufeff" + text.replace(",", " , ") + ",,,\n")
-    assert dm.Disc.from_csv(tmp_path / "disc.csv") == disc
+    path = tmp_path / "disc.csv"
+    path.write_text("\ufeff" + text.replace(",", " , ") + ",,,\n")
+    assert dm.Disc.from_csv(path) == disc
 
 
 def test_faults_of_columns_are_named() -> None:
@@ -173,7 +176,8 @@ def test_a_study_of_a_plate_by_its_modes_is_that_of_the_plate(
     quantity: str, normalization: str, tmp_path: Path
 ) -> None:
     """Rates to 1e-9/s, and all else; only the damping, a ratio in the table, is rounded anew."""
-    (tmp_path / "disc.csv").write_text(disc_table(P.replace(normalization=normalization)))
+    path = tmp_path / "disc.csv"
+    path.write_text(disc_table(P.replace(normalization=normalization)))
     study = {"study": "own", "quantity": quantity, **STUDIES[quantity]}
     discs = {"normalization": normalization}, {"disc": "disc.csv"}
     plate, table = (computed(tmp_path, yaml.safe_dump(study | {"base": disc})) for disc in discs)

@@ -133,7 +133,8 @@ class Dialect:
         for number, half in enumerate(modes, 1):
             motion = half.motion(r, angle)
             # the lower face of a plate moves tangentially the other way
-            motion[:, 1] *= np.sign(height) if len(self.heights) > 1 else 1.0
+            if len(self.heights) > 1:
+                motion[:, 1] *= np.sign(height)
             lines += self.mode_lines(number, half, self.turned(motion, angle))
         return lines
 
@@ -205,7 +206,11 @@ class Dialect:
         if self.complex:
             motion = motion * np.sqrt(complex(self.scale)) * pole**self.order
             motion = motion * np.exp(1j * self.turned_by)
-            modal_a = (1 if self.mass else 2j * pole.imag) * self.scale * unit_mass * self.stated
+            if self.mass:
+                of_mass = 1
+            else:
+                of_mass = 2j * pole.imag
+            modal_a = of_mass * self.scale * unit_mass * self.stated
             modal_b = -pole * modal_a * self.modal_b
             written = pole
             if self.in_hertz:
@@ -230,7 +235,10 @@ class Dialect:
             data = 8
         else:
             data = 10 + self.order
-        head = [1, analysis, 2 if self.values == 3 else 3, data, kind, self.values]
+        characteristic = 3
+        if self.values == 3:
+            characteristic = 2
+        head = [1, analysis, characteristic, data, kind, self.values]
         texts = [self.texts.format(pole=reals[1])] * 5
         if self.results == 55:
             lines = [*begin(55), *texts, whole(*head)]

@@ -53,7 +53,8 @@ def test_examples_print_what_they_say(
 ) -> None:
     """A page is one session."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "config").symlink_to(ROOT / "config")
+    path = tmp_path / "config"
+    path.symlink_to(ROOT / "config")
     session = "\n".join(blocks(page))
     test = doctest.DocTestParser().get_doctest(session, {}, page.name, str(page), 0)
     outcome = doctest.DocTestRunner(optionflags=OPTIONS).run(test)
@@ -73,13 +74,16 @@ def test_the_script_from_a_universal_file_to_a_file_for_matlab_runs(tmp_path: Pa
     (script,) = [block for block in blocks(page) if "from_uff" in block]
     assert len(script.splitlines()) <= 25
     dialect = Dialect(results=2414, nodes=2411, units=True, length=1e3, axis=(1, 0, 0))
-    dialect.write(tmp_path / "disc.unv", halves(MODES))
+    disc_path = tmp_path / "disc.unv"
+    dialect.write(disc_path, halves(MODES))
     done = python(script, cwd=tmp_path)
     assert "24 nodes on the slider's circle" in done.stdout
     assert re.search(r"grow in \d+% of 1000 samples", done.stdout)
     assert "1000/1000" in done.stderr
-    assert (tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
-    spread = disc_model.load(tmp_path / "spread.mat")
+    map_path = tmp_path / "map.png"
+    assert map_path.read_bytes().startswith(b"\x89PNG")
+    spread_path = tmp_path / "spread.mat"
+    spread = disc_model.load(spread_path)
     assert spread["growth_rate"].sizes == {"mu_k_mu_s_k_k_p": 1000}
     assert (spread["status"] == "ok").mean() > 0.9
     assert spread["multipliers"].dtype == complex
@@ -97,7 +101,8 @@ for _page in PAGES:
 @pytest.mark.parametrize("text", STUDIES)
 def test_study_files_on_pages_are_right(text: str, tmp_path: Path) -> None:
     p = Parameters(N=0, Omega=0, friction_offset="surface")
-    (tmp_path / "disc.csv").write_text(disc_table(p))  # some of them name one
+    file = tmp_path / "disc.csv"
+    file.write_text(disc_table(p))  # some of them name one
     path = tmp_path / "study.yaml"
     path.write_text(text, encoding="utf-8")
     assert load_study(path).name in text

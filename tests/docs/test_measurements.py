@@ -30,7 +30,9 @@ def check_table(name: str) -> None:
 
 def span(values: list[float], form: str = ".2f") -> str:
     """Return the least and the largest value as the page says them."""
-    return f"{min(values):{form}} to {max(values):{form}}"
+    least = min(values)
+    greatest = max(values)
+    return f"{least:{form}} to {greatest:{form}}"
 
 
 @pytest.fixture(scope="module")
@@ -51,10 +53,13 @@ def test_the_spread_of_slips_is_computed() -> None:
     agreeing = []
     for least_fall in LEAST_FALLS:
         agreeing.append([each.what for each in stick_slip.spreads(least_fall) if each.agrees])
-    assert agreeing[0] == agreeing[1] == agreeing[2]
+    assert agreeing[0] == agreeing[1]
+    assert agreeing[1] == agreeing[2]
     assert len(agreeing[0]) == 4
     assert "right size in four of seven runs" in SENTENCES
-    falls = [each.ratio for each in stick_slip.medians()["fall"] if each.what in agreeing[0]]
+    medians = stick_slip.medians()
+    agree = agreeing[0]
+    falls = [each.ratio for each in medians["fall"] if each.what in agree]
     assert f"the medians of the same falls are {span(falls)} times too large" in SENTENCES
 
 
@@ -99,11 +104,14 @@ def test_verdicts_that_depend_on_the_least_fall_are_said_to(
     assert f"the ratio goes from {slowest[0]:.2f} to {slowest[2]:.2f}" in SENTENCES
     durations = [each for each in ratios[signals.FALL] if each.what.startswith("duration")]
     verdicts = [each.verdict for each in durations]
-    assert [verdicts.count(word) for word in ("yes", "no", "undecided")] == [1, 2, 5]
+    assert verdicts.count("yes") == 1
+    assert verdicts.count("no") == 2
+    assert verdicts.count("undecided") == 5
     assert "one of eight, 1002 N/m at 1100 µm/s, agrees firmly; two disagree" in SENTENCES
     assert durations[verdicts.index("yes")].what == "duration, 1002 N/m, 1100 µm/s"
     shortest = min(each.measured for each in stick_slip.medians()["duration"])
-    assert f"a sample is {100 / signals.RATE / shortest:.0f} % of the shortest" in SENTENCES
+    percent = 100 / signals.RATE / shortest
+    assert f"a sample is {percent:.0f} % of the shortest" in SENTENCES
 
 
 @pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
@@ -130,7 +138,8 @@ def test_friction_of_the_runs_differs_as_the_page_says() -> None:
     kinetic = stick_slip.friction(other)[1] / stick_slip.friction()[1]
     means = [stick_slip.record(run)["mean_force"] for run in (other, stick_slip.CALIBRATION)]
     assert f"kinetic friction is {kinetic:.2f} times" in SENTENCES
-    assert f"needs no slips, {means[0] / means[1]:.2f} times" in SENTENCES
+    ratio = means[0] / means[1]
+    assert f"needs no slips, {ratio:.2f} times" in SENTENCES
 
 
 @pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
@@ -151,11 +160,14 @@ def test_the_fitted_mass_is_said_to_be_inconsistent() -> None:
     assert not fit.consistent
     assert "proves nothing, because its mass was fitted after they had been seen" in SENTENCES
     mass = fit.parameters["m"].value
-    said = f"gives {1e3 * mass:.1f} g, {mass / stick_slip.MASS:.2f} of the stated one, with χ² = "
+    grams = 1e3 * mass
+    share = mass / stick_slip.MASS
+    said = f"gives {grams:.1f} g, {share:.2f} of the stated one, with χ² = "
     said += f"{fit.chi_squared:.0f} and {fit.freedom} degrees of freedom"
     assert said in SENTENCES
     others = [stick_slip.moving_mass(least_fall) for least_fall in LEAST_FALLS[1:]]
-    assert not any(each.consistent for each in others)
+    for each in others:
+        assert not each.consistent
     masses = " and ".join(f"{1e3 * each.parameters['m'].value:.1f}" for each in others)
     squares = " and ".join(f"{each.chi_squared:.0f}" for each in others)
     assert f"the mass is {masses} g, and χ² is {squares}" in SENTENCES
@@ -167,7 +179,9 @@ def test_predictions_with_the_fitted_mass_are_told_from_residuals() -> None:
     shown = report.marked("mass").search(PAGE)
     assert shown is not None
     rows = [line for line in shown[0].splitlines() if "µm/s" in line]
-    assert [" 4300 " in row for row in rows] == ["(fitted)" in row for row in rows]
+    stiff = [" 4300 " in row for row in rows]
+    fitted = ["(fitted)" in row for row in rows]
+    assert stiff == fitted
 
     periods = {each.what: each for each in medians["period"] if " 4300 " not in each.what}
     assert len(periods) == 4
@@ -179,7 +193,8 @@ def test_predictions_with_the_fitted_mass_are_told_from_residuals() -> None:
     assert [each.agrees for each in medians["fall"]].count(False) == 5
     assert "Five of seven falls still disagree" in SENTENCES
     durations = [each for each in medians["duration"] if each.what != CALIBRATION]
-    assert all(each.agrees for each in durations)
+    for each in durations:
+        assert each.agrees
     values = span([each.ratio for each in durations])
     assert f"calibrating run, {values} times the measured ones" in SENTENCES
 
@@ -189,7 +204,8 @@ def test_predictions_with_the_fitted_mass_are_told_from_residuals() -> None:
 
 def test_sentences_on_shapes_are_computed() -> None:
     errors = wheel.shapes()
-    assert all(each.real < wheel.SHAPES for each in errors)
+    for each in errors:
+        assert each.real < wheel.SHAPES
     failing = [each for each in errors if each.complex >= wheel.SHAPES]
     assert [each.mode for each in failing] == ["4 nodal diameters"]
     assert f"this mode fails, with {failing[0].complex:.3f}" in SENTENCES
@@ -216,7 +232,8 @@ def test_the_page_names_the_peaks_that_were_left_out() -> None:
 
 def test_sentences_on_frequencies_are_computed() -> None:
     frequencies = wheel.frequencies()
-    assert [each.agrees for each in frequencies] == [True] * 4 + [False]
+    agree = [each.agrees for each in frequencies]
+    assert agree == [True] * 4 + [False]
     low = span([100 * (1 - each.ratio) for each in frequencies], ".0f")
     # the same words on each page that speaks of it
     for name in ("measurements.md", "findings.md", "note.md", "../README.md"):
@@ -231,13 +248,16 @@ def test_sentences_on_frequencies_are_computed() -> None:
     assert f"at {wheel.BRONZE_ONE} Hz, below all others" in SENTENCES
     middle = wheel.peaks("2 fitted")["frequency_Hz"].loc[4].mean()
     assert f"mean of the split pair, {middle:.1f} Hz" in SENTENCES
-    assert f"becomes {frequencies[1].predicted / middle:.3f}" in SENTENCES
+    ratio = frequencies[1].predicted / middle
+    assert f"becomes {ratio:.3f}" in SENTENCES
 
 
 def test_sentences_on_damping_and_loads_are_computed() -> None:
     laws = wheel.damping()
-    assert not any(each.agrees for each in laws)
-    assert f"up to {max(each.ratio for each in laws):.0f} times too high" in SENTENCES
+    for each in laws:
+        assert not each.agrees
+    highest = max(each.ratio for each in laws)
+    assert f"up to {highest:.0f} times too high" in SENTENCES
     constant = [each.ratio for each in laws if each.what.endswith("damping_ratio")]
     assert f"up to {max(constant):.1f} times too high" in SENTENCES
     pair = wheel.peaks("2 fitted")["damping_ratio"].loc[4]
@@ -265,7 +285,8 @@ def test_slips_of_a_known_force_are_found() -> None:
     fall = 40
     periods = 5
     up = np.linspace(0.2, 0.3, rise, endpoint=False)
-    down = 0.25 + 0.05 * np.cos(np.linspace(0, np.pi, fall, endpoint=False))
+    angles = np.linspace(0, np.pi, fall, endpoint=False)
+    down = 0.25 + 0.05 * np.cos(angles)
     force = np.tile(np.concatenate([up, down]), periods)
     force += 1e-3 * np.random.default_rng(0).normal(size=force.size)
     found = signals.slips(force)
@@ -275,7 +296,9 @@ def test_slips_of_a_known_force_are_found() -> None:
         assert slip.before == pytest.approx(0.3, abs=4e-3)
         assert slip.after == pytest.approx(0.2, abs=4e-3)
         # from 5 to 95 % of a half wave: 1 - 2 acos(0.9) / pi of it; samples are 0.5 ms apart
-        assert slip.duration == pytest.approx(0.02 * (1 - 2 * np.arccos(0.9) / np.pi), abs=2e-3)
+        missed = 2 * np.arccos(0.9) / np.pi
+        duration = 0.02 * (1 - missed)
+        assert slip.duration == pytest.approx(duration, abs=2e-3)
 
 
 @pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
@@ -289,7 +312,8 @@ def test_friction_is_found_from_slips_of_a_simulated_block() -> None:
     assert np.median(kinetic) == pytest.approx(0.30, abs=2e-3)
     swing = np.pi * np.sqrt(stick_slip.MASS / run[0])
     part = 1 - 2 * np.arccos(0.9) / np.pi
-    assert stick_slip.duration(table) == pytest.approx(part * swing, abs=1e-3)
+    duration = stick_slip.duration(table)
+    assert duration == pytest.approx(part * swing, abs=1e-3)
 
 
 @pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
@@ -300,7 +324,9 @@ def test_the_closed_form_agrees_with_the_simulated_block(run: tuple[int, int]) -
     table = stick_slip.predicted(run, static, kinetic)
     # a sample of 0.5 ms at either end; the median over 2.5 ms cuts extremes of a swing of 23 ms
     # by omega^2 t^2 / 2 of their amplitude, at most 1.6 %
-    assert stick_slip.period(table) == pytest.approx(swing.period, abs=1 / signals.RATE)
+    period = stick_slip.period(table)
+    sample = 1 / signals.RATE
+    assert period == pytest.approx(swing.period, abs=sample)
     assert stick_slip.fall(table) == pytest.approx(swing.fall, rel=0.02)
 
 
@@ -310,10 +336,13 @@ def test_friction_does_not_change_durations(run: tuple[int, int]) -> None:
     found = []
     for difference in (0.02, 0.04, 0.08):
         found.append(stick_slip.duration(stick_slip.predicted(run, 0.29 + difference, 0.29)))
-    part = (np.pi - 2 * np.arccos(0.9)) * np.sqrt(stick_slip.MASS / run[0])
+    angle = np.pi - 2 * np.arccos(0.9)
+    stiffness = run[0]
+    part = angle * np.sqrt(stick_slip.MASS / stiffness)
     assert np.ptp(found) <= 1 / signals.RATE + 1e-12
     # each end of a duration is rounded to a sample, outwards
-    assert found == pytest.approx([part] * 3, abs=2 / signals.RATE)
+    samples = 2 / signals.RATE
+    assert found == pytest.approx([part] * 3, abs=samples)
 
 
 def test_intervals_of_a_known_scatter_contain_the_median() -> None:
@@ -341,7 +370,9 @@ def test_intervals_of_a_known_scatter_contain_the_median() -> None:
 def test_an_interval_across_the_tolerance_decides_nothing(
     low: float, high: float, verdict: str
 ) -> None:
-    assert robustness.Ratio("", (low + high) / 2, low, high).verdict == verdict
+    middle = (low + high) / 2
+    ratio = robustness.Ratio("", middle, low, high)
+    assert ratio.verdict == verdict
 
 
 def test_two_close_modes_are_found_from_responses() -> None:
@@ -349,12 +380,15 @@ def test_two_close_modes_are_found_from_responses() -> None:
     frequency = np.arange(2820.0, 2880.0, 0.3333)
     angles = np.radians(np.arange(0, 180, 15))
     turned = np.radians(10)
-    shapes = [np.cos(4 * (angles - turned)), np.sin(4 * (angles - turned))]
+    around = 4 * (angles - turned)
+    shapes = [np.cos(around), np.sin(around)]
     omega = 2 * np.pi * frequency[:, None]
     response = np.zeros((frequency.size, angles.size), dtype=complex)
     for natural, ratio, shape in zip((2848.5, 2859.0), (0.0055, 0.0049), shapes, strict=True):
         own = 2 * np.pi * natural
-        mode = -(omega**2) / (own**2 - omega**2 + 2j * ratio * own * omega)
+        stiffness = own**2 - omega**2
+        damping = 2j * ratio * own * omega
+        mode = -(omega**2) / (stiffness + damping)
         response = response + mode * shape[0] * shape
 
     found = resonances.resonances(frequency, response, 2)
@@ -376,7 +410,8 @@ def test_errors_of_shapes_see_what_is_not_in_phase() -> None:
     angles = np.radians(np.arange(0, 180, 15))
     shape = resonances.harmonic(3, angles)
     moved = shape + 0.2j * (angles > 0)
-    assert resonances.shape_error(moved.real, shape) == pytest.approx(0.0, abs=1e-12)
+    error = resonances.shape_error(moved.real, shape)
+    assert error == pytest.approx(0.0, abs=1e-12)
     assert resonances.shape_error(moved, shape) == pytest.approx(0.2, rel=1e-12)
 
 
@@ -391,6 +426,7 @@ def test_a_small_clamp_leaves_a_free_plate() -> None:
     (text books, four digits)."""
     p = wheel.plate("wheel", 667.35, 4, 0.3)
     modes = dm.plate_modes(p).set_index("diameters")["omega"]
-    scale = p.b**2 * np.sqrt(p.rho * p.h / p.D)
+    area_mass = p.rho * p.h
+    scale = p.b**2 * np.sqrt(area_mass / p.D)
     values = [modes[l] * scale for l in (2, 3, 4)]
     assert values == pytest.approx([5.358, 12.44, 21.84], rel=1e-3)

@@ -122,7 +122,10 @@ def test_no_root_is_hidden(drawn: tuple[list[float], float]) -> None:
     if c[0] < 0:
         assert got == 0.0
         return
-    until = Fraction(x_end if got == NO_ROOT else got)
+    last = got
+    if got == NO_ROOT:
+        last = x_end
+    until = Fraction(last)
     rounding = ROUNDING * sum(abs(a) * Fraction(x_end) ** i for i, a in enumerate(c))
     assert until > 0
     assert number_of_roots([c[0] + rounding, *c[1:]], until) == 0

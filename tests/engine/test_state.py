@@ -39,7 +39,9 @@ def test_every_component_of_a_mode_has_a_place_of_its_own(size: tuple[int, int])
     here.disc[:] = 0.0
     here.disc[there] = 1.0
     pairs = int((diameters > 0).sum())
-    assert [int(part.sum()) for part in (here.z, here.e)] == 2 * [2 * pairs]
+    count = 2 * pairs
+    assert int(here.z.sum()) == count
+    assert int(here.e.sum()) == count
     assert (here.y == 1.0).all()
     assert (here.g == 1.0).all()
     # a and b of a pair, and their velocities, stand where the kernels look for them
@@ -138,7 +140,10 @@ def test_rows_of_a_column_name_its_coordinates() -> None:
     np.testing.assert_allclose(of_z[model.stiffness > 0], omega * of_e[model.stiffness > 0])
     of_psi, of_f, of_u, of_v = scale[-4:]
     assert of_psi / of_f == pytest.approx(np.sqrt(model.k_p / model.m))
-    assert of_u / of_v == pytest.approx(np.sqrt((model.k + 1 / model.compliance) / model.m))
+    of_contact = 1 / model.compliance
+    stiffness = model.k + of_contact
+    omega = np.sqrt(stiffness / model.m)
+    assert of_u / of_v == pytest.approx(omega)
 
 
 def test_the_parts_of_a_series_lie_in_one_array() -> None:

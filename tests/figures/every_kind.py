@@ -345,6 +345,84 @@ def ramps() -> Example:
     )
 
 
+MOTIONS = ("undecided", "locked", "without_stick")
+
+
+def staircase() -> Example:
+    releases = np.array([34, 34, 35])
+    separations = np.array([371, 371, 372])
+    data = {
+        "motion": flag(("Omega",), ["locked"] * 3, MOTIONS),
+        "period_releases": ("Omega", releases),
+        "period_separations": ("Omega", separations),
+        "separations_per_release": ("Omega", separations / releases),
+        "status": ("Omega", np.zeros(3, np.int8), OK),
+    }
+    study = xr.Dataset(data, over(Omega=SPEEDS), stated())
+    return Example(
+        {"x": "Omega"},
+        {"study": study},
+        (
+            Shown(0, "x", SPEED, SPEEDS, "rad/s", "linear"),
+            Shown(0, "y", "Separations per release", separations / releases, "", "linear"),
+        ),
+    )
+
+
+def phase_map() -> Example:
+    phase = np.array([0.70, 0.75, 0.80, 0.82, 0.84, 0.88])
+    following = np.array([0.90, 0.88, 0.83, 0.80, 0.82, 0.86])
+    data = {
+        "map_phase": ("probe", phase),
+        "map_next_phase": ("probe", following),
+        "map_separations": ("probe", np.array([17.0, 17, 17, 2, 2, 2])),
+        "map_slope": ("probe", np.full(6, 0.9)),
+        "release_phase": ("release", np.array([0.80, 0.83, 0.81])),
+    }
+    study = xr.Dataset(data, {}, stated())
+    return Example(
+        {},
+        {"study": study},
+        (
+            Shown(0, "x", "Phase of a release", phase, ""),
+            Shown(0, "y", "Phase of the next one", following, ""),
+        ),
+    )
+
+
+def range_law() -> Example:
+    dims = ("N", "begin")
+    pinned = np.array([[4e-3, np.nan], [8e-3, 8e-3], [16e-3, 17e-3]])
+    excess = np.array([[0.01, np.nan], [0.03, 0.12], [0.02, -0.3]])
+    apart = np.array([[0.1, np.nan], [0.15, 0.3], [0.12, 0.2]])
+    shares = np.array([[1.0, np.nan], [0.99, 0.97], [0.98, 0.6]])
+    values = {
+        "range": pinned * (1 + excess),
+        "pinned_range": pinned,
+        "deviation": excess,
+        "separation_fraction": apart,
+        "vibration_share": shares,
+        "force_share": shares,
+    }
+    data: dict[str, Any] = {}
+    for name, column_values in values.items():
+        data[name] = (dims, column_values, column("range_law", name))
+    data["status"] = ("N", np.zeros(3, np.int8), OK)
+    study = xr.Dataset(data, over(N=LOADS) | {"begin": ["static", "displaced"]}, stated())
+    law = "Range at which contact is lost, 2N/|k − mω²|"
+    return Example(
+        {},
+        {"study": study},
+        (
+            Shown(0, "x", law, pinned, "m", "log"),
+            Shown(0, "y", "Range with separation", values["range"], "m", "log"),
+            Shown(1, "x", "Time apart", apart, "", "linear"),
+            # what lies beyond the panel stands at its edge
+            Shown(1, "y", "Excess over that range", np.maximum(excess, -0.2), "", "linear"),
+        ),
+    )
+
+
 def late_range() -> Example:
     dims = ("Omega", "N", "contact", "disc")
     axes = {"contact": ["unilateral", "bilateral"], "disc": ["thin"]}
@@ -513,6 +591,9 @@ EXAMPLES: dict[str, Callable[[], Example]] = {
         basins,
         branches,
         ramps,
+        staircase,
+        phase_map,
+        range_law,
         late_range,
         bifurcation,
         sensitivity,

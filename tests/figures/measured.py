@@ -90,7 +90,10 @@ def in_pint(unit: str) -> str:
 
 def drawn_values(ax: Axes, axis: str) -> np.ndarray:
     """All finite values along an axis that something is drawn at, and sizes of bars."""
-    values = [np.ravel(part) for part in _along(ax, 0 if axis == "x" else 1)]
+    place = 1
+    if axis == "x":
+        place = 0
+    values = [np.ravel(part) for part in _along(ax, place)]
     found = np.concatenate([np.asarray(part, dtype=float) for part in values] or [np.zeros(0)])
     return found[np.isfinite(found)]
 

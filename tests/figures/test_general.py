@@ -66,7 +66,10 @@ def test_axes_and_titles_have_the_units_of_the_reader(study: xr.Dataset) -> None
     low, high = ax.get_xlim()
     for place, text in zip(ax.get_xticks(), ax.get_xticklabels(), strict=True):
         if low <= place <= high:
-            assert float(text.get_text()) == pytest.approx(place * 60 / (2 * np.pi), rel=1e-5)
+            turn = 2 * np.pi
+            expected = place * 60 / turn
+            shown = float(text.get_text())
+            assert shown == pytest.approx(expected, rel=1e-5)
             assert float(text.get_text()) % 2.5 == pytest.approx(0, abs=1e-6), "round numbers"
     with pytest.raises(ParameterError, match=r"units.N='1 rpm': must be a number in N"):
         draw("heat_map", speeds, variable="drift", x="Omega", y="N", units={"N": "rpm"})
@@ -111,7 +114,8 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
         "that has no value there"
     )
     assert " ".join(ax.get_ylabel().split()) == "Growth rate of disturbances (1/s)"
-    save(figure, tmp_path / "curve.png")
+    path = tmp_path / "curve.png"
+    save(figure, path)
     ends = {"at": {"normalization": "as_published"}, "panels": [[0.1, 10], [1.0, 10]]}
     study["drift"] = study["drift"] + study["c_p"]
     axes = draw("curve", study, variable="drift", x="mu_k", by="c_p", **ends).axes

@@ -89,7 +89,8 @@ def test_regions_have_borders_marks_and_what_does_not_fit(
     assert named <= set(labels(figure))
     contradicted = "b: paper: “separation”, static start: undecided."
     assert f"Within 900 s of the static start.\n{contradicted}" in labels(figure)
-    save(figure, tmp_path / "map.png")
+    path = tmp_path / "map.png"
+    save(figure, path)
 
 
 def test_a_stable_cycle_ends_towards_lower_values_as_well() -> None:

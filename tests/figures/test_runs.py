@@ -34,7 +34,8 @@ def test_borders_are_events_and_the_first_phase_is_that_before() -> None:
     assert spans["separation"] == [(4.0, 4.5)]
     inside = spans_between(run(), 1.2, 1.8)
     assert inside["stick"] == [(1.2, 1.8)]
-    assert inside["slip"] == inside["separation"] == []
+    assert inside["slip"] == inside["separation"]
+    assert inside["separation"] == []
 
 
 @pytest.mark.parametrize(

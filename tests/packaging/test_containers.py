@@ -71,11 +71,10 @@ def test_the_files_of_a_container_suffice(tmp_path: Path) -> None:
             shutil.copytree(source, tmp_path / name, ignore=left_out)
         else:
             shutil.copy(source, tmp_path / name)
-    variables = {"PYTHONPATH": str(tmp_path / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
+    path = tmp_path / "src"
+    variables = {"PYTHONPATH": str(path), "PYTHONDONTWRITEBYTECODE": "1"}
     code = "import disc_model; print(disc_model.__file__)"
-    assert run(sys.executable, "-c", code, cwd=tmp_path, **variables).stdout.startswith(
-        str(tmp_path / "src")
-    )
+    assert run(sys.executable, "-c", code, cwd=tmp_path, **variables).stdout.startswith(str(path))
     study = ROOT / "config" / "studies" / "test" / "test_growth.yaml"
     command = (sys.executable, "-m", "disc_model", "study", study, "-n", "-j1")
     done = run(*command, cwd=tmp_path, **variables)

@@ -1,14 +1,34 @@
-"""Statements of Section 4.1 judged by made-up studies."""
+"""Statements of Section 4.1 and 4.2 judged by made-up studies and cases."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 
+from disc_model.data.dataset import Missing
+from disc_model.paper import growth, section41
+from disc_model.paper.measures import SEPARATION, Absent, Range
 from disc_model.paper.model import FALSE, PART, TRUE
-from disc_model.paper.section41 import maintained_below
+from disc_model.paper.section2 import BASE, moving_load_speed
+from disc_model.paper.section41 import (
+    both_at_low_speed,
+    bounded_by_separation,
+    bracketed,
+    far_below,
+    force_grows_to_zero,
+    keeps_sticking,
+    maintained_below,
+    preload_closes,
+    quiet,
+    releases_regularly,
+    separations_are_short,
+    upward,
+)
+from disc_model.parameters import Parameters
 from tests.paper.evidence import grid
+from tests.paper.known import Known, known
 
 NAN = math.nan
 
@@ -49,7 +69,10 @@ def test_a_sweep_in_either_direction_may_separate_below_the_critical_speed(
     found = maintained_below(
         critical_speeds(15.0, 20.0), sweeps([up, 21.0], [down, 20.5]), None, within=0.1
     )
-    assert found.verdict == (PART if below else TRUE)
+    verdict = TRUE
+    if below:
+        verdict = PART
+    assert found.verdict == verdict
     rows = []
     if below:
         rows = [(100.0, up, down, 15.0)]
@@ -78,3 +101,224 @@ def test_kicks_that_separate_are_counted() -> None:
 
 def test_without_any_separation_there_is_no_critical_speed() -> None:
     assert maintained_below(critical_speeds(NAN, NAN), None, None, within=0.1).verdict == FALSE
+
+
+# ---- Cases
+
+
+def test_the_force_s_range_grows_before_contact_is_lost() -> None:
+    ranges = {(60.0, 80.0): Range(300.0, 520.0)}
+    case = known(
+        {"first_separation": 80.0},
+        separates=True,
+        range_of=lambda name, low, high: ranges[low, high],
+    )
+    assert force_grows_to_zero(case, factor=21.9).verdict == TRUE
+    assert force_grows_to_zero(case, factor=22.1).verdict == FALSE
+    with pytest.raises(Absent, match="no separation in 100 s"):
+        force_grows_to_zero(known(), factor=2)
+
+
+def separating(*velocities: float) -> Known:
+    """Return a case with these velocities of the slider at its separations, m/s."""
+    events = xr.Dataset({"u_velocity": ("event", np.array(velocities))})
+    return known(switches=lambda kind: events)
+
+
+def test_the_share_of_separations_upward_is_the_least_of_all_cases() -> None:
+    cases = (separating(1.0, 2.0, -1.0, 0.5), separating(0.1, 0.2))
+    assert upward(*cases, share=0.75).verdict == TRUE
+    assert upward(*cases, share=0.76).verdict == FALSE
+    assert upward(*cases, share=0.5).values["up"] == (75, 100)
+    assert upward(separating(0.0, 1.0), share=0.5).values["up"] == (50, 50)
+    with pytest.raises(Missing, match="keeps no separation"):
+        upward(separating(), share=0.5)
+
+
+def test_separations_are_short_beside_the_time_between_them() -> None:
+    cases = [
+        known(longest_separation=1e-3, rate_of=lambda kind: 135.0),
+        known(longest_separation=2e-3, rate_of=lambda kind: 50.0),
+    ]
+    found = separations_are_short(*cases, share=0.14)
+    assert found.verdict == TRUE
+    assert found.values["lasts"] == pytest.approx((1, 2))
+    assert found.values["parts"] == pytest.approx((0.1, 0.135))
+    assert separations_are_short(*cases, share=0.13).verdict == FALSE
+
+
+@pytest.mark.parametrize(
+    ("height", "share", "verdict"),
+    [
+        (0.002, 0.79, TRUE),  # 100 N of the spring beside 400 N
+        (0.002, 0.81, PART),
+        (-0.004, 0.8, TRUE),  # below its length without load
+        (-0.02, 0.8, FALSE),
+    ],
+)
+def test_the_preload_is_a_share_of_what_closes_the_gap(
+    height: float, share: float, verdict: str
+) -> None:
+    phase = [SEPARATION, SEPARATION, SEPARATION + 1 if SEPARATION == 0 else 0]
+    samples = xr.Dataset(
+        {"u": ("time", [height + 0.001, height - 0.001, 7.0]), "phase": ("time", phase)}
+    )
+    lifted = samples.assign(u=samples["u"] + 0.01)
+    case = known({"u_0": 0.01}, samples=lambda name: lifted)
+    found = preload_closes(case, share=share)
+    assert found.verdict == verdict
+    assert found.values["spring"] == pytest.approx(5e4 * height)
+
+
+def test_stick_is_told_by_the_motions_that_have_settled() -> None:
+    axes = {"N": [100.0, 200.0], "Omega": [10.0, 20.0]}
+    study = grid(
+        axes,
+        settled=[["settled", "changing"], ["settled", "settled"]],
+        stick_fraction=[[0.3, 0.01], [0.2, 0.5]],
+    )
+    found = keeps_sticking(known(stick=0.4), known(stick=0.25), study, share=0.19)
+    assert found.verdict == TRUE
+    assert found.values["sticks"] == ["40 % at here", "25 % at here"]
+    assert found.values["extent"] == pytest.approx((20, 50))
+    assert (found.values["settled"], found.values["size"]) == (3, 4)
+    assert keeps_sticking(known(stick=0.4), study, share=0.2).verdict == FALSE
+    assert keeps_sticking(known(stick=0.15), study, share=0.19).verdict == FALSE
+
+
+def test_intervals_between_releases_spread_by_a_share_of_their_mean() -> None:
+    case = known(intervals=lambda: 0.0125 * np.array([0.99, 1.01] * 10))
+    found = releases_regularly(case, within=0.0101)
+    assert found.verdict == TRUE
+    assert found.values["rows"] == [("here", pytest.approx(12.5), pytest.approx(0.01))]
+    assert releases_regularly(case, within=0.0099).verdict == FALSE
+    wide = known(intervals=lambda: 0.0125 * np.array([0.9, 1.1] * 10))
+    assert releases_regularly(case, wide, within=0.0101).verdict == PART
+
+
+@pytest.mark.parametrize(
+    ("changes", "verdict"),
+    [
+        ({}, TRUE),
+        ({"late": Range(380, 421)}, FALSE),  # more than a tenth of 400 N
+        ({"early": Range(380, 421), "late": Range(380, 418)}, FALSE),
+        ({"late": Range(380, 392)}, FALSE),  # risen by more than 1 N
+        ({"late": Range(380, 390.9)}, TRUE),
+        ({"disc": Range(0.0, 0.0223)}, FALSE),  # 20 mm, within a tenth
+        ({"disc": Range(0.0, 0.0217)}, TRUE),
+        ({"disc": Range(0.0, 0.0177)}, FALSE),
+        ({"separates": True}, FALSE),
+        ({"under": 0.0021}, FALSE),  # more than the thickness
+    ],
+)
+def test_a_disc_is_quiet_by_force_and_range(changes: dict[str, Any], verdict: str) -> None:
+    usual: dict[str, Any] = {
+        "early": Range(380, 390),
+        "late": Range(380, 390),
+        "disc": Range(0.0, 0.02),
+        "under": 0.0001,
+    }
+    members = {**usual, **changes}
+    under = members.pop("under")
+    case = known(
+        {"h": 0.03 if under < 0.001 else 0.002},
+        range_of=lambda *_: Range(0.0, 0.02),
+        late_range=lambda name: Range(0.0, under),
+        **members,
+    )
+    found = quiet(case, share=0.1, newtons=1.0, within=0.1)
+    assert found.verdict == verdict
+    widths = (20.0, 1e3 * case.disc.width, 1e3 * under)
+    assert found.values["widths"] == pytest.approx(widths)
+
+
+def test_a_quiet_disc_may_move_through_more_than_its_thickness() -> None:
+    case = known(
+        {"h": 0.002},
+        disc=Range(0.0, 0.002),
+        range_of=lambda *_: Range(0.0, 0.002),
+        late_range=lambda name: Range(0.0, 1e-4),
+    )
+    assert quiet(case, share=0.1, newtons=1.0, within=0.1).verdict == PART
+
+
+def test_parameters_are_named_of_which_a_thousandth_decides(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A thousandth more of k makes the first case separate, one of mu_s keeps the second."""
+
+    def separates_within(p: Parameters, until: float) -> bool:
+        assert until == 100.0
+        if p.Omega < 15:
+            return bool(p.k > 5e4)
+        return not p.mu_s > 0.4
+
+    monkeypatch.setattr(growth, "separates_within", separates_within)
+    below = known({"Omega": 14.0}, parameters=Parameters(N=385, Omega=14))
+    above = known({"Omega": 16.0}, parameters=Parameters(N=385, Omega=16), separates=True)
+    found = bracketed(below, above, until=100.0)
+    assert found.verdict == TRUE
+    assert found.values["lost"] == [["k"], ["mu_s"]]
+    assert found.values["speeds"] == (14, 16)
+    assert bracketed(below, known(separates=False), until=100.0).verdict == FALSE
+
+
+def test_a_case_separates_far_below_the_speed_of_a_moving_load() -> None:
+    """At a tenth of it, and not at a fifth."""
+    critical = moving_load_speed(Parameters(N=400, Omega=15))
+    slow = known({"Omega": 0.1 * critical}, separates=True, place="slow")
+    fast = known({"Omega": 0.2 * critical}, separates=True, place="fast")
+    calm = known({"Omega": 0.05 * critical}, separates=False)
+    found = far_below(slow, fast, calm, share=0.15)
+    assert found.verdict == TRUE
+    assert found.values["rows"] == [("slow", pytest.approx(0.1))]
+    assert far_below(fast, calm, share=0.15).verdict == FALSE
+
+
+@pytest.mark.parametrize(
+    ("rates", "words", "verdict"),
+    [
+        ([0.1, -0.1, 0.2], ["separation", "quiet", "quiet"], TRUE),
+        ([-0.1, -0.1, 0.2], ["separation", "quiet", "quiet"], FALSE),  # grows at high speed only
+        ([0.1, -0.1, 0.2], ["quiet", "quiet", "separation"], FALSE),
+        ([0.1, NAN, 0.2], ["quiet", "separation", "quiet"], TRUE),
+    ],
+)
+def test_growth_and_separation_are_both_found_at_low_speed(
+    rates: list[float], words: list[str], verdict: str
+) -> None:
+    critical = moving_load_speed(BASE)
+    axes = {
+        "normalization": ["as_published"],
+        "Omega": critical * np.array([0.05, 0.09, 0.2]),
+        "N": [100.0],
+    }
+    study = grid(
+        axes,
+        growth_rate=[np.array(rates)[:, None]],
+        outcome=[[[word] for word in words]],
+        method=[[["simulation"], ["inferred"], ["inferred"]]],
+    )
+    found = both_at_low_speed(study, share=0.1)
+    assert found.verdict == verdict
+    grows = np.array(rates) > 0
+    separates = np.array(words) == "separation"
+    lost = np.isnan(rates)
+    expected = [grows, separates, grows & ~separates, separates & lost]
+    assert found.values["counts"] == [int(each.sum()) for each in expected]
+    assert found.values["inferred"] == 2
+    assert found.values["part"] == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(
+    ("widths", "factor", "verdict"),
+    [([2.0, 1.0], 1.5, TRUE), ([1.4, 1.0], 1.5, PART), ([1.0, 2.0], 1.5, PART)],
+)
+def test_without_separation_the_vibration_keeps_growing(
+    widths: list[float], factor: float, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    other = known(last_widths=lambda name, length, count: widths)
+    monkeypatch.setattr(section41, "pairs", lambda cases: [(cases[0], other)])
+    found = bounded_by_separation(known(), factor=factor)
+    assert found.verdict == verdict
+    assert (found.values["also"], found.values["of"]) == (int(verdict == PART), 1)

@@ -148,7 +148,10 @@ def repeating(
     """Return a motion of period 45 from 0.01 rad/s below its speed to 0.02 above."""
     change = p.Omega - Case.parameters.Omega
     repeats = -0.01 < change < 0.02 and p.n_diameters != 8
-    motion = SimpleNamespace(period=45 if repeats else 0, kind="irregular")
+    period = 0
+    if repeats:
+        period = 45
+    motion = SimpleNamespace(period=period, kind="irregular")
     return motion, SimpleNamespace(time=t_end)
 
 

@@ -39,7 +39,10 @@ def undamped_stick_slip(p: Parameters) -> StickSlip:
     omega = math.sqrt(p.k_p / p.m)
     drop = (p.mu_s - p.mu_k) * p.N / p.k_p
     slip = 2 * (math.pi - math.atan(drop * omega / speed)) / omega
-    return StickSlip(slip, 2 * drop / speed, (2 * p.mu_k - p.mu_s) * p.N / p.k_p)
+    stick = 2 * drop / speed
+    friction = 2 * p.mu_k - p.mu_s
+    force = friction * p.N
+    return StickSlip(slip, stick, force / p.k_p)
 
 
 def friction_coefficient(p: Parameters, speed: float) -> float:
@@ -61,7 +64,10 @@ def friction_slope(p: Parameters, speed: float) -> float:
 
 def sliding_eigenvalues(p: Parameters) -> np.ndarray:
     """Roots of m s^2 + (c_p + N mu'(V)) s + k_p = 0, those of steady sliding, 1/s, (2,)."""
-    return np.roots([p.m, p.c_p + p.N * friction_slope(p, p.r_0 * p.Omega), p.k_p]).astype(complex)
+    speed = p.r_0 * p.Omega
+    slope = friction_slope(p, speed)
+    damping = p.c_p + p.N * slope
+    return np.roots([p.m, damping, p.k_p]).astype(complex)
 
 
 def hopf_speed(p: Parameters) -> float:
@@ -98,7 +104,10 @@ def next_extreme_pull(p: Parameters, stretch: float) -> tuple[float, float]:
         atol=1e-16,
         events=excess,
     )
-    return float(run.t_events[0][-1]), float(run.y_events[0][-1][0])
+    times = run.t_events[0]
+    states = run.y_events[0]
+    last = states[-1]
+    return float(times[-1]), float(last[0])
 
 
 def slipping_cycle(p: Parameters, low: float, high: float) -> tuple[float, float]:

@@ -66,13 +66,25 @@ def motion(case, modes, y, side, rates):
 
     u and u' are those of the disc in rigid contact, where their entries have no meaning."""
     n = len(modes.s)
-    a, b, alpha, beta = y[:n], y[n : 2 * n], y[2 * n : 3 * n], y[3 * n : 4 * n]
-    psi, f, u, u_rate = y[4 * n], y[4 * n + 1], y[4 * n + 2], y[4 * n + 3]
-    s, l, t = modes.s, modes.l, modes.t
-    r_0, m = case.r_0, case.m
+    a = y[:n]
+    b = y[n : 2 * n]
+    alpha = y[2 * n : 3 * n]
+    beta = y[3 * n : 4 * n]
+    psi = y[4 * n]
+    f = y[4 * n + 1]
+    u = y[4 * n + 2]
+    u_rate = y[4 * n + 3]
+    s = modes.s
+    l = modes.l
+    t = modes.t
+    r_0 = case.r_0
+    m = case.m
 
     surface = np.sum(t * beta)
-    g = 0.0 if side == STICK else f - surface / r_0
+    if side == STICK:
+        g = 0.0
+    else:
+        g = f - surface / r_0
     w = np.sum(s * a)
     slope = np.sum(l * s * b) / r_0
     w_rate = np.sum(s * alpha) + g * slope * r_0
@@ -88,13 +100,22 @@ def motion(case, modes, y, side, rates):
 
     rigid = case.compliance == 0.0
     if rigid and side != SEPARATION:
-        u, u_rate = w, w_rate
+        u = w
+        u_rate = w_rate
     height = case.N + case.k * (u - case.u_0) + case.c * u_rate
-    lean = slope if case.normal else 0.0
+    lean = 0.0
+    if case.normal:
+        lean = slope
 
-    V, H, R, T = 0.0, 0.0, 0.0, 0.0
+    V = 0.0
+    H = 0.0
+    R = 0.0
+    T = 0.0
     if side == STICK:
-        V = (height + m * A) / vertical if rigid else (w - u) / case.compliance
+        if rigid:
+            V = (height + m * A) / vertical
+        else:
+            V = (w - u) / case.compliance
         H = (r_0 * F - m * G) / horizontal
         T = (H - V * lean) / (1.0 + lean**2)
         R = V + T * lean
@@ -125,7 +146,10 @@ def motion(case, modes, y, side, rates):
 @njit
 def advance(case, modes, y, side, h):
     """Return the state after h, and what is negative there if the phase has ended before."""
-    k1, k2, k3, k4 = np.empty_like(y), np.empty_like(y), np.empty_like(y), np.empty_like(y)
+    k1 = np.empty_like(y)
+    k2 = np.empty_like(y)
+    k3 = np.empty_like(y)
+    k4 = np.empty_like(y)
     motion(case, modes, y, side, k1)
     motion(case, modes, y + h / 2 * k1, side, k2)
     motion(case, modes, y + h / 2 * k2, side, k3)
@@ -146,7 +170,9 @@ def collide(case, modes, y, now):
     """Carry out a plastic impact."""
     n = len(modes.s)
     slope = np.sum(modes.l * modes.s * y[n : 2 * n]) / case.r_0
-    lean = slope if case.normal else 0.0
+    lean = 0.0
+    if case.normal:
+        lean = slope
     give = np.sum(modes.s**2) + 1.0 / case.m
     give += lean**2 * (1.0 / case.m + np.sum(modes.t**2))
     p = (now.w_rate - y[-1]) / give
@@ -171,13 +197,16 @@ def change(case, modes, y, side):
             return side
     if now.R <= 0.0 and not case.bilateral:
         if rigid:
-            y[-2], y[-1] = now.w, now.w_rate
+            y[-2] = now.w
+            y[-1] = now.w_rate
         return SEPARATION
     if side == STICK:
         return np.sign(now.T)
     y[-3] -= now.slip_speed / case.r_0
     now = motion(case, modes, y, STICK, rates)
-    return STICK if abs(now.T) < case.mu_s * now.R else np.sign(now.T)
+    if abs(now.T) < case.mu_s * now.R:
+        return STICK
+    return np.sign(now.T)
 
 
 @njit
@@ -187,14 +216,20 @@ def follow(case, modes, y, t_end, h, stop):
     Returns the first separation (s, or nan), the range of the slider in the last second (m), and
     the largest speed of the surface before the separation (m/s); with ``stop`` no further than to
     the separation."""
-    t, side, first = 0.0, STICK, np.nan
-    low, high, fastest = np.inf, -np.inf, 0.0
+    t = 0.0
+    side = STICK
+    first = np.nan
+    low = np.inf
+    high = -np.inf
+    fastest = 0.0
     rates = np.empty_like(y)
     while t < t_end:
-        before, step = y, h
+        before = y
+        step = h
         y, margin = advance(case, modes, before, side, h)
         if margin < 0.0:
-            left, right = 0.0, h
+            left = 0.0
+            right = h
             while right - left > 1e-15:
                 middle = (left + right) / 2
                 y, margin = advance(case, modes, before, side, middle)
@@ -203,21 +238,27 @@ def follow(case, modes, y, t_end, h, stop):
                 else:
                     left = middle
             y, margin = advance(case, modes, before, side, right)
-            side, step = change(case, modes, y, side), right
+            side = change(case, modes, y, side)
+            step = right
             if side == SEPARATION and np.isnan(first):
                 first = t + right
                 if stop:
                     break
             if right < 1e-9:  # leads away from an event at the start of a phase
-                y, step = advance(case, modes, y, side, 1e-9)[0], right + 1e-9
+                y = advance(case, modes, y, side, 1e-9)[0]
+                step = right + 1e-9
         t += step
         now = motion(case, modes, y, side, rates)
         if np.isnan(first):
             fastest = max(fastest, abs(now.surface_speed))
         if t > t_end - 1.0:
             own = case.compliance > 0.0 or side == SEPARATION
-            height = y[-2] if own else now.w
-            low, high = min(low, height), max(high, height)
+            if own:
+                height = y[-2]
+            else:
+                height = now.w
+            low = min(low, height)
+            high = max(high, height)
     return first, high - low, fastest
 
 

@@ -50,11 +50,16 @@ class SteadySliding:
 
     def residual(self, x, z):
         """F: one equation for each of the unknowns."""
-        n, s, l, t = self.n, self.s, self.l, self.t
+        n = self.n
+        s = self.s
+        l = self.l
+        t = self.t
         a, b, alpha, beta = x[: 4 * n].reshape(4, n)
-        spring, f = x[4 * n], x[4 * n + 1]
+        spring = x[4 * n]
+        f = x[4 * n + 1]
         a_rate, b_rate, alpha_rate, beta_rate = z[: 4 * n].reshape(4, n)
-        spring_rate, f_rate = z[4 * n], z[4 * n + 1]
+        spring_rate = z[4 * n]
+        f_rate = z[4 * n + 1]
         V, H, R, T, g = z[self.size :]
         F = self.k_p * spring + self.c_p * (self.Omega - f)
         slope = np.sum(l * s * b) / self.r_0
@@ -63,9 +68,12 @@ class SteadySliding:
             climb = z[4 * n + 3]
         else:
             g_rate = f_rate - np.sum(t * beta_rate) / self.r_0
-            u, v = np.sum(s * a), np.sum(s * a_rate)
+            u = np.sum(s * a)
+            v = np.sum(s * a_rate)
             climb = np.sum(s * alpha_rate) + np.sum(l * s * (g_rate * b + g * b_rate))
-        lean = slope if self.normal else 0.0
+        lean = 0.0
+        if self.normal:
+            lean = slope
         equations = [
             a_rate - alpha - l * g * b,
             b_rate - beta + l * g * a,

@@ -223,7 +223,10 @@ def contact(name):
     q = stored_problem({"parameters": parameters})
     run, difference = repeated(q, q.equilibrium(), 1.0)
     runs = [{"start": None, "t_end": 1.0, **described(run, difference)}]
-    start = violent_start(1.0 if q.C else 1.3)
+    size = 1.3
+    if q.C:
+        size = 1.0
+    start = violent_start(size)
     for i in range(round(0.5 / PIECE)):
         t_end = (i + 1) * PIECE
         run, difference = repeated(q, start, t_end)

@@ -100,10 +100,14 @@ class Problem:
 def problem_of(p, rates=(0.0, 0.0)):
     """`Problem` of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made
     positive)."""
-    modes, values = plate_modes(p), p.model_dump() | {"contact_compliance": contact_compliance(p)}
+    modes = plate_modes(p)
+    values = p.model_dump() | {"contact_compliance": contact_compliance(p)}
     sign = np.sign(modes["psi"].to_numpy())
     offset, tangential = surface_of(p)
-    given = None if tangential is None else sign * np.array(tangential)
+    if tangential is None:
+        given = None
+    else:
+        given = sign * np.array(tangential)
     return Problem(
         values, modes["omega"], sign * modes["psi"], modes["diameters"], rates, offset, given
     )
@@ -114,7 +118,9 @@ def surface_of(p):
     table has them."""
     if p.friction_offset != "surface":
         return p.friction_offset, None
-    return (p.h / 2, None) if p.disc is None else (0.0, p.disc.tangential)
+    if p.disc is None:
+        return (p.h / 2, None)
+    return (0.0, p.disc.tangential)
 
 
 def stored_problem(data):
@@ -138,8 +144,11 @@ class Step:
     """
 
     def __init__(self, q, phase, direction, state, order=ORDER):
-        n, K = len(q.s), order
-        self.q, self.phase, self.direction = q, phase, direction
+        n = len(q.s)
+        K = order
+        self.q = q
+        self.phase = phase
+        self.direction = direction
         for name in ("a", "b", "alpha", "beta", "ga"):
             setattr(self, name, np.zeros((K + 1, n), LONG))
         for name in ("a", "b", "alpha", "beta"):
@@ -148,12 +157,15 @@ class Step:
         for name in (*scalars, "squared", "fall", "mu", "steep", "pull", "below"):
             setattr(self, name, np.zeros(K + 1, LONG))
         # Omega and N of each order
-        self.drive, self.load = np.zeros(K + 1, LONG), np.zeros(K + 1, LONG)
+        self.drive = np.zeros(K + 1, LONG)
+        self.load = np.zeros(K + 1, LONG)
         time = LONG(state.time) - q.since
         self.drive[:2] = q.Omega + q.Omega_rate * time, q.Omega_rate
         self.load[:2] = q.N + q.N_rate * time, q.N_rate
-        self.psi[0], self.f[0] = state.psi, state.f
-        self.u[0], self.v[0] = state.u, state.u_velocity
+        self.psi[0] = state.psi
+        self.f[0] = state.f
+        self.u[0] = state.u
+        self.v[0] = state.u_velocity
         for k in range(K):
             self._order(k)
         self._kinematics(K)
@@ -201,7 +213,8 @@ class Step:
         """V, H, R and T of order k; A and G: accelerations of the disc's point up and along the
         path, without forces."""
         q = self.q
-        vertical, horizontal = 1 + q.m * q.S2, 1 + q.m * q.St
+        vertical = 1 + q.m * q.S2
+        horizontal = 1 + q.m * q.St
         self.squared[k] = product(self.slope, self.slope, k)
         one = LONG(k == 0)
         if not q.rigid:
@@ -240,7 +253,8 @@ class Step:
 
     def _friction(self, k):
         """Signed coefficient of order k: mu_k + (mu_s - mu_k) fall + mu_v abs(v)."""
-        q, s = self.q, self.direction
+        q = self.q
+        s = self.direction
         speed = s * q.r_0 * self.g
         if q.falls and q.exponential:
             # fall' = -decay speed' fall
@@ -265,7 +279,8 @@ class Step:
     # -- what a run needs
     def length(self, truncation):
         """Step at which the last terms are below ``truncation`` of the motion."""
-        q, h = self.q, LONG(np.inf)
+        q = self.q
+        h = LONG(np.inf)
         groups = [
             (self.alpha, 0),
             (self.beta, 0),
@@ -336,25 +351,36 @@ def first_zero(c, h):
     if c[0] <= 0:
         return LONG(0)
     found = _search(c, LONG(0), LONG(1), 0)
-    return None if found is None else found * h
+    if found is None:
+        return None
+    return found * h
 
 
 def _search(c, left, right, depth):
-    m, r = (left + right) / 2, (right - left) / 2
+    m = (left + right) / 2
+    r = (right - left) / 2
     here = _about(c, m)
     width = r ** np.arange(len(c))
     if abs(here[0]) > (abs(here[1:]) * width[1:]).sum():
-        return None if here[0] > 0 else left
+        if here[0] > 0:
+            return None
+        return left
     slope = here[1:] * np.arange(1, len(c))
     single = abs(slope[0]) > (abs(slope[1:]) * width[1:-1]).sum()
     if single:
         if polyval(left, c) <= 0:
             return left
-        return None if polyval(right, c) > 0 else _bisect(c, left, right)
+        if polyval(right, c) > 0:
+            return None
+        return _bisect(c, left, right)
     if depth > 60:
-        return right if polyval(right, c) <= 0 else None
+        if polyval(right, c) <= 0:
+            return right
+        return None
     found = _search(c, left, m, depth + 1)
-    return found if found is not None else _search(c, m, right, depth + 1)
+    if found is not None:
+        return found
+    return _search(c, m, right, depth + 1)
 
 
 def _bisect(c, left, right):
@@ -376,13 +402,20 @@ class Reference:
     """
 
     def __init__(self, q, state, truncation=TRUNCATION, course=()):
-        self.q, self.truncation, self.course, self.events = q, truncation, course, []
-        self.phase, self.direction = state.phase, int(state.direction)
-        self.start, self.local = LONG(state.time), LONG(0)
+        self.q = q
+        self.truncation = truncation
+        self.course = course
+        self.events = []
+        self.phase = state.phase
+        self.direction = int(state.direction)
+        self.start = LONG(state.time)
+        self.local = LONG(0)
         for name in ("a", "b", "alpha", "beta"):
             setattr(self, name, np.array([LONG(x) for x in getattr(state, name)]))
-        self.psi, self.f = LONG(state.psi), LONG(state.f)
-        self.u, self.v = LONG(state.u), LONG(state.u_velocity)
+        self.psi = LONG(state.psi)
+        self.f = LONG(state.f)
+        self.u = LONG(state.u)
+        self.v = LONG(state.u_velocity)
         # known zeros of the slip speed, the gap and the contact force at the start of a phase
         self.divide = {"g": 0, "gap": 0, "R": 0}
         self.shift = LONG(0)
@@ -437,11 +470,10 @@ class Reference:
         R, _ = self.forces(self.phase, self.direction)
         held = self.phase != "separation" and q.rigid
         u, u_velocity = (w, velocity) if held else (self.u, self.v)
-        along, across = q.s * np.cos(turn), q.s * np.sin(turn)
-        point, point_velocity = (
-            along @ self.a + across @ self.b,
-            along @ self.alpha + across @ self.beta,
-        )
+        along = q.s * np.cos(turn)
+        across = q.s * np.sin(turn)
+        point = along @ self.a + across @ self.b
+        point_velocity = along @ self.alpha + across @ self.beta
         turning = q.Omega + q.Omega_rate * (self.time - q.since) - self.f
         return np.array([R, u, u_velocity, w, point, point_velocity, self.psi, turning], float)
 
@@ -449,7 +481,8 @@ class Reference:
         """Advance to the absolute time `t_end`.  Returns self."""
         if not self.course:
             return self._advance(t_end)
-        q, last = self.q, (np.inf, *self.course[-1][1:])
+        q = self.q
+        last = (np.inf, *self.course[-1][1:])
         for corner, following in pairwise([*self.course, last]):
             if self.time < min(following[0], t_end):
                 here, there = (np.array(one, LONG) for one in (corner, following))
@@ -490,14 +523,21 @@ class Reference:
                 ("stick_to_slip", self.q.mu_s * step.R[:K] - side * step.T[:K]) for side in (1, -1)
             ]
             # a compliant contact does not pull, though friction may hold where it would
-            R = R if self.q.rigid else step.V[self.divide["R"] : K]
-        return ends if self.q.bonded else [("separation", R), *ends]
+            if not self.q.rigid:
+                R = step.V[self.divide["R"] : K]
+        if self.q.bonded:
+            return ends
+        return [("separation", R), *ends]
 
     # -- switching
     def _enter(self, kind, phase, direction, **divide):
-        self.phase, self.direction = phase, direction
+        self.phase = phase
+        self.direction = direction
         self.divide = {"g": 0, "gap": 0, "R": 0} | divide
-        P = LONG(0) if phase == "separation" else self.forces(phase, direction)[0]
+        if phase == "separation":
+            P = LONG(0)
+        else:
+            P = self.forces(phase, direction)[0]
         self.events.append(
             {"time": self.time, "kind": kind, "phase": phase, "psi": self.psi, "f": self.f, "P": P}
         )
@@ -514,8 +554,11 @@ class Reference:
                 # the slip speed begins at zero; at a release so does its rate if friction does not
                 # jump
                 steady = self.q.falls or self.q.mu_s == self.q.mu_k
-                zeros = 2 if kind == "stick_to_slip" and steady else 1
-                kind = "slip_reversal" if kind == "rest" else kind
+                zeros = 1
+                if kind == "stick_to_slip" and steady:
+                    zeros = 2
+                if kind == "rest":
+                    kind = "slip_reversal"
                 self._enter(kind, "slip", 1 if T > 0 else -1, g=zeros)
         elif kind == "separation":
             self._separate(3 if self.q.rigid else 1)
@@ -533,7 +576,10 @@ class Reference:
             self._impact()
         if self.rate() == 0:
             raise RuntimeError("a slider that hits the disc at rest is not met in the stored cases")
-        zeros = {} if q.rigid else {"R": 1}
+        if q.rigid:
+            zeros = {}
+        else:
+            zeros = {"R": 1}
         self._enter("reattachment", "slip", 1 if self.rate() > 0 else -1, **zeros)
 
     def _impact(self):
@@ -555,13 +601,15 @@ class Reference:
 def violent_start(scale):
     """The stored state C, its distance from equilibrium times ``scale``, the slider 10 micrometres
     above the disc."""
-    given, modes = load("C")["start"], load("C")["modes"]
+    given = load("C")["start"]
+    modes = load("C")["modes"]
     s = np.array(modes["psi"])
     rest = -385.0 * s / np.array(modes["omega"]) ** 2
     a, b, alpha, beta = (
         scale * np.array(getattr(given, name)) for name in ("a", "b", "alpha", "beta")
     )
-    a, f = a + (1 - scale) * rest, float(given.f)
+    a = a + (1 - scale) * rest
+    f = float(given.f)
     velocity = float(s @ alpha + f * (np.arange(len(s)) * s) @ b)
     modal = [x.tolist() for x in (a, b, alpha, beta)]
     return State(0.0, "separation", 0, float(given.psi), f, float(s @ a) + 1e-5, velocity, *modal)

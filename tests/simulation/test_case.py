@@ -27,7 +27,10 @@ def test_envelopes_are_the_extremes_of_the_samples():
         cells = samples[name][:100].reshape(10, 10)
         np.testing.assert_array_equal(envelope[f"{name}_min"], cells.min(axis=1))
         np.testing.assert_array_equal(envelope[f"{name}_max"], cells.max(axis=1))
-    np.testing.assert_allclose(envelope["time"], samples["time"][:100].reshape(10, 10).mean(axis=1))
+    first = samples["time"][:100]
+    bins = first.reshape(10, 10)
+    middles = bins.mean(axis=1)
+    np.testing.assert_allclose(envelope["time"], middles)
     assert turns["time"].tolist() == [0.0]
 
 

@@ -42,7 +42,9 @@ def test_pieces_of_overlapping_ramps():
     assert [piece.N for piece in found] == pytest.approx([200, 200, 200, 175, 150])
     assert [piece.Omega_rate for piece in found] == pytest.approx([0, -1500, -1500, 0, 0])
     assert [piece.N_rate for piece in found] == pytest.approx([0, 0, -2500, -2500, 0])
-    assert found[3].Omega == found[4].Omega == 20.0  # not nearly
+    # not nearly
+    assert found[3].Omega == found[4].Omega
+    assert found[4].Omega == 20.0
     assert found[4].angle == pytest.approx(0.5 + 0.7 + 0.2)
 
 

@@ -75,23 +75,26 @@ def test_files_of_no_kind_and_names_that_matlab_has_not_are_refused(tmp_path: Pa
     ):
         with pytest.raises(ParameterError, match=rule):
             result.save(tmp_path / name)
-    result.final_state.save(tmp_path / "state.nc")
+    file = tmp_path / "state.nc"
+    result.final_state.save(file)
     with pytest.raises(ParameterError, match=r"must be a file written by Result\.save"):
-        Result.load(tmp_path / "state.nc")
+        Result.load(file)
     assert [path.name for path in tmp_path.iterdir()] == ["state.nc"]
 
 
 def test_a_state_survives_its_file_to_the_last_bit(tmp_path: Path) -> None:
     state = simulate(P, 0.0371).final_state
-    state.save(tmp_path / "state.nc")
-    again = State.load(tmp_path / "state.nc")
+    state_path = tmp_path / "state.nc"
+    state.save(state_path)
+    again = State.load(state_path)
     for name in State.__dataclass_fields__:
         assert np.array_equal(getattr(again, name), getattr(state, name)), name
     one, other = (simulate(P, 0.06, initial_state=start).final_state for start in (state, again))
     assert np.array_equal(one.a, other.a)
-    simulate(P, 0.01).save(tmp_path / "result.nc")
+    result_path = tmp_path / "result.nc"
+    simulate(P, 0.01).save(result_path)
     with pytest.raises(ParameterError, match=r"must be a file written by State\.save"):
-        State.load(tmp_path / "result.nc")
+        State.load(result_path)
 
 
 def test_a_height_that_contradicts_contact_is_refused() -> None:
@@ -124,12 +127,14 @@ def test_a_run_that_overflowed_is_saved_but_its_last_state_is_not(tmp_path: Path
     start = simulate(P, 1e-6).final_state
     with np.errstate(all="ignore"):
         run = simulate(P, 0.01, initial_state=start.replace(phase="slip", direction=1, f=1e308))
-    run.save(tmp_path / "run.nc")
-    same(Result.load(tmp_path / "run.nc"), run)
+    run_path = tmp_path / "run.nc"
+    run.save(run_path)
+    same(Result.load(run_path), run)
     broken = start.replace(a=np.full_like(start.a, np.nan))
+    state_path = tmp_path / "state.nc"
     with pytest.raises(ParameterError, match=r"^a=.*: must be finite"):
-        broken.save(tmp_path / "state.nc")
-    assert not (tmp_path / "state.nc").exists()
+        broken.save(state_path)
+    assert not state_path.exists()
 
 
 def test_pictures_of_a_run_begin_where_it_begins() -> None:

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 import yaml
 from scipy.stats import qmc
@@ -20,7 +21,7 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State, static_start
 from disc_model.stability import attractors
 from disc_model.stability.attractors import Arrival, Basins, random_perturbation
-from disc_model.stability.outcome import OutcomeResult, Stage, find_outcome, growing
+from disc_model.stability.outcome import Attractor, OutcomeResult, Stage, find_outcome, growing
 from disc_model.stability.segments import Segment, final_segment
 
 P14 = Parameters(N=385, Omega=14)
@@ -204,6 +205,190 @@ def stretch(**changes: float) -> Segment:
     return replace(segment, **changes)
 
 
+# ------------------------------------------------------------------------ Comparison of attractors
+def basins_without_motions(*known: Attractor, near: float = 0.1) -> Basins:
+    """Basins that know some attractors, and have followed no motion; ranges below 1e-6 m count as
+    equal."""
+    found = object.__new__(Basins)
+    found.smallest = 1e-6
+    found.near = near
+    found.known = [*known]
+    found.map = SimpleNamespace(deflection=0.01)
+    return found
+
+
+@pytest.mark.parametrize(
+    ("changes", "difference"),
+    [
+        ({}, 0.0),
+        ({"u_max": 0.03}, 0.5),  # ranges of 20 and 40 mm
+        ({"u_max": -0.005}, 0.75),
+        ({"separation_rate": 54.0}, 0.6),
+        ({"separation_rate": 0.0}, 1.0),
+        ({"stick_fraction": 0.2}, 0.2),
+        ({"separation_fraction": 0.125}, 0.2),
+        ({"slip_fraction": 0.1}, 0.0),  # it follows from the others
+        ({"P_max": 9.0}, 0.0),
+    ],
+)
+def test_segments_differ_by_the_largest_relative_difference(
+    changes: dict[str, float], difference: float
+) -> None:
+    basins = basins_without_motions()
+    for pair in ((stretch(), stretch(**changes)), (stretch(**changes), stretch())):
+        assert basins._difference(*pair) == pytest.approx(difference)
+
+
+def test_small_ranges_rates_and_shares_differ_relative_to_a_floor() -> None:
+    basins = basins_without_motions()
+    calm = {
+        "u_min": 0.0,
+        "u_max": 1e-9,
+        "separation_rate": 0.0,
+        "stick_fraction": 0.0,
+        "separation_fraction": 0.0,
+    }
+    first = stretch(**calm)
+    # two separations in a leg of 5 s, and 5 % of the time
+    differences = {
+        ("u_max", 8e-7): 0.0,
+        ("u_max", 2e-6): 0.5,
+        ("separation_rate", 0.2): 0.5,
+        ("stick_fraction", 0.01): 0.2,
+        ("separation_fraction", 0.03): 0.6,
+    }
+    for (name, value), expected in differences.items():
+        second = replace(first, **{name: value})
+        assert basins._difference(first, second) == pytest.approx(expected)
+
+
+def ranged(*ranges: float) -> list[Segment]:
+    """Segments that differ in their range alone."""
+    return [stretch(u_min=0.0, u_max=value) for value in ranges]
+
+
+@pytest.mark.parametrize(
+    ("ranges", "steady"),
+    [
+        ([0.02] * 8, True),
+        ([0.02] * 7, False),  # too few
+        ([0.04, *[0.02] * 8], True),  # what is early does not count
+        ([*[0.02] * 7, 0.0203], False),  # by more than a hundredth
+        ([0.0203, *[0.02] * 7], False),
+        ([0.02, 0.02010, 0.02] * 2 + [0.02008, 0.02], True),  # no drift
+        # 0.1 % from leg to leg, without an end
+        ([0.02 + 2e-5 * i for i in range(8)], False),
+        # a drift of which a 33rd is left after eight legs
+        ([0.02 + 1e-4 * 0.5**i for i in range(8)], True),
+        # slow, with 10 % to go
+        ([0.02 + 2e-3 * 0.98**i for i in range(8)], False),
+    ],
+)
+def test_a_motion_is_steady_if_its_segments_neither_differ_nor_drift(
+    ranges: list[float], steady: bool
+) -> None:
+    assert basins_without_motions()._is_steady(ranged(*ranges)) is steady
+
+
+APART_20 = Attractor(Outcome.SEPARATING, ranged(0.02)[0])
+APART_30 = Attractor(Outcome.SEPARATING, ranged(0.03)[0])
+APART_24 = Attractor(Outcome.SEPARATING, ranged(0.024)[0])
+CALM_20 = Attractor(Outcome.QUIET, ranged(0.02)[0])
+
+
+@pytest.mark.parametrize(
+    ("known", "ranges", "approached"),
+    [
+        ([APART_20, APART_30], [0.024, 0.022, 0.021, 0.0205], APART_20),
+        ([APART_30, APART_20], [0.024, 0.022, 0.021, 0.0205], APART_20),
+        ([APART_20, APART_30], [0.026, 0.028, 0.029, 0.0295], APART_30),
+        ([APART_20, APART_30], [0.022, 0.021, 0.0205], None),  # too few legs
+        ([APART_20, APART_30], [0.03, 0.028, 0.026, 0.0245], None),  # still far
+        ([APART_20, APART_24], [0.024, 0.022, 0.021, 0.0205], None),  # another one as near
+        ([CALM_20, APART_30], [0.024, 0.022, 0.021, 0.0205], None),  # quiet ones are told by cycles
+        ([APART_20], [0.0205, 0.021, 0.0205, 0.021], None),  # it comes and goes
+        ([APART_20], [0.0202, 0.0201, 0.0202, 0.0201], APART_20),  # by less than a hundredth
+        ([APART_20], [0.0213, 0.0211, 0.0208, 0.0203], None),  # ever faster: it passes by
+        ([], [0.024, 0.022, 0.021, 0.0205], None),
+    ],
+)
+def test_an_attractor_is_approached_from_leg_to_leg_and_ever_more_slowly(
+    known: list[Attractor], ranges: list[float], approached: Attractor | None
+) -> None:
+    assert basins_without_motions(*known)._approached_by_range(ranges) is approached
+
+
+def test_periodic_attractors_are_the_same_by_points_and_others_by_segments() -> None:
+    points = np.array([[0.0, 0.0], [0.003, 0.004]])
+    cycle = replace(APART_20, points=points)
+    turned = replace(APART_30, points=points[::-1] + 6e-7)  # 1e-4 of the deflection is 1e-6
+    other = replace(APART_20, points=points + 1e-5)
+    basins = basins_without_motions(cycle)
+    assert basins._same(cycle, turned)
+    assert not basins._same(cycle, other)
+    assert basins._same(cycle, replace(APART_20, segment=ranged(0.0207)[0]))
+    assert not basins._same(cycle, replace(APART_20, segment=ranged(0.0213)[0]))
+    assert basins._known_as(turned) is cycle
+    assert basins._known_as(other) is None
+
+
+@pytest.mark.parametrize(
+    ("values", "rest"),
+    [
+        ([9.0, 1.0, 3.0, 4.0, 4.5], 0.5),  # 2, 1, 1/2: another half in all
+        ([4.0, 2.0, 1.0, 0.5], 0.5),
+        ([1.0, 2.0, 3.0, 3.9], 0.81 / 0.1),
+        ([1.0, 2.0, 3.0, 4.0], math.inf),
+        ([1.0, 2.0, 4.0, 8.0], math.inf),
+        ([1.0, 2.0, 1.0, 2.0], 0.0),
+    ],
+)
+def test_what_is_left_of_a_drift_is_that_of_a_geometric_series(
+    values: list[float], rest: float
+) -> None:
+    assert attractors._rest_of_drift(values) == pytest.approx(rest)
+
+
+@pytest.mark.parametrize(
+    ("rate", "error", "separates", "kind"),
+    [
+        (0.05, 0.001, True, Outcome.IRREGULAR),
+        (-0.05, 0.001, True, Outcome.SEPARATING),
+        (-0.05, 0.001, False, Outcome.OTHER_CYCLE),
+        (0.05, 0.02, True, Outcome.QUASI_PERIODIC),  # within four standard errors
+        (-0.05, 0.02, True, Outcome.QUASI_PERIODIC),
+        (math.nan, 0.001, True, Outcome.UNDECIDED),
+        (-math.inf, 0.001, True, Outcome.UNDECIDED),
+        (0.05, math.nan, True, Outcome.UNDECIDED),
+    ],
+)
+def test_a_motion_that_does_not_repeat_is_named_by_its_largest_exponent(
+    rate: float, error: float, separates: bool, kind: Outcome, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Intervals of the golden rotation never repeat; those of releases do, every 10 ms."""
+    count = 60
+    uneven = np.cumsum(0.01 + 1e-3 * np.cos(2 * np.pi * 0.6180339887 * np.arange(count)))
+    word = "separation" if separates else "stick_to_slip"
+    rows = [(time, word) for time in uneven]
+    if separates:
+        rows += [(0.01 * (i + 1), "stick_to_slip") for i in range(count)]
+    events = pd.DataFrame(sorted(rows), columns=["time", "kind"])
+    run = SimpleNamespace(events=events, status=Status.OK)
+    found = SimpleNamespace(exponents=np.array([rate]), errors=np.array([error]))
+    monkeypatch.setattr(attractors, "simulate", lambda *_, **__: run)
+    monkeypatch.setattr(attractors, "lyapunov_exponents", lambda *_, **__: found)
+    motion = attractors.regularity(P14, static_start(P14), 1e-10)
+    assert (motion.kind, motion.period) == (kind, 0)
+
+    # a period shows without exponents
+    alike = events[events["kind"] == word]
+    run.events = alike.assign(time=0.01 * np.arange(1, count + 1))
+    motion = attractors.regularity(P14, static_start(P14), 1e-10)
+    assert motion.period > 0
+    run.events = events.head(10)
+    assert attractors.regularity(P14, static_start(P14), 1e-10).kind is Outcome.UNDECIDED
+
+
 # ------------------------------------------------------------------------ Sweeps
 def test_a_stay_is_doubled_until_it_has_settled_and_no_further(
     monkeypatch: pytest.MonkeyPatch,
@@ -222,7 +407,10 @@ def test_a_stay_is_doubled_until_it_has_settled_and_no_further(
 
     def settles(p: Parameters, legs: Any) -> Arrival:
         done = len(legs) >= {10.0: 1, 11.0: 3, 12.0: 99}[p.Omega]
-        return Arrival(Settling(Settled.SETTLED if done else Settled.UNDECIDED))
+        answer = Settled.UNDECIDED
+        if done:
+            answer = Settled.SETTLED
+        return Arrival(Settling(answer))
 
     def last(p: Parameters, state: Any, duration: float, late: float, tol: float) -> Any:
         described.append((p.Omega, late))

@@ -29,7 +29,9 @@ def test_the_cycle_with_a_jump_of_friction_is_that_in_closed_form() -> None:
     cycle = dm.floquet(JUMP)
     assert cycle.period == pytest.approx(expected.period, rel=1e-11)
     assert cycle.stick_fraction == pytest.approx(expected.stick / expected.period, rel=1e-10)
-    assert cycle.state.psi * JUMP.r_0 == pytest.approx(JUMP.mu_s * JUMP.N / JUMP.k_p, rel=1e-14)
+    stretch = cycle.state.psi * JUMP.r_0
+    friction = JUMP.mu_s * JUMP.N
+    assert stretch == pytest.approx(friction / JUMP.k_p, rel=1e-14)
 
 
 def test_leine_s_cycle_has_its_published_times_and_stretch() -> None:

@@ -26,7 +26,8 @@ def test_a_narrow_tongue_between_two_values_is_seen():
         mu_k_over_mu_s=0.6,
     )
     found = critical.critical(p, "Omega", (20, 60), points=11, precision=1e-4)
-    assert found.value == found.crossings[0] == pytest.approx(20.1239, abs=2e-4)
+    assert found.value == found.crossings[0]
+    assert found.crossings[0] == pytest.approx(20.1239, abs=2e-4)
     tongues = [[20.1240, 20.1691], [22.7129, 22.7183], [28.0701, 28.1055]]
     np.testing.assert_allclose(found.unstable[:3], tongues, rtol=0, atol=2e-4)
     assert found.unstable_above.tolist() == [True, False, True, False, True, False, True]
@@ -216,7 +217,10 @@ def test_scans_overlook_nothing_against_dense_ones(seed: int) -> None:
 def test_bounds_may_have_units_and_those_of_another_kind_are_refused():
     p = Parameters(N=385, Omega=14.95, mu_k_over_mu_s=0.6)
     found = critical.critical(p, "Omega", ("142.5 rpm", 15), points=3)
-    assert found.values[[0, -1]].tolist() == pytest.approx([142.5 * math.tau / 60, 15])
+    first = 142.5 * math.tau / 60
+    last = 15
+    ends = found.values[[0, -1]]
+    assert ends.tolist() == pytest.approx([first, last])
     branch = continue_cycle(p, "Omega", ("142.5 rpm", "15 rad/s"))
     assert "the bound Omega = 14.9226 rad/s was reached" in branch.ended
     plane = neutral_curves(
@@ -229,3 +233,58 @@ def test_bounds_may_have_units_and_those_of_another_kind_are_refused():
         critical.critical(p, "Omega", ("5 kg", 15))
     with pytest.raises(ParameterError, match=r"^mu_k=0\.24: must be <= mu_s=0\.1$"):
         critical.critical(Parameters(N=385, Omega=14.95), "mu_s", (0.1, 0.9))
+
+
+@pytest.mark.parametrize(
+    ("first", "crossings", "unstable_above", "unstable"),
+    [
+        (0.5, [0.5, 0.7], [True, False], [(0.5, 0.7)]),
+        (0.0, [0.5, 0.7], [False, True], [(0.0, 0.5), (0.7, 1.0)]),
+        (0.3, [0.3], [True], [(0.3, 1.0)]),
+        (0.0, [], [], [(0.0, 1.0)]),
+        (np.nan, [], [], []),
+    ],
+)
+def test_intervals_of_instability_lie_between_crossings(
+    first: float,
+    crossings: list[float],
+    unstable_above: list[bool],
+    unstable: list[tuple[float, float]],
+) -> None:
+    found = critical.Critical(
+        Parameters(N=385, Omega=15),
+        "mu_s",
+        first,
+        np.array(crossings),
+        np.array(unstable_above, dtype=bool),
+        np.linspace(0, 1, 11),
+        np.zeros(11),
+        0.1,
+    )
+    assert [tuple(row) for row in found.unstable.tolist()] == unstable
+    rows = found._repr_html_()
+    # of as many rows as there are intervals
+    edges = len(crossings) + 1
+    assert rows.count(">unstable<") == len(unstable)
+    assert rows.count(">stable<") == edges - len(unstable)
+
+
+def test_multipliers_meet_where_their_angles_come_to_a_whole_turn() -> None:
+    """Two of the upper half, at 0.2 and 0.3 turns: with a conjugate at 0.5, itself at 0 or 0.5."""
+    turn = 2 * np.pi
+    angle = turn * np.array([0.2, 0.45])
+    # the second comes to the real axis halfway, and with the first to half a turn never
+    assert critical._meetings(angle, turn * np.array([0.0, 0.1])) == pytest.approx([0.5])
+    # the first comes to the second after 0.25 of 0.29 turns
+    assert critical._meetings(angle, turn * np.array([0.29, 0.0])) == pytest.approx([0.25 / 0.29])
+    # both go down: the first comes to the axis at two thirds
+    assert critical._meetings(angle, turn * np.array([-0.3, -0.1])) == pytest.approx([2 / 3])
+    assert critical._meetings(angle, turn * np.array([0.01, 0.01])) == []
+
+
+def test_a_pair_may_have_met_the_axis_if_its_way_there_and_back_is_no_longer_than_others() -> None:
+    before = np.array([0.2, 0.5, np.pi - 0.3])
+    after = np.array([0.1, 0.5, np.pi - 0.1])
+    longest = 0.45 / critical.MAY_HAVE_MET
+    found = critical._returns_from_axis(before, after, longest)
+    assert found == pytest.approx([0.2 / 0.3, 0.3 / 0.4])

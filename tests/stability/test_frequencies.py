@@ -118,5 +118,8 @@ def test_of_two_real_multipliers_a_mode_grows_by_the_larger(monkeypatch: pytest.
         assert found[mode] == pytest.approx(math.log(abs(value)) * rate, rel=1e-8)  # by rounding
         # a multiple of f_s, or half of one where the multiplier is negative, next to the mode
         turns = frequency[mode] * cycle.period
-        assert turns % 1 == pytest.approx(0 if value > 0 else 0.5, abs=1e-9)
+        rest = 0.5
+        if value > 0:
+            rest = 0
+        assert turns % 1 == pytest.approx(rest, abs=1e-9)
         assert abs(frequency[mode] - modes.frequency[mode]) <= 0.5 * rate

@@ -1,5 +1,7 @@
 """Motions near a cycle: where and when they are there, and what follows."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -13,6 +15,8 @@ from disc_model.stability.linear_motion import (
     cycle_of_static_start,
     find_close_return,
     find_cycle_near,
+    grows_at_rate,
+    left_vector,
 )
 from disc_model.stability.return_map import ReturnMap
 
@@ -103,3 +107,60 @@ def test_a_start_that_never_sticks_is_near_no_cycle() -> None:
     near = cycle_of_static_start(p)
     assert not isinstance(near, NearCycle)
     assert near.status == find_cycle(p).status == "no_stick_slip"
+
+
+@pytest.mark.parametrize(
+    ("parts", "rate", "least", "follows"),
+    [
+        ([1.0, np.exp(0.2)], 0.1, 0.0, True),  # over 2 s
+        ([1.0, np.exp(0.29)], 0.1, 0.0, True),  # half as fast again, at most
+        ([1.0, np.exp(0.31)], 0.1, 0.0, False),
+        ([1.0, np.exp(0.11)], 0.1, 0.0, True),
+        ([1.0, np.exp(0.09)], 0.1, 0.0, False),
+        ([1.0, np.exp(-0.2)], 0.1, 0.0, False),
+        ([1.0, np.exp(-0.2)], -0.1, 0.0, True),
+        ([1.0, np.exp(-0.31)], -0.1, 0.0, False),
+        ([1.0, 1e-9], -0.1, 1e-8, True),  # it has arrived
+        ([1.0, 2e-8], -0.1, 1e-8, False),
+        ([0.0, 2e-8], -0.1, 1e-8, False),
+        ([0.0, 1e-9], -0.1, 1e-8, True),
+    ],
+)
+def test_the_leading_part_grows_at_the_rate_within_a_half_or_has_arrived(
+    parts: list[float], rate: float, least: float, follows: bool
+) -> None:
+    assert grows_at_rate(parts, 2.0, rate, least) == follows
+
+
+def test_a_left_eigenvector_takes_out_the_part_of_its_eigenvalue() -> None:
+    vectors = np.array([[1.0, 0.5, 0.2], [0.0, 1.0, 0.3], [0.4, 0.0, 1.0]])
+    jacobian = vectors @ np.diag([0.5, -0.9, 0.8]) @ np.linalg.inv(vectors)
+    left = left_vector(jacobian)
+    np.testing.assert_allclose(left @ jacobian, -0.9 * left, rtol=0, atol=1e-12)
+    # nothing of the others
+    assert abs(left @ vectors[:, 0]) < 1e-12 < abs(left @ vectors[:, 1])
+    largest = left_vector(jacobian, np.real)
+    np.testing.assert_allclose(largest @ jacobian, 0.8 * largest, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        ([0.4, 0.3, 0.001, 0.4, 0.3, 0.0009], (0.001, 3)),  # about as close, and earlier
+        ([0.4, 0.3, 0.01, 0.4, 0.3, 0.0009], (0.0009, 6)),
+        ([0.4, 0.3], (0.4, 1)),
+        ([], None),
+    ],
+)
+def test_the_first_return_that_is_nearly_the_closest_counts(
+    changes: list[float], expected: tuple[float, int] | None
+) -> None:
+    """Over a static deflection of 2."""
+    start = np.array([1.0, -1.0])
+    later = [start + np.array([2 * change, 0.0]) for change in changes]
+    map_ = SimpleNamespace(returns=lambda *_, **__: later, patient=False, deflection=2.0)
+    found = find_close_return(map_, start)
+    if expected is None:
+        assert found is None
+    else:
+        assert found == pytest.approx(expected)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import disc_model as dm
-from disc_model.stability.return_map import PARAMETERS, RETURNED, STOPS, VANISHED
+from disc_model.stability.return_map import ENDS, PARAMETERS, RETURNED, VANISHED
 from disc_model.stability.slipping_cycle import find_slipping_orbit
 from disc_model.stability.slipping_map import SlippingMap
 from tests.contact_laws import COMPILES
@@ -89,10 +89,11 @@ def test_derivatives_by_parameters_are_those_of_differences(name) -> None:
     assert away.max() < 1e-6 * np.abs(expected * map_.scale).max() + 1e-10 * largest
 
 
-def test_a_motion_that_stops_does_not_return() -> None:
+@pytest.mark.parametrize(("share", "end"), [(20, "stops"), (2000, "lost_contact")])
+def test_a_motion_that_stops_or_loses_contact_does_not_return(share, end) -> None:
     map_, x = cycle_on_section(DISC)
     sliding = map_.sliding_point(dm.steady_sliding(DISC))
-    assert map_.evaluate(sliding + 20 * (x - sliding)).outcome == STOPS
+    assert ENDS[map_.evaluate(sliding + share * (x - sliding)).outcome] == end
 
 
 def test_steady_sliding_is_no_cycle() -> None:

@@ -36,7 +36,8 @@ def test_batches_are_fixed_axes_times_chunks_of_blocks() -> None:
         [[300.0, 10.0], [300.0, 15.0]], [[300.0, 20.0]],
     ]  # fmt: skip
     assert grid.n_points == 9
-    assert all(len(name) == 12 for name in grid.batches)
+    for name in grid.batches:
+        assert len(name) == 12
 
 
 def test_changes_change_only_the_batches_they_touch() -> None:

@@ -57,7 +57,8 @@ def test_the_faults_of_a_study_come_in_one_error() -> None:
 
 @pytest.mark.parametrize(("text", "words"), FAULTS["texts"])
 def test_text_that_is_no_study_is_located(text: str, words: str, tmp_path: Path) -> None:
-    (path := tmp_path / "text.yaml").write_text(text, encoding="utf-8")
+    path = tmp_path / "text.yaml"
+    path.write_text(text, encoding="utf-8")
     assert_named(faults_of(lambda: parse_study(read_file(path))), words)
 
 
@@ -132,7 +133,8 @@ def test_a_wrong_argument_is_named(call: Callable[[], object], words: str) -> No
 
 @pytest.mark.parametrize(("text", "words"), FAULTS["tables"])
 def test_a_fault_of_a_table_is_named(text: str, words: str, tmp_path: Path) -> None:
-    (path := tmp_path / "disc.csv").write_text(text)
+    path = tmp_path / "disc.csv"
+    path.write_text(text)
     assert_named(faults_of(dm.Disc.from_csv, path), words)
 
 
@@ -234,7 +236,8 @@ def test_a_run_says_in_the_end_what_has_no_result(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     grids = parse_study(GRID).grids()[0]
-    (folder := tmp_path / "results" / "s").mkdir(parents=True)
+    folder = tmp_path / "results" / "s"
+    folder.mkdir(parents=True)
     (folder / "s.failed.txt").write_text("Omega = 10: paradox\nOmega = 20: paradox\n")
     file = Path("results/s/s.failed.txt")
     assert list(closing_lines(grids)) == [f"s: 2 of 4 points have no result, see {file}"]

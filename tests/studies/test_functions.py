@@ -10,7 +10,7 @@ import pytest
 
 import disc_model as dm
 from disc_model.data.variables import flag_names
-from disc_model.studies.functions import run_study
+from disc_model.studies.whole_study import run_study
 
 P = dm.Parameters(N=385, Omega=14)
 SCAN = {"start": 14, "stop": 15, "step": 1}

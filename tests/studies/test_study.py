@@ -55,7 +55,8 @@ def test_a_file_can_say_both_and_figures_of_both() -> None:
 
 def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:
     other = GRID | {"study": "other"}
-    (tmp_path / "other.yaml").write_text(yaml.safe_dump(other))
+    path = tmp_path / "other.yaml"
+    path.write_text(yaml.safe_dump(other))
     growth = GRID["figures"]["growth"] | {"study": "other", "section": "1 First"}
     study = parse_study(CASES | {"figures": {"f": growth}})
     grids, asked = study.grids([tmp_path])
@@ -102,12 +103,14 @@ def test_a_tolerance_is_that_of_all_cases_but_those_with_their_own() -> None:
 
 def test_a_case_may_have_a_disc_of_its_own(tmp_path: Path) -> None:
     table = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n0,240,1.5\n1,250,2.1\n"
-    (tmp_path / "disc.csv").write_text(table)
+    disc_path = tmp_path / "disc.csv"
+    disc_path.write_text(table)
     own = {"A": CASE | {"parameters": {"N": 1, "Omega": 1, "disc": "disc.csv", "r_0": 0.11}}}
     p = parse_study({"study": "s", "cases": own | {"B": CASE}}, tmp_path).specs["A"].parameters
     assert p.disc is not None
     assert p.disc.diameters == (0, 1)
-    [fault] = faults_of(parse_study, {"study": "s", "cases": own}, tmp_path / "elsewhere")
+    elsewhere_path = tmp_path / "elsewhere"
+    [fault] = faults_of(parse_study, {"study": "s", "cases": own}, elsewhere_path)
     assert fault.startswith("cases.A.parameters.disc: ")
 
 
@@ -116,7 +119,8 @@ def test_a_case_may_have_a_disc_of_its_own(tmp_path: Path) -> None:
 
 def test_keys_given_twice(tmp_path: Path) -> None:
     text = "study: x\ncases:\n  A: {title: a, t_end: 1, parameters: {N: 1, Omega: 2, N: -3}}\n"
-    (path := tmp_path / "twice.yaml").write_text(text)
+    path = tmp_path / "twice.yaml"
+    path.write_text(text)
     for load in (
         load_study,
         lambda file: study_from_config({"study": "x", "cases": {"A": CASE}}, [file]),
@@ -128,11 +132,13 @@ def test_keys_given_twice(tmp_path: Path) -> None:
 def test_a_file_that_cannot_be_read_is_told_in_one_line(
     read: Callable[[Path], object], tmp_path: Path
 ) -> None:
+    file = tmp_path / "none.yaml"
     with pytest.raises(MissingFile, match=r"^[^\n]*none\.yaml: there is no such file$"):
-        read(tmp_path / "none.yaml")
+        read(file)
     with pytest.raises(UnreadableFile, match=r"^[^\n]*: cannot be read: Is a directory$"):
         read(tmp_path)
-    (path := tmp_path / "x.yaml").write_bytes(b"study: \xff\xfe")
+    path = tmp_path / "x.yaml"
+    path.write_bytes(b"study: \xff\xfe")
     with pytest.raises(UnreadableFile, match=r"^[^\n]*x\.yaml: cannot be read: 'utf-8' codec"):
         read(path)
 
@@ -147,7 +153,8 @@ def test_faults_between_studies_are_reported_together(tmp_path: Path) -> None:
         "options": {"horizon": 1},
         "axes": {"N": [1], "Omega": [1]},
     }
-    (tmp_path / "three.yaml").write_text(json.dumps(plane | {"figures": figure}))
+    path = tmp_path / "three.yaml"
+    path.write_text(json.dumps(plane | {"figures": figure}))
     study = parse_study({"study": "all", "studies": ["*.yaml"], "overrides": {"six": {}}})
     found = faults_of(study.grids, [tmp_path])
     for fault in (
@@ -181,7 +188,8 @@ def test_a_fault_of_another_file_is_named(
 def test_overrides_are_laid_over_the_file(tmp_path: Path) -> None:
     axes = {"N": [100, 200], "Omega": {"start": 10, "stop": 20, "count": 3}}
     small = {"study": "small", "quantity": "outcome", "options": {"horizon": 2}, "axes": axes}
-    (tmp_path / "small.yaml").write_text(json.dumps(small))
+    path = tmp_path / "small.yaml"
+    path.write_text(json.dumps(small))
     over = {"small": {"axes": {"N": [50]}, "options": {"horizon": 7}}}
     study = parse_study({"study": "all", "studies": ["small.yaml"], "overrides": over})
     grids, asked = study.grids([tmp_path])

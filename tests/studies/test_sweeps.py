@@ -14,8 +14,8 @@ import pytest
 import xarray as xr
 
 import disc_model as dm
-from disc_model.studies.functions import run_study
 from disc_model.studies.sweeps import sweep
+from disc_model.studies.whole_study import run_study
 
 P = dm.Parameters(N=385, Omega=14)
 
@@ -117,7 +117,8 @@ def products(case: dm.Parameters) -> dict[str, float]:
 def test_paired_samples_are_one_dimension_with_a_point_for_each_pair() -> None:
     swept = sweep(dm.floquet, P, zip=PAIRS)
     assert swept["growth_rate"].dims == ("N_mu_k",)
-    assert swept["N"].dims == swept["mu_k"].dims == ("N_mu_k",)
+    assert swept["N"].dims == swept["mu_k"].dims
+    assert swept["mu_k"].dims == ("N_mu_k",)
     assert swept["N"].attrs["units"] == "N"
     for i, (N, mu_k) in enumerate(zip(PAIRS["N"], PAIRS["mu_k"], strict=True)):
         cycle = dm.floquet(P.replace(N=N, mu_k=mu_k))

@@ -208,7 +208,11 @@ def flip(node: ast.AST) -> str:
             node.right = ast.Constant(1)
             return f"{before} -> {ast.unparse(node.left)}"
         case ast.BinOp(right=other) | ast.AugAssign(value=other):
-            sign, opposite = ("+", "-") if isinstance(node.op, ast.Add) else ("-", "+")
+            sign = "-"
+            opposite = "+"
+            if isinstance(node.op, ast.Add):
+                sign = "+"
+                opposite = "-"
             node.op = OTHER[type(node.op)]()
             return f"{sign} {ast.unparse(other)} -> {opposite}"
         case ast.UnaryOp():

@@ -40,7 +40,10 @@ def edge(holds, low, high):
     assert not holds(high)
     while high - low > 1e-11 * high:
         middle = (low + high) / 2
-        low, high = (middle, high) if holds(middle) else (low, middle)
+        if holds(middle):
+            low = middle
+        else:
+            high = middle
     return low
 
 
@@ -69,7 +72,10 @@ def annulus(p):
 def centre(p):
     """Frequencies over h sqrt(E / (rho (1 - nu^2))) / (2 b)^2."""
     modes = plate_modes(p)
-    unit = p.h * sqrt(p.E / (p.rho * (1 - p.nu**2))) / (2 * p.b) ** 2
+    density = p.rho * (1 - p.nu**2)
+    speed = sqrt(p.E / density)
+    diameter = 2 * p.b
+    unit = p.h * speed / diameter**2
     return {
         f"(0, {c})": (None, omega / unit)
         for c, omega in zip(modes["circles"], modes["omega"], strict=True)
@@ -119,7 +125,11 @@ def damped_belt(p):
         z = ((p.mu_s - p.mu_k) * p.N - c_p * v) / p.k_p
         rate = -2 * decay * v - square * z
         t = (2 * pi + atan(w * rate / (square * v + decay * rate))) / w
-        return exp(-decay * t) * (v * cos(w * t) - (square * z + decay * v) / w * sin(w * t)) - v
+        cosine = cos(w * t)
+        sine = sin(w * t)
+        factor = (square * z + decay * v) / w
+        falling = exp(-decay * t)
+        return falling * (v * cosine - factor * sine) - v
 
     found = {}
     for c_p in (0.5, 1.0, 2.0, 5.0):
@@ -209,7 +219,9 @@ def impact(p):
     speed = impulse / mass
 
     def height_of(t):
-        return rest * (cos(w * t) - 1) - speed / w * sin(w * t)
+        angle = w * t
+        size = speed / w
+        return rest * (cos(angle) - 1) - size * sin(angle)
 
     # of height_of(t) + rest, a cosine
     size = np.hypot(rest, speed / w)
@@ -219,7 +231,11 @@ def impact(p):
     v = -rest * w * sin(w * t2) - speed * cos(w * t2)
 
     def gap(t):
-        return x + v * t - g * t**2 / 2 - (x * np.cos(omega * t) + v / omega * np.sin(omega * t))
+        angle = omega * t
+        falling = x + v * t - g * t**2 / 2
+        size = v / omega
+        vibrating = x * np.cos(angle) + size * np.sin(angle)
+        return falling - vibrating
 
     flight = np.arange(1e-4, 1.0, 1e-4)
     back = flight[np.argmax(gap(flight) < 0)]

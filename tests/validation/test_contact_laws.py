@@ -73,7 +73,10 @@ def test_every_switch_of_a_quiet_second_and_of_half_a_violent_one(name):
     assert _difference(name, slice(1, None), 1e-15)[0] <= EVENT_TIMES
     for tol in (1e-6, 1e-8, 1e-10, 1e-12, 1e-15):
         times, forces = _difference(name, slice(0, 1), tol)
-        assert times <= (4 * tol if tol > 1e-15 else 0.0) + EVENT_TIMES
+        error = 0.0
+        if tol > 1e-15:
+            error = 4 * tol
+        assert times <= error + EVENT_TIMES
     assert (
         forces <= 1e-8
     )  # of 385 N; a compliant contact feels a rounding of u as 1e-18/C = 4e-12 N at least
@@ -115,7 +118,8 @@ def _swinging(p, psi=0.0, **modal):
     """The static start, but psi, and one of the mode's coordinates across the slider's
     direction."""
     start = static_start(p)
-    return start.replace(psi=psi, **{name: np.array([0.0, value]) for name, value in modal.items()})
+    arrays = {name: np.array([0.0, value]) for name, value in modal.items()}
+    return start.replace(psi=psi, **arrays)
 
 
 @pytest.mark.parametrize("give", RIGID_OR_NOT)
@@ -187,7 +191,10 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
     """One block of lanes and two; each coefficient in units of the largest, ``rates`` are those of
     Omega and N."""
     p = P.replace(n_diameters=n_diameters, **ALL_LAWS.get(name, {}))
-    start = lively(phase, direction, p).replace(time=1e-3 if rates else 0.0)
+    time = 0.0
+    if rates:
+        time = 1e-3
+    start = lively(phase, direction, p).replace(time=time)
     order = 16
     if p.contact_compliance:
         start = start.replace(
@@ -238,7 +245,10 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
         compare(s.turn, step.shift, degree=order + 1)
     compare(s.psi, step.psi, degree=order + 1)
     if phase != "separation":
-        compare(s.P, step.V if phase == "stick" else step.R)
+        force = step.R
+        if phase == "stick":
+            force = step.V
+        compare(s.P, force)
     if phase != "stick":
         compare(
             s.switch,

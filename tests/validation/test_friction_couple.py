@@ -24,8 +24,6 @@ def eigenvalues(p):
     offset, tangential = taylor.surface_of(p)
     if tangential is None:
         tangential = couple(offset, psi, l, p.r_0)
-    else:
-        tangential = tangential
     return steady_eigenvalues(values, modes["omega"], psi, l, modal_damping(p), tangential)
 
 

@@ -53,7 +53,11 @@ def test_every_law_on_ramps_of_both(name):
     """Of a motion that separates."""
     p = Parameters(N=385.0, Omega=15.1, c=5.0, c_p=0.5, **ALL_LAWS.get(name, {}))
     ramps = (_ramp(p, "Omega", -128.0), _ramp(p, "N", -2048.0))
-    found = compared(p, ramps, 0.02, taylor.violent_start(1.0 if p.contact_compliance else 1.3))
+    size = 1.3
+    if p.contact_compliance:
+        size = 1.0
+    start = taylor.violent_start(size)
+    found = compared(p, ramps, 0.02, start)
     assert {"separation", "reattachment"} <= set(found.events["kind"])
 
 

@@ -124,7 +124,10 @@ class Project:
         not count."""
         assert (self.folder / path).is_file()
         with (self.folder / path).open("a") as file:
-            file.write("\n_CHANGED = True\n" if path.endswith(".py") else "\n# changed\n")
+            change = "\n# changed\n"
+            if path.endswith(".py"):
+                change = "\n_CHANGED = True\n"
+            file.write(change)
 
 
 def copy_repository(
@@ -159,4 +162,5 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Project:
 @pytest.fixture
 def project(finished: Project, tmp_path: Path) -> Project:
     """A copy of the finished study, times included."""
-    return finished.copy(tmp_path / "project")
+    file = tmp_path / "project"
+    return finished.copy(file)

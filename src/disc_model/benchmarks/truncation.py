@@ -16,7 +16,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.simulation.states import State
-from disc_model.stability.cycle import floquet
+from disc_model.stability.floquet import floquet
 
 Model = tuple[int, int]
 """Highest number of nodal diameters, and number of nodal circles."""

@@ -139,8 +139,10 @@ class Missing(Exception):
 def group(case: xr.DataTree, name: str) -> xr.Dataset:
     """A window, the Poincare section ``poincare`` or ``events``, as recorded."""
     if name not in case.children:
-        status = STATUSES[int(case.dataset["status"])] if "status" in case.dataset else "ok"
-        raise Missing("failed" if status == "failed" else f"did not record {name}")
+        known = case.dataset
+        if "status" in known and STATUSES[int(known["status"])] == "failed":
+            raise Missing("failed")
+        raise Missing(f"did not record {name}")
     return case.children[name].to_dataset(inherit=False)
 
 

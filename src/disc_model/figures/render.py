@@ -19,9 +19,11 @@ from disc_model.figures import (
     heat_map,
     history,
     late_range,
+    locking,
     poincare,
     portrait,
     ramps,
+    range_law,
     region_map,
     root_locus,
     sensitivity,
@@ -58,9 +60,11 @@ DRAWINGS: Drawings = {
     "heat_map": heat_map.draw,
     "history": history.draw,
     "late_range": late_range.draw,
+    "phase_map": locking.draw_map,
     "poincare": poincare.draw,
     "portrait": portrait.draw,
     "ramps": ramps.draw,
+    "range_law": range_law.draw,
     "region_map": region_map.draw,
     "root_locus": root_locus.draw,
     "sensitivity": sensitivity.draw,
@@ -68,6 +72,7 @@ DRAWINGS: Drawings = {
     "sliding_outcome": sliding_outcome.draw,
     "spectrogram": spectrogram.draw,
     "spectrum": spectrum.draw,
+    "staircase": locking.draw_staircase,
 }
 """Functions that draw a kind: from the figure, its study and further ones by their roles, or from the
 figure and its cases."""

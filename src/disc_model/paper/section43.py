@@ -72,7 +72,7 @@ def stays_small(
     share : of the preload, below which the range of the contact force is small
     within : greatest spread of the intervals between releases, over their mean
     last : number of the last points of the section that are compared, if any
-    same : percentage of their range up to which they count as equal
+    same : share of their range up to which they count as equal
     """
     intervals = case.intervals()
     mean = intervals.mean()
@@ -427,7 +427,7 @@ def wanders(case: CaseView, near: CaseView, *, last: float, same: float) -> Answ
     case : the run
     near : one at a speed nearby, whose period is told
     last : number of the last points of the section that are compared
-    same : percentage of their range up to which they count as equal
+    same : share of their range up to which they count as equal
     """
     points = _different_points(case, last, same)
     motion = case.late_motion
@@ -453,7 +453,7 @@ def _different_points(case: CaseView, last: float, same: float) -> int:
     ----------
     case : the run
     last : number of points
-    same : percentage of their range up to which they count as equal
+    same : share of their range up to which they count as equal
     """
     section = case.samples("poincare")
     section = section.isel(time=slice(-int(last), None))

@@ -1,13 +1,13 @@
-"""`floquet`: a cycle as a fixed point of a return map, and its stability.
+"""Cycles as fixed points of a return map, and their stability; the search for the stick-slip cycle,
+one of `disc_model.stability.return_map`.
 
-A stick-slip cycle is one of `disc_model.stability.return_map`, a cycle that slips all the time one
-of `disc_model.stability.slipping_map`. The multiplier 1, along the orbit, is left out; of stick-slip
-also 0, of f, because stick resets f to 0.
+Two multipliers of the full system are left out: 1, along the orbit, and of stick-slip 0, of f,
+because stick resets f to 0.
 """
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -15,20 +15,17 @@ import numpy as np
 from disc_model.arrays import Array, ComplexArray
 from disc_model.data.variables import CycleStatus, values_text
 from disc_model.display import Drawn, Summarised, counted, number_text
-from disc_model.engine.jit.cache import compiling
-from disc_model.errors import DiscModelError, raise_faults, violations
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.errors import DiscModelError, violations
+from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from disc_model.stability.return_map import ENDS, Orbit, ReturnMap, SectionMap, newton
-from disc_model.stability.sliding import SlidingStatus, SteadySliding, steady_sliding
-from disc_model.stability.slipping_cycle import find_slipping_orbit
-from disc_model.stability.slipping_map import SlippingMap
-from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
+from disc_model.stability.sliding import SteadySliding, steady_sliding
+from disc_model.units import is_whole
 
 STICK_SLIP = "stick_slip"
 SLIPPING = "slipping"
 KINDS = (STICK_SLIP, SLIPPING)
-"""Kinds of cycles that can be sought, by whether they stick."""
+"""Kinds of cycles, by whether they stick."""
 RETURNS_TRIED = (1, 2, 3)  # numbers of releases in a period of the cycles that are sought
 TRANSIENT = 60  # returns simulated from the static start before Newton's method is tried again
 
@@ -138,79 +135,19 @@ class FloquetResult(Summarised, Drawn):
         return self
 
 
-@compiling()
-def floquet(
-    p: Parameters,
-    *,
-    tol: float = 1e-12,
-    guess: State | None = None,
-    releases: int = 1,
-    kind: str = STICK_SLIP,
-) -> FloquetResult:
-    """Find the stick-slip cycle near the static start, or near a given state, and its multipliers.
-
-    A case may also have a cycle that slips all the time, usually an unstable one, which separates
-    the motions that come to stick-slip from those that come to steady sliding.
-
-    Parameters
-    ----------
-    p : the case
-    tol : relative tolerance of the series and of the return map's residual; 1e-14 to 1e-6
-    guess : state, such as the last one of a simulation; the cycle is sought near the next release after it and may
-        lose contact
-    releases : number of releases in a period of the cycle near that state
-    kind : "stick_slip"; or "slipping" for the smallest cycle round steady sliding, or near a given state in slip, that
-        slips all the time, in contact
-
-    Returns
-    -------
-    FloquetResult
-        It is also returned if no cycle exists: `status` and `message` then say what was found instead.
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
-
-    Examples
-    --------
-    >>> import disc_model as dm
-    >>> cycle = dm.floquet(dm.Parameters(N=385, Omega=15))
-    >>> cycle
-    FloquetResult(N=385 N, Omega=15 rad/s: growth rate -0.105494 1/s, period 0.014821021 s, 18 multipliers)
-    >>> cycle.stable, cycle.attractors
-    (True, ('stick_slip',))
-
-    Where friction falls with the speed, stick-slip and steady sliding may both be stable:
-
-    >>> block = dm.Parameters(n_diameters=-1, m=0.5, k=0, k_p=7e3, c_p=6, N=10, mu_s=0.6, mu_k=0.2,
-    ...     friction_decay=10, r_0=0.1, Omega=2)
-    >>> dm.floquet(block).attractors
-    ('stick_slip', 'steady_sliding')
-    >>> between = dm.floquet(block, kind="slipping")
-    >>> between.stable, between.multipliers.real.round(3)
-    (False, array([1.262]))
-    """
-    wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
-    raise_faults(foreign_case(p) + wrong)
-    if kind == SLIPPING:
-        return find_slipping_cycle(p, float(tol), guess)
-    return find_cycle(p, float(tol), guess, releases)
-
-
 def guess_faults(guess: object, releases: object, kind: object) -> list[str]:
     """Faults of a guess for the search for a cycle, of the number of its releases, and of its
     kind."""
-    several = is_whole(releases) and releases > 1
-    counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or not several)
+    counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or releases == 1)
     known = isinstance(kind, str) and kind in KINDS
-    released = several and counts and kind == SLIPPING
+    slips = known and kind == SLIPPING
+    fits = not (slips and counts) or releases == 1
     rule = "must be a whole number >= 1, and 1 without a state to look near"
     return violations(
         (isinstance(guess, State | None), "guess", guess, "must be a State"),
         (counts, "releases", releases, rule),
         (known, "kind", kind, f"must be one of {', '.join(KINDS)}"),
-        (not released, "releases", releases, "must be left out of a cycle that never sticks"),
+        (fits, "releases", releases, "must be left out of a cycle that never sticks"),
     )
 
 
@@ -222,8 +159,10 @@ def find_cycle(
     releases, and may lose contact."""
     if not may_stick_and_slip(p):
         if never_pulls(p):
-            return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
-        return _none(p, tol, CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc")
+            return no_cycle(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
+        return no_cycle(
+            p, tol, CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc"
+        )
     if guess is None:
         return cycle_from_rest(ReturnMap(p, tol))
     from_state = isinstance(guess, State)
@@ -233,40 +172,17 @@ def find_cycle(
         if not release.reached:
             end = ENDS[release.outcome]
             status = CycleStatus.NO_STICK_SLIP if end == "time_over" else CycleStatus.NO_CYCLE
-            return _none(p, tol, status, f"the motion from the given state does not return: {end}")
+            return no_cycle(
+                p, tol, status, f"the motion from the given state does not return: {end}"
+            )
         x = release.x
     else:
         x = guess
     solution = newton(map_, x, releases=releases, may_separate=from_state)
     if solution is None:
         without = f"no cycle with {counted(releases, 'release')} near the given state"
-        return _none(p, tol, CycleStatus.NO_CYCLE, without)
+        return no_cycle(p, tol, CycleStatus.NO_CYCLE, without)
     return cycle_of(map_, solution)
-
-
-def find_slipping_cycle(p: Parameters, tol: float, guess: State | None) -> FloquetResult:
-    """The cycle that slips all the time which Newton's method finds near a state in slip, or the
-    smallest one round steady sliding."""
-    sliding = steady_sliding(p)
-    missing = sliding.status is not SlidingStatus.OK
-    if missing or min(p.N, p.k_p) <= 0:
-        none = _none(p, tol, CycleStatus.NO_CYCLE, "there is no steady sliding on a spring")
-        return replace(none, kind=SLIPPING)
-
-    map_ = SlippingMap(p, tol)
-    orbit = None
-    where = "round steady sliding"
-    if guess is None:
-        orbit = find_slipping_orbit(map_, sliding)
-    else:
-        where = "near the given state"
-        x = map_.next_passage(guess)
-        if x is not None:
-            orbit = newton(map_, x)
-    if orbit is None:
-        without = f"no cycle {where} slips all the time"
-        return replace(_none(p, tol, CycleStatus.NO_CYCLE, without), kind=SLIPPING)
-    return replace(cycle_of(map_, orbit), kind=SLIPPING)
 
 
 def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
@@ -293,7 +209,7 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
         if solution is not None:
             return cycle_of(map_, run_through_once(map_, solution))
     tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the static start, stick-slip continues without"
-    return _none(p, tol, CycleStatus.NO_CYCLE, tried)
+    return no_cycle(p, tol, CycleStatus.NO_CYCLE, tried)
 
 
 _LOST = (CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the static start")
@@ -314,7 +230,7 @@ _WITHOUT_RETURN = {
 def _without_return(map_: ReturnMap, outcome: int, duration: float) -> FloquetResult:
     """The result for a motion whose orbit of that duration (s) does not end on the section."""
     status, why = _WITHOUT_RETURN[ENDS[outcome]]
-    return _none(map_.parameters, map_.tol, status, why.format(duration))
+    return no_cycle(map_.parameters, map_.tol, status, why.format(duration))
 
 
 def run_through_once(map_: ReturnMap, orbit: Orbit) -> Orbit:
@@ -345,12 +261,15 @@ def never_pulls(p: Parameters) -> bool:
     return p.Omega == 0 or (p.k_p == 0 and p.r_0 * p.c_p * p.Omega < p.mu_s * p.N)
 
 
-def _none(p: Parameters, tol: float, status: CycleStatus, reason: str) -> FloquetResult:
-    return FloquetResult(p, tol, status, f"{status}: {reason}")
+def no_cycle(
+    p: Parameters, tol: float, status: CycleStatus, reason: str, kind: str = STICK_SLIP
+) -> FloquetResult:
+    """The result of a search that has found no cycle of a kind."""
+    return FloquetResult(p, tol, status, f"{status}: {reason}", kind=kind)
 
 
-def cycle_of(map_: SectionMap, orbit: Orbit) -> FloquetResult:
-    """The result for a cycle that Newton's method has found to the tolerance."""
+def cycle_of(map_: SectionMap, orbit: Orbit, kind: str = STICK_SLIP) -> FloquetResult:
+    """The result for a cycle of a kind that Newton's method has found to the tolerance."""
     values = multipliers(orbit.jacobian)
     leading = complex(values[0])
     growth_rate = -math.inf
@@ -385,6 +304,7 @@ def cycle_of(map_: SectionMap, orbit: Orbit) -> FloquetResult:
         separations=counts.separations,
         sticks=counts.sticks,
         residual=orbit.residual / map_.deflection,
+        kind=kind,
     )
 
 

@@ -15,7 +15,8 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.engine.jit.cache import compiling
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.cycle import FloquetResult, floquet
+from disc_model.stability.cycle import FloquetResult
+from disc_model.stability.floquet import floquet
 from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.sliding import SlidingModes, sliding_modes, split_rows
 

@@ -1,4 +1,4 @@
-"""The search for a cycle that slips all the time, round steady sliding."""
+"""The search for a cycle that slips all the time, near steady sliding or a given state."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -7,8 +7,12 @@ import numpy as np
 from scipy.optimize import brentq
 
 from disc_model.arrays import ComplexArray
+from disc_model.data.variables import CycleStatus
+from disc_model.parameters import Parameters
+from disc_model.simulation.states import State
+from disc_model.stability.cycle import SLIPPING, FloquetResult, cycle_of, no_cycle
 from disc_model.stability.return_map import Orbit, newton
-from disc_model.stability.sliding import SteadySliding
+from disc_model.stability.sliding import SlidingStatus, SteadySliding, steady_sliding
 from disc_model.stability.slipping_map import SlippingMap
 
 SMALLEST = 1e-3  # distance from steady sliding at which the search begins, over the deflection
@@ -17,6 +21,31 @@ MOST_DISTANCES = 60  # up to 500 times the deflection, beyond which the slider h
 HALVINGS = 12  # of the distances up to which the slider does not stop
 NEUTRAL = 1e-9  # growth in a return that may be rounding: without damping all motions return
 PRECISION = 1e-6  # of the distance from which Newton's method begins, relative to it
+
+
+def find_slipping_cycle(p: Parameters, tol: float, guess: State | None) -> FloquetResult:
+    """The cycle that slips all the time which Newton's method finds near a state in slip, or the
+    smallest one round steady sliding."""
+    sliding = steady_sliding(p)
+    missing = sliding.status is not SlidingStatus.OK
+    if missing or min(p.N, p.k_p) <= 0:
+        reason = "there is no steady sliding on a spring"
+        return no_cycle(p, tol, CycleStatus.NO_CYCLE, reason, SLIPPING)
+
+    map_ = SlippingMap(p, tol)
+    orbit = None
+    where = "round steady sliding"
+    if guess is None:
+        orbit = find_slipping_orbit(map_, sliding)
+    else:
+        where = "near the given state"
+        x = map_.next_passage(guess)
+        if x is not None:
+            orbit = newton(map_, x)
+    if orbit is None:
+        without = f"no cycle {where} slips all the time"
+        return no_cycle(p, tol, CycleStatus.NO_CYCLE, without, SLIPPING)
+    return cycle_of(map_, orbit, SLIPPING)
 
 
 def find_slipping_orbit(map_: SlippingMap, sliding: SteadySliding) -> Orbit | None:

@@ -97,9 +97,9 @@ class SlippingMap:
         # coordinates of the section
         height = ("u", "u_velocity") if self.model.has_compliance else ()
         self._rows = columns.coordinate_rows(self.model, ("psi", *height))
-        self._psi_row, self._rate_row = columns.coordinate_rows(self.model, ("psi", "f"))[
-            -2:
-        ].tolist()
+        of_slider = columns.coordinate_rows(self.model, ("psi", "f"))[-2:]
+        self._psi_row = int(of_slider[0])
+        self._rate_row = int(of_slider[1])
         modes = columns.coordinate_rows(self.model, ())
         self.diameters = columns.diameters_of_rows(self.model)[modes]
         self.scale = columns.energy_scale(self.model)[self._rows]
@@ -130,11 +130,12 @@ class SlippingMap:
         speak of releases and separations have no meaning here."""
         start = np.array(x, dtype=float)
         self._put(start)
-        amplitude = self._acceleration()
-        if amplitude <= 0:
+        acceleration = self._acceleration()
+        if acceleration <= 0:
             return self._orbit(VANISHED, 0.0, start, tangent=tangent)
         outcome, period = self._follow_to_passage()
-        if amplitude * period < math.tau * SMALLEST_CYCLE * self.model.Omega:
+        amplitude = acceleration * period / math.tau  # of an oscillation about steady sliding
+        if outcome == RETURNED and amplitude < SMALLEST_CYCLE * self.model.Omega:
             outcome = VANISHED
         if outcome == RETURNED and tangent:
             self._put(start)

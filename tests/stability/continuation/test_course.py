@@ -93,7 +93,9 @@ def test_a_closed_branch_ends_where_it_began(monkeypatch):
     np.testing.assert_array_equal(branch.points[0], branch.points[-1])
     assert branch.special_points["kind"].tolist() == ["fold", "fold"]
     # once round the circle, and no further
-    angle = np.unwrap(np.arctan2((branch.values[:, 0] - 12) / 4, branch.points[:, 0] - 2))
+    sine = (branch.values[:, 0] - 12) / 4
+    cosine = branch.points[:, 0] - 2
+    angle = np.unwrap(np.arctan2(sine, cosine))
     assert abs(angle[-1] - angle[0]) == pytest.approx(math.tau, abs=1e-6)
 
 
@@ -165,7 +167,10 @@ def test_two_folds_within_a_step_are_found(monkeypatch):
     use(monkeypatch, CubicMap)
     branch = continue_cycle(Parameters(N=300, Omega=13), "Omega", (11.0, 14.0))
     apart = 2 * (CubicMap.TINY / 3) ** 1.5
-    assert np.sort(branch.folds[:, 0]) == pytest.approx([12 - apart, 12 + apart], abs=1e-9)
+    low = 12 - apart
+    high = 12 + apart
+    folds = np.sort(branch.folds[:, 0])
+    assert folds == pytest.approx([low, high], abs=1e-9)
     assert apart == pytest.approx(2e-6)
 
 

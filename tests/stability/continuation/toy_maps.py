@@ -47,7 +47,9 @@ def outside(Omega, N):
 def cycle_at(Omega, N, upper=True):
     """The cycle's point."""
     distance = math.sqrt((fold_at(N) - Omega) / 10)
-    return np.array([1 + (distance if upper else -distance), 0.0, 0.0])
+    if not upper:
+        distance = -distance
+    return np.array([1 + distance, 0.0, 0.0])
 
 
 def growth_at(Omega, N, upper=True):

@@ -1,6 +1,7 @@
 """Campbell diagrams: rows of the table, crossings against root finding, and what growth rates do
 there."""
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -8,10 +9,11 @@ import pytest
 import xarray as xr
 from scipy.optimize import brentq
 
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import CycleStatus, flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.frequencies import frequencies
-from disc_model.studies.quantities.campbell import Campbell
+from disc_model.studies.quantities.campbell import KINDS, Campbell, frequency_of
+from disc_model.studies.quantity import Point
 from tests.studies.conftest import SMALL, computed
 
 
@@ -89,7 +91,10 @@ def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not
     assert found["crossing_multiple"][0] == 1
     assert found["crossing_growth_rate"][0] == pytest.approx(-0.1)
     # at the window's ends, one step beyond it, the peak has fallen to 1 / (1 + 5.5^2)
-    assert found["crossing_rise"][0] == pytest.approx(0.1 - 0.1 / (1 + 5.5**2), rel=1e-3)
+    square = 5.5**2
+    beside = 0.1 / (1 + square)
+    rise = found["crossing_rise"][0]
+    assert rise == pytest.approx(0.1 - beside, rel=1e-3)
     assert effects(peak) == ["rises"]
     assert effects(peak, min_rise=0.2) == ["no_rise"]
     rate = peak["growth_rate"].values
@@ -103,3 +108,82 @@ def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not
     assert effects(made_up(cycle_growth_rate=np.full((401, 1), np.nan))) == ["unresolved"]
     assert effects(peak.isel(Omega=slice(0, 401, 20))) == ["unresolved"]
     assert effects(peak.isel(Omega=slice(195, 401))) == ["unresolved"]
+
+
+def found_crossings(cell: xr.Dataset) -> list[tuple[float, float, int, str, float]]:
+    """Speed, frequency, mode, line and multiple of each crossing."""
+    found = Campbell().summarise(cell)
+    names = ("Omega", "frequency", "mode", "line", "multiple")
+    columns = [found[f"crossing_{name}"] for name in names]
+    return list(zip(*columns, strict=True))
+
+
+def test_modes_cross_multiples_and_halves_of_f_s_and_turns_up_to_their_diameters() -> None:
+    """The mode has 100 Hz at all speeds; the frequencies that it meets are made up."""
+    speeds = np.linspace(8, 12, 401)
+    half = found_crossings(made_up(stick_slip_frequency=20 * speeds))
+    assert [row[2:] for row in half] == [(1, "stick_slip", 0.5)]
+    assert half[0][:2] == pytest.approx((10.0, 100.0))
+    # 2.5 f_s, and 3 f_s at the end of the axis
+    several = found_crossings(made_up(stick_slip_frequency=4 * speeds - 0.01))
+    assert [row[4] for row in several] == [3.0, 2.5]
+    assert [row[0] for row in several] == pytest.approx([(100 / 3 + 0.01) / 4, 10.0025])
+
+    turning = {"rotation_frequency": 5.02 * speeds, "stick_slip_frequency": np.full(401, np.nan)}
+    assert Campbell().summarise(made_up(**turning))["n_crossings"] == 0  # of l = 1 only once
+    three = found_crossings(made_up(**turning, diameters=np.full((401, 1), 3)))
+    assert [row[2:] for row in three] == [(1, "rotation", 2.0)]
+    assert three[0][:2] == pytest.approx((100 / 10.04, 100.0))
+
+
+def test_frequencies_without_a_multiplier_are_those_of_sliding_with_the_difference() -> None:
+    speeds = np.linspace(8, 12, 401)
+    sliding = 100 + 0.5 * speeds[:, None]
+    mac = np.ones((401, 1))
+    mac[150:250] = 0.74  # resembles another shape as much
+    of_cycle = sliding + np.where(mac < 0.75, 40.0, 0.2 * (speeds - 8)[:, None])
+    cell = made_up(sliding_frequency=sliding, cycle_frequency=of_cycle, mac=mac).isel(mode=0)
+    expected = sliding[:, 0] + 0.2 * (speeds - 8)
+    np.testing.assert_allclose(frequency_of(cell), expected, rtol=1e-12)
+    none = made_up(sliding_frequency=sliding, mac=0 * mac).isel(mode=0)
+    np.testing.assert_array_equal(frequency_of(none), sliding[:, 0])
+
+
+def test_a_window_of_two_speeds_says_nothing() -> None:
+    """At least three lie within; those of the ends do not count."""
+    peak = made_up()
+    at = [0, 150, 190, 199, 201, 205, 250, 400]
+    assert effects(peak.isel(Omega=at)) == ["rises"]
+    assert effects(peak.isel(Omega=[0, 150, 199, 201, 250, 400])) == ["unresolved"]
+
+
+def test_columns_are_those_of_the_cycle_and_of_the_modes(monkeypatch: pytest.MonkeyPatch) -> None:
+    status = {"ok": CycleStatus.OK, "none": CycleStatus.NO_CYCLE}
+    modes = SimpleNamespace(
+        diameters=np.array([-1, 0, 2]),
+        forward=np.array([0.5, 0.5, 0.9]),
+        frequency=np.array([71.0, 130, 140]),
+        growth_rate=np.array([-0.1, -0.2, -0.3]),
+    )
+    columns = np.arange(9.0).reshape(3, 3)
+    for word, releases in (("ok", 2), ("none", 0)):
+        cycle = SimpleNamespace(
+            status=status[word], growth_rate=-0.05, releases=releases, period=0.03
+        )
+        monkeypatch.setattr(
+            "disc_model.stability.frequencies.frequencies",
+            lambda p, tol, cycle=cycle: (cycle, modes, columns),
+        )
+        values, message = Campbell().compute_point(Point(Parameters(N=200, Omega=11)))
+        assert message == ("" if word == "ok" else CycleStatus.NO_CYCLE.advice)
+        rate = 2 / 0.03 if word == "ok" else np.nan
+        assert values["stick_slip_frequency"] == pytest.approx(rate, nan_ok=True)
+    assert values["rotation_frequency"] == pytest.approx(11 / (2 * np.pi))
+    assert values["diameters"].tolist() == [0, 0, 2]
+    assert [KINDS[code] for code in values["mode_kind"]] == ["slider", "disc", "disc"]
+    assert values["sliding_frequency"].tolist() == [71, 130, 140]
+    assert values["sliding_growth_rate"].tolist() == [-0.1, -0.2, -0.3]
+    assert values["cycle_frequency"].tolist() == [0, 1, 2]
+    assert values["cycle_growth_rate"].tolist() == [3, 4, 5]
+    assert values["mac"].tolist() == [6, 7, 8]
+    assert values["forward_wave_fraction"].tolist() == [0.5, 0.5, 0.9]

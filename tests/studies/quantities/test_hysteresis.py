@@ -30,7 +30,10 @@ def test_a_stay_is_doubled_until_its_whole_record_has_settled(
         if len(legs) == 1:
             stays.append([ends[0] - 60])  # the begin, since a stay begins with `dwell`
         stays[-1] = [stays[-1][0], *ends]
-        return attractors.Arrival(Settling(Settled.SETTLED if p.Omega > 13 else Settled.UNDECIDED))
+        answer = Settled.UNDECIDED
+        if p.Omega > 13:
+            answer = Settled.SETTLED
+        return attractors.Arrival(Settling(answer))
 
     monkeypatch.setattr(attractors, "arrival", settles_above_13)
     options = Hysteresis.model_validate(

@@ -98,7 +98,10 @@ def test_only_separation_is_inferred(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
         lost = p.Omega == 29.0 or (p.Omega, p.N) == (12.0, 180.0)
-        return OutcomeResult(Outcome.SEPARATION if lost else Outcome.GROWING, 1.0)
+        kind = Outcome.GROWING
+        if lost:
+            kind = Outcome.SEPARATION
+        return OutcomeResult(kind, 1.0)
 
     nothing = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
     monkeypatch.setattr(refinement, "cycle_of_static_start", lambda p: nothing)
@@ -118,7 +121,10 @@ def test_a_point_on_the_edge_of_a_cell_that_does_not_separate_opens_it(
 
     def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
         quiet = p.Omega > 4 or (p.Omega, p.N) == (4.0, 10.0)
-        return OutcomeResult(Outcome.GROWING if quiet else Outcome.SEPARATION, 1.0)
+        kind = Outcome.SEPARATION
+        if quiet:
+            kind = Outcome.GROWING
+        return OutcomeResult(kind, 1.0)
 
     nothing = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
     monkeypatch.setattr(refinement, "cycle_of_static_start", lambda p: nothing)

@@ -45,7 +45,10 @@ def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def function(p: Parameters) -> Row:
         word = SAMPLE_CYCLES[min(int(8 * p.c), 7)]
-        return cycle_row(word, p.c if word in ("stable", "unstable") else np.nan)
+        rate = np.nan
+        if word in ("stable", "unstable"):
+            rate = p.c
+        return cycle_row(word, rate)
 
     evaluating(monkeypatch, function)
     spread = {"distribution": "uniform", "low": 0, "high": 1}

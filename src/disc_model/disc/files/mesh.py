@@ -32,12 +32,16 @@ def mesh_of(rectangles: Iterable[tuple[float, float, float, float]], size: float
     require((is_number(size) and size > 0, "size", size, "must be > 0"))
 
     inner, outer, low, high = zip(*boxes, strict=True)
-    count = (max(outer) - min(inner)) / size * ((max(high) - min(low)) / size)
+    columns = (max(outer) - min(inner)) / size
+    rows = (max(high) - min(low)) / size
+    count = columns * rows
     rule = f"must give at most {MOST_ELEMENTS:,} elements, not {count:.2g}: "
     rule += "size and rectangles are in m"
     require((count <= MOST_ELEMENTS, "size", size, rule))
 
-    mesh = mesh_type.init_tensor(_divided({*inner, *outer}, size), _divided({*low, *high}, size))
+    radii = _divided({*inner, *outer}, size)
+    heights = _divided({*low, *high}, size)
+    mesh = mesh_type.init_tensor(radii, heights)
     r, z = mesh.p[:, mesh.t].mean(axis=1)
     inside = np.zeros(r.shape, dtype=bool)
     for r_from, r_to, z_from, z_to in boxes:
@@ -56,7 +60,10 @@ def _is_rectangle(box: tuple[float, ...]) -> bool:
 def _divided(edges: set[float], size: float) -> Array:
     """Coordinates with every edge among them, and no gap larger than `size`."""
     ends = sorted(edges)
-    parts = [np.linspace(a, b, math.ceil((b - a) / size) + 1)[:-1] for a, b in pairwise(ends)]
+    parts = []
+    for a, b in pairwise(ends):
+        count = math.ceil((b - a) / size)
+        parts.append(np.linspace(a, b, count + 1)[:-1])
     return np.concatenate([*parts, ends[-1:]])
 
 

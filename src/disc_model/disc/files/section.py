@@ -198,7 +198,9 @@ def _harmonic(
     # twice as many modes, until one is above the highest frequency
     count = 4
     while True:
-        squares, shapes = eigsh(K, min(count, len(free) - 1), M, sigma=0.0, v0=np.ones(len(free)))
+        sought = min(count, len(free) - 1)
+        start = np.ones(len(free))
+        squares, shapes = eigsh(K, sought, M, sigma=0.0, v0=start)
         if squares.max() > highest**2 or count >= len(free) - 1:
             break
         if count >= MOST_EQUAL:
@@ -213,7 +215,9 @@ def _harmonic(
     whole = np.zeros((basis.N, len(order)))
     whole[free] = shapes[:, order]
     moves = whole[measured].T
-    return np.sqrt(squares[order]).tolist(), np.where(moves[:, :1] < 0, -moves, moves)
+    omega = np.sqrt(squares[order])
+    upwards = np.where(moves[:, :1] < 0, -moves, moves)
+    return omega.tolist(), upwards
 
 
 def _matrices(basis: Any, l: int, material: Material) -> tuple[Any, Any]:
@@ -227,14 +231,19 @@ def _matrices(basis: Any, l: int, material: Material) -> tuple[Any, Any]:
     def strain(u: Any, w: Any, v: Any, r: Any) -> tuple[Any, ...]:
         """Three normal strains, then the doubled shear strains; u, w, v are u_r, u_z, u_theta."""
         normal = (u.grad[0], w.grad[1], (u + l * v) / r)
-        return (*normal, u.grad[1] + w.grad[0], v.grad[0] - (l * u + v) / r, v.grad[1] - l * w / r)
+        in_section = u.grad[1] + w.grad[0]
+        in_plane = v.grad[0] - (l * u + v) / r
+        across = v.grad[1] - l * w / r
+        return (*normal, in_section, in_plane, across)
 
     def energy(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, point: Any) -> Any:
         first = strain(u, w, v, point.x[0])
         second = strain(u_, w_, v_, point.x[0])
         factors = [2 * shear] * 3 + [shear] * 3
-        doubled = sum(c * a * b for c, a, b in zip(factors, first, second, strict=True))
-        return (lame * sum(first[:3]) * sum(second[:3]) + doubled) * point.x[0]
+        terms = zip(factors, first, second, strict=True)
+        of_shape = sum(c * a * b for c, a, b in terms)
+        of_volume = lame * sum(first[:3]) * sum(second[:3])
+        return (of_volume + of_shape) * point.x[0]
 
     def inertia(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, point: Any) -> Any:
         return rho * (u * u_ + w * w_ + v * v_) * point.x[0]

@@ -108,17 +108,23 @@ def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
 def _columns(rows: list[list[str]]) -> list[Column]:
     """The columns of a table, checked as a whole."""
     names, *body = _without_labels(rows) or [[]]
-    if body and len(body[0]) == len(names) and not any(map(begins_a_number, body[0])):
+    if body and _is_of_units(body[0], names):
         names = _with_units(names, body.pop(0))
     heads, faults = _heads(names)
     raise_faults(faults or _faults_together(heads))
     rule = f"values: must be as many as columns, {len(names)}"
-    uneven = [
-        f"mode {i} has {len(row)} {rule}" for i, row in enumerate(body, 1) if len(row) != len(names)
-    ]
+    uneven = []
+    for i, row in enumerate(body, 1):
+        if len(row) != len(names):
+            uneven.append(f"mode {i} has {len(row)} {rule}")
     raise_faults(uneven[:3])
     cells = zip(*body, strict=True) if body else [()] * len(heads)
     return [Column(head, column) for head, column in zip(heads, cells, strict=True)]
+
+
+def _is_of_units(row: list[str], names: list[str]) -> bool:
+    """Whether a row below the names has their units: as many cells, none of which is a number."""
+    return len(row) == len(names) and not any(map(begins_a_number, row))
 
 
 def _without_labels(rows: list[list[str]]) -> list[list[str]]:
@@ -268,8 +274,10 @@ def _groups(values: dict[str, Any]) -> list[list[int]]:
     omega = values["omega"]
     groups: list[list[int]] = []
     for i in sorted(range(len(omega)), key=omega.__getitem__):
-        halves = [group for group in groups if len(group) == 1 and kinds[group[0]] == kinds[i]]
-        close = [group for group in halves if omega[i] - omega[group[0]] < SAME_PAIR * omega[i]]
+        single = [group for group in groups if len(group) == 1]
+        halves = [group for group in single if kinds[group[0]] == kinds[i]]
+        widest = SAME_PAIR * omega[i]
+        close = [group for group in halves if omega[i] - omega[group[0]] < widest]
         if close and kinds[i][0] > 0:
             close[0].append(i)
         else:
@@ -301,4 +309,5 @@ def _of_table(fault: Fault, columns: list[Column]) -> Fault:
     i = int(fault.path[1])
     converted = column.head.factor != 1.0
     unit = " rad/s" if converted and "within" in fault.rule else ""
-    return Fault.of((column.head.text,), column.cells[i], f"{fault.rule}{unit} (mode {i + 1})")
+    rule = f"{fault.rule}{unit} (mode {i + 1})"
+    return Fault.of((column.head.text,), column.cells[i], rule)

@@ -39,8 +39,10 @@ def single_halves(groups: Sequence[Sequence[Wave]]) -> list[str]:
         single = low.diameters > 0 and is_one_half(first) and is_one_half(second)
         if low.diameters != high.diameters or not single or apart > TOLD_APART:
             continue
+        lower = low.omega / math.tau
+        upper = high.omega / math.tau
         text = f"modes of {counted(low.diameters, 'nodal diameter')} at "
-        text += f"{low.omega / math.tau:.5g} and {high.omega / math.tau:.5g} Hz are kept as two, "
+        text += f"{lower:.5g} and {upper:.5g} Hz are kept as two, "
         text += f"{100 * apart:.2g} % apart: the "
         doubts.append(f"{text}halves of one pair are within {100 * SAME_PAIR:g} %")
     return doubts

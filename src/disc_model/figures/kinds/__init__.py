@@ -20,9 +20,12 @@ from disc_model.figures.kinds.motions import (
     Branches,
     Campbell,
     LateRange,
+    PhaseMap,
+    RangeLawPlot,
     RootLocus,
     Sensitivity,
     SlidingModes,
+    Staircase,
 )
 
 __all__ = [
@@ -50,9 +53,11 @@ KINDS: dict[str, type[Kind]] = {
     "heat_map": HeatMap,
     "history": History,
     "late_range": LateRange,
+    "phase_map": PhaseMap,
     "poincare": PoincareSections,
     "portrait": Portrait,
     "ramps": RampedSpeeds,
+    "range_law": RangeLawPlot,
     "region_map": RegionMap,
     "root_locus": RootLocus,
     "sensitivity": Sensitivity,
@@ -60,6 +65,7 @@ KINDS: dict[str, type[Kind]] = {
     "sliding_outcome": SlidingOutcome,
     "spectrogram": Spectrogram,
     "spectrum": Spectrum,
+    "staircase": Staircase,
 }
 """Kinds of this package."""
 

@@ -69,6 +69,58 @@ class BasinShares(Plot):
     x: str
 
 
+class Staircase(Plot):
+    """Number of separations per release of stick against a parameter, a step for each period.
+
+    zooms : ends of parts of the axis that are shown enlarged, each within the one before
+    """
+
+    roles: ClassVar[Roles] = {"fine": Role("locking"), "slipping": Role("locking")}
+    quantities = ("locking",)
+    kind: Literal["staircase"] = "staircase"
+    x: str
+    zooms: Annotated[tuple[tuple[Finite, Finite], ...], Field(max_length=3)] = ()
+
+    def wrong_axes(self, values: Values, shown: str) -> Iterator[Fault]:
+        yield from super().wrong_axes(values, shown)
+        for low, high in self.zooms:
+            if not low < high:
+                yield Fault.of(("zooms",), (low, high), "must be two ascending values of x")
+
+
+class PhaseMap(Plot):
+    """The map from the phase of a release to that of the next one, at a single point."""
+
+    quantities = ("locking",)
+    kind: Literal["phase_map"] = "phase_map"
+
+    def wrong_dims(self, values: Values) -> Iterator[Fault]:
+        if math.prod(len(along) for along in values.values()) > 1:
+            yield Fault.of(("kind",), self.kind, "can show a study of one point only")
+
+
+class RangeLawPlot(Plot):
+    """Range of all motions of a study that separate, against the range at which their vibration
+    loses contact.
+
+    share : least share of height and contact force at one frequency of a motion with a filled mark
+    set_apart : values of a parameter, by the name of its motions, which have marks of their own
+    """
+
+    several = True
+    kind: Literal["range_law"] = "range_law"
+    share: Annotated[Positive, Field(le=1)] = 0.95
+    set_apart: dict[str, dict[str, Finite]] = Field({})
+
+    def wrong_dims(self, values: Values) -> Iterator[Fault]:
+        """Names that do not vary; whatever does, motions are drawn."""
+        for group in self.set_apart.values():
+            for name in group:
+                # the name of a zip has those of all its parameters
+                if not any(f"_{name}_" in f"_{dim}_" for dim in values):
+                    yield Fault.of(("set_apart",), name, "does not vary in this study")
+
+
 class Sensitivity(Plot):
     """Probability of instability in the lowest and in the highest third of each parameter; for up
     to four points."""

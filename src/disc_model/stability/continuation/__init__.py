@@ -7,10 +7,10 @@ two cycles meet, is a regular point of the curve F = 0.  Distances mix x, over t
 static deflection, with q, over the parameters' scales.
 
 `curve` predicts and corrects points of any curve, and tests whether a step stays on it; `problem`
-is F; `spectrum` follows multipliers from point to point.  In one parameter `tracing` takes a step,
-`course` both ways from a cycle, `special` locates special points, `ends` finds the reason for which
-a branch ends, and `cycles` returns all of it as a `Branch`.  `borders` follows borders of
-stability.
+is F, and `first_cycle` a zero of it; `spectrum` follows multipliers from point to point.  In one
+parameter `tracing` takes a step, `course` both ways from a cycle, `special` locates special points,
+`ends` finds the reason for which a branch ends, and `cycles` returns all of it as a `Branch`.
+`borders` follows borders of stability.
 """
 
 from disc_model.stability.continuation.borders import BORDER, Kind, continue_border

@@ -6,24 +6,16 @@ from typing import Any
 import numpy as np
 
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion, violations
+from disc_model.errors import Fault, raise_faults, require, suggestion, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.simulation.states import State, is_finite_array
 from disc_model.stability.continuation import ends, special
 from disc_model.stability.continuation.branch import Branch, SpecialPoint
 from disc_model.stability.continuation.course import SAME_VALUE, Course, Search
 from disc_model.stability.continuation.curve import CurvePoint, StepControl
+from disc_model.stability.continuation.first_cycle import first_cycle
 from disc_model.stability.continuation.problem import CycleProblem, growth_rate, parameter_scale
-from disc_model.stability.cycle import (
-    SLIPPING,
-    STICK_SLIP,
-    find_cycle,
-    find_slipping_cycle,
-    guess_faults,
-    multipliers,
-)
-from disc_model.stability.return_map import Counts
-from disc_model.stability.slipping_map import SlippingMap
+from disc_model.stability.cycle import STICK_SLIP, guess_faults, multipliers
 from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, limits_faults
 
 CYCLE = StepControl()
@@ -134,18 +126,7 @@ def continue_cycle(  # noqa: PLR0913
     require((within, name, start, rule))
 
     scale = steps.scale or parameter_scale(p, name, max(map(abs, span)))
-    if kind == SLIPPING:
-        cycle = find_slipping_cycle(p, tol, guess)
-        if cycle.state is None:
-            rule = "p: must have a cycle that slips all the time"
-            raise ParameterError(f"{rule}, but the search ended with {cycle.message}")
-        problem = CycleProblem(p, (name,), scale, tol, make_map=SlippingMap)
-    else:
-        cycle = find_cycle(p, tol, guess, releases)
-        order = None
-        if guess is not None:
-            order = Counts(*(getattr(cycle, event) for event in Counts._fields))
-        problem = CycleProblem(p, (name,), scale, tol, order)
+    problem, cycle = first_cycle(p, (name,), scale, tol, guess, releases, kind)
     rising = np.zeros(problem.n + 1)
     rising[-1] = 1.0
     search = Search(problem, steps, span, stop_at)

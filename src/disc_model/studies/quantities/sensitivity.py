@@ -236,7 +236,7 @@ def _own_values(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
-    from disc_model.stability.cycle import floquet
+    from disc_model.stability.floquet import floquet
 
     cycle = floquet(p, tol=tol)
     row: dict[str, Any] = {"cycle": cycle.motion, "growth_rate": cycle.growth_rate}
