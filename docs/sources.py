@@ -3,7 +3,7 @@
 import re
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -22,6 +22,16 @@ from docs import plate_stiffening
 
 THICKNESS = 0.012
 """Thickness of the ring of the brake-like disc, m."""
+
+
+class RangeLawCounts(NamedTuple):
+    """Numbers of motions: all, those with 95 % of height and contact force at one frequency, and of
+    these the ones whose range is within 5 % of the law, without and with the excess of flights."""
+
+    all: int
+    single: int
+    within: int
+    explained: int
 
 
 class Sources:
@@ -115,6 +125,49 @@ class Sources:
     def pinned_range(self, N: float) -> float:
         """Return 2 N/|k - m omega^2| of the paper's disc, m."""
         return _contact_loss(_parameters(N=N))
+
+    def range_law(self, heaviest: float = np.inf, lightest: float = 0.0) -> RangeLawCounts:
+        """Return numbers of motions of the study `range_law` that lose contact again and again.
+
+        Parameters
+        ----------
+        heaviest, lightest : bounds of the slider's mass, kg
+        """
+        study = self.grid("range_law")
+        lost = study["range"].notnull() & (study["m"] <= heaviest) & (study["m"] >= lightest)
+        single = lost & (study["vibration_share"] >= 0.95) & (study["force_share"] >= 0.95)
+        deviation = study["deviation"]
+        rest = abs(deviation - study["flight_excess"])
+        return RangeLawCounts(
+            all=int(lost.sum()),
+            single=int(single.sum()),
+            within=int((single & (abs(deviation) <= 0.05)).sum()),
+            explained=int((single & (rest <= 0.05)).sum()),
+        )
+
+    def locked(self, name: str, Omega: float, study: str = "locking") -> float:
+        """Return a variable of a study of `locking` at a speed."""
+        values = self.grid(study)[name]
+        return float(values[int(np.abs(values["Omega"].values - Omega).argmin())])
+
+    def lock_ends(self, releases: int) -> tuple[float, float]:
+        """Return the ends of the step with so many releases in the study `locking`, rad/s."""
+        speeds = self.grid("locking")["Omega"].values
+        there = speeds[self.grid("locking")["period_releases"].values == releases]
+        return float(there.min()), float(there.max())
+
+    def count_of_motions(self, motion: str, study: str = "locking") -> int:
+        """Return the number of points of a study of `locking` with a kind of motion."""
+        return int((flag_names(self.grid(study)["motion"]) == motion).sum())
+
+    def slope_of(self, separations: int) -> float:
+        """Return the mean slope of a piece of the map of phases, among the phases that recur."""
+        point = self.grid("locking_map")
+        recurring = point["release_phase"]
+        phase = point["map_phase"]
+        near = (phase > recurring.min()) & (phase < recurring.max())
+        piece = near & (point["map_separations"] == separations)
+        return float(point["map_slope"].where(piece).mean())
 
     # ---- grid studies of the paper's disc
 
@@ -264,6 +317,17 @@ class Sources:
         """Return the range of the slider late in the motion, in thicknesses of the ring."""
         point = self.grid("brake_outcome").sel(disc=disc, N=N, Omega=Omega, contact=contact)
         return float(point["u_max"] - point["u_min"]) / THICKNESS
+
+    def brake_ranges(self, contact: str = "unilateral", least: float = 60) -> xr.DataArray:
+        """Return the ranges of the slider with tangential motion, in thicknesses of the ring, from
+        a speed in rad/s on."""
+        study = self.grid("brake_outcome").sel(disc="surface", contact=contact)
+        study = study.where(study["Omega"] >= least, drop=True)
+        return (study["u_max"] - study["u_min"]) / THICKNESS
+
+    def brake_ratios(self) -> xr.DataArray:
+        """Return these ranges in bilateral contact over those with separation."""
+        return self.brake_ranges("bilateral") / self.brake_ranges()
 
     def brake_separation(self, disc: str, N: float, Omega: float) -> float:
         """Return the time of the first separation, s."""

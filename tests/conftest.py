@@ -29,6 +29,9 @@ def seed(request: pytest.FixtureRequest) -> int:
     """Of a random search: that of the command line, or another each time; a test that fails shows
     it."""
     found = request.config.getoption("--hypothesis-seed")
-    chosen = np.random.SeedSequence().entropy % 2**32 if found is None else int(found)
+    if found is None:
+        chosen = np.random.SeedSequence().entropy % 2**32
+    else:
+        chosen = int(found)
     print(f"drawn by --hypothesis-seed={chosen}")
     return chosen

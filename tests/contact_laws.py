@@ -31,7 +31,10 @@ FALLING["vertical_coupled_falling"] = FALLING["vertical_falling"] | COUPLE
 """Each law with friction that falls with the speed, two of them with the couple."""
 ALL_LAWS = LAWS | COUPLED | FALLING
 
-COMPILES = () if numba.config.DISABLE_JIT else (pytest.mark.slow,)
+if numba.config.DISABLE_JIT:
+    COMPILES = ()
+else:
+    COMPILES = (pytest.mark.slow,)
 """Marks of what has kernels of its own, which compile for a minute; without compilation it is quick."""
 
 

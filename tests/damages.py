@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 
 import xarray as xr
 
-from disc_model.data.dataset import scalars_dataset
+from disc_model.data.columns import scalars_dataset
 from disc_model.parameters import Parameters
 
 Groups = dict[str, xr.Dataset]
@@ -25,11 +25,9 @@ def _failed(groups: Groups) -> Groups:
 
 
 def _without_events(groups: Groups) -> Groups:
-    events = (
-        {"events": groups["events"].isel(event=slice(0)).drop_attrs(deep=False)}
-        if "events" in groups
-        else {}
-    )
+    events = {}
+    if "events" in groups:
+        events = {"events": groups["events"].isel(event=slice(0)).drop_attrs(deep=False)}
     return groups | events
 
 

@@ -48,7 +48,9 @@ def why_not(name: str) -> str:
     """What the processor lacks for a set; "" if it can run it."""
     here = llvm.get_host_cpu_features()
     lacking = [feature for feature in SETS[name].features if not here.get(feature, False)]
-    return f"this processor has no {', '.join(lacking)}" if lacking else ""
+    if lacking:
+        return f"this processor has no {', '.join(lacking)}"
+    return ""
 
 
 def environment(name: str) -> dict[str, str]:
@@ -91,17 +93,21 @@ def _difference(found: np.ndarray, expected: np.ndarray) -> float:
     if found.shape != expected.shape:
         return np.inf
     if found.dtype.kind != "f":
-        return 0.0 if np.array_equal(found, expected) else np.inf
+        if np.array_equal(found, expected):
+            return 0.0
+        return np.inf
     if found.tobytes() == expected.tobytes():
         return 0.0
     known = np.isfinite(expected)
     if not np.array_equal(found[~known], expected[~known], equal_nan=True):
         return np.inf
-    apart, size = (
-        np.abs(found - expected)[known].max(initial=0.0),
-        np.abs(expected[known]).max(initial=0.0),
-    )
-    return float(apart / size) if size else float("inf" if apart else 0.0)
+    apart = np.abs(found - expected)[known].max(initial=0.0)
+    size = np.abs(expected[known]).max(initial=0.0)
+    if size:
+        return float(apart / size)
+    if apart:
+        return float("inf")
+    return 0.0
 
 
 if __name__ == "__main__":

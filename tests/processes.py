@@ -13,7 +13,8 @@ def run(
 ) -> subprocess.CompletedProcess[str]:
     """Run a program, with these variables of the environment besides; it has to succeed, or to
     fail."""
-    words, environment = [*map(str, command)], os.environ | variables
+    words = [*map(str, command)]
+    environment = os.environ | variables
     done = subprocess.run(
         words,
         cwd=cwd,

@@ -13,14 +13,18 @@ from disc_model.studies.study import StudyError
 def test_a_fault_is_its_text_and_knows_its_parts() -> None:
     fault = Fault(("N",), "-1", "must be >= 0")
     copy = pickle.loads(pickle.dumps(fault))
-    assert fault == copy == "N=-1: must be >= 0"
-    assert (copy.path, copy.value, copy.rule) == (("N",), "-1", "must be >= 0")
+    assert fault == copy
+    assert copy == "N=-1: must be >= 0"
+    assert copy.path == ("N",)
+    assert copy.value == "-1"
+    assert copy.rule == "must be >= 0"
     for error in (
         ParameterError(fault, "k=nan: must be finite"),
         StudyError("a: b", "c: d", source="x.yaml"),
     ):
         again = pickle.loads(pickle.dumps(error))
-        assert (str(again), again.faults) == (str(error), error.faults)
+        assert str(again) == str(error)
+        assert again.faults == error.faults
 
 
 @pytest.mark.parametrize("error", [KeyboardInterrupt(), DiscModelError("no result")])

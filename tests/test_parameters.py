@@ -29,7 +29,10 @@ def test_key_depends_on_values_not_on_spelling() -> None:
 
 @given(st.sampled_from(sorted(Parameters.model_fields)))
 def test_key_changes_with_every_field(name: str) -> None:
-    p = Parameters(N=385, Omega=15.1, c=1, c_p=1, n_circles=0 if name == "disc" else 2)
+    n_circles = 2
+    if name == "disc":
+        n_circles = 0
+    p = Parameters(N=385, Omega=15.1, c=1, c_p=1, n_circles=n_circles)
     other = {
         "normalization": "orthonormal",
         "contact": "bilateral",
@@ -85,11 +88,11 @@ RIGHT = (
 
 @pytest.mark.slow
 def test_a_type_checker_knows_the_parameters(tmp_path: Path) -> None:
-    (tmp_path / "mypy.ini").write_text(
-        "[mypy]\nfollow_imports = silent\nignore_missing_imports = true\n"
-    )
+    mypy_path = tmp_path / "mypy.ini"
+    mypy_path.write_text("[mypy]\nfollow_imports = silent\nignore_missing_imports = true\n")
     lines = [f"disc_model.Parameters{arguments}" for arguments in (*WRONG, *RIGHT)]
-    (tmp_path / "case.py").write_text("\n".join(["import disc_model", *lines]))
+    case_path = tmp_path / "case.py"
+    case_path.write_text("\n".join(["import disc_model", *lines]))
     shown = subprocess.run(
         [sys.executable, "-m", "mypy", "case.py"], cwd=tmp_path, capture_output=True, text=True
     )
@@ -169,7 +172,8 @@ def test_a_ratio_stays_a_ratio_in_a_copy(copied: Callable[[Parameters], Paramete
     again = copied(RATIOS)
     assert again == RATIOS
     changed = again.replace(mu_s=0.4, b=0.13)
-    assert (changed.mu_k, changed.r_0) == (0.24, pytest.approx(0.104))
+    assert changed.mu_k == 0.24
+    assert changed.r_0 == pytest.approx(0.104)
 
 
 @pytest.mark.parametrize(

@@ -42,6 +42,7 @@ def run(**options: Any) -> None:
 start.__signature__ = inspect.signature(dm.State)  # type: ignore[attr-defined]
 run.__signature__ = inspect.signature(dm.Execution)  # type: ignore[attr-defined]
 PICTURE = {"ax": "None", "legend": "True", "labels": "None", "title": "text None"}
+CALLS = {"workers": "huge", "processes": "True", "executor": "None", "progress": "True"}
 SHAPES = {"p": P, "states": RUN.final_state, "r": 0.1, "theta": 0.0}
 #: Functions, right arguments, and by argument those of `WRONG` that are right as well.
 SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
@@ -65,7 +66,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         dm.sweep,
         {"function": dm.floquet, "case": P, "N": [9]},
-        {"workers": "huge", "processes": "True", "named": WRONG},
+        CALLS | {"zip": "None", "named": WRONG},
     ),
     (
         dm.run_study,
@@ -77,7 +78,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
                 "axes": {"Omega": [20]},
             }
         },
-        {"source": "text dict", "workers": "huge", "processes": "True"},
+        CALLS | {"source": "text dict"},
     ),
     (dm.plot_modes, {"p": P}, PICTURE | {"most": "huge"}),
     (
@@ -119,10 +120,11 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         start,
         {},
-        dict.fromkeys(("time", "psi", "u_velocity"), "negative")
+        dict.fromkeys(("time", "psi", "u_velocity", "surface_turn"), "negative")
         | {"mode_amplitudes": "None", "case_key": [*WRONG], "drive_angle": "None negative"},
     ),
     (RUN.final_state.slider_angle, {}, {}),
+    (RUN.final_state.material_angle, {}, {}),
     (dm.snapshots, {"p": P, "times": 1e-4}, {"initial_state": "None", "times": "nothing"}),
     (dm.deflection, SHAPES, {"theta": "negative nothing", "states": "nothing"}),
     (dm.floquet, {"p": P}, {"guess": "None"}),
@@ -159,6 +161,8 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (dm.Ramp, {"parameter": "N", "to": 1.0, "start": 0.0, "end": 2.0}, {}),
     (RUN.value_at, {"name": "N", "times": 0.0}, {"times": "negative matrix nothing"}),
     (RUN.save, {}, {}),
+    (RUN.to_csv, {}, {"path": "text"}),
+    (dm.save, {"data": GRID, "path": "x.nc"}, {}),
     *(
         (function, {}, {"path": "text"})
         for function in (RUN.final_state.save, dm.State.load, dm.load, dm.Result.load)

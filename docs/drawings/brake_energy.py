@@ -20,7 +20,7 @@ from disc_model.simulation.api import snapshots
 ROOT = Path(__file__).parents[2]
 FONT: Any = {"font.size": 9, "svg.hashsalt": "brake_energy", "font.family": "DejaVu Sans"}
 CASES = [(Omega, contact) for Omega in (80, 120) for contact in ("unilateral", "bilateral")]
-"""Speeds in rad/s at 8 kN, at which the surface stays slower than the drive with separation, and contacts."""
+"""Speeds in rad/s at 8 kN, and contacts."""
 BEGIN, LENGTH, RATE = 8.0, 0.5, 20000
 """s, from when and how long powers are averaged; samples per s."""
 PARTS = {
@@ -53,17 +53,28 @@ def powers(Omega: float, contact: str) -> dict[str, float]:
     names = ("a", "b", "alpha", "beta", "f", "psi", "u", "u_velocity", "direction")
     columns = (np.array([getattr(state, name) for state in states]) for name in names)
     a, b, alpha, beta, f, psi, u, v, direction = columns
-    modes, F = mode_arrays(p), p.k_p * psi
+    modes = mode_arrays(p)
+    tangential = tangential_amplitudes(p)
+    speed = beta @ tangential
+    rate = f - speed / p.r_0
+    F = p.k_p * psi
+
+    # friction: in stick it accelerates the slider with the surface
+    free = -(modal_damping(p) * beta + modes.omega**2 * b) @ tangential
+    held = (p.r_0 * F - p.m * free) / (1 + p.m * np.sum(tangential**2))
     sticks = np.array([state.phase == "stick" for state in states])
-    friction = np.where(sticks, p.r_0 * F, direction * p.mu_k * P)
-    speed = beta @ tangential_amplitudes(p)
+    friction = np.where(sticks, held, direction * p.mu_k * P)
+
+    # powers into disc and vertical motion; what is missing from their energy, impacts have taken
     energy = 0.5 * np.sum(alpha**2 + beta**2 + modes.omega**2 * (a**2 + b**2), axis=1)
     energy += 0.5 * p.m * v**2 + 0.5 * p.k * (u - run.u_0) ** 2 + p.N * (u - run.u_0)
-    surface, slope = np.mean(friction * speed), np.mean(P * f * (b @ (modes.diameters * modes.psi)))
+    surface = np.mean(friction * speed)
+    slope = np.mean(P * rate * (b @ (modes.diameters * modes.psi)))
     damping = -np.mean((alpha**2 + beta**2) @ modal_damping(p))
     impacts = (energy[-1] - energy[0]) / (times[P.size - 1] - times[0]) - surface - slope - damping
     named = dict(zip(PARTS, map(float, (surface, slope, damping, impacts)), strict=True))
-    drive, heat = p.Omega * p.r_0**2 * np.mean(F), p.mu_k * p.r_0 * np.mean(P * abs(f))
+    drive = p.Omega * p.r_0**2 * np.mean(F)
+    heat = p.r_0 * np.mean(friction * rate)
     return named | {
         "drive": float(drive),
         "heat": float(heat),

@@ -21,6 +21,7 @@ WHAT = {
     "studies": "YAML to jobs, jobs to results, results to one dataset",
     "fitting": "parameters of a case from measurements",
     "mode_choice": "number of modes for a quantity of the motion",
+    "mode_request": "what a study file asks of the number of modes",
     "figures": "datasets to pictures; never simulates",
     "stability": "cycles, their growth rates, curves, exponents",
     "analysis": "spectra, Poincaré sections, kinds of motion",
@@ -34,6 +35,8 @@ WHAT = {
     "errors": "statuses, exceptions and their messages",
     "display": "tables and pictures in notebooks, progress",
     "attachable": "the bases that have these methods",
+    "arrays": "types of arrays",
+    "hashing": "one text for equal values, and its hash",
     "sources": "files on which a result depends",
 }
 """A few words for each part of a layer."""

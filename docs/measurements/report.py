@@ -1,4 +1,4 @@
-"""Write the tables of docs/measurements.md and draw its pictures: `make measurements`."""
+"""Write the tables of docs/measurements.md and draw its picture: `make measurements`."""
 
 import re
 import warnings
@@ -6,13 +6,14 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
-from docs.measurements import load, stick_slip, wheel
-from docs.measurements.comparison import Comparison, read
+from docs.measurements import load, robustness, stick_slip, wheel
+from docs.measurements.comparison import Comparison
+from docs.measurements.signals import LEAST_FALLS
 from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model.errors import script
-from disc_model.figures.drawing import BLACK, BLUE, GREY, SEPARATED, styled
+from disc_model.figures.drawing import BLACK, SEPARATED, styled
 
 DOCS = Path(__file__).parents[1]
 PAGE = DOCS / "measurements.md"
@@ -37,11 +38,17 @@ def verdict(comparison: Comparison) -> str:
     return "yes" if comparison.agrees else "no"
 
 
+def crossed(text: str, agrees: bool) -> str:
+    """Return a cell, with a cross if it disagrees."""
+    return text if agrees else f"{text} ✗"
+
+
 def compared(comparisons: Iterable[Comparison], scale: float = 1.0) -> list[list[str]]:
     """Return rows of measured and predicted values, their ratio and the verdict."""
     rows = []
     for each in comparisons:
-        measured, predicted = scale * each.measured, scale * each.predicted
+        measured = scale * each.measured
+        predicted = scale * each.predicted
         row = [each.what, digits(measured), digits(predicted), f"{each.ratio:.2f}"]
         rows.append([*row, verdict(each)])
     return rows
@@ -57,35 +64,110 @@ def slips() -> str:
     for quantity, scale in (("duration", 1e3), ("period", 1e3), ("fall", 1.0)):
         cells = {}
         for each in medians[quantity]:
-            measured, predicted = scale * each.measured, scale * each.predicted
-            mark = "" if each.agrees else " ✗"
-            cells[each.what] = f"{digits(measured)}, {digits(predicted)}{mark}"
+            measured = scale * each.measured
+            predicted = scale * each.predicted
+            cells[each.what] = crossed(f"{digits(measured)}, {digits(predicted)}", each.agrees)
         for run, row in rows.items():
             row.append(cells.get(run, "fitted"))
     head = ("run", "duration, ms", "period, ms", "fall of force over weight")
     return table(head, [[run, *cells] for run, cells in rows.items()])
 
 
+def thresholds() -> str:
+    """Return A1 and A2 with intervals: a row for each quantity and run, a column for each least
+    fall."""
+    columns = robustness.ratios()
+    rows = []
+    for ratios in zip(*columns.values(), strict=True):
+        cells = []
+        for each in ratios:
+            mark = {"yes": "", "no": " ✗", "undecided": " ?"}[each.verdict]
+            cells.append(f"{each.value:.2f} ({each.low:.2f} to {each.high:.2f}){mark}")
+        rows.append([ratios[0].what, *cells])
+    head = ["predicted over measured", *(f"{least_fall:.2f}" for least_fall in LEAST_FALLS)]
+    return table(head, rows)
+
+
+def friction() -> str:
+    """Return friction and the mean force of each run, and numbers of slips by the least fall."""
+    rows = []
+    for run in (*stick_slip.runs(), stick_slip.SLIDING):
+        record = stick_slip.record(run)
+        levels = ["-", "-"]
+        if run != stick_slip.SLIDING:
+            levels = [f"{level:.3f}" for level in stick_slip.friction(run)]
+        counts = [f"{record[f'slips_{least_fall}']:.0f}" for least_fall in LEAST_FALLS]
+        mean = f"{record['mean_force']:.3f}"
+        rows.append([stick_slip.name(run), *levels, mean, ", ".join(counts)])
+    falls = ", ".join(f"{least_fall:.2f}" for least_fall in LEAST_FALLS)
+    head = ("run", "static", "kinetic", "mean force over weight", f"slips by falls over {falls}")
+    return table(head, rows)
+
+
+def mass() -> str:
+    """Return the residuals and the predictions of a block with the fitted mass."""
+    fit = stick_slip.moving_mass()
+    medians = stick_slip.medians(fit.parameters["m"].value)
+    rows: dict[str, list[str]] = {stick_slip.name(run): [] for run in stick_slip.runs()}
+    for quantity in ("period", "fall", "duration"):
+        cells = {}
+        for each in medians[quantity]:
+            cell = crossed(f"{each.ratio:.2f}", each.agrees)
+            if quantity == "period" and f" {stick_slip.FASTEST} " in each.what:
+                cell += " (fitted)"
+            cells[each.what] = cell
+        for run, row in rows.items():
+            row.append(cells.get(run, "friction from here"))
+    head = ("predicted over measured", "period", "fall", "duration")
+    return table(head, [[run, *cells] for run, cells in rows.items()])
+
+
 def spread() -> str:
-    """Return A3."""
-    head = ("run", "measured", "predicted", "ratio", "agrees")
-    return table(head, compared(stick_slip.spreads()))
+    """Return A3, and its ratios with other least falls."""
+    rows = compared(stick_slip.spreads())
+    others = LEAST_FALLS[1:]
+    for least_fall in others:
+        for row, each in zip(rows, stick_slip.spreads(least_fall), strict=True):
+            row.append(crossed(f"{each.ratio:.2f}", each.agrees))
+    head = ["run", "measured", "predicted", "ratio", "agrees"]
+    return table([*head, *(f"ratio, {least_fall:.2f}" for least_fall in others)], rows)
 
 
 def shapes() -> str:
     """Return B."""
-    rows = [[each.what, f"{each.measured:.3f}", verdict(each)] for each in wheel.shapes()]
-    return table(("mode", "root mean square difference", "agrees"), rows)
+    rows = []
+    for each in wheel.shapes():
+        cells = []
+        for error in (each.real, each.complex, each.fitted):
+            cells.append(crossed(f"{error:.3f}", error < wheel.SHAPES))
+        rows.append([each.mode, *cells, f"{each.other:.2f}"])
+    head = (
+        "mode",
+        "real parts",
+        "complex",
+        "two modes fitted, complex",
+        "another number, real parts",
+    )
+    return table(head, rows)
 
 
 def frequencies() -> str:
-    """Return C."""
-    head = ("mode", "measured, Hz", "predicted, Hz", "ratio", "agrees")
+    """Return C, and ratios for other Poisson's ratios and by squares of numbers of diameters."""
     rows = []
     for each in wheel.frequencies():
         values = [f"{each.measured:.0f}", f"{each.predicted:.0f}", f"{each.ratio:.3f}"]
         rows.append([each.what, *values, verdict(each)])
-    return table(head, rows)
+    for nu in wheel.POISSON:
+        for row, each in zip(rows, wheel.frequencies(nu), strict=True):
+            cell = "stated"
+            if each.what.startswith("wheel"):
+                cell = crossed(f"{each.ratio:.3f}", each.agrees)
+            row.append(cell)
+    for row, ratio in zip(rows, wheel.squares(), strict=True):
+        row.append(f"{ratio:.3f}")
+    head = ["mode", "measured, Hz", "predicted, Hz", "ratio", "agrees"]
+    head += [f"ratio, ν = {nu:g}" for nu in wheel.POISSON]
+    return table([*head, "ratio by l²"], rows)
 
 
 def damping() -> str:
@@ -96,21 +178,26 @@ def damping() -> str:
 
 def loads() -> str:
     """Return E."""
-    head = ("series", "measured there", "at the middle load", "ratio", "agrees")
-    return table(head, compared(load.loads()))
-
-
-def mass() -> str:
-    """Return the mass that the periods of the fastest runs ask for."""
-    fit = stick_slip.moving_mass()
-    moving = fit.parameters["m"].value
-    share = moving / stick_slip.MASS
-    text = f"a moving mass of {1e3 * moving:.1f} g, {share:.2f} of the stated one"
-    return text + f" (chi squared {fit.chi_squared:.0f} with {fit.freedom} degrees of freedom)"
+    ranges = load.ranges()
+    rows = compared(load.loads())
+    for row, name in zip(rows, ranges, strict=True):
+        row.append(f"{ranges[name]:.2f}")
+    head = (
+        "series",
+        "measured there",
+        "at the middle load",
+        "ratio",
+        "agrees",
+        "largest over least",
+    )
+    return table(head, rows)
 
 
 SECTIONS: dict[str, Callable[[], str]] = {
     "slips": slips,
+    "thresholds": thresholds,
+    "friction": friction,
+    "mass": mass,
     "spread": spread,
     "shapes": shapes,
     "frequencies": frequencies,
@@ -125,7 +212,7 @@ def marked(name: str) -> re.Pattern[str]:
     return re.compile(rf"(?<=<!-- measured {name} -->\n\n).*?(?=\n\n<!-- end -->)", re.S)
 
 
-# ---- Pictures
+# ---- Picture
 
 
 def draw_slips() -> Figure:
@@ -164,35 +251,13 @@ def draw_slips() -> Figure:
     return figure
 
 
-def draw_shapes() -> Figure:
-    """Draw the wheel's shapes on the rim, measured and as the model has them."""
-    with styled():
-        figure = Figure(figsize=(6.9, 2.0), layout="constrained")
-        axes = figure.subplots(1, 4, sharey=True)
-        fine = np.linspace(0, 165, 166)
-        for axis, (diameters, rows) in zip(
-            axes, read("wheel.csv").groupby("diameters"), strict=True
-        ):
-            response = rows["real"].to_numpy() + 1j * rows["imaginary"].to_numpy()
-            axis.axhline(0, color=GREY, linewidth=0.6)
-            model = wheel.shape(int(diameters), np.radians(fine))
-            axis.plot(fine, model, color=BLUE, linewidth=0.8)
-            axis.plot(rows["angle_deg"], (response / response[0]).real, "o", color=BLACK, ms=3)
-            axis.set(xlabel="Angle (°)", xticks=(0, 60, 120, 180))
-            axis.set_title(f"{rows['frequency_Hz'].iloc[0]:.0f} Hz, l = {diameters}")
-        axes[0].set_ylabel("Amplitude over\nthat at the hammer")
-    return figure
-
-
 @script
 def main() -> None:
-    """Write the tables and draw the pictures."""
+    """Write the tables and draw the picture."""
     warnings.simplefilter("ignore", dm.ImplausibleValue)  # a slider of 31 g is light
     text = PAGE.read_text(encoding="utf-8")
     for name, build in SECTIONS.items():
         content = build()
         text = marked(name).sub(lambda _, content=content: content, text)
     PAGE.write_text(text, encoding="utf-8")
-    print(mass())
-    for name, figure in (("slips", draw_slips()), ("shapes", draw_shapes())):
-        figure.savefig(GALLERY / f"measured_{name}.png", dpi=130)
+    draw_slips().savefig(GALLERY / "measured_slips.png", dpi=130)

@@ -13,7 +13,9 @@ RATE = 2000.0
 WINDOW = 5
 """Samples of the median that smoothes the force."""
 FALL = 0.02
-"""Least fall of a slip, and least rise that ends it; force over weight."""
+"""Least fall of a slip, and least rise that ends it; force over weight. This is the planned value."""
+LEAST_FALLS = (FALL, 0.03, 0.04)
+"""Least falls with which every slip is found once more, to see what depends on them."""
 PARTS = (0.05, 0.95)
 """Parts of the fall between which its duration is taken."""
 
@@ -28,11 +30,11 @@ class Slip(NamedTuple):
     duration: float
 
 
-def slips(force: Array) -> list[Slip]:
+def slips(force: Array, least_fall: float = FALL) -> list[Slip]:
     """Find the slips of a force over the weight, sampled at `RATE`.
 
-    A slip is a fall of more than `FALL` from a local maximum to the next local minimum, ended by a
-    rise of as much.
+    A slip is a fall of more than `least_fall` from a local maximum to the next local minimum, ended
+    by a rise of as much.
     """
     smooth = median_filter(force, WINDOW, mode="nearest")
     found: list[Slip] = []
@@ -41,12 +43,12 @@ def slips(force: Array) -> list[Slip]:
     for i, value in enumerate(smooth):
         if rising and value > smooth[top]:
             top = i
-        elif rising and smooth[top] - value > FALL:
+        elif rising and smooth[top] - value > least_fall:
             rising = False
             bottom = i
         elif not rising and value < smooth[bottom]:
             bottom = i
-        elif not rising and value - smooth[bottom] > FALL:
+        elif not rising and value - smooth[bottom] > least_fall:
             found.append(_slip(smooth, top, bottom))
             rising = True
             top = i

@@ -19,7 +19,8 @@ import disc_model.attached
 __version__ = "0.3.0"
 
 _NAMES = {
-    "data.dataset": "load",
+    "data.exchange": "load save",
+    "analysis.contact_loss": "pinned_range",
     "disc.flexibility": "residual_flexibility",
     "disc.plate": "plate_modes coupled_natural_frequencies",
     "disc.plausibility": "ImplausibleValue",
@@ -34,11 +35,13 @@ _NAMES = {
     "simulation.case": "Window Poincare Ramp",
     "simulation.result": "Result",
     "simulation.states": "State deflection",
-    "studies.functions": "outcome critical_speed basins hysteresis sweep run_study",
+    "studies.functions": "outcome critical_speed basins hysteresis",
+    "studies.whole_study": "run_study",
+    "studies.sweeps": "sweep",
     "stability.continuation": "continue_cycle",
     "stability.critical": "critical",
     "stability.curves": "neutral_curves",
-    "stability.cycle": "floquet",
+    "stability.floquet": "floquet",
     "stability.lyapunov": "lyapunov_exponents",
     "stability.sliding": "steady_sliding",
     "stability.splitting": "split_growth",
@@ -48,7 +51,8 @@ _HOMES = {name: module for module, names in _NAMES.items() for name in names.spl
 __all__ = [*_HOMES, "__version__"]
 
 if TYPE_CHECKING:
-    from disc_model.data.dataset import load
+    from disc_model.analysis.contact_loss import pinned_range
+    from disc_model.data.exchange import load, save
     from disc_model.disc.flexibility import residual_flexibility
     from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
     from disc_model.disc.plausibility import ImplausibleValue
@@ -74,18 +78,13 @@ if TYPE_CHECKING:
     from disc_model.stability.continuation import continue_cycle
     from disc_model.stability.critical import critical
     from disc_model.stability.curves import neutral_curves
-    from disc_model.stability.cycle import floquet
+    from disc_model.stability.floquet import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
     from disc_model.stability.splitting import split_growth
-    from disc_model.studies.functions import (
-        basins,
-        critical_speed,
-        hysteresis,
-        outcome,
-        run_study,
-        sweep,
-    )
+    from disc_model.studies.functions import basins, critical_speed, hysteresis, outcome
+    from disc_model.studies.sweeps import sweep
+    from disc_model.studies.whole_study import run_study
 
 
 def __getattr__(name: str) -> Any:

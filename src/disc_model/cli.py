@@ -250,7 +250,7 @@ def floquet(p: Parameters, _: Strict) -> None:
     """Find the stick-slip cycle and its multipliers: whether the quiet motion lasts, without
     simulating it."""
     from disc_model.data.variables import CycleStatus
-    from disc_model.stability.cycle import floquet as cycle_of
+    from disc_model.stability.floquet import floquet as cycle_of
 
     cycle = cycle_of(p)
     print_rows([*cycle.summary(), model_line(p)])
@@ -285,7 +285,7 @@ def sliding(p: Parameters, _: Strict) -> None:
 def compile_() -> None:
     """Compile the kernels of the default model into the cache, which a first use otherwise does."""
     from disc_model.simulation.api import simulate
-    from disc_model.stability.cycle import floquet
+    from disc_model.stability.floquet import floquet
 
     began = time.perf_counter()
     p = Parameters(N=385, Omega=15)
@@ -312,6 +312,15 @@ def _drawable(path: Path) -> Path:
     return _writable(path)
 
 
+def _folder(path: Path) -> Path:
+    """Make a folder for files, or refuse it, before the work instead of after it."""
+    try:
+        _make_folder(path)
+    except ParameterError as error:
+        raise ValueError(error.faults[0].rule) from None
+    return path
+
+
 class RunOptions(Strict):
     t_end: Seconds = Field(description="time at which the run ends (s)")
     tol: Tolerance = Field(
@@ -324,6 +333,9 @@ class RunOptions(Strict):
     )
     save: Annotated[Path, AfterValidator(_savable)] | None = Field(
         None, description="write the result as netCDF (.nc) or for MATLAB (.mat)"
+    )
+    csv: Annotated[Path, AfterValidator(_folder)] | None = Field(
+        None, description="write the events as text, events.csv, into this folder"
     )
 
 
@@ -339,6 +351,9 @@ def run(p: Parameters, options: RunOptions) -> None:
     if options.save is not None:
         result.save(options.save)
         print_rows([("saved", str(options.save))])
+    if options.csv is not None:
+        result.to_csv(options.csv)
+        print_rows([("saved", str(options.csv / "events.csv"))])
     if options.plot is not None:
         from matplotlib import pyplot
 
@@ -348,6 +363,21 @@ def run(p: Parameters, options: RunOptions) -> None:
         print_rows([("figure", str(options.plot))])
     if not result.status.complete:
         raise typer.Exit(1)
+
+
+def convert(
+    source: Annotated[Path, typer.Argument(help="dataset of a study, or a saved run or sweep")],
+    target: Annotated[Path, typer.Argument(help="file to write: .mat for MATLAB, .nc for netCDF")],
+) -> None:
+    """Write a dataset in another format, such as results/s/s.nc for MATLAB."""
+    from disc_model.data.exchange import load, save
+
+    try:
+        _savable(target)
+    except ValueError as error:
+        raise ParameterError(Fault.of(("TARGET",), str(target), str(error))) from None
+    save(load(source), target)
+    print_rows([("saved", str(target))])
 
 
 # ---- Studies
@@ -571,7 +601,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Friction-induced vibration of an elastic disc and a moving slider.",
 )
-for function in (run, floquet, sliding, modes, study, list_, init, compile_):
+for function in (run, floquet, sliding, modes, study, list_, convert, init, compile_):
     app.command(function.__name__.rstrip("_"))(function)
 
 

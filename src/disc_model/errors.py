@@ -209,7 +209,9 @@ def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -
     ]
     close = begin or difflib.get_close_matches(str(name).lower(), folded, n=1, cutoff=0.6)
     meant = f", did you mean {folded[close[0]]}?" if close else ""
-    return meant + (f" (known: {', '.join(known)})" if known and (all_of_them or not close) else "")
+    if known and (all_of_them or not close):
+        return f"{meant} (known: {', '.join(known)})"
+    return meant
 
 
 def _path(item: Any, raw: Any) -> tuple[str, ...]:
@@ -218,16 +220,17 @@ def _path(item: Any, raw: Any) -> tuple[str, ...]:
     path = list[str]()
     part = raw
     for step in item["loc"]:
-        if step in (
-            part
-            if isinstance(part, Mapping)
-            else range(len(part))
-            if isinstance(part, list | tuple)
-            else ()
-        ):
+        steps: Collection[object] = ()
+        if isinstance(part, Mapping):
+            steps = part
+        elif isinstance(part, list | tuple):
+            steps = range(len(part))
+        if step in steps:
             path.append(str(step))
             part = part[step]
-    return (*path, str(item["loc"][-1])) if item["type"] == "missing" else tuple(path)
+    if item["type"] == "missing":
+        path.append(str(item["loc"][-1]))
+    return tuple(path)
 
 
 # ---- Statuses
@@ -274,8 +277,12 @@ class Status(StatusBase):
         "non_finite",
         "The state overflowed: check the parameters' magnitudes; tighten tol if they are meant.",
     )
+    AT_REST = (
+        "at_rest",
+        "The simulation reached t_end, where the drive stands still and friction holds the slider for good.",
+    )
 
     @property
     def complete(self) -> bool:
         """Whether the simulation reached ``t_end`` or the event at which it had to stop."""
-        return self in (Status.OK, Status.STOPPED)
+        return self in (Status.OK, Status.STOPPED, Status.AT_REST)

@@ -1,6 +1,5 @@
-"""How many modes a case needs: `choose_modes`, and requests for it in study files and on the
-command line. By a quantity of the motion it is the first model with which two larger ones agree; a
-table is its own last candidate.
+"""How many modes a case needs: `choose_modes`. By a quantity of the motion it is the first model with
+which two larger ones agree; a table is its own last candidate.
 """
 
 from __future__ import annotations
@@ -10,32 +9,24 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
-from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
 from disc_model.display import Summarised, counted
-from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, require
-from disc_model.parameters import AUTO, CHOOSING, Disc, Parameters
-from disc_model.units import Finite, Strict
+from disc_model.errors import DiscModelError, require
+from disc_model.mode_request import FREQUENCIES, ModeRequest
+from disc_model.parameters import Disc, Parameters
+from disc_model.simulation.api import simulate
+from disc_model.stability.floquet import floquet
 
-FREQUENCIES = "frequencies"  # the quantity by which modes are chosen by default
-# quantities by which modes may be chosen, and their default relative tolerances
-CHOSEN_BY = {FREQUENCIES: 1e-3, "growth": 1e-2, "first_separation": 1e-2}
 RICH = (20, 6)  # diameters and circles of the reference model for frequencies
-# Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5
-# as published, 2e-4 orthonormal, against 30 diameters and 8 circles), and growth rates and times
-# depend on the frequencies.
-TRUSTED = 1e-4
 # diameters and circles of the candidates by a quantity of the motion: the last is compared with 99
 # modes
 CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
 GIVEN_UP = (4, 0)  # the search ends here if no model so far, of up to 34 modes, has the quantity
 HORIZON = 600.0  # s, simulated at most until the first separation
-_PREFIX = "truncation_"  # begins the names of `CHOOSING`, beside the parameters of a case
 BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
 
 
@@ -93,34 +84,10 @@ class ModeChoice(Summarised):
         else:
             values: dict[str, float | None] = {}
             for size, value in self.values.items():
-                values[",".join(map(str, size))] = value
-                if not math.isfinite(value):
-                    values[",".join(map(str, size))] = None
+                values[",".join(map(str, size))] = value if math.isfinite(value) else None
             record |= {"quantity": self.quantity, "values": values}
         record["compared_with"] = list(self.rich)
         return json.dumps(record, sort_keys=True)
-
-
-class ModeRequest(Strict):
-    """Quantity and tolerance for the choice of the number of modes; `CHOSEN_BY` has the default
-    tolerances."""
-
-    quantity: Literal[*CHOSEN_BY] = FREQUENCIES  # type: ignore[valid-type]
-    tolerance: Annotated[Finite, Field(ge=TRUSTED)] = CHOSEN_BY[FREQUENCIES]
-
-    @model_validator(mode="before")
-    @classmethod
-    def _with_tolerance(cls, values: dict[str, Any]) -> dict[str, Any]:
-        tolerance = CHOSEN_BY.get(str(values.get("quantity")), CHOSEN_BY[FREQUENCIES])
-        return {"tolerance": tolerance, **values}
-
-    @property
-    def given(self) -> dict[str, Any]:
-        """The request as `read_asked` reads it; the default quantity is left out."""
-        given = {"n_diameters": AUTO, "truncation_tolerance": self.tolerance}
-        if self.quantity != FREQUENCIES:
-            given["truncation_quantity"] = self.quantity
-        return given
 
 
 def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
@@ -136,24 +103,24 @@ def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
     right = coupled_frequencies(p, contact_compliance(p))
     top = BAND * float(modes.omega.min())
     for size in sizes:
-        of_size = (
-            slice(*size)
-            if p.disc is not None
-            else (modes.diameters <= size[0]) & (modes.circles <= size[1])
-        )
         chosen = resized(p, size)
-        error = _worst(coupled_frequencies(p, contact_compliance(chosen), of_size), right, top)
+        frequencies = coupled_frequencies(p, contact_compliance(chosen), _modes_within(p, size))
+        error = _worst(frequencies, right, top)
         if error <= tolerance:
-            return ModeChoice(
-                chosen,
-                tolerance,
-                error,
-                count_modes(p, size),
-                RICH if p.disc is None else sizes[-1],
-            )
+            rich = sizes[-1] if p.disc is not None else RICH
+            return ModeChoice(chosen, tolerance, error, count_modes(p, size), rich)
     raise DiscModelError(
         f"tolerance={tolerance:g}: no model up to {RICH} (diameters, circles) meets it; enlarge it"
     )
+
+
+def _modes_within(p: Parameters, size: tuple[int, ...]) -> slice | np.ndarray:
+    """The modes of a case that are those of a size, as an index of arrays."""
+    if p.disc is not None:
+        return slice(*size)
+    modes = mode_arrays(p)
+    diameters, circles = size
+    return (modes.diameters <= diameters) & (modes.circles <= circles)
 
 
 def counts(disc: Disc) -> range:
@@ -177,33 +144,6 @@ def count_modes(p: Parameters, size: tuple[int, ...]) -> int:
     return size[0] + sum(l > 0 for l in p.disc.diameters[: size[0]])
 
 
-def read_asked(values: Mapping[str, Any]) -> tuple[Parameters, ModeRequest | None]:
-    """Parameters of a file, and the request for their modes; their own number is then
-    meaningless."""
-    rest, request = asked_modes(values)
-    if request is not None:
-        rest["n_circles"] = 0
-    return Parameters.model_validate(rest), request
-
-
-def asked_modes(values: Mapping[str, Any]) -> tuple[dict[str, Any], ModeRequest | None]:
-    """Values without those of `CHOOSING`, and the request that these make."""
-    rest = {name: value for name, value in values.items() if name not in CHOOSING}
-    stated = {name.removeprefix(_PREFIX): values[name] for name in CHOOSING if name in values}
-    if rest.get("n_diameters") != AUTO:
-        rule = f"is used with n_diameters={AUTO!r} only"
-        raise_faults([Fault.of((_PREFIX + name,), value, rule) for name, value in stated.items()])
-        return rest, None
-    del rest["n_diameters"]
-    try:
-        return rest, ModeRequest(**stated)
-    except ParameterError as error:
-        faults = (
-            Fault((_PREFIX + fault.path[0],), fault.value, fault.rule) for fault in error.faults
-        )
-        raise ParameterError(*faults) from None
-
-
 def frequency_error(p: Parameters, rich: Parameters) -> float:
     """Largest relative error, against `rich`, of the coupled frequencies up to `BAND` times the
     disc's lowest one."""
@@ -225,7 +165,7 @@ def real_modes(diameters: int, circles: int) -> int:
 
 
 def choose_modes(
-    case: Parameters | Mapping[str, Any],
+    case: Parameters | Mapping[str, object],
     tolerance: float | None = None,
     *,
     quantity: str = FREQUENCIES,
@@ -260,9 +200,10 @@ def choose_modes(
     >>> dm.choose_modes({"N": 385, "Omega": 15.1}, 1e-3).parameters.n_diameters
     3
     """
-    request = ModeRequest(
-        quantity=quantity, **({} if tolerance is None else {"tolerance": tolerance})
-    )
+    if tolerance is None:
+        request = ModeRequest(quantity=quantity)
+    else:
+        request = ModeRequest(quantity=quantity, tolerance=tolerance)
     known = isinstance(case, Parameters | Mapping)
     require((known, "case", case, "must be Parameters, or a mapping of names to values"))
     if not isinstance(case, Parameters):
@@ -334,20 +275,16 @@ def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:
     return ", ".join(str(count_modes(p, size)) for size in sizes) + " modes"
 
 
-# ---- Quantities of the motion; most importers of this module do not need a simulation
+# ---- Quantities of the motion
 
 
 def growth(p: Parameters) -> float:
     """Growth rate of the stick-slip cycle, 1/s; nan without a cycle."""
-    from disc_model.stability.cycle import floquet
-
     return float(floquet(p).growth_rate)
 
 
 def first_separation(p: Parameters) -> float:
     """Time of the first separation, s; nan if there is none within `HORIZON`."""
-    from disc_model.simulation.api import simulate
-
     result = simulate(p, HORIZON, stop_at="first_separation", events=False)
     return result.raise_for_status().first_separation
 

@@ -14,20 +14,9 @@ from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from disc_model.display import html_table
 from disc_model.errors import Fault, as_text, raise_faults
+from disc_model.hashing import canonical_json, content_key
 from disc_model.modal_disc import Disc, Quantity
-from disc_model.units import (
-    UNITS,
-    Count,
-    Finite,
-    Real,
-    Strict,
-    canonical_json,
-    content_key,
-    in_si,
-    is_number,
-    must,
-    number,
-)
+from disc_model.units import UNITS, Count, Finite, Real, Strict, in_si, is_number, must, number
 
 AUTO = "auto"  # value of ``n_diameters`` in a file for which `disc_model.mode_choice` chooses the modes
 CHOOSING = ("truncation_quantity", "truncation_tolerance")  # keys of files that control this choice

@@ -19,6 +19,8 @@ PACKAGE = Path(__file__).resolve().parent
 
 PHYSICS = (
     "analysis",
+    "arrays.py",
+    "data/columns.py",
     "data/dataset.py",
     "data/files.py",
     "data/tables.py",
@@ -27,15 +29,20 @@ PHYSICS = (
     "disc",
     "engine",
     "errors.py",
+    "hashing.py",
     "modal_disc.py",
     "mode_choice.py",
+    "mode_request.py",
     "parameters.py",
     "simulation",
     "stability",
     "units.py",
 )
 """Parts on which every simulation depends."""
-BATCHES = (*PHYSICS, *(f"studies/{name}.py" for name in ("batch", "quantity", "refinement", "run")))
+BATCHES = (
+    *PHYSICS,
+    *(f"studies/{name}.py" for name in ("batch", "distributions", "quantity", "refinement", "run")),
+)
 """Parts on which every batch depends, beside the file of its quantity."""
 MERGING = ("data", "studies/batch.py", "studies/merge.py", "studies/run.py")
 """Parts on which merged datasets depend, beside their batches and cases."""

@@ -1,14 +1,12 @@
-"""Numbers and their units, strict bases of all schemas, and names by content."""
+"""Numbers and their units, and strict bases of all schemas."""
 
 from __future__ import annotations
 
 import functools
-import hashlib
 import inspect
 import json
 import math
 import numbers
-import operator
 import re
 import types
 from collections.abc import Callable, Mapping
@@ -60,11 +58,10 @@ class Unit:
     of: str = ""
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        return (
-            {**handler(schema), "unit": self.name}
-            if self.name and isinstance(self.name, str)
-            else handler(schema)
-        )
+        described = dict(handler(schema))
+        if self.name and isinstance(self.name, str):
+            described["unit"] = self.name
+        return described
 
 
 UNITS: dict[str, str] = {}  # units of parameters by their names, filled by `disc_model.parameters`
@@ -85,9 +82,9 @@ _SPELLINGS = str.maketrans(
 them."""
 _OTHER_WORDS = {"rev": "turn", "revs": "turn", "RPM": "rpm", "Rpm": "rpm"}
 _PER_MINUTE = ("1/min", "min**-1", "1/minute", "minute**-1")  # of a speed of rotation: turns
-_MISLEADING = {"gr": "g", "grad": "deg", "ton": "t", "Nm": "N m"}
+_MISLEADING = {"gr": "g", "grad": "deg", "ton": "t", "Nm": "N m", "Ns": "N s", "Kg": "kg"}
 """Words for other units than they seem to be (grain, a hundredth of a right angle, short ton,
-nanometre), and what is meant."""
+nanometre) or for none, and what is meant."""
 
 
 @functools.lru_cache(maxsize=1)
@@ -109,7 +106,8 @@ def _plain_unit(text: str) -> str:
 def _converted(magnitude: float, text: str, unit: str) -> float:
     """A number with a unit, as the number in another unit; raises ValueError, or an error of pint
     or of Python's tokenizer, which have no common base."""
-    text, target = _plain_unit(text), "" if unit == "1" else unit
+    text = _plain_unit(text)
+    target = "" if unit == "1" else unit
     if not _UNIT.fullmatch(text):
         raise ValueError("no unit")
     if unit.startswith("rad") and not any(word in text for word in _ANGLES):
@@ -156,12 +154,14 @@ def _data_in_si(value: Any, text: str, unit: str) -> Any:
 
 def _unit_fault(path: tuple[str, ...], value: Any, text: str, unit: str) -> Fault:
     """The fault of a number whose unit is unknown, ambiguous or of another kind."""
-    rule = "must be a number " + (
-        "without a unit" if unit == "1" else f"in {unit}, or with a unit of its kind"
-    )
-    rule += ", such as rpm; Hz may mean turns or radians" * (unit == "rad/s")
+    rule = f"must be a number in {unit}, or with a unit of its kind"
+    if unit == "1":
+        rule = "must be a number without a unit"
+    if unit == "rad/s":
+        rule += ", such as rpm; Hz may mean turns or radians"
     meant = [_MISLEADING[word] for word in re.findall(r"\w+", text) if word in _MISLEADING]
-    rule += f", did you mean {meant[0]}?" if meant else ""
+    if meant:
+        rule += f", did you mean {meant[0]}?"
     return Fault.of(path, value, rule)
 
 
@@ -209,11 +209,13 @@ def _scalar(value: Any) -> Any:
 def number(value: Any) -> Any:
     """A number, a text such as ``1e-3`` of YAML, or an array of one number without dimensions, as a
     float; raises ValueError for all else, also for a bool."""
+    if type(value) is float:  # as nearly always, and at once
+        return value + 0.0  # adding zero turns -0.0 into 0.0
     value = _scalar(value)
     if isinstance(value, bool) or not isinstance(value, str | int | float | numbers.Real):
         raise ValueError("must be a number")
     try:
-        return float(value) + 0.0  # adding zero turns -0.0 into 0.0
+        return float(value) + 0.0
     except OverflowError:  # a whole number beyond the range of floats
         return math.inf if value > 0 else -math.inf  # type: ignore[operator]
     except ValueError:
@@ -296,11 +298,9 @@ def _marks(model: type[BaseModel]) -> dict[str, Unit]:
     marks = {}
     for name, field in model.model_fields.items():
         extra = field.json_schema_extra
-        parts = (
-            [Unit(str(extra["unit"]))]
-            if isinstance(extra, dict) and "unit" in extra
-            else [*field.metadata]
-        )
+        parts = [*field.metadata]
+        if isinstance(extra, dict) and "unit" in extra:
+            parts = [Unit(str(extra["unit"]))]
         parts.append(field.annotation)
         for part in parts:
             parts += get_args(part)
@@ -317,7 +317,10 @@ def plain_type(annotation: Any) -> Any:
     if not parts or get_origin(annotation) is Literal:
         return annotation
     if isinstance(annotation, types.UnionType) or get_origin(annotation) is Union:
-        return functools.reduce(operator.or_, map(plain_type, parts))
+        joined = plain_type(parts[0])
+        for part in parts[1:]:
+            joined = joined | plain_type(part)
+        return joined
     if get_origin(annotation) in (tuple, list, dict):
         return types.GenericAlias(get_origin(annotation), tuple(map(plain_type, parts)))
     return annotation
@@ -427,28 +430,3 @@ def given_values(model: Strict) -> dict[str, Any]:
         for name in type(model).model_fields
         if name in model.model_fields_set
     }
-
-
-# ---- Names by content
-
-
-def content_key(text: str) -> str:
-    """First 12 hexadecimal digits of the sha256 of a text."""
-    return hashlib.sha256(text.encode()).hexdigest()[:12]
-
-
-def canonical_json(value: Any) -> str:
-    """JSON with sorted keys; infinities as text, since JSON has none; -0.0 as 0.0."""
-
-    def plain(item: Any) -> Any:
-        if isinstance(item, float):
-            return item + 0.0 if math.isfinite(item) else str(item)
-        if isinstance(item, list | tuple):
-            return [plain(value) for value in item]
-        return (
-            {str(key): plain(value) for key, value in item.items()}
-            if isinstance(item, Mapping)
-            else item
-        )
-
-    return json.dumps(plain(value), sort_keys=True, separators=(",", ":"), allow_nan=False)

@@ -36,7 +36,8 @@ def test_periods_are_found_and_named(period: int) -> None:
     """The search used to end at 12 releases; motions of the paper repeat after 45, 180 and 280."""
     intervals = wandering(period, 20)[: max(2 * period + 7, 40)]
     motion = motion_of(intervals + 1e-12 * np.cos(np.arange(intervals.size)))
-    assert (motion.kind, motion.period) == (Outcome.OTHER_CYCLE, period)
+    assert motion.kind == Outcome.OTHER_CYCLE
+    assert motion.period == period
     assert motion.closure < 1e-8
     assert str(motion) == f"periodic, repeats after {period} releases"
 
@@ -57,9 +58,11 @@ def test_the_near_returns_of_a_quasi_periodic_motion_are_no_period(size: float) 
     found = motion_of(intervals)
     assert classify.closure(intervals, 1000) < 1e-2 * size
     if size > 1e-8:
-        assert (found.kind, found.period) == (Outcome.QUASI_PERIODIC, 0)
+        assert found.kind == Outcome.QUASI_PERIODIC
+        assert found.period == 0
     else:  # smaller than what a period has to close to
-        assert (found.kind, found.period) == (Outcome.OTHER_CYCLE, 1)
+        assert found.kind == Outcome.OTHER_CYCLE
+        assert found.period == 1
 
 
 def test_a_slow_approach_to_a_period_is_periodic_only_to_its_tolerance() -> None:
@@ -86,7 +89,8 @@ def test_what_does_not_repeat_is_quasi_periodic_or_irregular(
     varied: np.ndarray, kind: Outcome
 ) -> None:
     motion = motion_of(0.01 + varied)
-    assert (motion.kind, motion.period) == (kind, 0)
+    assert motion.kind == kind
+    assert motion.period == 0
 
 
 @pytest.mark.parametrize(("r", "expected"), [(3.55, 0.0), (3.9, 1.0), (4.0, 1.0)])
@@ -107,9 +111,13 @@ def test_zero_one_test_on_the_logistic_map(r: float, expected: float) -> None:
     ],
 )
 def test_where_a_sine_loses_contact(angle: float, share_of_range: float) -> None:
-    f, rate = 100.0, 100_000.0
+    f = 100.0
+    rate = 100_000.0
     time = np.arange(0, 0.2, 1 / rate)
-    starts = np.round((np.arange(2, 17) + angle / (2 * np.pi)) / f * rate).astype(int)
+    turn = 2 * np.pi
+    share = angle / turn
+    periods = np.arange(2, 17) + share
+    starts = np.round(periods / f * rate).astype(int)
     found = separation_location(3e-3 * np.sin(2 * np.pi * f * time), starts)
     assert found == pytest.approx(share_of_range, abs=0.01)
 
@@ -120,10 +128,11 @@ def test_where_a_sine_loses_contact(angle: float, share_of_range: float) -> None
 def test_a_share_has_wilsons_interval() -> None:
     z = stats.norm.ppf(0.95)  # two-sided, 0.9
     for k, n in ((9, 40), (1, 3), (0, 7), (7, 7)):
-        centre, half = (
-            (k + z**2 / 2) / (n + z**2),
-            z / (n + z**2) * np.sqrt(k * (n - k) / n + z**2 / 4),
-        )
+        centre = (k + z**2 / 2) / (n + z**2)
+        variance = k * (n - k) / n
+        quarter = z**2 / 4
+        root = np.sqrt(variance + quarter)
+        half = z / (n + z**2) * root
         # the ends at 0 and 1 cancel to roundings here
         expected = pytest.approx((k / n, centre - half, centre + half), rel=1e-12, abs=1e-15)
         assert share(k, n, confidence=0.9) == expected
@@ -142,7 +151,10 @@ def test_what_is_unknown_counts_against_both_ends() -> None:
 # ---- whether a record shows that a motion has settled
 
 TIME = np.arange(0.0, 1000.0, 0.05)
-BEAT = np.sin(2 * np.pi * TIME * 0.618) * (1 + 0.1 * np.sin(2 * np.pi * TIME / 7))
+TURN = 2 * np.pi
+FAST = np.sin(TURN * TIME * 0.618)
+SLOW = np.sin(TURN * TIME / 7)
+BEAT = FAST * (1 + 0.1 * SLOW)
 NOISE = np.random.default_rng(1).standard_normal(TIME.size)
 
 
@@ -171,13 +183,13 @@ def test_what_settled_means(values: np.ndarray, answer: Settled) -> None:
 def test_a_decay_is_not_seen_in_a_record_that_is_much_shorter() -> None:
     """At 200 N the motion decays at 0.009/s; two segments of 1.5 s were alike, and it was called
     steady."""
-    decay, short = BEAT * np.exp(-0.009 * TIME), TIME < 3
+    decay = BEAT * np.exp(-0.009 * TIME)
+    short = TIME < 3
     assert settling(TIME[short], decay[short]).answer is Settled.UNDECIDED
     found = settling(TIME[TIME < 100], decay[TIME < 100])
-    assert (found.answer, found.rate) == (
-        Settled.CHANGING,
-        pytest.approx(-0.006, rel=0.2),
-    )  # of the greatest width
+    # of the greatest width
+    assert found.answer == Settled.CHANGING
+    assert found.rate == pytest.approx(-0.006, rel=0.2)
 
 
 def test_events_that_become_rarer_are_a_change() -> None:
@@ -245,7 +257,8 @@ def test_a_section_has_as_many_points_as_its_motion_shows(
 
 
 def test_a_decaying_transient_does_not_lie_on_the_curve_on_which_it_ends() -> None:
-    curve, turns = around(0.618034, 3000), np.arange(3000)
+    curve = around(0.618034, 3000)
+    turns = np.arange(3000)
     spiral = (1 + 0.5 * np.exp(-turns / 100))[:, None] * curve
     # 0.5 exp(-t) falls to the tolerance between 0.01 of the curve's width and 0.01 of its radius, two and one
     assert (

@@ -8,7 +8,8 @@ from disc_model.parameters import Parameters
 
 RATE = 4000.0
 TIME = 3.0 + np.arange(40_000) / RATE
-F_S, F_DRIVE = 67.63, 2.4032
+F_S = 67.63
+F_DRIVE = 2.4032
 KNOWN = {
     F_DRIVE: 1.0,
     F_S - F_DRIVE: 3e-2,
@@ -19,13 +20,32 @@ KNOWN = {
 
 
 def signal(parts: dict[float, float]) -> np.ndarray:
-    return 0.7 + sum(a * np.cos(2 * np.pi * f * TIME + i) for i, (f, a) in enumerate(parts.items()))
+    signal = np.full(TIME.shape, 0.7)
+    for i, (f, a) in enumerate(parts.items()):
+        angle = 2 * np.pi * f * TIME
+        signal = signal + a * np.cos(angle + i)
+    return signal
 
 
 def test_lines_are_found_with_frequency_and_amplitude() -> None:
     found = spectra.lines(TIME, signal(KNOWN), floor=1e-3)
     assert [line.frequency for line in found] == pytest.approx(list(KNOWN), abs=0.005)
     assert [line.amplitude for line in found] == pytest.approx(list(KNOWN.values()), rel=0.02)
+
+
+def test_the_main_vibration_has_its_share_of_the_variance() -> None:
+    found = spectra.main_vibration(TIME, signal({135.42: 3.0, 270.9: 1.0}))
+    assert found.frequency == pytest.approx(135.42, abs=0.005)
+    assert found.amplitude == pytest.approx(3.0, rel=1e-3)
+    assert found.share == pytest.approx(0.9, abs=1e-3)
+    assert spectra.share_at(TIME, signal({135.42: 1.0, 270.9: 1.0}), 270.9) == pytest.approx(
+        0.5, abs=1e-3
+    )
+
+
+def test_a_constant_signal_has_no_main_vibration() -> None:
+    with pytest.raises(ValueError, match="no line"):
+        spectra.main_vibration(TIME, np.full(TIME.size, 0.7))
 
 
 @pytest.mark.parametrize(
@@ -47,7 +67,8 @@ def test_a_measured_signal_with_gaps_had_lines_elsewhere_or_none(
 
 
 SHORT = np.arange(10_000) / 1000.0
-NEAR, WITHIN = 206.0, 2.0
+NEAR = 206.0
+WITHIN = 2.0
 
 
 def sine(frequency: float, phase: float = 0.0) -> np.ndarray:
@@ -125,15 +146,19 @@ def test_a_line_stands_out_or_it_is_noise() -> None:
     as it."""
     t = np.arange(40_000) / 4000
     noise = np.random.default_rng(3).standard_normal(t.size)
-    loud = spectra.strongest(t, noise + 0.2 * np.sin(2 * np.pi * 100.0 * t), 100.0, 1.0)
-    assert spectra.chance(t, noise + 0.2 * np.sin(2 * np.pi * 100.0 * t), loud, 1.0) < 1e-9
+    angle = 2 * np.pi * 100.0 * t
+    tone = 0.2 * np.sin(angle)
+    signal = noise + tone
+    loud = spectra.strongest(t, signal, 100.0, 1.0)
+    assert spectra.chance(t, signal, loud, 1.0) < 1e-9
     chances = [
         spectra.chance(t, noise, spectra.strongest(t, noise, f, 1.0), 1.0)
         for f in range(100, 400, 5)
     ]
     assert min(chances) > 1e-4  # the least of sixty is about 1/60
     assert np.median(chances) > 0.1
-    assert spectra.chance(t, np.sin(2 * np.pi * 100.0 * t), spectra.Line(100.0, 1.0), 1.0) == 0.0
+    line = spectra.Line(100.0, 1.0)
+    assert spectra.chance(t, np.sin(angle), line, 1.0) == 0.0
     with pytest.raises(ValueError, match="no bin of the spectrum is 1 to 6 Hz from 100 Hz"):
         spectra.chance(t[:100], noise[:100], spectra.Line(100.0, 1.0), 1.0)
 
@@ -142,7 +167,9 @@ def test_a_line_stands_out_or_it_is_noise() -> None:
 @pytest.mark.parametrize("n", [1, 5, 12])
 def test_combinations_of_up_to_three_times_the_drive_are_named(n: int, m: int) -> None:
     found = spectra.identify(n * F_S + m * F_DRIVE, F_S, F_DRIVE)
-    assert (found.n, found.m, found.deviation) == (n, m, pytest.approx(0, abs=1e-12))
+    assert found.n == n
+    assert found.m == m
+    assert found.deviation == pytest.approx(0, abs=1e-12)
 
 
 @pytest.mark.parametrize("amplitude", [1.0, 3.0])
@@ -181,7 +208,9 @@ def test_the_detuning_is_how_far_the_multiple_lies_above_the_mode() -> None:
         period = 2 / (seen + detuning)  # 2 f_s lies so far above it
         multiplier = np.exp(2j * np.pi * seen * period)
         found = spectra.nearest_resonance(p, period, complex(multiplier), l)
-        assert (found.harmonic, found.diameters, found.sign) == (2, l, -1)
+        assert found.harmonic == 2
+        assert found.diameters == l
+        assert found.sign == -1
         assert found.detuning == pytest.approx(detuning, abs=1e-9)
         assert found.frequency == pytest.approx(frequency)
 

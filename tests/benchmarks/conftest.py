@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import answers, figures, own_answers, scenes, work_precision
+from disc_model.benchmarks import answers, own_answers, scenes, work_precision
+from disc_model.benchmarks.figures.looks import LINES
 from disc_model.benchmarks.methods import METHODS, SCENES, Method
 from disc_model.benchmarks.methods.integrators import MethodResult, Problem, RunStatus
 from disc_model.benchmarks.questions import AnswerStatus, Replies, Reply
@@ -131,7 +132,7 @@ class Late(Method):
 def late(monkeypatch: pytest.MonkeyPatch) -> Method:
     method = Late(name="late", label="late", function="", settings={})
     monkeypatch.setitem(METHODS, "late", method)
-    monkeypatch.setitem(figures.LINES, "late", figures.LINES["RK4"])
+    monkeypatch.setitem(LINES, "late", LINES["RK4"])
     return method
 
 

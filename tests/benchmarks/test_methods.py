@@ -30,7 +30,9 @@ STATE = ("a", "b", "alpha", "beta", "psi", "f", "u", "u_velocity")
 
 def fine_setting(name: str) -> float:
     """Return a setting at which a method is accurate on short motions."""
-    return 2e-6 if METHODS[name].setting == "step" else 1e-9
+    if METHODS[name].setting == "step":
+        return 2e-6
+    return 1e-9
 
 
 # ---- Whole scenes

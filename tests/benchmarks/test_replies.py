@@ -113,7 +113,10 @@ def separating_above(speed: float) -> replies.Solve:
         kinds: tuple[str, ...] = ()
         if problem.parameters.Omega >= speed and not late:
             kinds = ("separation",)
-        outcome = RunStatus.TOO_SLOW if late else RunStatus.FINISHED
+        if late:
+            outcome = RunStatus.TOO_SLOW
+        else:
+            outcome = RunStatus.FINISHED
         return MethodResult(np.ones(len(kinds)), kinds, problem.start, 0.1, 1, outcome)
 
     return solve

@@ -47,9 +47,12 @@ def test_points_are_measured_in_turn(monkeypatch: pytest.MonkeyPatch) -> None:
     assert dataset["kind"].values.tolist() == ["b", "a"]
     assert dataset["count"].values.tolist() == [2, 1]
     # medians of 1, 5, 9 and 2, 6, 10
-    np.testing.assert_array_equal(dataset["size"], [[5.0, 6.0], [np.nan, np.nan]])
+    missing = [np.nan, np.nan]
+    np.testing.assert_array_equal(dataset["size"], [[5.0, 6.0], missing])
     assert dataset["size"].attrs == {"units": "m", "long_name": "how big"}
-    assert flag_names(dataset["state"]).tolist() == [["converged"] * 2, ["not_run"] * 2]
+    first, second = flag_names(dataset["state"]).tolist()
+    assert first == ["converged"] * 2
+    assert second == ["not_run"] * 2
     assert np.isnan(dataset["other"]).all()
     assert "cores" in dataset.attrs["machine"]
     assert json.loads(dataset.attrs["versions"])["heyoka"]
@@ -78,8 +81,10 @@ def test_costs_are_those_of_the_methods(dataset: xr.Dataset) -> None:
     assert flag_names(series["verdict"])[3] == "not_run"
     assert (series["repeats"][:3] == 2).all()
     assert series["cost"][0] == pytest.approx(1e-3 + 6e-5)
-    assert series["marginal_cost"][0] == pytest.approx(1e-3 + 6e-5 - SET_UP)
-    assert np.isfinite(series["whole_call"].values).tolist() == [False, False, True, False]
+    cost = 1e-3 + 6e-5 - SET_UP
+    assert series["marginal_cost"][0] == pytest.approx(cost)
+    finite = np.isfinite(series["whole_call"].values)
+    assert finite.tolist() == [False, False, True, False]
     rk4 = of(dataset, "stick_slip", "RK4")
     np.testing.assert_allclose(rk4["glue"], 0.25)
     assert np.isnan(rk4["marginal_cost"][3]), "too long to be followed further"
@@ -99,9 +104,13 @@ def test_the_table_compares_at_equal_error(dataset: xr.Dataset) -> None:
     assert row["verdict"] == "converged"
     # 1e8 h^4 = 1e-8 s: half the tolerance is the series' error, so that it reaches that at 1e-8
     assert row["event_time_error"] == pytest.approx(1e-8, rel=1e-6)
-    assert row["times_series"] == pytest.approx((1e-5 / 1e-4) / (1e-3 + 8e-5), rel=0.03)
+    price = 1e-5 / 1e-4
+    price_of_series = 1e-3 + 8e-5
+    assert row["times_series"] == pytest.approx(price / price_of_series, rel=0.03)
     coarse = frame.loc["stick_slip", "RK4", "step=0.0004"]
-    assert coarse["times_series"] == pytest.approx((1e-5 / 4e-4) / (1e-3 + 6e-5), rel=1e-6)
+    price = 1e-5 / 4e-4
+    price_of_series = 1e-3 + 6e-5
+    assert coarse["times_series"] == pytest.approx(price / price_of_series, rel=1e-6)
     assert math.isnan(frame.loc["stick_slip", "Radau", "tol=0.001"]["times_series"])
     alone = table(dataset.sel(solver=["RK4"]))
     assert alone["times_series"].isna().all()
@@ -123,7 +132,9 @@ def test_the_headline_compares_at_the_default_error(dataset: xr.Dataset) -> None
 
 def column(dataset: xr.Dataset, line: str, name: str) -> list:
     """Return a variable of the rows of a line."""
-    return dataset[name].values[dataset["line"].values == line].tolist()
+    values = dataset[name].values
+    on_line = dataset["line"].values == line
+    return values[on_line].tolist()
 
 
 def test_errors_of_models_are_against_the_richest(priced: xr.Dataset) -> None:
@@ -182,7 +193,8 @@ def test_maps_of_tolerances_know_the_longest_step() -> None:
     figure = figures.failure_maps(adaptive, smooth)
     titles = [ax.get_title(loc="left") for ax in figure.axes if ax.get_title(loc="left")]
     labels = [METHODS[name].label for name in ("RK45", "regularised")]
-    assert titles == [f"(a) {labels[0]}", f"(b) {labels[1]}"]
+    first, second = labels
+    assert titles == [f"(a) {first}", f"(b) {second}"]
 
 
 def test_a_map_of_answers_tries_no_finer_setting_after_one_that_is_too_slow(late: Method) -> None:
@@ -193,14 +205,18 @@ def test_a_map_of_answers_tries_no_finer_setting_after_one_that_is_too_slow(late
         run = simulate(p, answer_maps.MAP_HORIZON, stop_at="first_separation")
         right.append(run.first_separation)
     np.testing.assert_allclose(answered["right"], right, atol=1e-7)
-    assert answered["status"].values.tolist() == [[1, 0, 2, 2]] * 2
-    assert answered["verdict"].values.tolist() == [[WRONG, WRONG, SILENT, SILENT]] * 2
-    assert figures.answer_maps(answered).axes[0].get_title(loc="left") == "(a) late"
+    statuses = answered["status"].values.tolist()
+    assert statuses == [[1, 0, 2, 2]] * 2
+    verdicts = answered["verdict"].values.tolist()
+    assert verdicts == [[WRONG, WRONG, SILENT, SILENT]] * 2
+    ax = figures.answer_maps(answered).axes[0]
+    assert ax.get_title(loc="left") == "(a) late"
 
 
 def test_a_map_of_answers_has_six_of_the_settings(late: Method) -> None:
     settings = [1e-2, 1e-4, 1e-6, 1e-7, 1e-9, 1e-11]
-    assert answer_maps.answer_map(late.name, (0,))["value"].values == pytest.approx(settings)
+    answered = answer_maps.answer_map(late.name, (0,))
+    assert answered["value"].values == pytest.approx(settings)
 
 
 def test_the_engine_finds_the_first_separation_of_the_maps() -> None:
@@ -215,7 +231,8 @@ def test_what_truncation_does_to_a_study() -> None:
     cases = {"paper": {"N": 385.0, "Omega": 15.1}}
     dataset = contact_study(((4, 0), (6, 0)), cases, horizon=60.0)
     rigid = dataset.sel(case="paper", contact="rigid")
-    assert rigid["first_separation"].values == pytest.approx([54.4189, 53.51], abs=0.01)
+    times = [54.4189, 53.51]
+    assert rigid["first_separation"].values == pytest.approx(times, abs=0.01)
     assert (rigid["frequency_error"].diff("model") < 0).all()
     assert np.isnan(dataset["growth_rate"]).all(), "the quiet cycle ends at a lower speed"
 
@@ -223,19 +240,24 @@ def test_what_truncation_does_to_a_study() -> None:
     assert len(axes) == 8
     assert axes[6].get_title(loc="left") == "(g) Range of the slider's\nheight (mm)"
     late = dataset["u_range"].sel(case="paper", contact="residual")
-    np.testing.assert_allclose(axes[6].lines[0].get_ydata(), 1e3 * late)
+    line = axes[6].lines[0]
+    drawn = line.get_ydata()
+    np.testing.assert_allclose(drawn, 1e3 * late)
 
 
 @pytest.mark.compiled
 def test_cost_is_that_of_all_processes() -> None:
     """Four outcomes take 0.3 s in two processes of their own, and 0.03 s in this one."""
     grids = ((1, 1), (1, 2), (2, 2))
-    dataset = scaling(grids, ((1, 0), (4, 0)), (1.0, 500.0), several=(2, 2))
+    models = ((1, 0), (4, 0))
+    horizons = (1.0, 500.0)
+    dataset = scaling(grids, models, horizons, several=(2, 2))
     assert dataset["points"].values.tolist() == [2, 4, 1, 2, *[4] * 6]
     assert dataset["modes"].values.tolist() == [9, 9, 9, 9, 3, 9, 3, 9, 9, 9]
     assert dataset["seconds"][-1] > 0.1
     figure = figures.draw("scaling", [dataset])
-    assert [len(ax.lines) for ax in figure.axes] == [2, 2, 1]
+    counts = [len(ax.lines) for ax in figure.axes]
+    assert counts == [2, 2, 1]
     assert figure.axes[2].get_ylabel() == "Processor time of a point (ms)"
     np.testing.assert_allclose(
         figure.axes[2].lines[0].get_ydata(), 1e3 * dataset["seconds"][-2:] / 4

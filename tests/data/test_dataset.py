@@ -52,8 +52,12 @@ def test_equal_runs_give_equal_bytes(tmp_path: Path) -> None:
         save(
             merge_cases({"A": case, "B": case}, {"A": {"title": "é"}}), tmp_path / f"merged_{name}"
         )
-    assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
-    assert (tmp_path / "merged_a.nc").read_bytes() == (tmp_path / "merged_b.nc").read_bytes()
+    b_path = tmp_path / "b.nc"
+    a_path = tmp_path / "a.nc"
+    assert a_path.read_bytes() == b_path.read_bytes()
+    merged_b_path = tmp_path / "merged_b.nc"
+    merged_a_path = tmp_path / "merged_a.nc"
+    assert merged_a_path.read_bytes() == merged_b_path.read_bytes()
 
 
 @pytest.mark.compiled
@@ -61,8 +65,9 @@ def test_merged_file_is_a_table_with_a_group_per_case(tree: xr.DataTree, tmp_pat
     other = run_case(spec_of(P.replace(N=200)))
     other.attrs["git_commit"] = "another"
     labels = {"A": {"title": "first", "reference": "Fig. 1"}, "B": {"title": "zweite, größer"}}
-    save(merge_cases({"A": tree, "B": other}, labels), tmp_path / "cases.nc")
-    table = xr.open_dataset(tmp_path / "cases.nc")
+    file = tmp_path / "cases.nc"
+    save(merge_cases({"A": tree, "B": other}, labels), file)
+    table = xr.open_dataset(file)
     assert list(table["case"].values) == ["A", "B"]
     assert list(table["N"].values) == [385, 200]
     assert list(table["title"].values) == ["first", "zweite, größer"]
@@ -73,7 +78,7 @@ def test_merged_file_is_a_table_with_a_group_per_case(tree: xr.DataTree, tmp_pat
     assert table.attrs["source_hash"] == tree.attrs["source_hash"]
     assert json.loads(table.attrs["git_commit"]) == sorted([tree.attrs["git_commit"], "another"])
     table.close()
-    merged = load(tmp_path / "cases.nc")
+    merged = load(file)
     for name in ("history", "zoom", "poincare"):
         xr.testing.assert_identical(
             merged[f"A/{name}"].to_dataset(inherit=False), tree[name].to_dataset(inherit=False)
@@ -88,10 +93,13 @@ def test_a_failed_case_is_a_status_in_the_table(tree: xr.DataTree, tmp_path: Pat
     failed = run_case(
         CaseSpec(parameters=P.replace(disc=disc, contact_compliance="residual"), t_end=1.0)
     )
-    assert STATUSES[int(failed["status"])] == failed.attrs["status"] == "failed"
-    assert all(np.isnan(failed[name]) for name in ("first_separation", "contact_compliance"))
-    save(merge_cases({"A": tree, "B": failed}, {}), tmp_path / "cases.nc")
-    table = load(tmp_path / "cases.nc")
+    assert STATUSES[int(failed["status"])] == failed.attrs["status"]
+    assert failed.attrs["status"] == "failed"
+    for name in ("first_separation", "contact_compliance"):
+        assert np.isnan(failed[name])
+    file = tmp_path / "cases.nc"
+    save(merge_cases({"A": tree, "B": failed}, {}), file)
+    table = load(file)
     assert list(flag_names(table["status"])) == ["ok", "failed"]
     assert "static compliance" in str(table["message"].values[1])
     assert list(table["N"].values) == [385, 385]
@@ -135,8 +143,9 @@ TREE = xr.DataTree.from_dict(
 
 @pytest.fixture
 def path(tmp_path: Path) -> Path:
-    save(TREE, tmp_path / "case.nc")
-    return tmp_path / "case.nc"
+    file = tmp_path / "case.nc"
+    save(TREE, file)
+    return file
 
 
 def test_a_variable_with_the_name_of_its_group_is_loaded(path: Path) -> None:

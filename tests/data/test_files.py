@@ -3,6 +3,7 @@ changed."""
 
 import random
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +13,10 @@ import scipy.io
 import xarray as xr
 from netCDF4 import Dataset
 
-from disc_model import ParameterError, Parameters, Result, State, Window, load, simulate
+import disc_model as dm
+from disc_model import ParameterError, Parameters, Result, State, Window, simulate
 from disc_model.data import files
-from disc_model.data.dataset import UnreadableFile, WriteError, save
+from disc_model.data.dataset import UnreadableFile, WriteError, load, save
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
 RUN = simulate(P, 0.02, {"all": Window(rate=2000)})
@@ -24,6 +26,7 @@ LOADERS: dict[str, tuple[Callable[[Path], object], Callable[[Any], Any]]] = {
     "state.nc": (RUN.final_state.save, State.load),
     "state.mat": (RUN.final_state.save, State.load),
     "tree.nc": (RUN.save, load),
+    "dataset.mat": (partial(dm.save, RUN.to_tree()), dm.load),
 }
 
 
@@ -63,7 +66,8 @@ def damages(whole: bytes, cut: bool) -> Iterator[bytes]:
 def test_a_tree_that_is_cut_is_unreadable_or_whole(tmp_path: Path) -> None:
     path = tmp_path / "tree.nc"
     RUN.save(path)
-    whole, tree = path.read_bytes(), load(path)
+    whole = path.read_bytes()
+    tree = load(path)
     for left in (0, 1, 100, len(whole) // 2, len(whole) - 500, len(whole) - 60, len(whole) - 1):
         path.write_bytes(whole[:left])
         with pytest.raises(UnreadableFile):
@@ -85,25 +89,29 @@ def test_every_part_of_a_file_counts(at: int, tmp_path: Path) -> None:
 
 
 def test_other_programs_read_what_is_sealed(tmp_path: Path) -> None:
-    RUN.save(tmp_path / "r.mat")
-    RUN.save(tmp_path / "s.mat")
-    assert (tmp_path / "r.mat").read_bytes() == (tmp_path / "s.mat").read_bytes()
-    text = (tmp_path / "r.mat").read_bytes()[:128]
+    r_path = tmp_path / "r.mat"
+    RUN.save(r_path)
+    s_path = tmp_path / "s.mat"
+    RUN.save(s_path)
+    assert r_path.read_bytes() == s_path.read_bytes()
+    text = r_path.read_bytes()[:128]
     # as the format says: a text, 8 bytes for a subsystem, the version, and the order of bytes
     assert text.startswith(b"MATLAB 5.0 MAT-file")
     assert text[116:] == b"\x00" * 8 + b"\x00\x01IM"
-    content = scipy.io.loadmat(tmp_path / "r.mat", simplify_cells=True)
-    events, meanings = content["events"], content["meanings"]
+    content = scipy.io.loadmat(r_path, simplify_cells=True)
+    events = content["events"]
+    meanings = content["meanings"]
     words = [meanings["kind"][int(kind)] for kind in events["kind"]]
     assert words == RUN.events["kind"].tolist()
     phases = [meanings["phase"][int(phase)] for phase in content["all"]["phase"]]
     assert {*phases} == {"stick", "slip"}
     assert phases[0] == "stick"
     assert content["units"]["P"] == "N"
-    RUN.save(tmp_path / "r.nc")
-    with xr.open_dataset(tmp_path / "r.nc", group="all") as opened:
+    r_file = tmp_path / "r.nc"
+    RUN.save(r_file)
+    with xr.open_dataset(r_file, group="all") as opened:
         np.testing.assert_array_equal(opened["P"], RUN["all"]["P"])
-    with xr.open_dataset(tmp_path / "r.nc") as opened:
+    with xr.open_dataset(r_file) as opened:
         assert opened["tol"].attrs["units"] == "s"
 
 
@@ -156,8 +164,10 @@ def test_a_failure_to_write_leaves_nothing_behind(tmp_path: Path) -> None:
         Path(name).write_text("half")
         raise OSError("no space left")
 
+    a_path = tmp_path / "a.nc"
     with pytest.raises(WriteError, match=r"a\.nc: cannot be written: no space left"):
-        files.write_atomically(tmp_path / "a.nc", fail)
+        files.write_atomically(a_path, fail)
+    a_file = tmp_path / "no" / "a.nc"
     with pytest.raises(WriteError, match=r"a\.nc: must be in a folder that exists"):
-        files.write_atomically(tmp_path / "no" / "a.nc", fail)
+        files.write_atomically(a_file, fail)
     assert not [*tmp_path.iterdir()]

@@ -14,7 +14,8 @@ def test_points_that_are_missing_have_a_value_that_says_so() -> None:
     # without a word for it, the first one: the kind of no event
     assert SERIES["kind"].missing == 0
     empty = SCALARS["status"].empty((2, 3))
-    assert (empty.dtype, empty.shape) == (np.int8, (2, 3))
+    assert empty.dtype == np.int8
+    assert empty.shape == (2, 3)
     assert (empty == STATUSES.index("failed")).all()
     assert SCALARS["n_events"].empty((1,)).dtype == np.int64
 
@@ -31,7 +32,8 @@ def test_points_that_are_missing_have_a_value_that_says_so() -> None:
 )
 def test_attributes_of_derived_names(name: str, unit: str, text: str) -> None:
     found = attributes(name)
-    assert (found["units"], found["long_name"]) == (unit, text)
+    assert found["units"] == unit
+    assert found["long_name"] == text
 
 
 def test_flags_are_words_by_their_numbers() -> None:

@@ -66,7 +66,8 @@ def brick_modes(ring: Ring, count: int) -> BrickModes:
     _, first, inverse = np.unique(keys.T, axis=0, return_index=True, return_inverse=True)
     entries = (np.ones(basis.N), (np.arange(basis.N), inverse.ravel()))
     join = coo_matrix(entries, shape=(basis.N, len(first))).tocsc()
-    places, component = basis.doflocs[:, first], component[first]
+    places = basis.doflocs[:, first]
+    component = component[first]
 
     free = np.flatnonzero(np.hypot(*places[:2]) > ring.radii[0] + 1e-9)
     K = (join.T @ stiffness @ join).tocsc()[free][:, free]

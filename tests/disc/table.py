@@ -13,10 +13,11 @@ def disc_table(p: Parameters) -> str:
     exactly."""
     if p.disc is not None:
         return table_text(p.disc)
-    modes, tangential = (
-        mode_arrays(p),
-        tangential_amplitudes(p) if p.friction_offset else np.zeros(0),
-    )
+    modes = mode_arrays(p)
+    if p.friction_offset:
+        tangential = tangential_amplitudes(p)
+    else:
+        tangential = np.zeros(0)
     return table_text(
         Disc(
             diameters=modes.diameters.tolist(), circles=modes.circles.tolist(), omega=modes.omega.tolist(),

@@ -9,7 +9,9 @@ import pytest
 
 import disc_model as dm
 
-DIAMETERS, FREQUENCIES, AMPLITUDES = (1, 0, 2), (551.0, 929.0, 1212.5), (0.556, 0.431, 0.543)
+DIAMETERS = (1, 0, 2)
+FREQUENCIES = (551.0, 929.0, 1212.5)
+AMPLITUDES = (0.556, 0.431, 0.543)
 RATIOS = (0.001, 0.002, 0.0015)
 OMEGA = 2 * np.pi * np.array(FREQUENCIES)
 
@@ -27,12 +29,29 @@ def assert_right(disc: dm.Disc, damped: bool = True) -> None:
     assert disc.diameters == DIAMETERS
     np.testing.assert_allclose(disc.omega, OMEGA, rtol=1e-12)
     np.testing.assert_allclose(disc.amplitude, AMPLITUDES, rtol=1e-12)
-    np.testing.assert_allclose(disc.damping_ratio, RATIOS if damped else (0, 0, 0), rtol=1e-9)
+    ratios = (0, 0, 0)
+    if damped:
+        ratios = RATIOS
+    np.testing.assert_allclose(disc.damping_ratio, ratios, rtol=1e-9)
 
 
 def rows(*columns: Any, separator: str = ",") -> str:
     """Lines of a table from its columns."""
     return "".join(separator.join(map(str, row)) + "\n" for row in zip(*columns, strict=True))
+
+
+@pytest.mark.parametrize("label", ["Mode", "mode no.", "No.", "Mode-Nr."])
+@pytest.mark.parametrize("separator", [",", ";"])
+def test_a_first_column_that_labels_modes_is_left_aside(
+    label: str, separator: str, tmp_path: Path
+) -> None:
+    """Software of modal tests numbers modes; it was an unknown column."""
+    heads = [label, "diameters", "frequency (Hz)", "amplitude (1/sqrt(kg))", "damping (1)"]
+    text = rows((1, 2, 5), DIAMETERS, FREQUENCIES, AMPLITUDES, RATIOS, separator=separator)
+    assert_right(read(tmp_path, separator.join(heads) + "\n" + text))
+    units = separator.join(["", "-", "Hz", "1/sqrt(kg)", "-"]) + "\n"
+    heads = [label, "diameters", "frequency", "amplitude", "damping"]
+    assert_right(read(tmp_path, separator.join(heads) + "\n" + units + text))
 
 
 @pytest.mark.parametrize(
@@ -80,7 +99,9 @@ def test_spreadsheets_separate_and_end_columns_as_they_like(
         text = text.replace("\n", f"{separator}{separator}\n")
     if tail == "blank":
         text += 3 * separator + "\n\n"
-    begin = "sep=;\n" if separator == ";" else ""
+    begin = ""
+    if separator == ";":
+        begin = "sep=;\n"
     assert_right(read(tmp_path, f"{begin}{head}\n{text}"))
 
 
@@ -92,12 +113,16 @@ def test_units_may_have_a_row_of_their_own(tmp_path: Path) -> None:
     assert_right(read(tmp_path, text + table))
 
 
-POLES = OMEGA * (-np.array(RATIOS) + 1j * np.sqrt(1 - np.array(RATIOS) ** 2))
+DAMPED = np.array(RATIOS)
+OSCILLATING = np.sqrt(1 - DAMPED**2)
+POLES = OMEGA * (-DAMPED + 1j * OSCILLATING)
 
 
 @pytest.mark.parametrize("factor", [1.0, 1 / (2 * np.pi)])
 def test_poles_stand_for_frequencies_and_damping(factor: float, tmp_path: Path) -> None:
-    unit = "rad/s" if factor == 1 else "Hz"
+    unit = "Hz"
+    if factor == 1:
+        unit = "rad/s"
     poles = [f"{factor * pole.real!r}{factor * pole.imag:+}i" for pole in POLES.tolist()]
     heads = f"diameters,amplitude_per_sqrt_kg,pole ({unit})\n"
     assert_right(read(tmp_path, heads + rows(DIAMETERS, AMPLITUDES, poles)))
@@ -128,7 +153,9 @@ def test_both_halves_of_pairs_become_their_mean(tmp_path: Path) -> None:
     table = table.replace("0,980,0.1,", "0,1980,0.1,")
     disc = read(tmp_path, heads + table, pairs="mean")
     assert disc.diameters == (2, 0, 0, 3)
-    np.testing.assert_allclose(np.array(disc.omega) / (2 * np.pi), [1212, 929, 1980, 1900])
+    turn = 2 * np.pi
+    frequencies = np.array(disc.omega) / turn
+    np.testing.assert_allclose(frequencies, [1212, 929, 1980, 1900])
     np.testing.assert_allclose(disc.amplitude, [0.54, 0.43, 0.1, 0.5])
     np.testing.assert_allclose(disc.damping_ratio, [0.002, 0.001, 0.001, 0.001])
     np.testing.assert_allclose(disc.tangential, [-0.13, 0, 0, -0.1])
@@ -145,7 +172,9 @@ def test_a_table_with_circles_has_its_pairs_by_them(tmp_path: Path) -> None:
         "diameters,circles,frequency_Hz,amplitude_per_sqrt_kg\n2,0,1200,1\n2,1,1210,2\n2,0,1204,3\n"
     )
     disc = read(tmp_path, text, pairs="mean")
-    assert (disc.diameters, disc.circles, disc.amplitude) == ((2, 2), (0, 1), (2, 2))
+    assert disc.diameters == (2, 2)
+    assert disc.circles == (0, 1)
+    assert disc.amplitude == (2, 2)
 
 
 @pytest.mark.parametrize(
@@ -164,7 +193,10 @@ def test_a_comment_states_the_static_compliance(
 ) -> None:
     text = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n1,551,0.5\n"
     found = read(tmp_path, f"{comment}\n{text}").static_compliance
-    assert found == (pytest.approx(value, rel=1e-12) if value else None)
+    if value:
+        assert found == pytest.approx(value, rel=1e-12)
+    else:
+        assert found is None
 
 
 @pytest.mark.parametrize(
@@ -236,8 +268,9 @@ def test_a_frequency_in_another_unit_is_doubted(
 ) -> None:
     """At each reading, and a table whose modes are far apart is not."""
     text = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n"
-    (tmp_path / "disc.csv").write_text(text + rows((1, 2, 3, 4), frequencies, (1, 1, 1, 1)))
+    path = tmp_path / "disc.csv"
+    path.write_text(text + rows((1, 2, 3, 4), frequencies, (1, 1, 1, 1)))
     for _ in range(2):
         with pytest.warns(dm.ImplausibleValue, match=phrase):
-            dm.Disc.from_csv(tmp_path / "disc.csv")
+            dm.Disc.from_csv(path)
     read(tmp_path, text + rows((1, 2, 3, 4), (12, 100, 2000, 9000), (1, 1, 1, 1)))

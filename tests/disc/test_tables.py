@@ -73,7 +73,8 @@ def test_a_plate_given_by_its_modes_moves_as_the_plate(
     """Seventeen digits bring every number back; rounding is left to the damping, which comes as a
     ratio."""
     plate = P.replace(**change)
-    table = written(tmp_path / "disc.csv", plate)
+    path = tmp_path / "disc.csv"
+    table = written(path, plate)
     times = [dm.simulate(p, 1.0).events["time"].to_numpy() for p in (plate, table)]
     np.testing.assert_allclose(*times, rtol=0, atol=1e-13)
     of_plate, of_table = (engine_case(p).model for p in (plate, table))
@@ -89,18 +90,18 @@ def test_a_plate_given_by_its_modes_moves_as_the_plate(
 def test_shapes_of_a_table_give_the_deflection_of_the_plate(tmp_path: Path) -> None:
     """Splines through shapes each 4 mm: the error of the fourth order is some 1e-5 of the
     deflection."""
-    plate, r, theta = (
-        P.replace(normalization="orthonormal"),
-        np.linspace(P.a, P.b, 41),
-        np.linspace(0, 6, 13),
-    )
-    given, radii = mode_arrays(plate), np.linspace(P.a, P.b, 20)
+    plate = P.replace(normalization="orthonormal")
+    r = np.linspace(P.a, P.b, 41)
+    theta = np.linspace(0, 6, 13)
+    given = mode_arrays(plate)
+    radii = np.linspace(P.a, P.b, 20)
     disc = dm.Disc(
         diameters=given.diameters.tolist(), omega=given.omega.tolist(), amplitude=given.psi.tolist(),
         radii=radii.tolist(), shapes=mode_shapes(plate, radii).tolist(),
     )  # fmt: skip
-    (tmp_path / "disc.csv").write_text(disc_table(P.replace(disc=disc)))
-    table = P.replace(disc=dm.Disc.from_csv(tmp_path / "disc.csv"))
+    path = tmp_path / "disc.csv"
+    path.write_text(disc_table(P.replace(disc=disc)))
+    table = P.replace(disc=dm.Disc.from_csv(path))
     assert table.disc == disc
     state = dm.snapshots(plate, [0.3])
     right, found = (dm.deflection(p, state, r, theta) for p in (plate, table))
@@ -119,8 +120,9 @@ def test_a_table_is_read_as_a_spreadsheet_writes_it(tmp_path: Path) -> None:
     disc = dm.Disc(**THREE, radii=[0.073, 0.1], shapes=[[1.0, 0.1]] * 3)
     text = disc_table(P.replace(disc=disc))
     assert "shape_at_0.073_m" in text
-    (tmp_path / "disc.csv").write_text("\ufeff" + text.replace(",", " , ") + ",,,\n")
-    assert dm.Disc.from_csv(tmp_path / "disc.csv") == disc
+    path = tmp_path / "disc.csv"
+    path.write_text("\ufeff" + text.replace(",", " , ") + ",,,\n")
+    assert dm.Disc.from_csv(path) == disc
 
 
 def test_faults_of_columns_are_named() -> None:
@@ -174,7 +176,8 @@ def test_a_study_of_a_plate_by_its_modes_is_that_of_the_plate(
     quantity: str, normalization: str, tmp_path: Path
 ) -> None:
     """Rates to 1e-9/s, and all else; only the damping, a ratio in the table, is rounded anew."""
-    (tmp_path / "disc.csv").write_text(disc_table(P.replace(normalization=normalization)))
+    path = tmp_path / "disc.csv"
+    path.write_text(disc_table(P.replace(normalization=normalization)))
     study = {"study": "own", "quantity": quantity, **STUDIES[quantity]}
     discs = {"normalization": normalization}, {"disc": "disc.csv"}
     plate, table = (computed(tmp_path, yaml.safe_dump(study | {"base": disc})) for disc in discs)
@@ -182,7 +185,8 @@ def test_a_study_of_a_plate_by_its_modes_is_that_of_the_plate(
 
 
 def test_the_command_line_reads_tables(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path, command = tmp_path / "disc.csv", Command(capsys)
+    path = tmp_path / "disc.csv"
+    command = Command(capsys)
     path.write_text(disc_table(P.replace(damping_ratio=0.00375)))
     shown = command.out("modes", "--disc", str(path))
     assert "a disc of 5 modes" in shown
@@ -207,4 +211,6 @@ def test_the_first_modes_of_a_table_are_chosen_by_the_motion(
         {"N": 385, "Omega": 15.1, "disc": disc, "n_diameters": "auto"}, quantity="growth"
     )
     assert choice.parameters.disc == disc.first(modes)
-    assert (choice.modes, choice.rich, choice.error) == (2 * modes - 1, (8,), pytest.approx(error))
+    assert choice.modes == 2 * modes - 1
+    assert choice.rich == (8,)
+    assert choice.error == pytest.approx(error)

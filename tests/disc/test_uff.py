@@ -30,12 +30,15 @@ def assert_right(disc: dm.Disc, tangential: bool = True) -> None:
     """That a disc has the known modes."""
     diameters, frequencies, amplitudes, along = zip(*MODES, strict=True)
     assert disc.diameters == diameters
-    np.testing.assert_allclose(np.array(disc.omega) / (2 * np.pi), frequencies, rtol=DIGITS)
+    omega = np.array(frequencies) * (2 * np.pi)
+    np.testing.assert_allclose(disc.omega, omega, rtol=DIGITS)
     np.testing.assert_allclose(disc.amplitude, amplitudes, rtol=DIGITS)
     np.testing.assert_allclose(disc.damping_ratio, 2e-3, rtol=DIGITS)
     np.testing.assert_allclose(disc.radii, RADII, rtol=DIGITS)
     growth = (np.array(RADII) / R_0) ** 2
-    np.testing.assert_allclose(disc.shapes, np.outer(amplitudes, growth), rtol=5 * DIGITS)
+    shapes = np.outer(amplitudes, growth)
+    tolerance = 5 * DIGITS
+    np.testing.assert_allclose(disc.shapes, shapes, rtol=tolerance)
     if tangential:
         np.testing.assert_allclose(disc.tangential, along, atol=DIGITS)
     else:
@@ -73,7 +76,9 @@ def _strict() -> Any:
 def test_every_dialect_gives_the_same_disc(
     results: int, nodes: int, change: dict[str, Any], tmp_path: Path
 ) -> None:
-    assert_right(read(tmp_path, Dialect(results=results, nodes=nodes, **change)))
+    dialect = Dialect(results=results, nodes=nodes, **change)
+    disc = read(tmp_path, dialect)
+    assert_right(disc)
 
 
 @pytest.mark.parametrize("results", [55, 2414])
@@ -84,14 +89,16 @@ def test_the_scale_of_a_complex_mode_does_not_matter(
 ) -> None:
     """The receptance is the same in all of them; unit modal A is the phase of -90 degrees."""
     for size in (1.0, 1e-5):
-        dialect = Dialect(results=results, complex=analysis, scale=size * np.exp(1j * phase))
+        scale = size * np.exp(1j * phase)
+        dialect = Dialect(results=results, complex=analysis, scale=scale)
         assert_right(read(tmp_path, dialect))
 
 
 def test_a_modal_mass_in_the_place_of_modal_a_is_noticed(tmp_path: Path) -> None:
     """Dataset 2414 has it there for equations of the second order; the shapes are then in phase."""
     for phase in (0.0, 1.0):
-        dialect = Dialect(results=2414, complex=7, mass=True, scale=2 * np.exp(1j * phase))
+        scale = 2 * np.exp(1j * phase)
+        dialect = Dialect(results=2414, complex=7, mass=True, scale=scale)
         assert_right(read(tmp_path, dialect))
 
 
@@ -108,9 +115,13 @@ def test_units_are_those_of_the_file(
 
 def test_a_code_of_units_stands_for_its_factors(tmp_path: Path) -> None:
     """Millimetres and milli-newtons, code 5, in a file that leaves the factors out."""
-    file = Dialect(length=1e3, force=1e3).write(tmp_path / "modes.unv", halves(MODES))
+    path = tmp_path / "modes.unv"
+    file = Dialect(length=1e3, force=1e3).write(path, halves(MODES))
     text = file.read_text()
-    millimetres = "\n".join([*begin(164), whole(5) + "mm (milli-newton)   " + whole(2), END, ""])
+    name = "mm (milli-newton)   "
+    unit = whole(5) + name + whole(2)
+    lines = [*begin(164), unit, END, ""]
+    millimetres = "\n".join(lines)
     file.write_text(millimetres + text)
     assert_right(dm.Disc.from_uff(file, R_0))
     metres = millimetres.replace("         5mm", "         1mm")
@@ -142,7 +153,9 @@ def test_axis_and_centre_are_found_or_given(
     dialect = Dialect(axis=axis, centre=centre, nodes=2411)
     assert_right(read(tmp_path, dialect))
     assert_right(read(tmp_path, dialect, axis=axis, centre=centre))
-    assert_right(read(tmp_path, dialect, centre=[f"{1e3 * x} mm" for x in centre]))
+    in_words = [f"{1e3 * x} mm" for x in centre]
+    disc = read(tmp_path, dialect, centre=in_words)
+    assert_right(disc)
     by_word = {(1, 0, 0): "x", (0, 1, 0): "y", (0, -1, 0): "-Y", (0, 0, -1): "-z"}
     if axis in by_word:
         assert_right(read(tmp_path, dialect, axis=by_word[axis]))
@@ -156,19 +169,24 @@ def test_the_axis_points_to_the_face_under_the_slider(tmp_path: Path) -> None:
     one = Dialect(axis=(0, 0, -1))
     with pytest.warns(dm.ImplausibleValue, match="moves as that of a face away from the slider"):
         disc = read(tmp_path, one, axis="z")
-    assert disc.tangential[0] == pytest.approx(-MODES[0][3], rel=DIGITS)
+    tangential = MODES[0][3]
+    assert disc.tangential[0] == pytest.approx(-tangential, rel=DIGITS)
 
 
 @pytest.mark.parametrize("arc", [1.5 * np.pi, np.pi])
 def test_nodes_on_part_of_the_circle_suffice(arc: float, tmp_path: Path) -> None:
-    assert_right(read(tmp_path, Dialect(arc=arc, centre=(0.03, -0.01, 0))))
+    centre = (0.03, -0.01, 0)
+    dialect = Dialect(arc=arc, centre=centre)
+    disc = read(tmp_path, dialect)
+    assert_right(disc)
 
 
 def test_displacements_in_cylindrical_systems_are_turned(tmp_path: Path) -> None:
     """Whether displacements are global, as the format has them, or in the systems of nodes, is
     decided by what makes waves of them."""
     for axis in ((0, 0, 1), (1, 0, 0), (1, 2, -3)):
-        dialect = Dialect(local=True, axis=axis, centre=(0.1, 0, 0.2), units=True, length=1e3)
+        centre = (0.1, 0, 0.2)
+        dialect = Dialect(local=True, axis=axis, centre=centre, units=True, length=1e3)
         disc = read(tmp_path, dialect)
         assert_right(disc)
         assert "displacements in systems of nodes" in str(disc.report)
@@ -180,7 +198,8 @@ def test_displacements_in_cylindrical_systems_are_turned(tmp_path: Path) -> None
 def test_nodes_in_systems_of_definition_are_placed(number: int, tmp_path: Path) -> None:
     """Dataset 15 has coordinates in them: here cylindrical, with angles in degrees."""
     dialect = Dialect(axial_only=True)
-    file = dialect.write(tmp_path / "modes.unv", halves(MODES))
+    path = tmp_path / "modes.unv"
+    file = dialect.write(path, halves(MODES))
     r, angle, height = dialect.grid()
     nodes = begin(15)
     for i, place in enumerate(zip(r, np.degrees(angle), height, strict=True), 1):
@@ -188,7 +207,9 @@ def test_nodes_in_systems_of_definition_are_placed(number: int, tmp_path: Path) 
     system = [*begin(18), whole(5, 1, 0, 8, 1), "disc"]
     system += [dialect.real(0, 0, 0, 2, 0, 0), dialect.real(1, 0, 1)]
     if number == 2420:
-        rows = [dialect.real(*row, width=25, digits=16) for row in [*np.eye(3), np.zeros(3)]]
+        axes = np.eye(3)
+        origin = np.zeros(3)
+        rows = [dialect.real(*row, width=25, digits=16) for row in [*axes, origin]]
         system = [*begin(2420), whole(1), "Part", whole(5, 1, 8), "disc", *rows]
     old = "\n".join(dialect.node_lines(r, angle, height))
     text = file.read_text().replace(old, "\n".join([*system, END, *nodes, END]))
@@ -239,7 +260,9 @@ def test_modes_in_the_plane_are_left_out(size: float, tmp_path: Path) -> None:
 
 def test_motion_that_follows_no_diameters_is_left_out(tmp_path: Path) -> None:
     noise = np.random.default_rng(1).standard_normal((72, 3)) * 1e-6
-    lines = Dialect().mode_lines(9, Half(0, 5000.0, 0.0, 1.0, 0.0), noise * [0, 0, 1])
+    half = Half(0, 5000.0, 0.0, 1.0, 0.0)
+    across = noise * [0, 0, 1]
+    lines = Dialect().mode_lines(9, half, across)
     disc = read(tmp_path, Dialect(axial_only=True, extra=lines))
     assert_right(disc, tangential=False)
     assert disc.report is not None
@@ -249,7 +272,10 @@ def test_motion_that_follows_no_diameters_is_left_out(tmp_path: Path) -> None:
 def test_a_mode_that_is_there_several_times_is_one(tmp_path: Path) -> None:
     """As conjugate modes, for several references, and in other combinations of both halves."""
     known = halves(MODES)
-    assert_right(read(tmp_path, Dialect(complex=3), [*known, *known]))
+    dialect = Dialect(complex=3)
+    twice = [*known, *known]
+    disc = read(tmp_path, dialect, twice)
+    assert_right(disc)
     lines = Dialect(complex=3, conjugate=True).all_mode_lines(known)
     assert_right(read(tmp_path, Dialect(complex=3, extra=lines)))
     turned = [
@@ -258,14 +284,16 @@ def test_a_mode_that_is_there_several_times_is_one(tmp_path: Path) -> None:
     disc = read(tmp_path, Dialect(), [*known, *turned])
     assert_right(disc)
     assert disc.report is not None
-    assert [mode.shapes for mode in disc.report.modes] == [4, 2, 4, 4]
+    shapes = [mode.shapes for mode in disc.report.modes]
+    assert shapes == [4, 2, 4, 4]
 
 
 def test_the_split_of_a_pair_is_reported(tmp_path: Path) -> None:
     disc = read(tmp_path, Dialect(), halves(MODES, split=0.03))
     assert_right(disc)
     assert disc.report is not None
-    np.testing.assert_allclose(disc.report.split, [0.03, 0, 0.03, 0.03], rtol=1e-3)
+    split = [0.03, 0, 0.03, 0.03]
+    np.testing.assert_allclose(disc.report.split, split, rtol=1e-3)
     with pytest.warns(dm.ImplausibleValue, match=r"modes of 2 nodal diameters .* kept as two"):
         apart = read(tmp_path, Dialect(), halves(MODES[1:3], split=0.06))
     assert apart.diameters == (0, 2, 2)
@@ -279,8 +307,10 @@ def test_poles_in_hertz_are_noticed(tmp_path: Path) -> None:
         {"scale": 1.7, "texts": "Mode, Frequency: {pole:.3f} Hz"},
     ]
     for way in ways:
+        dialect = Dialect(complex=3, in_hertz=True, **way)
         with pytest.warns(dm.ImplausibleValue, match="are taken to be in Hz"):
-            assert_right(read(tmp_path, Dialect(complex=3, in_hertz=True, **way)))
+            disc = read(tmp_path, dialect)
+        assert_right(disc)
     two_pi = {"complex": 3, "scale": 2 * np.pi}
     assert_right(read(tmp_path, Dialect(**two_pi, modal_b=True)))
     assert_right(read(tmp_path, Dialect(complex=3, texts="F = {pole:.2f} rad/s")))
@@ -400,8 +430,9 @@ def replaced(i: int, text: str) -> Callable[[list[str]], None]:
 def test_damaged_records_are_named(
     place: int, change: Callable[[list[str]], None], phrase: str, tmp_path: Path
 ) -> None:
+    path = tmp_path / "m.unv"
     with pytest.raises(dm.ParameterError) as error:
-        dm.Disc.from_uff(damaged(tmp_path / "m.unv", place, change), R_0)
+        dm.Disc.from_uff(damaged(path, place, change), R_0)
     assert phrase in str(error.value)
     assert str(error.value).startswith("m.unv: ")
 
@@ -409,7 +440,8 @@ def test_damaged_records_are_named(
 def test_numbers_that_touch_are_read(tmp_path: Path) -> None:
     """Fields of fixed width need no blanks between them, and exponents of three digits have no
     letter."""
-    file = Dialect(axial_only=True).write(tmp_path / "modes.unv", halves(MODES))
+    path = tmp_path / "modes.unv"
+    file = Dialect(axial_only=True).write(path, halves(MODES))
     lines = file.read_text().splitlines()
     text = "\n".join(
         line.replace("  0.00000E+00  0.00000E+00", "-1.000000E-25 -1.00000-101") for line in lines
@@ -422,11 +454,13 @@ def test_numbers_that_touch_are_read(tmp_path: Path) -> None:
     "content", [b"", b"a text", bytes(range(256)), b"    -1\n    -1\n", b"    -1\n    55\n    -1\n"]
 )
 def test_what_is_no_universal_file_is_refused(content: bytes, tmp_path: Path) -> None:
-    (tmp_path / "x.uff").write_bytes(content)
+    x_path = tmp_path / "x.uff"
+    x_path.write_bytes(content)
     with pytest.raises(dm.ParameterError, match=r"x\.uff: "):
-        dm.Disc.from_uff(tmp_path / "x.uff", R_0)
+        dm.Disc.from_uff(x_path, R_0)
+    none_path = tmp_path / "none.uff"
     with pytest.raises(dm.ParameterError, match=r"must be a universal file that can be read"):
-        dm.Disc.from_uff(tmp_path / "none.uff", R_0)
+        dm.Disc.from_uff(none_path, R_0)
 
 
 def test_a_comment_between_datasets_and_bytes_of_measurements_are_passed_over(
@@ -435,7 +469,10 @@ def test_a_comment_between_datasets_and_bytes_of_measurements_are_passed_over(
     """A dataset 58b may hold bytes that look like the mark of an end."""
     head = "    58b     1     2          11        40     0     0           0           0"
     mark = "\n    -1\n    55\n"
-    binary = [END, head, *["NONE"] * 11, (mark + "x" * (40 - len(mark))) + END]
+    padding = "x" * (40 - len(mark))
+    data = mark + padding + END
+    unused = ["NONE"] * 11
+    binary = [END, head, *unused, data]
     disc = read(tmp_path, Dialect(extra=["1 comment", *binary, "another", ""]))
     assert_right(disc)
 
@@ -446,8 +483,12 @@ def test_the_command_line_reads_universal_files(
     """It says what was used and left out, and writes the table that studies read."""
     monkeypatch.setenv("COLUMNS", "80")
     command = Command(capsys)
-    extra = Dialect(axis=(0, 1, 0)).all_mode_lines(halves([(2, 1800.0, 0.0, 0.9)]))
-    file = Dialect(axis=(0, 1, 0), extra=extra).write(tmp_path / "modes.unv", halves(MODES))
+    dialect = Dialect(axis=(0, 1, 0))
+    mode = (2, 1800.0, 0.0, 0.9)
+    extra = dialect.all_mode_lines(halves([mode]))
+    dialect = Dialect(axis=(0, 1, 0), extra=extra)
+    path = tmp_path / "modes.unv"
+    file = dialect.write(path, halves(MODES))
     table = tmp_path / "disc.csv"
     options = ("--r-0", "100 mm", "--axis", "y", "--centre", "0,0,0", "--save", str(table))
     shown = command.out("modes", "--from", str(file), *options)
@@ -457,7 +498,8 @@ def test_the_command_line_reads_universal_files(
         assert head in shown
     assert "…" not in shown
     assert_right(dm.Disc.from_csv(table))
-    assert command.out("modes", "--from", str(table), "--r-0", "0.1").count("-0.27") == 1
+    out = command.out("modes", "--from", str(table), "--r-0", "0.1")
+    assert out.count("-0.27") == 1
 
     said = command.error("modes", "--from", str(file), "--r-0", "0.09")
     assert said.startswith(
@@ -466,23 +508,26 @@ def test_the_command_line_reads_universal_files(
     assert "r_0: is required" in command.error("modes", "--from", str(file))
     both = command.error("modes", "--from", str(file), "--disc", str(table), "--r-0", "0.1")
     assert "disc: must be left out: --from gives the disc" in both
-    turned = Dialect(axis=(0, -1, 0), length=1e3).write(tmp_path / "mm.unv", halves(MODES))
+    dialect = Dialect(axis=(0, -1, 0), length=1e3)
+    path = tmp_path / "mm.unv"
+    turned = dialect.write(path, halves(MODES))
     units = ("--r-0", "0.1", "--axis", "-y", "--units", "mm,N", "--modal-mass", "1")
     assert "-y through (0, 0, 0) m" in command.out("modes", "--from", str(turned), *units)
     assert "axis='w': must be" in command.error(
         "modes", "--from", str(file), "--r-0", "0.1", "--axis", "w"
     )
     assert "save: needs the disc of a file" in command.run("modes", "--save", str(table))[2]
-    assert "none.uff" in command.error(
-        "modes", "--from", str(tmp_path / "none.uff"), "--r-0", "0.1"
-    )
+    none_path = tmp_path / "none.uff"
+    assert "none.uff" in command.error("modes", "--from", str(none_path), "--r-0", "0.1")
 
 
 def test_the_command_line_shows_doubts_as_lines(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    file = Dialect(angles=6).write(tmp_path / "six.unv", halves(MODES))
-    code, shown, said = Command(capsys).run("modes", "--from", str(file), "--r-0", "0.1")
+    path = tmp_path / "six.unv"
+    file = Dialect(angles=6).write(path, halves(MODES))
+    command = Command(capsys)
+    code, shown, said = command.run("modes", "--from", str(file), "--r-0", "0.1")
     assert code == 0
     assert said.startswith(
         "warning: 6 nodes on the circle tell modes of up to 2 nodal diameters apart"
@@ -497,7 +542,10 @@ def test_an_export_of_finite_elements_gives_the_disc_of_its_section(tmp_path: Pa
     ring = Ring()
     modes = brick_modes(ring, 15)
     inner, *_, outer = ring.radii
-    rectangles = [(inner, R_0, -ring.half, ring.half), (R_0, outer, -ring.half, ring.half)]
+    low = -ring.half
+    high = ring.half
+    rectangles = [(inner, R_0, low, high), (R_0, outer, low, high)]
+    path = tmp_path / "ring.unv"
     for face in (1, -1):
         section = dm.Disc.from_section(
             rectangles, size=0.006, E=ring.E, nu=ring.nu, rho=ring.rho,
@@ -506,16 +554,23 @@ def test_an_export_of_finite_elements_gives_the_disc_of_its_section(tmp_path: Pa
         )  # fmt: skip
         known = [*zip(section.diameters, section.circles, strict=True)]
         for results, nodes in RECORDS:
-            file = export(tmp_path / "ring.unv", modes, Dialect(results=results, nodes=nodes))
-            disc = dm.Disc.from_uff(file, R_0, axis="z" if face > 0 else "-z")
+            file = export(path, modes, Dialect(results=results, nodes=nodes))
+            axis = "-z"
+            if face > 0:
+                axis = "z"
+            disc = dm.Disc.from_uff(file, R_0, axis=axis)
             order = [known.index(mode) for mode in zip(disc.diameters, disc.circles, strict=True)]
             assert disc.diameters[:6] == (0, 1, 2, 3, 4, 5)
             assert (1, 1) in [known[i] for i in order]  # it moves in the plane above all
-            np.testing.assert_allclose(disc.omega, np.array(section.omega)[order], rtol=0.04)
+            omega = np.array(section.omega)
+            np.testing.assert_allclose(disc.omega, omega[order], rtol=0.04)
             for name in ("amplitude", "tangential"):
                 expected = np.array(getattr(section, name))[order]
                 scale = np.hypot(np.array(section.amplitude), section.tangential)[order]
-                np.testing.assert_array_less(np.abs(getattr(disc, name) - expected), 0.01 * scale)
+                found = getattr(disc, name)
+                errors = np.abs(found - expected)
+                limit = 0.01 * scale
+                np.testing.assert_array_less(errors, limit)
                 assert np.all(
                     np.abs(getattr(disc, name) - expected)[:6] <= 0.01 * np.abs(expected[:6])
                 )
@@ -527,17 +582,25 @@ def test_a_file_of_another_writer_is_read(tmp_path: Path) -> None:
     import pyuff
 
     p = dm.Parameters(N=0, Omega=0, normalization="orthonormal")
-    radii, angles, mass = np.array([0.06, 0.08, 0.1, 0.12]), np.arange(24) * np.pi / 12, 2.5
+    radii = np.array([0.06, 0.08, 0.1, 0.12])
+    angles = np.arange(24) * np.pi / 12
+    mass = 2.5
     r, angle = (grid.ravel() for grid in np.meshgrid(radii, angles, indexing="ij"))
     numbers = np.arange(1, r.size + 1)
-    nodes = {"type": 15, "node_nums": numbers, "x": r * np.cos(angle), "y": r * np.sin(angle)}
-    file = pyuff.UFF(str(tmp_path / "modes.uff"))
+    x = r * np.cos(angle)
+    y = r * np.sin(angle)
+    nodes = {"type": 15, "node_nums": numbers, "x": x, "y": y}
+    modes_path = tmp_path / "modes.uff"
+    file = pyuff.UFF(str(modes_path))
     plain = dict.fromkeys(("def_cs", "disp_cs", "color"), 0 * numbers)
     file.write_sets({**nodes, **plain, "z": 0 * r}, "overwrite")
-    modes, shapes = dm.plate_modes(p), mode_shapes(p, radii)
+    modes = dm.plate_modes(p)
+    shapes = mode_shapes(p, radii)
     for l, omega, shape in zip(modes["diameters"], modes["omega"], shapes, strict=True):
         for half in range(1 + (l > 0)):
-            wave = np.cos(l * (angle - 0.3) + half * np.pi / 2)
+            turned = angle - 0.3
+            quarter = np.pi / 2
+            wave = np.cos(l * turned + half * quarter)
             z = -np.sqrt(mass) * np.repeat(shape, angles.size) * wave
             file.write_sets(
                 {
@@ -547,12 +610,17 @@ def test_a_file_of_another_writer_is_read(tmp_path: Path) -> None:
                     "modal_damp_his": 0.0, "node_nums": numbers, "r1": 0 * z, "r2": 0 * z, "r3": z,
                 }, "add",
             )  # fmt: skip
-    disc = dm.Disc.from_uff(tmp_path / "modes.uff", p.r_0)
+    disc = dm.Disc.from_uff(modes_path, p.r_0)
     assert list(disc.diameters) == modes["diameters"].tolist()
     paired = np.where(modes["diameters"] > 0, 1.005, 1.0)
-    np.testing.assert_allclose(disc.omega, modes["omega"] * paired, rtol=DIGITS)
-    np.testing.assert_allclose(disc.amplitude, np.abs(modes["psi"]), rtol=1e-4)
+    omega = modes["omega"] * paired
+    np.testing.assert_allclose(disc.omega, omega, rtol=DIGITS)
+    amplitude = np.abs(modes["psi"])
+    np.testing.assert_allclose(disc.amplitude, amplitude, rtol=1e-4)
     signed = shapes * np.sign(shapes[:, 2:3])
-    np.testing.assert_allclose(disc.shapes, signed, atol=1e-4 * np.abs(shapes).max())
-    disc.to_csv(tmp_path / "disc.csv")
-    assert dm.Disc.from_csv(tmp_path / "disc.csv") == disc
+    largest = np.abs(shapes).max()
+    tolerance = 1e-4 * largest
+    np.testing.assert_allclose(disc.shapes, signed, atol=tolerance)
+    disc_path = tmp_path / "disc.csv"
+    disc.to_csv(disc_path)
+    assert dm.Disc.from_csv(disc_path) == disc

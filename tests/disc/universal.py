@@ -133,7 +133,8 @@ class Dialect:
         for number, half in enumerate(modes, 1):
             motion = half.motion(r, angle)
             # the lower face of a plate moves tangentially the other way
-            motion[:, 1] *= np.sign(height) if len(self.heights) > 1 else 1.0
+            if len(self.heights) > 1:
+                motion[:, 1] *= np.sign(height)
             lines += self.mode_lines(number, half, self.turned(motion, angle))
         return lines
 
@@ -159,7 +160,8 @@ class Dialect:
             motion = motion * [0.0, 0.0, 1.0]
         if self.local:
             return motion
-        cosine, sine = np.cos(angle), np.sin(angle)
+        cosine = np.cos(angle)
+        sine = np.sin(angle)
         x = motion[:, 0] * cosine - motion[:, 1] * sine
         y = motion[:, 0] * sine + motion[:, 1] * cosine
         return np.stack([x, y, motion[:, 2]], axis=1) @ self.basis()
@@ -185,7 +187,9 @@ class Dialect:
         local = np.stack([r * np.cos(angle), r * np.sin(angle), height], axis=1)
         places = (local @ self.basis() + self.centre) * self.length
         lines = begin(self.nodes)
-        moves_in = 7 if self.local else 0
+        moves_in = 0
+        if self.local:
+            moves_in = 7
         for number, place in enumerate(places, 1):
             head = whole(number, 0, moves_in, 8)
             if self.nodes == 15:
@@ -202,9 +206,15 @@ class Dialect:
         if self.complex:
             motion = motion * np.sqrt(complex(self.scale)) * pole**self.order
             motion = motion * np.exp(1j * self.turned_by)
-            modal_a = (1 if self.mass else 2j * pole.imag) * self.scale * unit_mass * self.stated
+            if self.mass:
+                of_mass = 1
+            else:
+                of_mass = 2j * pole.imag
+            modal_a = of_mass * self.scale * unit_mass * self.stated
             modal_b = -pole * modal_a * self.modal_b
-            written = pole / (2 * np.pi) if self.in_hertz else pole
+            written = pole
+            if self.in_hertz:
+                written = pole / (2 * np.pi)
             if self.conjugate:
                 motion = motion.conj()
                 written, modal_a, modal_b = np.conj([written, modal_a, modal_b]).tolist()
@@ -213,14 +223,22 @@ class Dialect:
         else:
             mass = complex(self.scale).real
             motion = motion * np.sqrt(mass) * half.omega**self.order
-            viscous, hysteretic = half.damping_ratio, 0.0
+            viscous = half.damping_ratio
+            hysteretic = 0.0
             if self.hysteretic:
-                viscous, hysteretic = 0.0, 2 * half.damping_ratio
+                viscous = 0.0
+                hysteretic = 2 * half.damping_ratio
             reals = [half.omega / (2 * np.pi), mass * unit_mass * self.stated, viscous, hysteretic]
             kind = 2
         analysis = self.complex or 2
-        data = 8 if self.order == 0 else 10 + self.order
-        head = [1, analysis, 2 if self.values == 3 else 3, data, kind, self.values]
+        if self.order == 0:
+            data = 8
+        else:
+            data = 10 + self.order
+        characteristic = 3
+        if self.values == 3:
+            characteristic = 2
+        head = [1, analysis, characteristic, data, kind, self.values]
         texts = [self.texts.format(pole=reals[1])] * 5
         if self.results == 55:
             lines = [*begin(55), *texts, whole(*head)]
@@ -228,12 +246,21 @@ class Dialect:
         else:
             lines = [*begin(2414), whole(number), f"mode {number}", whole(1), *texts]
             lines += [whole(*head), whole(0, 0, 1, 0, 0, number, 0, 0), whole(0, 0)]
-            normal = [0.0, reals[0], 0.0, *reals[1:4]] if not self.complex else [0.0] * 6
-            eigen = reals if self.complex else [0.0] * 6
+            if not self.complex:
+                normal = [0.0, reals[0], 0.0, *reals[1:4]]
+            else:
+                normal = [0.0] * 6
+            if self.complex:
+                eigen = reals
+            else:
+                eigen = [0.0] * 6
             lines += [self.real(*normal), self.real(*eigen)]
         for i, row in enumerate(motion, 1):
             row = np.concatenate([row, np.zeros(self.values - 3)])
-            cells = [x for value in row for x in parts(value)] if self.complex else [*row]
+            if self.complex:
+                cells = [x for value in row for x in parts(value)]
+            else:
+                cells = [*row]
             lines.append(whole(i))
             lines += [self.real(*cells[j : j + 6]) for j in range(0, len(cells), 6)]
         return [*lines, END]

@@ -48,7 +48,9 @@ def links_of(page: Path) -> list[str]:
 def test_links_lead_somewhere(page: Path) -> None:
     for target in links_of(page):
         file, _, place = target.partition("#")
-        found = (page.parent / file).resolve() if file else page
+        found = page
+        if file:
+            found = (page.parent / file).resolve()
         assert found.exists(), target
         if DOCS in page.parents and found.suffix == ".md":
             assert DOCS in found.parents, f"{target}: the site has no such page"

@@ -19,10 +19,14 @@ class Full:
     """
 
     def __init__(self, p: Parameters, start: State, tol: float = 1e-14, scalars: int = 2):
-        case, self.order, self.tol = engine_case(p), series_order(tol), tol
+        case = engine_case(p)
+        self.order = series_order(tol)
+        self.tol = tol
         self.model = case.model
-        width, n0 = len(self.model.mode_amplitude), len(self.model.mode_amplitude0)
-        used, single = np.flatnonzero(self.model.shift), np.arange(n0)
+        width = len(self.model.mode_amplitude)
+        n0 = len(self.model.mode_amplitude0)
+        used = np.flatnonzero(self.model.shift)
+        single = np.arange(n0)
         rows = [
             used,
             width + used,

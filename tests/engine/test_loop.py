@@ -63,7 +63,8 @@ def outcome(map_: ReturnMap, x: np.ndarray, **how) -> int:
 def test_flights_say_how_they_end() -> None:
     map_ = ReturnMap(P)
     flight = map_.evaluate(map_.static, releases=2, tangent=False)
-    assert (flight.outcome, flight.counts) == (transitions.RETURNED, (2, 0, 0, 0, 2))
+    assert flight.outcome == transitions.RETURNED
+    assert flight.counts == (2, 0, 0, 0, 2)
     x = map_.static + 3 * np.max(np.abs(map_.static)) * np.random.default_rng(1).normal(
         size=map_.size
     )
@@ -83,10 +84,9 @@ def test_without_a_drop_of_friction_only_a_pull_that_outgrows_it_begins_slip() -
     """A hundredth before the speed of a mode at which both grow alike by the paper's equations, and
     beyond it."""
     map_ = ReturnMap(P.replace(mu_k=P.mu_s))
-    p, along = (
-        map_.parameters,
-        np.linalg.norm(map_.static) * (np.arange(map_.size) == 4),
-    )  # alpha of a mode
+    # alpha of a mode
+    p = map_.parameters
+    along = np.linalg.norm(map_.static) * (np.arange(map_.size) == 4)
 
     def outgrows(speed: float) -> float:
         run = printed.Printed(p, map_.state(map_.static + speed * along))
@@ -123,7 +123,8 @@ def test_rounding_of_a_gap_is_that_of_the_modes_it_is_made_of(gap: float, known:
     here = build_state(case.model)
     here.disc[:] = 0.0
     # two modes that lift the disc by 1 cm each, one up, one down
-    here.z[0], here.z[1] = 0.01 / case.model.mode_amplitude[0], -0.01 / case.model.mode_amplitude[1]
+    here.z[0] = 0.01 / case.model.mode_amplitude[0]
+    here.z[1] = -0.01 / case.model.mode_amplitude[1]
     w, _, _ = transitions.disc_point(case.model, here)
     here.x[U] = w + gap
     transitions.change_phase(case.model, here, transitions.CONTACT_LOST, False)
@@ -144,7 +145,8 @@ def test_a_run_cut_at_a_switch_continues_with_the_same_switches(law: dict[str, f
     """It was refused, as f had the wrong sign by rounding; or slip ended at once and began again."""
     p = Parameters(N=385, Omega=15.1, **law)
     whole = simulate(p, 1.05).events
-    times, kinds = whole["time"].to_numpy(), list(whole["kind"])
+    times = whole["time"].to_numpy()
+    kinds = list(whole["kind"])
     for cut in times[times < 1.02]:
         for end in (np.nextafter(cut, 0), cut, np.nextafter(cut, 9), cut + 1e-15):
             first = simulate(p, float(end))
@@ -165,7 +167,9 @@ def test_a_sample_on_a_switch_shows_the_side_before_it() -> None:
     apart = np.diff(events["time"], prepend=0.0, append=1.0) > 1e-6
     seen = set()
     for i in np.flatnonzero(apart[1:] & apart[:-1]):
-        t, kind, after = events["time"].iloc[i], events["kind"].iloc[i], events["phase"].iloc[i]
+        t = events["time"].iloc[i]
+        kind = events["kind"].iloc[i]
+        after = events["phase"].iloc[i]
         if after == before[i]:
             continue
         seen.add(kind)

@@ -21,11 +21,9 @@ def test_the_closed_form_of_stick_knows_the_places_of_the_state(compliance: floa
     """At rest under the preload all modes of cos and those without diameter are bent, and on a
     compliant contact u."""
     model = engine_case(case(compliance)).model
-    disc, width, n0 = (
-        build_state(model).disc,
-        len(model.mode_amplitude),
-        len(model.mode_amplitude0),
-    )
+    disc = build_state(model).disc
+    width = len(model.mode_amplitude)
+    n0 = len(model.mode_amplitude0)
     bent = [*np.flatnonzero(model.mode_amplitude), *range(2 * width, 2 * width + n0)]
     if compliance:
         bent.append(2 * (width + n0))
@@ -43,5 +41,7 @@ def test_scales_are_of_a_motion_under_the_preload(compliance: float) -> None:
     force = np.append(model.mode_amplitude[model.mode_amplitude != 0], model.mode_amplitude0)
     each = [p.N * shape**2 / rate for shape, rate in zip(force, omega, strict=True)]
     # sums of the same terms: rounding alone
-    assert model.slider_scale == pytest.approx(sum(each) + p.N * compliance / model.unit, rel=1e-12)
+    of_disc = sum(each)
+    of_contact = p.N * compliance / model.unit
+    assert model.slider_scale == pytest.approx(of_disc + of_contact, rel=1e-12)
     assert model.velocity_scale == pytest.approx(max(p.N * abs(force) / omega), rel=1e-12)

@@ -16,7 +16,8 @@ DEGREE = 24
 
 
 def first(coefficients, x_end: float = 1.0, low: int = 0) -> float:
-    c, powers = aligned(ROWS), aligned(ROWS)
+    c = aligned(ROWS)
+    powers = aligned(ROWS)
     c[: len(coefficients)] = coefficients
     set_powers(powers, x_end, DEGREE)
     return first_root(c, low, DEGREE, x_end, powers, np.zeros((56, ROWS)))
@@ -25,7 +26,9 @@ def first(coefficients, x_end: float = 1.0, low: int = 0) -> float:
 def from_roots(roots) -> np.ndarray:
     """Coefficients, lowest first, positive at 0."""
     c = np.polynomial.polynomial.polyfromroots(roots)
-    return c if c[0] > 0 else -c
+    if c[0] > 0:
+        return c
+    return -c
 
 
 # ------------------------------------------------------------------------------------ against an
@@ -119,7 +122,10 @@ def test_no_root_is_hidden(drawn: tuple[list[float], float]) -> None:
     if c[0] < 0:
         assert got == 0.0
         return
-    until = Fraction(x_end if got == NO_ROOT else got)
+    last = got
+    if got == NO_ROOT:
+        last = x_end
+    until = Fraction(last)
     rounding = ROUNDING * sum(abs(a) * Fraction(x_end) ** i for i, a in enumerate(c))
     assert until > 0
     assert number_of_roots([c[0] + rounding, *c[1:]], until) == 0
@@ -128,7 +134,8 @@ def test_no_root_is_hidden(drawn: tuple[list[float], float]) -> None:
 
 
 def test_powers_beyond_the_order_are_zero_and_leave_what_stands_behind_a_series_out() -> None:
-    powers, c = np.full(24, np.nan), np.arange(1.0, 25.0)
+    powers = np.full(24, np.nan)
+    c = np.arange(1.0, 25.0)
     set_powers(powers, 1.3, 18)
     # a power of 18 is the product of up to six rounded ones
     np.testing.assert_allclose(powers[:19], 1.3 ** np.arange(19), rtol=2e-15)

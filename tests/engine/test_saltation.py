@@ -55,6 +55,12 @@ NOT_THERE = [
         for law in CONTACTS
         if "compliant" in law or "residual" in law
     ),
+    # a surface that moves pulls at the slider: friction gives way first
+    *(
+        (law, "contact lost in stick")
+        for law, contact in CONTACTS.items()
+        if "friction_offset" in contact
+    ),
 ]
 THROUGH = [
     pytest.param(law, switch, marks=COMPILES if law != "vertical" else ())
@@ -74,7 +80,8 @@ def about_to(
 ) -> tuple[Parameters, stored.State]:
     """A case, and a state on a slope of a third that soon meets the switch, with the contact force
     ``pressed`` (N)."""
-    (phase, direction, _), backwards = SWITCHES[switch], "backwards" in switch
+    phase, direction, _ = SWITCHES[switch]
+    backwards = "backwards" in switch
     # with a circle there are two modes without nodal diameter, each with its own share of an
     # impulse
     p = P.replace(n_diameters=1, **CONTACTS[law])
@@ -83,19 +90,26 @@ def about_to(
         p = p.replace(
             **({"mu_s": 4.0} if law.startswith("compliant_normal") else {"k_p": 0.0, "c_p": 0.0})
         )
-    start, q = stored.reference_state(lively(phase, direction, p), p), taylor.problem_of(p)
-    level, flies, thrown = (
-        np.array(start.a),
-        phase == "separation",
-        "lost" in switch or "release" in switch,
-    )
+    start = stored.reference_state(lively(phase, direction, p), p)
+    q = taylor.problem_of(p)
+    level = np.array(start.a)
+    flies = phase == "separation"
+    thrown = "lost" in switch or "release" in switch
     start.b, start.alpha = (
         np.array(start.b) * (-60 if backwards else 60),
         start.alpha + 6 * thrown * q.s / q.S2,
     )
+    if "release" in switch and (q.t * q.w2 * start.beta).sum() * (-1 if backwards else 1) < 0:
+        start.beta = -np.array(start.beta)  # the surface pulls to the side of the release
+        start.f = surface_rate(q, start)
     if direction and not thrown:
-        start.f, start.psi = 0.03 * direction, -0.15 if switch == "reversal" else 0.004
-    start.u_velocity = q.s @ (start.alpha + q.l * start.f * start.b) + (
+        start.f = 0.03 * direction + surface_rate(q, start)
+        if switch == "reversal":
+            start.psi = -0.15
+        else:
+            start.psi = 0.004
+    rate = start.f - surface_rate(q, start)
+    start.u_velocity = q.s @ (start.alpha + q.l * rate * start.b) + (
         0 if q.rigid or flies else thrown
     )
 
@@ -111,25 +125,48 @@ def about_to(
         R, T = forces(bent)
         return p.mu_s * R + (T if backwards else -T) - 1
 
+    def unloaded(psi: float) -> float:
+        """Friction that would hold the slider."""
+        start.psi = psi
+        return taylor.Reference(q, start).forces("stick")[1]
+
     if pressed is None:
         pressed = 5.0 if "lost" in switch else -100.0 if "tension" in switch else 400.0
-    bent = 0.0 if flies and not q.rigid else solved(lambda x: forces(x)[0] - pressed)
+    if flies and not q.rigid:
+        bent = 0.0
+    else:
+        bent = solved(lambda x: forces(x)[0] - pressed)
     forces(bent)
     if "release" in switch:
         margin(solved(margin))
+    if "at rest" in switch and q.t.any():
+        # nothing pulls at the slider that has come to rest on a moving surface
+        start.psi = solved(unloaded)
+        forces(bent)
     if flies:
         start.u, start.u_velocity = start.u + 1e-5, start.u_velocity - 0.5
     return p, start
 
 
-def flat(state: stored.State) -> np.ndarray:
-    """psi, f, u, u', then a, b, alpha, beta of all modes."""
-    return np.concatenate([np.atleast_1d(x) for x in list(vars(state).values())[3:]])
+def surface_rate(q: taylor.Problem, state: stored.State) -> float:
+    """v_s / r_0 of the surface on which friction acts."""
+    return q.surface_speed(np.array(state.beta)) / q.r_0
 
 
-def moved_to(start: stored.State, y: np.ndarray) -> stored.State:
+def flat(q: taylor.Problem, state: stored.State) -> np.ndarray:
+    """psi, the rate g of the contact over the material, u, u', then a, b, alpha, beta of all
+    modes."""
+    y = np.concatenate([np.atleast_1d(x) for x in list(vars(state).values())[3:]])
+    y[1] -= surface_rate(q, state)
+    return y
+
+
+def moved_to(q: taylor.Problem, start: stored.State, y: np.ndarray) -> stored.State:
     """The same phase at other coordinates, as `flat` has them."""
-    return stored.State(0.0, start.phase, start.direction, *y[:4], *y[4:].reshape(4, -1).tolist())
+    modal = y[4:].reshape(4, -1).tolist()
+    state = stored.State(0.0, start.phase, start.direction, *y[:4], *modal)
+    state.f = state.f + surface_rate(q, state)
+    return state
 
 
 class Disturbances:
@@ -137,18 +174,16 @@ class Disturbances:
     their sizes."""
 
     def __init__(self, p: Parameters, start: stored.State) -> None:
-        self.p, self.start, rng = p, start, np.random.default_rng(2)
-        slow, pair = (
-            1500 / plate_modes(p)["omega"].to_numpy(),
-            plate_modes(p)["diameters"].to_numpy() > 0,
-        )
+        self.p = p
+        self.start = start
+        rng = np.random.default_rng(2)
+        slow = 1500 / plate_modes(p)["omega"].to_numpy()
+        pair = plate_modes(p)["diameters"].to_numpy() > 0
         self.sizes = np.concatenate(
             [[1e-4, 0.3, 1e-6, 0.03], *2 * [1e-5 * slow], np.full(2 * len(slow), 0.03)]
         )
-        turns, free = (
-            start.phase != "stick",
-            start.phase == "separation" or p.contact_compliance != 0,
-        )
+        turns = start.phase != "stick"
+        free = start.phase == "separation" or p.contact_compliance != 0
         there = np.concatenate([[True, turns, free, free], pair | True, pair, pair | True, pair])
         self.moved = (self.sizes * there)[:, None] * rng.normal(size=(len(there), 2))
         self.values = np.array([getattr(p, name) for name in PARAMETERS])
@@ -165,9 +200,12 @@ class Disturbances:
                 self.p.replace(**dict(zip(PARAMETERS, self.values + change, strict=True)))
             )
 
-        y, q, h = flat(self.start), taylor.problem_of(self.p), np.longdouble(1e-4)
+        q = taylor.problem_of(self.p)
+        # a moving surface pulls with thousands of newtons, which soon changes which event is first
+        h = np.longdouble(1e-5 if q.t.any() else 1e-4)
+        y = flat(q, self.start)
         found = [
-            differences(lambda h, d=d: function(q, moved_to(self.start, y + h * d)), h)
+            differences(lambda h, d=d: function(q, moved_to(q, self.start, y + h * d)), h)
             for d in self.moved.T
         ]
         found += [
@@ -179,23 +217,25 @@ class Disturbances:
     def run(self) -> Full:
         """The engine with these columns: in the first block those of the start, in the second those
         of parameters."""
-        start = moved_to(self.start, flat(self.start))
-        run, case = Full(self.p, stored.engine_state(start, self.p)), engine_case(self.p)
+        q = taylor.problem_of(self.p)
+        start = moved_to(q, self.start, flat(q, self.start))
+        run = Full(self.p, stored.engine_state(start, self.p))
+        case = engine_case(self.p)
         t = run.tangent = columns.build_tangent(run.model, 8, run.order, 8)
         now = t.now.reshape(2, -1, 8)[0, :, :2]
-        now[case.places], now[-4:] = (self._signs * self.moved[4:])[case.present], self.moved[:4]
+        now[case.places] = (self._signs * self.moved[4:])[case.present]
+        now[-4:] = self.moved[:4]
         by = np.array([parameter_change(self.p, run.model, name) for name in PARAMETERS])
         t.inputs.reshape(2, -1, 8)[1, :, :2] = by.T @ self.changed
         return run
 
     def read(self, run: Full) -> np.ndarray:
         """The columns, one row each."""
-        case, now = engine_case(self.p), run.tangent.now.reshape(2, -1, 8)[:, :, :2]
+        case = engine_case(self.p)
+        now = run.tangent.now.reshape(2, -1, 8)[:, :, :2]
         found = np.zeros((2, *self.moved.shape))
-        found[:, 4 + case.present], found[:, :4] = (
-            self._signs[case.present] * now[:, case.places],
-            now[:, -4:],
-        )
+        found[:, 4 + case.present] = self._signs[case.present] * now[:, case.places]
+        found[:, :4] = now[:, -4:]
         return np.concatenate(found, axis=1).T
 
     @property
@@ -207,7 +247,8 @@ class Disturbances:
 @pytest.mark.parametrize(("law", "switch"), THROUGH)
 def test_derivatives_through_a_switch(law: str, switch: str) -> None:
     p, start = about_to(switch, law)
-    kinds, disturbances = SWITCHES[switch][2], Disturbances(p, start)
+    kinds = SWITCHES[switch][2]
+    disturbances = Disturbances(p, start)
     run = taylor.Reference(taylor.problem_of(p), start)
     while not run.events:
         run.run(2 * run.time + 1e-7)
@@ -216,9 +257,10 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
     def end(q: taylor.Problem, start: stored.State) -> np.ndarray:
         run = taylor.Reference(q, start).run(span)
         assert [event["kind"] for event in run.events] == kinds
-        return flat(run.state())
+        return flat(q, run.state())
 
-    engine, sizes = disturbances.run(), disturbances.sizes
+    engine = disturbances.run()
+    sizes = disturbances.sizes
     assert engine.fly(float(span)) == transitions.TIME_OVER
     ends = {"at rest": columns.STICKS, "reversal": columns.REVERSALS, "release": columns.RELEASES}
     ends |= {"release backwards": columns.BACK_RELEASES, "impact": None}
@@ -228,7 +270,8 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
         counted is not None
     )
     assert log[columns.RELEASES : columns.STICKS + 1].sum() == (counted is not None)
-    first, spent = PHASES.index(SWITCHES[switch][0]), np.zeros(len(PHASES))
+    first = PHASES.index(SWITCHES[switch][0])
+    spent = np.zeros(len(PHASES))
     spent[first] = switched = float(run.events[0]["time"])
     spent[phase_of(engine.state)] += float(span) - switched
     times = log[columns.DURATION : columns.RELEASES]
@@ -236,14 +279,26 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
     assert log[columns.N_STEPS] >= len(kinds)
     if not p.contact_compliance and kinds[-1] != "separation":
         sizes[2:4] = np.inf  # u and u' are the disc's
-    got, expected = disturbances.read(engine) / sizes, disturbances.expected(end) / sizes
-    # frequencies of other Young's moduli are rounded: 1e-11 was found
-    assert np.all(np.abs(got - expected) <= 1e-9 * np.abs(expected).max(axis=1, keepdims=True))
+    got = disturbances.read(engine) / sizes
+    expected = disturbances.expected(end) / sizes
+    # frequencies of other Young's moduli are rounded: 1e-11 was found, and ten times as much, with ten
+    # times smaller differences, where the surface moves
+    allowed = 1e-9
+    if p.friction_offset:
+        allowed = 1e-8
+    assert np.all(np.abs(got - expected) <= allowed * np.abs(expected).max(axis=1, keepdims=True))
+
+
+LOSSES = [("vertical", switch) for switch in SWITCHES if "lost" in switch]
+LOSSES += [("vertical_coupled", switch) for _, switch in LOSSES if "stick" not in switch]
 
 
 @pytest.mark.parametrize("pressed", [5.0, 0.0])
-@pytest.mark.parametrize("switch", [switch for switch in SWITCHES if "lost" in switch])
-def test_when_contact_is_lost(switch: str, pressed: float) -> None:
+@pytest.mark.parametrize(
+    ("law", "switch"),
+    [pytest.param(*loss, marks=COMPILES if loss[0] != "vertical" else ()) for loss in LOSSES],
+)
+def test_when_contact_is_lost(law: str, switch: str, pressed: float) -> None:
     """No motion shows that, because no rate jumps there: the change of what vanishes, the numerator
     of P.
 
@@ -251,14 +306,13 @@ def test_when_contact_is_lost(switch: str, pressed: float) -> None:
     it there, too.
     """
     phase, direction, _ = SWITCHES[switch]
-    p, start = about_to(switch, "vertical", pressed)
+    p, start = about_to(switch, law, pressed)
     disturbances = Disturbances(p, start)
 
     def numerator(q: taylor.Problem, start: stored.State) -> np.ndarray:
         run = taylor.Reference(q, start)
-        return run.forces(phase, direction)[0] * (
-            1 + q.m * q.S2 + direction * q.mu_k * run.disc()[2] / q.r_0
-        )
+        inplane = (1 + q.m * q.St) * direction * q.mu_k * run.disc()[2] / q.r_0
+        return run.forces(phase, direction)[0] * (1 + q.m * q.S2 + inplane)
 
     engine = disturbances.run()
     t = engine.tangent
@@ -268,7 +322,9 @@ def test_when_contact_is_lost(switch: str, pressed: float) -> None:
         rate = saltation.event_times(
             engine.model, engine.state, t, transitions.CONTACT_LOST, at_once
         )
-        wanted = 0 * expected if at_once and pressed else expected
+        wanted = expected
+        if at_once and pressed:
+            wanted = 0 * expected
         np.testing.assert_allclose(-rate * t.tau.reshape(2, 8)[:, :2].ravel(), wanted, rtol=1e-8)
 
 
@@ -278,7 +334,9 @@ def test_when_contact_is_lost(switch: str, pressed: float) -> None:
 def test_rates_are_those_of_the_reference(law: str, phase: str, direction: int) -> None:
     """Five pairs of modes fill one block of lanes and begin another."""
     p = P.replace(n_diameters=5, **CONTACTS[law])
-    start, case, q = lively(phase, direction, p), engine_case(p), taylor.problem_of(p)
+    start = lively(phase, direction, p)
+    case = engine_case(p)
+    q = taylor.problem_of(p)
     if phase != "separation":
         start = start.replace(u=start.u - 500 * float(q.C))
     run = Full(p, start, scalars=4 if phase == "separation" or not q.rigid else 2)
@@ -287,6 +345,6 @@ def test_rates_are_those_of_the_reference(law: str, phase: str, direction: int) 
     modal = np.concatenate([sign * x[1] for x in (step.a, step.b, step.alpha, step.beta)])
     expected = np.zeros(run.n_rows)
     expected[case.places] = modal[case.present]
-    expected[-4:] = step.psi[1], step.f[1], step.u[1], step.v[1]
+    expected[-4:] = step.psi[1], step.g[1], step.u[1], step.v[1]
     # sums of terms that cancel: rounding of velocities' rates
     np.testing.assert_allclose(run.rates, expected[run.rows], rtol=1e-9, atol=1e-9)

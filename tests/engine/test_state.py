@@ -39,7 +39,9 @@ def test_every_component_of_a_mode_has_a_place_of_its_own(size: tuple[int, int])
     here.disc[:] = 0.0
     here.disc[there] = 1.0
     pairs = int((diameters > 0).sum())
-    assert [int(part.sum()) for part in (here.z, here.e)] == 2 * [2 * pairs]
+    count = 2 * pairs
+    assert int(here.z.sum()) == count
+    assert int(here.e.sum()) == count
     assert (here.y == 1.0).all()
     assert (here.g == 1.0).all()
     # a and b of a pair, and their velocities, stand where the kernels look for them
@@ -53,12 +55,13 @@ def test_every_component_of_a_mode_has_a_place_of_its_own(size: tuple[int, int])
 
 def test_scalars_come_back_under_their_names() -> None:
     here = build_state(model_of(1, 0))
-    values = dict(zip(state.SCALAR_NAMES, np.arange(1.0, 7.0).tolist(), strict=True))
+    values = dict(zip(state.SCALAR_NAMES, np.arange(1.0, 8.0).tolist(), strict=True))
     state.put_scalars(here, values.values())
     state.put_phase(here, state.SLIP, -1, (2, 1))
     assert state.scalars_of(here) == values
     assert state.time_of(here) == values["time"]
-    assert (state.phase_of(here), state.direction_of(here)) == (state.SLIP, -1)
+    assert state.phase_of(here) == state.SLIP
+    assert state.direction_of(here) == -1
     assert state.known_roots(here) == (2, 1)
     other = build_state(model_of(1, 0))
     state.copy_state(here, other)
@@ -68,22 +71,33 @@ def test_scalars_come_back_under_their_names() -> None:
     assert not other.disc.any()
 
 
+def put_column(here: state.EngineState, model: Model, column: np.ndarray) -> None:
+    """Set a state in stick at time 0 to a column of its entries."""
+    n_disc = columns.n_rows(model) - state.SLIDER
+    state.clear(here)
+    here.disc[:n_disc] = column[:n_disc]
+    here.x[state.PSI : state.PSI + state.SLIDER] = column[n_disc:]
+    here.x[state.PHASE] = state.STICK
+
+
 @pytest.mark.parametrize("size", SIZES)
 def test_a_column_of_a_state_gives_the_state_back(size: tuple[int, int]) -> None:
     model = model_of(*size)
-    here, there = build_state(model), build_state(model)
+    here = build_state(model)
+    there = build_state(model)
     column = np.random.default_rng(1).normal(size=columns.n_rows(model))
-    columns.put_column(here, model, column)
+    put_column(here, model, column)
     np.testing.assert_array_equal(columns.column_of(here, model), column)
     assert state.phase_of(here) == state.STICK
-    columns.put_column(there, model, columns.column_of(here, model))
+    put_column(there, model, columns.column_of(here, model))
     np.testing.assert_array_equal(there.x, here.x)
 
 
 def test_columns_stand_side_by_side_in_blocks_of_eight() -> None:
     model = model_of(2, 1)
     tangent = columns.build_tangent(model, 11, 20, inputs=3)
-    assert (tangent.plain, tangent.columns) == (16, 24)
+    assert tangent.plain == 16
+    assert tangent.columns == 24
     place = in_python(columns.column_entry)
     places = [place(tangent, c, r) for c in range(24) for r in range(tangent.rows)]
     assert sorted(places) == list(range(len(tangent.now)))
@@ -97,7 +111,8 @@ def test_columns_stand_side_by_side_in_blocks_of_eight() -> None:
 def test_a_change_of_a_parameter_stands_in_its_column_only() -> None:
     model = model_of(2, 1)
     tangent = columns.build_tangent(model, 11, 20, inputs=9)
-    lanes, single = len(model.shift), len(model.stiffness0)
+    lanes = len(model.shift)
+    single = len(model.stiffness0)
     stiffness = np.arange(1.0, lanes + 1), np.arange(-1.0, -single - 1, -1.0)
     change = columns.input_column(model, {"m": 2.0, "compliance": 3.0}, stiffness)
     assert change[: columns.N_INPUTS].tolist() == [0, 0, 0, 2, 0, 0, 0, 3]
@@ -120,11 +135,15 @@ def test_rows_of_a_column_name_its_coordinates() -> None:
     # an oscillation of a mode has as much energy in its displacement as in its velocity
     scale = columns.energy_scale(model)
     omega = np.sqrt(model.stiffness[model.stiffness > 0])
-    of_z, of_e = scale[: len(model.shift)], scale[len(model.shift) : 2 * len(model.shift)]
+    of_z = scale[: len(model.shift)]
+    of_e = scale[len(model.shift) : 2 * len(model.shift)]
     np.testing.assert_allclose(of_z[model.stiffness > 0], omega * of_e[model.stiffness > 0])
     of_psi, of_f, of_u, of_v = scale[-4:]
     assert of_psi / of_f == pytest.approx(np.sqrt(model.k_p / model.m))
-    assert of_u / of_v == pytest.approx(np.sqrt((model.k + 1 / model.compliance) / model.m))
+    of_contact = 1 / model.compliance
+    stiffness = model.k + of_contact
+    omega = np.sqrt(stiffness / model.m)
+    assert of_u / of_v == pytest.approx(omega)
 
 
 def test_the_parts_of_a_series_lie_in_one_array() -> None:

@@ -49,16 +49,17 @@ class Explorer:
 
 @pytest.mark.parametrize("size", [(1400, 1000), (360, 740)], ids=["wide", "narrow"])
 def test_a_trip_through_the_page(size: tuple[int, int], tmp_path: Path) -> None:
-    Image.new("RGB", (1200, 500), "#0072B2").save(tmp_path / "one.png")
-    pictures = [Picture("Figures", "one", "A caption.", tmp_path / "one.png")]
-    (tmp_path / "explorer.html").write_text(
-        page("Made up", contents()[::-1], pictures), encoding="utf-8"
-    )
-    with browser(tmp_path / "profile") as opened:
+    one_path = tmp_path / "one.png"
+    Image.new("RGB", (1200, 500), "#0072B2").save(one_path)
+    pictures = [Picture("Figures", "one", "A caption.", one_path)]
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", contents()[::-1], pictures), encoding="utf-8")
+    profile_path = tmp_path / "profile"
+    with browser(profile_path) as opened:
         opened.resize(*size)
         for scheme in ("dark", "light"):
             opened.prefer(scheme)
-            opened.open(tmp_path / "explorer.html")
+            opened.open(explorer_path)
             opened.wait_for(READY)
             # what guidelines for accessible pages ask for
             assert opened.contrast(f"{READABLE}, a, h1") >= 4.5, scheme
@@ -98,7 +99,8 @@ def draws_every_choice(shown: Explorer) -> None:
 
 def tells_of_points(shown: Explorer) -> None:
     """Values, messages, the case as a call of the package, an address, and a table."""
-    study, seen = plane(), set()
+    study = plane()
+    seen = set()
     for label, option in {
         "Study": "plane",
         "Across": "Omega",
@@ -123,7 +125,8 @@ def tells_of_points(shown: Explorer) -> None:
     assert "no result" in shown.text("legend")
     shown.point(3, 1, click=True)
     assert shown.text("message") == ""
-    case, link = shown.text("call"), "return document.getElementById('link').getAttribute('href')"
+    case = shown.text("call")
+    link = "return document.getElementById('link').getAttribute('href')"
     assert case.startswith("dm.Parameters(k=50000, ")
     assert f"Omega={study['Omega'].values[3]:g}" in case
     address = shown.page.run(link)
@@ -146,7 +149,10 @@ def shows_motions(shown: Explorer) -> None:
     assert shown.text("motion-note") == "At this point. After the transient."
     expected = force(100.0)
     # half a step of 16 bits, and rounding to float
-    np.testing.assert_allclose(shown.history(), expected, atol=np.ptp(expected) / LEVELS / 2 + 1e-4)
+    drawn = shown.history()
+    step = np.ptp(expected) / LEVELS
+    tolerance = step / 2 + 1e-4
+    np.testing.assert_allclose(drawn, expected, atol=tolerance)
     assert shown.text("phases").split() == ["stick", "slip", "separation"]
     for i, j, outcome, N, Omega in [(3, 0, "quiet", 100, 5), (2, 1, "separation", 385, 20)]:
         shown.point(i, j, click=True)

@@ -38,13 +38,14 @@ def flagged(words: str, first: int = 0) -> dict[str, object]:
 
 def plane() -> xr.Dataset:
     """Two axes that are numbers and one of words."""
-    place, shape = tuple(FAILED.values()), tuple(map(len, AXES.values()))
-    status, outcome, message = (
-        np.zeros(shape, np.int8),
-        np.zeros(shape, np.int8),
-        np.full(shape, "", dtype=object),
-    )
-    status[place], outcome[1:, 2:], message[place] = 1, 1, MESSAGE
+    place = tuple(FAILED.values())
+    shape = tuple(map(len, AXES.values()))
+    status = np.zeros(shape, np.int8)
+    outcome = np.zeros(shape, np.int8)
+    message = np.full(shape, "", dtype=object)
+    status[place] = 1
+    outcome[1:, 2:] = 1
+    message[place] = MESSAGE
     growth = np.linspace(-0.2, 0.4, status.size).reshape(shape)
     growth[place] = np.nan
     data = {
@@ -78,7 +79,10 @@ def line() -> xr.Dataset:
 
 def force(N: float) -> np.ndarray:
     """The contact force of a point, N."""
-    return (N * (1 + 0.5 * np.sin(np.linspace(0, 12, SAMPLES)))).astype(np.float32)
+    angle = np.linspace(0, 12, SAMPLES)
+    factor = 1 + 0.5 * np.sin(angle)
+    force = N * factor
+    return force.astype(np.float32)
 
 
 def motions() -> xr.Dataset:
@@ -135,7 +139,8 @@ def numbers(stored: dict[str, Any], kind: str) -> np.ndarray:
 
 def test_numbers_flags_and_messages_come_through() -> None:
     """Each as its words, whatever numbers stand for them; as JSON, and with units."""
-    told, study = contents()[0], plane()
+    told = contents()[0]
+    study = plane()
     assert json.loads(json.dumps(told, allow_nan=False)) == told
     variables = {variable["name"]: variable for variable in told["variables"]}
     assert set(variables) == set(study.data_vars) - {"message"}
@@ -143,10 +148,8 @@ def test_numbers_flags_and_messages_come_through() -> None:
         values = study[name].transpose(*variables[name]["dims"])
         found = numbers(variables[name], "<f4").reshape(values.shape)
         np.testing.assert_allclose(found, values, rtol=2.0 ** -(BITS + 1))
-    assert (variables["growth_rate"]["unit"], variables["growth_rate"]["title"]) == (
-        "s-1",
-        "growth rate",
-    )
+    assert variables["growth_rate"]["unit"] == "s-1"
+    assert variables["growth_rate"]["title"] == "growth rate"
     words = np.array(variables["outcome"]["flags"])[numbers(variables["outcome"], "u1")]
     assert (
         words.tolist()
@@ -209,11 +212,10 @@ class Reader(HTMLParser):
 
 def test_all_is_in_the_page_and_stays_in_its_place(tmp_path: Path) -> None:
     """Nothing is fetched; a message ends no script, and a title brings no tag."""
-    Image.new("RGB", (PAGE_WIDTH, 500), "#0072B2").save(tmp_path / "fig.png")
+    path = tmp_path / "fig.png"
+    Image.new("RGB", (PAGE_WIDTH, 500), "#0072B2").save(path)
     text = page(
-        "A <title>",
-        contents(),
-        [Picture(f"Sec. {i}", "One", CAPTION, tmp_path / "fig.png") for i in (1, 2)],
+        "A <title>", contents(), [Picture(f"Sec. {i}", "One", CAPTION, path) for i in (1, 2)]
     )
     reader = Reader(text)
     addresses = [
@@ -223,7 +225,8 @@ def test_all_is_in_the_page_and_stays_in_its_place(tmp_path: Path) -> None:
         if name in ("src", "href")
     ]
     assert len(addresses) >= 4
-    assert all(re.match(r"data:|#", str(address)) for address in addresses)
+    for address in addresses:
+        assert re.match(r"data:|#", str(address))
     assert not re.search(r"url\(|@import|fetch\(|XMLHttpRequest|https?://", "".join(reader.code))
     assert [tag for tag, _ in reader.tags].count("script") == 2
     told = json.loads(next(code for code in reader.code if code.startswith("{")))

@@ -18,7 +18,8 @@ from tests.figures.measured import Shown
 from tests.figures.test_cases import simulated
 from tests.studies.conftest import computed
 
-SPEED, LOAD = "Speed Ω", "Preload N"
+SPEED = "Speed Ω"
+LOAD = "Preload N"
 SPEEDS = np.array([8.0, 11.0, 14.5])  # rad/s
 LOADS = np.array([120.0, 310.0, 475.0])  # N
 OK = {"flag_meanings": "ok failed"}
@@ -64,7 +65,9 @@ def column(quantity: str, name: str) -> dict[str, Any]:
 # ---- General kinds
 
 PERIOD = np.array([[0.0148, 0.0151, 0.0153], [0.0161, 0.0164, 0.0172]])  # s
-DAMPERS, SPRINGS = np.array([0.02, 0.05, 0.08]), np.array([2e4, 5e4])  # N s/m and N/m
+# N s/m and N/m
+DAMPERS = np.array([0.02, 0.05, 0.08])
+SPRINGS = np.array([2e4, 5e4])
 
 
 def general() -> xr.Dataset:
@@ -156,7 +159,9 @@ def portrait() -> Example:
     )
 
 
-TONE, SIZE = 70.0, 2e-3  # Hz and m, of a vibration of the disc
+# Hz and m, of a vibration of the disc
+TONE = 70.0
+SIZE = 2e-3
 
 
 def vibration() -> xr.DataTree:
@@ -254,8 +259,10 @@ def critical_speed() -> Example:
 
 def basins() -> Example:
     shares = np.array([[1.0, 0.0], [0.25, 0.75], [0.5, 0.5]])  # quiet and separating
-    ranges, critical = np.array([2e-5, 0.031, 0.029]), np.array([0.4, 0.1, 0.2])
-    classes, energies = ["quiet", "separating"], [0.01]
+    ranges = np.array([2e-5, 0.031, 0.029])
+    critical = np.array([0.4, 0.1, 0.2])
+    classes = ["quiet", "separating"]
+    energies = [0.01]
     data = {
         "basin_fraction": (("Omega", "attractor_class"), shares),
         "basin_fraction_by_energy": (("Omega", "energy", "attractor_class"), shares[:, None]),
@@ -291,7 +298,8 @@ def basins() -> Example:
 
 
 def branches() -> Example:
-    values, ranges = np.array([[8.0, 11.0, 14.5]]), np.array([[2e-5, 4e-4, 2.5e-2]])
+    values = np.array([[8.0, 11.0, 14.5]])
+    ranges = np.array([[2e-5, 4e-4, 2.5e-2]])
     data = {
         "status": ((), np.int8(0), OK),
         "n_branches": ((), 1),
@@ -318,7 +326,9 @@ def branches() -> Example:
 
 
 def ramps() -> Example:
-    rates, onset, end = np.array([0.01, 0.1, 1.0]), np.array([15.2, 15.4, 16.1]), [9.7, 9.6, 9.1]
+    rates = np.array([0.01, 0.1, 1.0])
+    onset = np.array([15.2, 15.4, 16.1])
+    end = [9.7, 9.6, 9.1]
     data = {
         "onset_speed": ("rate", onset, column("ramps", "onset_speed")),
         "offset_speed": ("rate", end, column("ramps", "offset_speed")),
@@ -331,6 +341,84 @@ def ramps() -> Example:
         (
             Shown(0, "x", "Ramp rate", rates, "rad/s²", "log"),
             Shown(0, "y", SPEED, [*onset, *end], "rad/s", "linear"),
+        ),
+    )
+
+
+MOTIONS = ("undecided", "locked", "without_stick")
+
+
+def staircase() -> Example:
+    releases = np.array([34, 34, 35])
+    separations = np.array([371, 371, 372])
+    data = {
+        "motion": flag(("Omega",), ["locked"] * 3, MOTIONS),
+        "period_releases": ("Omega", releases),
+        "period_separations": ("Omega", separations),
+        "separations_per_release": ("Omega", separations / releases),
+        "status": ("Omega", np.zeros(3, np.int8), OK),
+    }
+    study = xr.Dataset(data, over(Omega=SPEEDS), stated())
+    return Example(
+        {"x": "Omega"},
+        {"study": study},
+        (
+            Shown(0, "x", SPEED, SPEEDS, "rad/s", "linear"),
+            Shown(0, "y", "Separations per release", separations / releases, "", "linear"),
+        ),
+    )
+
+
+def phase_map() -> Example:
+    phase = np.array([0.70, 0.75, 0.80, 0.82, 0.84, 0.88])
+    following = np.array([0.90, 0.88, 0.83, 0.80, 0.82, 0.86])
+    data = {
+        "map_phase": ("probe", phase),
+        "map_next_phase": ("probe", following),
+        "map_separations": ("probe", np.array([17.0, 17, 17, 2, 2, 2])),
+        "map_slope": ("probe", np.full(6, 0.9)),
+        "release_phase": ("release", np.array([0.80, 0.83, 0.81])),
+    }
+    study = xr.Dataset(data, {}, stated())
+    return Example(
+        {},
+        {"study": study},
+        (
+            Shown(0, "x", "Phase of a release", phase, ""),
+            Shown(0, "y", "Phase of the next one", following, ""),
+        ),
+    )
+
+
+def range_law() -> Example:
+    dims = ("N", "begin")
+    pinned = np.array([[4e-3, np.nan], [8e-3, 8e-3], [16e-3, 17e-3]])
+    excess = np.array([[0.01, np.nan], [0.03, 0.12], [0.02, -0.3]])
+    apart = np.array([[0.1, np.nan], [0.15, 0.3], [0.12, 0.2]])
+    shares = np.array([[1.0, np.nan], [0.99, 0.97], [0.98, 0.6]])
+    values = {
+        "range": pinned * (1 + excess),
+        "pinned_range": pinned,
+        "deviation": excess,
+        "separation_fraction": apart,
+        "vibration_share": shares,
+        "force_share": shares,
+    }
+    data: dict[str, Any] = {}
+    for name, column_values in values.items():
+        data[name] = (dims, column_values, column("range_law", name))
+    data["status"] = ("N", np.zeros(3, np.int8), OK)
+    study = xr.Dataset(data, over(N=LOADS) | {"begin": ["static", "displaced"]}, stated())
+    law = "Range at which contact is lost, 2N/|k − mω²|"
+    return Example(
+        {},
+        {"study": study},
+        (
+            Shown(0, "x", law, pinned, "m", "log"),
+            Shown(0, "y", "Range with separation", values["range"], "m", "log"),
+            Shown(1, "x", "Time apart", apart, "", "linear"),
+            # what lies beyond the panel stands at its edge
+            Shown(1, "y", "Excess over that range", np.maximum(excess, -0.2), "", "linear"),
         ),
     )
 
@@ -503,6 +591,9 @@ EXAMPLES: dict[str, Callable[[], Example]] = {
         basins,
         branches,
         ramps,
+        staircase,
+        phase_map,
+        range_law,
         late_range,
         bifurcation,
         sensitivity,

@@ -44,7 +44,10 @@ def assert_shows(figure: Figure, expected: Shown) -> None:
     """The label names the quantity, and the drawn values are the expected ones in the label's
     unit."""
     ax = figure.axes[expected.panel]
-    label = ax.get_xlabel() if expected.axis == "x" else ax.get_ylabel()
+    if expected.axis == "x":
+        label = ax.get_xlabel()
+    else:
+        label = ax.get_ylabel()
     words, unit = parts_of(label)
     assert words == expected.words, (expected, label)
     factor = 1.0
@@ -53,13 +56,19 @@ def assert_shows(figure: Figure, expected: Shown) -> None:
     wanted = factor * np.asarray(expected.values, dtype=float).ravel()
     wanted = wanted[np.isfinite(wanted)]
     assert wanted.size, "a comparison with nothing"
-    found = bar_values(ax) if expected.axis == "bar" else drawn_values(ax, expected.axis)
+    if expected.axis == "bar":
+        found = bar_values(ax)
+    else:
+        found = drawn_values(ax, expected.axis)
     size = float(np.abs(wanted).max()) or 1.0
     for value in wanted:
         # single precision of vertices that matplotlib keeps of some collections
         assert np.abs(found - value).min() <= 2e-6 * size, (expected.words, label, value)
     if expected.scale is not None:
-        scale = ax.get_xscale() if expected.axis == "x" else ax.get_yscale()
+        if expected.axis == "x":
+            scale = ax.get_xscale()
+        else:
+            scale = ax.get_yscale()
         assert scale == expected.scale, expected.words
 
 
@@ -81,7 +90,10 @@ def in_pint(unit: str) -> str:
 
 def drawn_values(ax: Axes, axis: str) -> np.ndarray:
     """All finite values along an axis that something is drawn at, and sizes of bars."""
-    values = [np.ravel(part) for part in _along(ax, 0 if axis == "x" else 1)]
+    place = 1
+    if axis == "x":
+        place = 0
+    values = [np.ravel(part) for part in _along(ax, place)]
     found = np.concatenate([np.asarray(part, dtype=float) for part in values] or [np.zeros(0)])
     return found[np.isfinite(found)]
 
@@ -104,7 +116,8 @@ def _along(ax: Axes, i: int) -> Iterator[ArrayLike]:
                 yield path.vertices[:, i]
     for patch in ax.patches:
         if isinstance(patch, Rectangle):
-            start, size = (patch.get_xy()[i], (patch.get_width(), patch.get_height())[i])
+            start = patch.get_xy()[i]
+            size = (patch.get_width(), patch.get_height())[i]
             yield [start, start + size, start + size / 2, size]
 
 

@@ -75,7 +75,10 @@ def crosses(ax: Axes) -> list[list[float]]:
 
 def labels(shown: Figure | Axes) -> list[str]:
     """What the legends of a figure, or that of a panel, say."""
-    legends = shown.legends if isinstance(shown, Figure) else [shown.get_legend()]
+    if isinstance(shown, Figure):
+        legends = shown.legends
+    else:
+        legends = [shown.get_legend()]
     texts = [
         text.get_text() for legend in legends for text in (*legend.get_texts(), legend.get_title())
     ]

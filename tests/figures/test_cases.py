@@ -37,13 +37,20 @@ RECORDED = {
 def simulated(separates: bool) -> xr.DataTree:
     """A minute with the windows that figures look for."""
     windows = RECORDED | {"poincare": Poincare(theta=0.5)}
-    return simulate(Parameters(N=385, Omega=15.1 if separates else 15), 60, windows).to_tree()
+    Omega = 15.0
+    if separates:
+        Omega = 15.1
+    p = Parameters(N=385, Omega=Omega)
+    result = simulate(p, 60, windows)
+    return result.to_tree()
 
 
 def asked(kind: str, case: xr.DataTree | None = None, **phrase: Any) -> Figure:
     """A figure of a case as a file asks for it; fit for print."""
     plot = kind_of(kind).model_validate({"kind": kind, "case": "A", **phrase})
-    figure = render(plot, {"A": simulated(True) if case is None else case})
+    if case is None:
+        case = simulated(True)
+    figure = render(plot, {"A": case})
     assert_fit_for_print(figure)
     return figure
 
@@ -117,7 +124,9 @@ def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:
     (mesh,) = (
         asked("spectrogram", window="spectrum_a", variable="psi", highest=400).axes[0].collections
     )
-    centre = (mesh.get_coordinates()[:-1, 0, 1] + mesh.get_coordinates()[1:, 0, 1]) / 2
+    corners = mesh.get_coordinates()
+    heights = corners[:, 0, 1]
+    centre = (heights[:-1] + heights[1:]) / 2
     strongest = centre[int(np.argmax(mesh.get_array().sum(axis=1)))]
     assert strongest == pytest.approx(70, abs=2)  # two steps of the transform
 
@@ -125,12 +134,18 @@ def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:
 def test_a_spectrum_shows_the_frequency_that_is_there() -> None:
     (line,) = asked("spectrum", window="spectrum_a", variable="psi", highest=400).axes[0].lines
     # the rate of releases, within the width of the window's line
-    assert line.get_xdata()[int(np.argmax(line.get_ydata()))] == pytest.approx(67.7, abs=0.7)
+    frequencies = line.get_xdata()
+    powers = line.get_ydata()
+    highest = int(np.argmax(powers))
+    assert frequencies[highest] == pytest.approx(67.7, abs=0.7)
 
 
 @pytest.mark.parametrize("kind", ["history", "poincare", "portrait", "spectrogram", "spectrum"])
 def test_what_a_case_lacks_is_said(kind: str) -> None:
-    phrase = {} if kind == "poincare" else {"window": "orbit"}
+    if kind == "poincare":
+        phrase = {}
+    else:
+        phrase = {"window": "orbit"}
     empty = xr.DataTree(xr.Dataset({"first_separation": np.nan, "time_reached": 0.0}))
     assert any("did not record" in text for text in said_in(asked(kind, empty, **phrase)))
     if kind != "poincare":

@@ -11,12 +11,13 @@ from matplotlib.figure import Figure
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures import critical_speed
 from disc_model.figures.borders import Curve
-from disc_model.figures.critical_speed import branches
 from disc_model.figures.drawing import BLUE, SEPARATED
+from disc_model.figures.onsets import branches
 from tests.figures.reading import draw, labels, lines
 from tests.studies.conftest import SCAN, computed, growth_over
 
-SPEEDS, LOADS = np.linspace(12, 15, 10), [100.0, 200, 400]
+SPEEDS = np.linspace(12, 15, 10)
+LOADS = [100.0, 200, 400]
 NEUTRAL = Curve(SPEEDS, np.linspace(300, 100, 10), "neutral")
 FOLD = Curve(SPEEDS, SPEEDS * 20, "fold", "2 f_s = 135.42 Hz")
 PAPER_POINTS = {"paper": (200, 12.6)}
@@ -88,7 +89,9 @@ def test_the_panel_beside_shows_where_both_motions_last(
     }
     basins = xr.Dataset(shares, classes, {"base": '{"N": 385}'})
     (bar,) = chart(hysteresis=sweep, basins=basins).axes[1].patches
-    assert (bar.get_x(), bar.get_width(), bar.get_y() + bar.get_height() / 2) == (13, 1, 385)
+    assert bar.get_x() == 13
+    assert bar.get_width() == 1
+    assert bar.get_y() + bar.get_height() / 2 == 385
 
 
 def test_onset_and_end_of_sweeps_have_their_own_colours(

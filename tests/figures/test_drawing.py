@@ -6,7 +6,7 @@ import pytest
 import xarray as xr
 from matplotlib import pyplot
 
-from disc_model.figures.drawing import show_thickness
+from disc_model.figures.runs import show_thickness
 
 
 @pytest.mark.parametrize("along", ["x", "y"])

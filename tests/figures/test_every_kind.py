@@ -45,7 +45,9 @@ def test_models_stand_beside_each_other_and_titles_say_what_differs(kind: str) -
     example = EXAMPLES[kind]()
     inputs = {}
     for name, given in example.inputs.items():
-        study = given.squeeze("normalization") if "normalization" in given.dims else given
+        study = given
+        if "normalization" in given.dims:
+            study = given.squeeze("normalization")
         study = study.drop_vars("normalization", errors="ignore")
         models = xr.concat([study.assign_coords(k=value) for value in (2e4, 6e4)], "k")
         base = {"normalization": "as_published", **json.loads(given.attrs["base"])}

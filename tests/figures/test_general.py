@@ -19,7 +19,8 @@ from tests.figures.reading import draw, labels, lines
 def study() -> xr.Dataset:
     """Three variables over friction, damping and normalization: of both signs, of one, and
     words."""
-    mu_k, c_p = np.array([0.1, 0.2, 0.3]), np.array([0.01, 0.1, 1.0, 10.0])
+    mu_k = np.array([0.1, 0.2, 0.3])
+    c_p = np.array([0.01, 0.1, 1.0, 10.0])
     both = np.subtract.outer(mu_k, 0.2)[:, None, None] * np.ones((1, 4, 2)) + np.arange(2) * 0.01
     both[0, 0, 0] = np.nan
     dims = ("mu_k", "c_p", "normalization")
@@ -58,13 +59,17 @@ def test_axes_and_titles_have_the_units_of_the_reader(study: xr.Dataset) -> None
     assert all(text in plain.get_suptitle() for text in ("E = 70 GPa", "k = 60 kN/m"))
     assert "k = 60 N/mm" in other.get_suptitle()
     ax = other.axes[0]
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Speed Ω (rpm)", "Preload N (kN)")
+    assert ax.get_xlabel() == "Speed Ω (rpm)"
+    assert ax.get_ylabel() == "Preload N (kN)"
     assert ax.get_xlim() == plain.axes[0].get_xlim(), "what is drawn stays"
     other.canvas.draw()
     low, high = ax.get_xlim()
     for place, text in zip(ax.get_xticks(), ax.get_xticklabels(), strict=True):
         if low <= place <= high:
-            assert float(text.get_text()) == pytest.approx(place * 60 / (2 * np.pi), rel=1e-5)
+            turn = 2 * np.pi
+            expected = place * 60 / turn
+            shown = float(text.get_text())
+            assert shown == pytest.approx(expected, rel=1e-5)
             assert float(text.get_text()) % 2.5 == pytest.approx(0, abs=1e-6), "round numbers"
     with pytest.raises(ParameterError, match=r"units.N='1 rpm': must be a number in N"):
         draw("heat_map", speeds, variable="drift", x="Omega", y="N", units={"N": "rpm"})
@@ -109,7 +114,8 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
         "that has no value there"
     )
     assert " ".join(ax.get_ylabel().split()) == "Growth rate of disturbances (1/s)"
-    save(figure, tmp_path / "curve.png")
+    path = tmp_path / "curve.png"
+    save(figure, path)
     ends = {"at": {"normalization": "as_published"}, "panels": [[0.1, 10], [1.0, 10]]}
     study["drift"] = study["drift"] + study["c_p"]
     axes = draw("curve", study, variable="drift", x="mu_k", by="c_p", **ends).axes

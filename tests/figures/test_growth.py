@@ -50,7 +50,11 @@ def test_cells_are_dotted_where_disturbances_decay() -> None:
 
 def test_marks_are_black_on_light_cells_and_white_on_dark_ones() -> None:
     _, ax = pyplot.subplots()
-    colours = np.array([[[1, 1, 1, 1], [0, 0, 0.2, 1], [0, 0, 0, 0]], [[0.9, 0.9, 0.7, 1]] * 3])
+    white = [1, 1, 1, 1]
+    dark = [0, 0, 0.2, 1]
+    nothing = [0, 0, 0, 0]
+    light = [0.9, 0.9, 0.7, 1]
+    colours = np.array([[white, dark, nothing], [light] * 3])
     cells = np.array([[True, True, True], [False, False, False]])
     lay_over(ax, edges_of(plane()["growth_rate"]), cells, STABLE, colours.astype(float))
     inks = {to_hex(patch.get_edgecolor()): middles(patch) for patch in ax.patches}

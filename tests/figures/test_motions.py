@@ -1,4 +1,5 @@
-"""Figures of motions over one parameter: bifurcation diagrams, basins, ramps."""
+"""Figures of motions over one parameter: bifurcation diagrams, basins, ramps; the range law,
+and locking."""
 
 import re
 
@@ -16,6 +17,7 @@ from disc_model.figures.drawing import BLACK, GREY, SEPARATED
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
+from disc_model.studies.reading import StudyError
 from tests.figures.reading import crosses, draw, labels, lines
 from tests.studies.conftest import computed, made_up_samples, with_failed
 from tests.studies.quantities.test_basins import Made, made
@@ -166,3 +168,116 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(
     assert [text.get_text() for text in ax.texts] == ["15.10"], (
         "the fold of another cycle, at 11 rad/s, was drawn too"
     )
+
+
+# ---- the range law
+
+
+def separating_motions() -> xr.Dataset:
+    """Four motions of two masses: one in contact, one of several frequencies, one far off."""
+    pinned = np.array([[4e-3, 8e-3], [np.nan, 16e-3]])
+    excess = np.array([[0.01, 0.9], [np.nan, 0.03]])
+    shares = np.array([[1.0, 0.99], [np.nan, 0.98]])
+    values = {
+        "range": pinned * (1 + excess),
+        "pinned_range": pinned,
+        "deviation": excess,
+        "separation_fraction": np.array([[0.1, 0.3], [np.nan, 0.15]]),
+        "vibration_share": shares,
+        "force_share": np.array([[1.0, 0.5], [np.nan, 0.97]]),
+    }
+    data = {name: (("m", "begin"), column) for name, column in values.items()}
+    base = {"base": '{"normalization": "as_published"}'}
+    return xr.Dataset(data, {"m": [0.1, 0.2], "begin": ["static", "displaced"]}, base)
+
+
+def test_motions_of_one_frequency_are_filled_and_those_set_apart_have_their_own_mark() -> None:
+    figure = draw("range_law", separating_motions(), set_apart={"heavy": {"m": 0.2}})
+    ranges, excess = figure.axes
+    marks = {}
+    for line in ranges.lines:
+        if line.get_marker() != "None" and line.get_xdata().size:
+            is_filled = line.get_markerfacecolor() != "white"
+            marks[line.get_marker(), is_filled] = line.get_xydata().ravel().tolist()
+    assert marks == {
+        ("o", True): pytest.approx([4.0, 4.04]),
+        ("o", False): pytest.approx([8.0, 15.2]),
+        ("s", True): pytest.approx([16.0, 16.48]),
+    }
+    heights = np.concatenate(
+        [line.get_ydata() for line in excess.lines if line.get_marker() in "os"]
+    )
+    assert sorted(heights) == pytest.approx([1.0, 3.0, 35.0]), "what is far off stands at the edge"
+    assert labels(figure)[:3] == [
+        "modes as published",
+        "heavy",
+        "no frequency carries 95 % of height and contact force",
+    ]
+
+
+# ---- locking
+
+
+def locked_at(speeds: list[float], releases: list[int], separations: list[int]) -> xr.Dataset:
+    """Motions over the speed; a period of no release is undecided."""
+    words = ["undecided", "locked", "without_stick"]
+    data = {
+        "motion": ("Omega", np.array([int(n > 0) for n in releases], dtype=np.int8)),
+        "period_releases": ("Omega", np.array(releases)),
+        "period_separations": ("Omega", np.array(separations)),
+        "separations_per_release": ("Omega", np.full(len(speeds), 10.7)),
+    }
+    study = xr.Dataset(data, {"Omega": speeds}, {"base": '{"normalization": "as_published"}'})
+    study["motion"].attrs["flag_meanings"] = " ".join(words)
+    return study
+
+
+def test_equal_periods_side_by_side_are_one_step_and_undecided_ones_are_rings() -> None:
+    coarse = locked_at([19.8, 19.9, 20.0, 20.2], [34, 34, 35, 0], [371, 371, 371, 0])
+    fine = locked_at([19.96, 20.0, 20.1], [69, 35, 41], [742, 371, 449])
+    slipping = locked_at([19.8, 20.2], [0, 0], [0, 0])
+    slipping["motion"][:] = 2
+    phrase = {"x": "Omega", "zooms": [[19.95, 20.05]]}
+    overlays = {"fine": fine, "slipping": slipping}
+    figure = draw("staircase", coarse, overlays, **phrase)
+    whole, zoom = figure.axes
+    steps = [line.get_xydata().tolist() for line in whole.lines if line.get_linestyle() == "-"]
+    assert steps == [
+        [[19.8, pytest.approx(371 / 34)], [19.9, pytest.approx(371 / 34)]],
+        [[19.96, pytest.approx(742 / 69)], [19.96, pytest.approx(742 / 69)]],
+        [[20.0, pytest.approx(371 / 35)], [20.0, pytest.approx(371 / 35)]],
+        [[20.1, pytest.approx(449 / 41)], [20.1, pytest.approx(449 / 41)]],
+        [[19.8, 0.9], [20.2, 0.9]],  # the motion that never sticks
+    ]
+    rings = [line.get_xydata().tolist() for line in whole.lines if line.get_linestyle() == "None"]
+    assert rings == [[[20.2, 10.7]]]
+    assert [text.get_text() for text in zoom.texts] == ["69 releases", "35"]
+
+
+def test_zooms_must_ascend() -> None:
+    grid = {"quantity": "locking", "base": {"N": 200}, "axes": {"Omega": [19, 20]}}
+    figures = {"a": {"kind": "staircase", "x": "Omega", "zooms": [[20, 19]]}}
+    with pytest.raises(StudyError, match=r"zooms=.*must be two ascending values of x"):
+        computed(**grid, figures=figures)
+
+
+def test_the_map_of_phases_names_the_pieces_near_the_motion() -> None:
+    phase = np.linspace(0.6, 0.98, 39)
+    study = xr.Dataset(
+        {
+            "map_phase": ("probe", phase),
+            "map_next_phase": ("probe", np.where(phase < 0.8, phase + 0.1, phase - 0.05)),
+            "map_separations": ("probe", np.where(phase < 0.8, 17.0, 2.0)),
+            "map_slope": ("probe", np.where(phase < 0.8, 0.94, 0.97)),
+            "release_phase": ("release", np.array([0.76, 0.86, 0.81, np.nan])),
+        },
+        attrs={"base": '{"normalization": "as_published"}'},
+    )
+    whole, near = draw("phase_map", study).axes
+    assert not whole.texts
+    assert {text.get_text() for text in near.texts} == {
+        "17 separations,\nslope 0.94",
+        "2 separations,\nslope 0.97",
+    }
+    rings = [line for line in near.lines if line.get_marker() == "o"]
+    assert rings[0].get_xydata().tolist() == [[0.76, 0.86], [0.86, 0.81]]

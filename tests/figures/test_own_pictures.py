@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 import disc_model as dm
 from disc_model.data.variables import CycleStatus
 from disc_model.figures.disc import Motion
-from disc_model.figures.disc import film as film_of
+from disc_model.figures.film import film as film_of
 from disc_model.simulation.api import snapshots
 from disc_model.stability.cycle import FloquetResult
 from tests.figures.measured import Shown, assert_shows, drawn_values
@@ -149,7 +149,9 @@ def test_a_film_is_in_milliseconds_newtons_and_millimetres() -> None:
     film._draw_frame(3)
     _, circle, trace = figure.axes
     assert trace.get_xlabel() == "Time (ms)"
-    assert drawn_values(trace, "x").max() == pytest.approx(1e3 * (times[-1] - times[0]))
+    duration = times[-1] - times[0]
+    last = drawn_values(trace, "x").max()
+    assert last == pytest.approx(1e3 * duration)
     assert_shows(figure, Shown(2, "y", "Contact force P", late["P"][::50], "N"))
     assert_shows(figure, Shown(1, "y", "Deflection at r_0", [states[3].u], "m"))
     assert circle.get_title().startswith("50.0 ms")

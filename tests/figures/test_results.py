@@ -47,7 +47,8 @@ def test_a_run_without_windows_shows_its_range_and_its_last_cycles_with_their_ph
     bars = close.collections[1].get_paths()
     begins = np.array([bar.vertices[:, 0].min() for bar in bars])
     step = (end - start) / 4000  # borders lie halfway between samples
-    assert all(np.abs(begins - time).min() < step for time in separations)
+    for time in separations:
+        assert np.abs(begins - time).min() < step
     assert axes[0, 0].figure.get_suptitle() == "N = 385 N, Ω = 15.1 rad/s"
 
 
@@ -103,15 +104,17 @@ def test_names_of_lines_stay_in_a_narrow_spectrum_and_apart() -> None:
             assert frame.x0 <= box.x0
             assert box.x1 <= frame.x1
             assert box.y1 <= frame.y1
-        assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
+        for one, other in combinations(boxes, 2):
+            assert not one.overlaps(other)
     assert 1940 < ax.get_xlim()[1] < 3000, "to where the energy is"
     assert ax.get_title(loc="left") == ""
     assert ax.get_ylabel() == "Angle ψ, amplitude (rad)"
 
 
 def test_a_film_has_its_frames(tmp_path: Path) -> None:
-    run().animate(tmp_path / "film.gif", frames=3)
-    with Image.open(tmp_path / "film.gif") as film:
+    path = tmp_path / "film.gif"
+    run().animate(path, frames=3)
+    with Image.open(path) as film:
         assert film.n_frames == 3
 
 
@@ -119,12 +122,16 @@ def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
     cycle = dm.floquet(P.replace(Omega=15))
     words = " ".join(cycle.plot().get_title(loc="left").split())
     assert "stable, growth rate -0.105/s" in words
-    sliding, neutral = dm.steady_sliding(P), dm.steady_sliding(P.replace(mu_s=0, mu_k=0, D_star=0))
+    sliding = dm.steady_sliding(P)
+    neutral = dm.steady_sliding(P.replace(mu_s=0, mu_k=0, D_star=0))
     assert labels(neutral.plot().figure) == ["decays"]
     assert labels(sliding.plot().figure) == ["decays", "grows"]
     unstable = sliding.eigenvalues[(sliding.eigenvalues.real > 0) & (sliding.eigenvalues.imag >= 0)]
     named = [text.get_text() for text in sliding.plot().texts]
-    assert named[: len(unstable)] == [f"{x:.0f} Hz" for x in unstable.imag / 2 / np.pi]
+    frequencies = unstable.imag / 2 / np.pi
+    count = len(unstable)
+    expected = [f"{x:.0f} Hz" for x in frequencies]
+    assert named[:count] == expected
     branch = dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2))
     assert "fold at 15.095" in labels(branch.plot().figure)
     for shown, text in ((run(), "54.418905"), (cycle, "-0.10"), (sliding, "135"), (P, "15.1")):
@@ -141,7 +148,8 @@ def test_critical_values_neutral_curves_and_exponents_are_drawn_with_their_case(
     curves = dm.neutral_curves(case, {"Omega": (14, 15.5), "mu_s": (0.38, 0.42)}, [0.4], points=5)
     axes = curves.plot()
     assert labels(axes.figure) == ["cycle ends in a fold"]
-    assert (axes.get_xlim(), axes.get_ylim()) == ((14, 15.5), (0.38, 0.42))
+    assert axes.get_xlim() == (14, 15.5)
+    assert axes.get_ylim() == (0.38, 0.42)
     exponents = dm.lyapunov_exponents(P, 0.5, count=2)
     assert exponents.plot().get_title(loc="left") == "over 0.5 s, 0 separations"
 

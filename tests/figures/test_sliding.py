@@ -30,8 +30,14 @@ def test_modes_are_drawn_along_the_parameter(
 ) -> None:
     figure = render(kind_of(kind)(kind=kind, **more), {"study": xr.DataTree(over_mu)})
     assert (figure.axes[0].get_ylim()[1] == 900) == bool(more)
-    axes = figure.axes[0] if kind == "root_locus" else figure.axes[1]
-    shown = axes.collections if kind == "root_locus" else axes.lines
+    if kind == "root_locus":
+        axes = figure.axes[0]
+    else:
+        axes = figure.axes[1]
+    if kind == "root_locus":
+        shown = axes.collections
+    else:
+        shown = axes.lines
     assert len(shown) >= 4
     assert "Kinetic friction $μ_k$" in [
         label for ax in figure.axes for label in (ax.get_xlabel(), ax.get_ylabel())
@@ -78,7 +84,8 @@ def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:
     outcome = np.full((3, 9), OUTCOMES_TO_HORIZON.index("separation"))
     plane = xr.Dataset({"outcome": (("N", "c_p"), outcome, flags)}, values, sliding.attrs)
     shared, other = common_points(plane, sliding.rename(value="c_p"), ("N", "c_p"))
-    assert (dict(shared.sizes), other.sizes["c_p"]) == ({"N": 2, "c_p": 5}, 5)
+    assert dict(shared.sizes) == {"N": 2, "c_p": 5}
+    assert other.sizes["c_p"] == 5
     plot = kind_of("sliding_outcome")(x="c_p", y="N", overlays={"sliding": "s"})
     figure = render(plot, {"study": xr.DataTree(plane), "sliding": xr.DataTree(sliding)})
     growing = float((sliding["largest_growth_rate"] > 0).mean())

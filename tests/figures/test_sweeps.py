@@ -25,7 +25,9 @@ KNOWN = {"psi": "Angle ψ"}
 def own(case: dm.Parameters) -> xr.Dataset:
     """A function of a user's own: with names and units, and without."""
     attributes = {"units": "mm", "long_name": "range of my slider"}
-    word = "large" if case.Omega > 11 else "small"
+    word = "small"
+    if case.Omega > 11:
+        word = "large"
     values = {"reach": ((), 0.02 * case.Omega, attributes), "count": ((), 3 + case.N), "size": word}
     return xr.Dataset(values)
 
@@ -135,9 +137,13 @@ def test_maps_have_a_bar_for_numbers_and_a_legend_for_words(
     study = swept(function)
     ax = dm.plot_sweep(study, name)
     figure = ax.figure
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Speed Ω (rad/s)", "Preload N (N)")
+    assert ax.get_xlabel() == "Speed Ω (rad/s)"
+    assert ax.get_ylabel() == "Preload N (N)"
     [legend] = figure.legends or [None]
-    entries = {text.get_text() for text in legend.get_texts()} if legend else set()
+    if legend:
+        entries = {text.get_text() for text in legend.get_texts()}
+    else:
+        entries = set()
     if study[name].dtype.kind == "f":
         values = study[name].values
         expected = Shown(1, "bar", words_of(study[name]), values, unit_of(study[name]))

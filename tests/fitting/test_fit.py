@@ -129,12 +129,15 @@ def test_derivatives_are_those_of_the_closed_form() -> None:
     value = problem.predictions(start)[0]
     expected = [value / (2 * DISC.E), -value / (2 * DISC.rho)]
     # a central difference errs by the third derivative, 3 / 8 times the squared step here
-    assert problem.jacobian(start)[0] == pytest.approx(expected, rel=1e-8)
+    slopes = problem.jacobian(start)
+    assert slopes[0] == pytest.approx(expected, rel=1e-8)
 
     problem = _Problem(BLOCK, ["mu_s"], [dm.Measurement("stick_time", 1.0, 1.0)], {})
     slope = 2 * BLOCK.N / (BLOCK.k_p * BLOCK.r_0 * BLOCK.Omega)
     # times of events err by 1e-10 s, over a step of 5e-5
-    assert problem.jacobian(np.array([BLOCK.mu_s]))[0] == pytest.approx([slope], rel=1e-4)
+    start = np.array([BLOCK.mu_s])
+    slopes = problem.jacobian(start)
+    assert slopes[0] == pytest.approx([slope], rel=1e-4)
 
 
 def test_the_covariance_of_a_linear_problem_is_that_of_weighted_least_squares() -> None:
@@ -151,12 +154,18 @@ def test_the_covariance_of_a_linear_problem_is_that_of_weighted_least_squares() 
     # E / 1e9 = (first + second) / 2, rho / 1e3 = (first - second) / 2
     variance = (0.3**2 + 0.4**2) / 4
     mixed = (0.3**2 - 0.4**2) / 4
-    expected = np.array([[1e18 * variance, 1e12 * mixed], [1e12 * mixed, 1e6 * variance]])
+    of_E = 1e18 * variance
+    of_both = 1e12 * mixed
+    of_k = 1e6 * variance
+    expected = np.array([[of_E, of_both], [of_both, of_k]])
     assert fit.covariance == pytest.approx(expected, rel=1e-6)
     assert fit.parameters["E"].value == pytest.approx(150e9, rel=1e-9)
     width = fit.parameters["E"].high - fit.parameters["E"].low
-    assert width == pytest.approx(2 * 1.959964 * 1e9 * math.sqrt(variance), rel=1e-6)
-    assert fit.correlation[0, 1] == pytest.approx(mixed / variance, rel=1e-6)
+    deviation = 1e9 * math.sqrt(variance)
+    half_width = 1.959964 * deviation
+    assert width == pytest.approx(2 * half_width, rel=1e-6)
+    correlation = mixed / variance
+    assert fit.correlation[0, 1] == pytest.approx(correlation, rel=1e-6)
 
 
 def test_a_prediction_has_the_uncertainty_of_the_parameters() -> None:
@@ -172,8 +181,11 @@ def test_intervals_of_less_confidence_are_narrower() -> None:
     measured = {"frequency_2_0": (290.0, 2.9)}
     wide = dm.fit(DISC, ["E"], measured).parameters["E"]
     narrow = dm.fit(DISC, ["E"], measured, confidence=0.6827).parameters["E"]
-    assert narrow.high - narrow.value == pytest.approx(narrow.deviation, rel=1e-3)
-    assert wide.high - wide.value == pytest.approx(1.96 * wide.deviation, rel=1e-3)
+    above = narrow.high - narrow.value
+    assert above == pytest.approx(narrow.deviation, rel=1e-3)
+    above = wide.high - wide.value
+    expected = 1.96 * wide.deviation
+    assert above == pytest.approx(expected, rel=1e-3)
 
 
 def test_measurements_that_contradict_the_model_are_inconsistent() -> None:
@@ -193,7 +205,9 @@ def test_bounds_hold_the_parameters() -> None:
 def test_a_parameter_that_starts_at_zero_is_found_within_bounds() -> None:
     truth = DISC.replace(c=3.0)
     measured = {"growth_rate": (Prediction(truth).of("growth_rate"), 1e-3)}
-    fit = dm.fit(DISC.replace(c=0.0), ["c"], measured, bounds={"c": (0, 20)})
+    start = DISC.replace(c=0.0)
+    bounds = {"c": (0, 20)}
+    fit = dm.fit(start, ["c"], measured, bounds=bounds)
     assert fit.parameters["c"].value == pytest.approx(3.0, rel=1e-6)
 
 
@@ -203,21 +217,26 @@ def test_a_ratio_can_be_fitted_and_stays_in_the_case() -> None:
     start = DISC.replace(mu_k_over_mu_s=0.6)
     fit = dm.fit(start, ["mu_k_over_mu_s"], measured)
     assert fit.parameters["mu_k_over_mu_s"].value == pytest.approx(0.5, rel=1e-6)
-    assert fit.case.mu_k == pytest.approx(0.5 * fit.case.mu_s, rel=1e-12)
+    mu_s = fit.case.mu_s
+    assert fit.case.mu_k == pytest.approx(0.5 * mu_s, rel=1e-12)
 
 
 def test_a_number_of_a_table_of_modes_can_be_fitted() -> None:
-    disc = dm.Disc(diameters=[0, 2], omega=[1500.0, 1800.0], amplitude=[1.5, 2.0])
+    omega = [1500.0, 1800.0]
+    amplitude = [1.5, 2.0]
+    disc = dm.Disc(diameters=[0, 2], omega=omega, amplitude=amplitude)
     p = dm.Parameters(N=385, Omega=15, disc=disc, r_0=0.1)
     truth = p.replace(amplitude_2_0=2.5)
     measured = {"coupled_frequency_1": (Prediction(truth).of("coupled_frequency_1"), 0.1)}
     fit = dm.fit(p, ["amplitude_2_0"], measured)
-    assert abs(fit.parameters["amplitude_2_0"].value) == pytest.approx(2.5, rel=1e-6)
+    amplitude = fit.parameters["amplitude_2_0"]
+    assert abs(amplitude.value) == pytest.approx(2.5, rel=1e-6)
 
 
 def test_texts_with_units_are_read() -> None:
     measurement = dm.Measurement("frequency_2_0", "0.29 kHz", "3 Hz", at={"h": "2 mm"})
-    assert (measurement.value, measurement.uncertainty) == (290.0, 3.0)
+    assert measurement.value == 290.0
+    assert measurement.uncertainty == 3.0
     assert measurement.name == "frequency_2_0 (h=2 mm)"
 
 
@@ -234,7 +253,9 @@ def test_a_fit_shows_values_intervals_and_deviations() -> None:
     left, right = fit.plot()
     assert [text.get_text() for text in left.get_yticklabels()] == list(measured)
     shown = np.concatenate([line.get_xdata() for line in right.lines if len(line.get_xdata()) == 2])
-    assert set(np.round(fit.deviations, 9)) <= set(np.round(shown, 9))
+    deviations = np.round(fit.deviations, 9)
+    drawn = np.round(shown, 9)
+    assert set(deviations) <= set(drawn)
     pyplot.close("all")
 
 

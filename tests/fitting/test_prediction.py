@@ -21,7 +21,11 @@ def block_times(p: dm.Parameters) -> tuple[float, float]:
     swing = math.sqrt(p.k_p / p.m)
     speed = p.r_0 * p.Omega
     distance = (p.mu_s - p.mu_k) * p.N / p.k_p
-    return 2 * distance / speed, 2 * (math.pi - math.atan(distance * swing / speed)) / swing
+    stick = 2 * distance / speed
+    ratio = distance * swing / speed
+    angle = math.pi - math.atan(ratio)
+    slip = 2 * angle / swing
+    return stick, slip
 
 
 @pytest.mark.parametrize("Omega", [0.1, 0.5, 5.0])

@@ -98,7 +98,8 @@ def installed(wheel: Path, tree: Path, tmp_path_factory: pytest.TempPathFactory)
     Python."""
     folder = tmp_path_factory.mktemp("installed")
     run(sys.executable, "-m", "venv", folder / "venv", cwd=folder)
-    (work := folder / "work").mkdir()
+    work = folder / "work"
+    work.mkdir()
     made = Installed(folder / "venv" / "bin", work)
     made.run(
         "python",

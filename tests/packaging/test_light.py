@@ -74,7 +74,8 @@ def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
     missing = sorted(
         MODULES.get(name, name) for name in names([*EXTRAS["workflow"], *EXTRAS["plot"]])
     )
-    done = python(f"MISSING = {missing}\n{HIDDEN}{USE}", tmp_path / "run.nc", fails=True)
+    path = tmp_path / "run.nc"
+    done = python(f"MISSING = {missing}\n{HIDDEN}{USE}", path, fails=True)
     assert done.returncode == 2, done.stdout + done.stderr
     assert "amplitude" in done.stdout
     assert done.stderr.count("pip install 'disc_model[workflow]'") == 2

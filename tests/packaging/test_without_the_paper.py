@@ -31,8 +31,9 @@ def clone(tmp_path: Path) -> Path:
             symlinks=True,
             ignore=shutil.ignore_patterns("__pycache__"),
         )
+    path = tmp_path / "src" / "disc_model"
     for part in ("paper", "benchmarks"):
-        shutil.rmtree(tmp_path / "src" / "disc_model" / part)
+        shutil.rmtree(path / part)
     return tmp_path
 
 

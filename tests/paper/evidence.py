@@ -15,7 +15,7 @@ import pandas as pd
 import xarray as xr
 import yaml
 
-from disc_model.data.dataset import series_dataset
+from disc_model.data.columns import series_dataset
 from disc_model.data.variables import EVENT_KINDS, PHASES
 from disc_model.paper.measures import CaseView
 from disc_model.parameters import Parameters

@@ -60,7 +60,10 @@ def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -
     if damage in ("failed", "nothing recorded"):
         assert all(ax.texts for ax in figure.axes if not ax.has_data())
         lacks = (f"did not record {window}" for window in (*RECORDED, "poincare", "events"))
-        known = {"failed"} if damage == "failed" else {*lacks}
+        if damage == "failed":
+            known = {"failed"}
+        else:
+            known = {*lacks}
         assert set(reasons) <= {f"not shown: the case {reason}" for reason in known}
 
 
@@ -69,7 +72,8 @@ def test_the_composite_has_phases_from_events() -> None:
     case = simulated(True)
     force = drawn("composite", case).axes[2]
     events = case["events"].to_dataset()
-    kinds, times = flag_names(events["kind"]), events["time"].values
+    kinds = flag_names(events["kind"])
+    times = events["time"].values
     begins = times[(kinds == "separation") & (times > 57) & (times < 57.04)]
     ends = times[(kinds == "reattachment") & (times > 57) & (times < 57.04)]
     shown = {1e3 * (time - 57) for time in (*begins, *ends)}
@@ -90,7 +94,8 @@ def test_captions_say_nothing_that_a_legend_finds_out() -> None:
 
 def test_areas_of_the_figure_on_both_scales_have_names() -> None:
     """Two names stood on white, which was a third area."""
-    plot, maps = STUDY.figures["figB2"], evidence.scans()
+    plot = STUDY.figures["figB2"]
+    maps = evidence.scans()
     figure = render(
         plot,
         {"study": xr.DataTree(maps["map_N"]), **{n: xr.DataTree(maps[n]) for n in plot.overlays}},

@@ -9,17 +9,20 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names
+from disc_model.disc.plate import plate_modes
 from disc_model.figures.kinds import kinds_in
 from disc_model.figures.render import render
-from disc_model.paper.figures import scales
 from disc_model.paper.figures.instants import motion_of
 from disc_model.paper.figures.kinds import STRETCH
+from disc_model.parameters import Parameters
 from tests.figures.measured import Shown, assert_shows, drawn_values
 from tests.figures.test_cases import simulated
 from tests.paper import evidence
 from tests.paper.test_figures import FIGURES, STUDY, drawn
 
-ZOOM_START, SPAN = 56.0, 0.035  # s, of the window of the case
+# s, of the window of the case
+ZOOM_START = 56.0
+SPAN = 0.035
 
 
 def case() -> xr.DataTree:
@@ -38,7 +41,8 @@ def ranges(variable: str, last: float = 60.0) -> np.ndarray:
 
 def first_complete_separation() -> tuple[float, float]:
     """Its begin and end in the closer window, s, by the samples there."""
-    time, apart = window("zoom", "time"), flag_names(case()["zoom"]["phase"]) == "separation"
+    time = window("zoom", "time")
+    apart = flag_names(case()["zoom"]["phase"]) == "separation"
     starts = np.flatnonzero(~apart[:-1] & apart[1:]) + 1
     ends = np.flatnonzero(apart[:-1] & ~apart[1:])
     first = int(starts[0])
@@ -157,7 +161,9 @@ def test_instants_are_in_millimetres_and_milliseconds() -> None:
     between = 1e3 * (motion.time[losses[1]] - motion.time[losses[0]])
     titles = [re.search(r"([\d.]+) ms", ax.get_title(loc="left")) for ax in figure.axes[:4]]
     shown_times = [float(found[1]) for found in titles if found]
-    assert shown_times == pytest.approx([0, between / 4, between / 2, 3 * between / 4], abs=0.15)
+    quarter = between / 4
+    quarters = [i * quarter for i in range(4)]
+    assert shown_times == pytest.approx(quarters, abs=0.15)
 
 
 def test_the_composite_is_in_newtons_millimetres_and_milliseconds() -> None:
@@ -181,12 +187,12 @@ def test_the_schematic_has_radii_in_millimetres() -> None:
 
 
 def test_the_figure_on_both_scales_has_amplitudes_per_kilogram_and_times_in_seconds() -> None:
-    plot, maps = STUDY.figures["figB2"], evidence.scans()
-    figure = render(
-        plot,
-        {"study": xr.DataTree(maps["map_N"]), **{n: xr.DataTree(maps[n]) for n in plot.overlays}},
-    )
-    modes = scales.plate_modes(scales.Parameters(N=385, Omega=15, normalization="orthonormal"))
+    plot = STUDY.figures["figB2"]
+    maps = evidence.scans()
+    inputs = {"study": xr.DataTree(maps["map_N"])}
+    inputs.update((name, xr.DataTree(maps[name])) for name in plot.overlays)
+    figure = render(plot, inputs)
+    modes = plate_modes(Parameters(N=385, Omega=15, normalization="orthonormal"))
     squares = modes["psi"].to_numpy() ** 2
     assert_shows(
         figure, Shown(0, "y", r"Amplitude under the slider \Psi_l^2", squares, "1/kg", "log")

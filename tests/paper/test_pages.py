@@ -102,12 +102,14 @@ def test_the_summary_says_what_stands_and_falls_by_the_verdicts(table: pd.DataFr
 def test_the_page_links_and_escapes(table: pd.DataFrame, tmp_path: Path) -> None:
     for file in ("x.html", "x.md"):
         write_page(tmp_path / file, "T", ("", summary(table), table), template="paper/ledger")
-    html = (tmp_path / "x.html").read_text()
+    x_path = tmp_path / "x.html"
+    html = x_path.read_text()
     assert html.count('class="row"') == len(ROWS)
     assert html.count('href="figures/fig01.png"') == len(ROWS)
     assert "&lt;b&gt;" in html
     assert "<b>" not in html
-    markdown = (tmp_path / "x.md").read_text()
+    x_file = tmp_path / "x.md"
+    markdown = x_file.read_text()
     assert markdown.count("[Fig. 1](figures/fig01.png)") == len(ROWS)
     assert markdown.count("why it matters: ") == len(ROWS)
 
@@ -117,9 +119,11 @@ def test_a_page_is_the_same_as_markdown_and_as_html(tmp_path: Path) -> None:
     for file in ("x.md", "x.html"):
         write_page(tmp_path / file, "T", ("H & H", "some", table), ("", "more", table))
     rows = "| x | a\\|b |\n| --- | --- |\n| 1.5 | < |\n|  | \\| |\n"
-    markdown = (tmp_path / "x.md").read_text()
+    x_path = tmp_path / "x.md"
+    markdown = x_path.read_text()
     assert markdown == f"# T\n\n## H & H\n\nsome\n\n{rows}\nmore\n\n{rows}"
-    html = (tmp_path / "x.html").read_text()
+    x_file = tmp_path / "x.html"
+    html = x_file.read_text()
     assert '<td class="number">1.5</td><td>&lt;</td>' in html
     assert '<td class="number"></td><td>|</td>' in html
     assert html.count("<h2>H &amp; H</h2>") == 1

@@ -231,7 +231,9 @@ def case(
     before : share of the whole run in stick
     status : of the run
     """
-    contact = "unilateral" if first else "bilateral"
+    contact = "bilateral"
+    if first:
+        contact = "unilateral"
     p = Parameters(N=N, Omega=20, contact=contact)
     scalars = {
         "N": N,

@@ -148,7 +148,10 @@ def repeating(
     """Return a motion of period 45 from 0.01 rad/s below its speed to 0.02 above."""
     change = p.Omega - Case.parameters.Omega
     repeats = -0.01 < change < 0.02 and p.n_diameters != 8
-    motion = SimpleNamespace(period=45 if repeats else 0, kind="irregular")
+    period = 0
+    if repeats:
+        period = 45
+    motion = SimpleNamespace(period=period, kind="irregular")
     return motion, SimpleNamespace(time=t_end)
 
 
@@ -184,13 +187,16 @@ class Spectrum:
         self.searched: dict[float, float] = {}
 
     def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> object:
-        assert (window, start, stop) == ("spectrum_a", 0, 10)
+        assert window == "spectrum_a"
+        assert start == 0
+        assert stop == 10
         if name == "psi":
             return SimpleNamespace(lines=self.lines_of_psi)
         return SimpleNamespace(strongest=self.strongest)
 
     def lines_of_psi(self, count: int, above: float) -> list[Line]:
-        assert (count, above) == (1, 20.0)
+        assert count == 1
+        assert above == 20.0
         return [Line(F_S, 0.3)]
 
     def strongest(self, near: float, within: float) -> Line:

@@ -107,7 +107,9 @@ def of_a_disc(row: str, **functions: Callable[[Parameters], Any]) -> World:
     row : its name
     functions : by which its module judges it
     """
-    module = section44 if row in ("T2e", "F29") else section2
+    module = section2
+    if row in ("T2e", "F29"):
+        module = section44
     return World(functions={module: functions}, rows=(row,))
 
 

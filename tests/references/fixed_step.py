@@ -1,15 +1,13 @@
-"""Motions by a Runge-Kutta method of fixed steps, with the couple of friction; and the consistent
-law.
+"""Motions by a Runge-Kutta method of fixed steps, by the laws of docs/model.md in material
+coordinates.
 
-By the model's law (docs/model.md) friction turns with the slider's speed f, and in stick f = 0,
-though the surface under the slider moves at v_s = sum t_l beta_l.  By the consistent law the slip
-speed is r_0 f - v_s, and in stick r_0 f = v_s.  Rigid contact, vertical force.  To print what the
-consistent law changes (a quarter of an hour)::
-
-    python -m tests.references.fixed_step
+The modes are resolved about the material point of contact, over which the slider moves at the rate
+g = f - v_s/r_0; friction follows the slip speed r_0 g, and in stick g = 0.  Contact is rigid or
+compliant, unilateral or bilateral, its force vertical or normal to the bent disc.  Friction is mu_k
+at any slip speed.  Nothing is shared with the engine or with the other references.
 """
 
-from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -17,189 +15,262 @@ from numba import njit
 #: s; 0.05 rad of the fastest of nine modes: first separations change in their eighth digit if it is halved
 STEP = 1e-5
 
+STICK = 0.0
+SEPARATION = 2.0
+"""Beside the sign of the slip speed, 1 or -1, a phase's ``side``."""
 
-@njit
-def motion(q, modes, y, side, consistent, out):
-    """Fills rates of a, b, alpha, beta, psi, f, u, u'; returns P, T, the slip speed, v_s, w and w'
-    under the slider.
 
-    ``side`` is the sign of the slip speed, 0 in stick and 2 in separation; u and u' count in
-    separation only."""
-    N, Omega, m, k, c, k_p, c_p, _, mu_k, r_0, u_0 = q
-    w2, s, l, d, t = modes
-    n = len(s)
-    f = y[-3]
-    F, w, v, A, B, S2, T2, drift, surface = (
-        k_p * y[-4] + c_p * (Omega - f),
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-    )
-    for i in range(n):
-        a, b, alpha, beta, turn = y[i], y[n + i], y[2 * n + i], y[3 * n + i], l[i] * f
-        out[i], out[n + i] = alpha + turn * b, beta - turn * a
-        out[2 * n + i] = -d[i] * alpha - w2[i] * a + turn * beta
-        out[3 * n + i] = -d[i] * beta - w2[i] * b - turn * alpha
-        w, v, B = w + s[i] * a, v + s[i] * out[i], B + l[i] * s[i] * b
-        A += s[i] * (out[2 * n + i] + turn * out[n + i])
-        S2, T2, drift, surface = (
-            S2 + s[i] ** 2,
-            T2 + t[i] ** 2,
-            drift + t[i] * out[3 * n + i],
-            surface + t[i] * beta,
-        )
-    load = N + k * (w - u_0) + c * v + m * A
-    P, T, rate = 0.0, 0.0, F / m
-    if side == 0:
-        # consistent: r_0 f' = v_s' = drift + T2 T
-        T = (r_0 * F - m * drift) / (1 + m * T2) if consistent else r_0 * F
-        rate = (drift + T2 * T) / r_0 if consistent else 0.0
-        P = (load + m * B * rate) / (1 + m * S2)
-    elif side != 2:
-        P = (load + B * F) / (1 + m * S2 + side * mu_k * B / r_0)
-        T = side * mu_k * P
-        rate = (F - T / r_0) / m
-    out[-4], out[-3], out[-2], out[-1] = (
-        Omega - f,
-        rate,
-        y[-1],
-        -(N + k * (y[-2] - u_0) + c * y[-1]) / m,
-    )
-    for i in range(n):
-        out[2 * n + i] -= s[i] * P
-        out[3 * n + i] += t[i] * T
-    return P, T, r_0 * f - (surface if consistent else 0.0), surface, w, v
+class Case(NamedTuple):
+    """Numbers of a case, SI units; ``compliance`` is 0 if contact is rigid."""
+
+    N: float
+    Omega: float
+    m: float
+    k: float
+    c: float
+    k_p: float
+    c_p: float
+    mu_s: float
+    mu_k: float
+    r_0: float
+    u_0: float
+    compliance: float
+    normal: bool
+    bilateral: bool
+
+
+class Modes(NamedTuple):
+    """Squares of frequencies, amplitudes, diameters, damping 2 xi omega, tangential amplitudes."""
+
+    w2: np.ndarray
+    s: np.ndarray
+    l: np.ndarray
+    d: np.ndarray
+    t: np.ndarray
+
+
+class Contact(NamedTuple):
+    """What an instant is judged by."""
+
+    R: float  # normal force, N
+    T: float  # friction, N
+    slip_speed: float  # m/s
+    surface_speed: float  # m/s
+    w: float  # displacement of the disc under the slider, m
+    w_rate: float  # m/s
 
 
 @njit
-def advance(q, modes, y, side, consistent, bilateral, h):
-    """The state after h, and what may be negative there if the phase has ended before."""
-    k1, k2, k3, k4 = np.empty_like(y), np.empty_like(y), np.empty_like(y), np.empty_like(y)
-    motion(q, modes, y, side, consistent, k1)
-    motion(q, modes, y + h / 2 * k1, side, consistent, k2)
-    motion(q, modes, y + h / 2 * k2, side, consistent, k3)
-    motion(q, modes, y + h * k3, side, consistent, k4)
+def motion(case, modes, y, side, rates):
+    """Fill the rates of a, b, alpha, beta, psi, f, u, u'; return the `Contact`.
+
+    u and u' are those of the disc in rigid contact, where their entries have no meaning."""
+    n = len(modes.s)
+    a = y[:n]
+    b = y[n : 2 * n]
+    alpha = y[2 * n : 3 * n]
+    beta = y[3 * n : 4 * n]
+    psi = y[4 * n]
+    f = y[4 * n + 1]
+    u = y[4 * n + 2]
+    u_rate = y[4 * n + 3]
+    s = modes.s
+    l = modes.l
+    t = modes.t
+    r_0 = case.r_0
+    m = case.m
+
+    surface = np.sum(t * beta)
+    if side == STICK:
+        g = 0.0
+    else:
+        g = f - surface / r_0
+    w = np.sum(s * a)
+    slope = np.sum(l * s * b) / r_0
+    w_rate = np.sum(s * alpha) + g * slope * r_0
+    F = case.k_p * psi + case.c_p * (case.Omega - f)
+
+    # accelerations without forces: of the modes, and of the disc's point up and along the path
+    along = -modes.d * alpha - modes.w2 * a + l * g * beta
+    across = -modes.d * beta - modes.w2 * b - l * g * alpha
+    A = np.sum(s * (along + l * g * beta - (l * g) ** 2 * a))
+    G = np.sum(t * across)
+    vertical = 1.0 + m * np.sum(s**2)
+    horizontal = 1.0 + m * np.sum(t**2)
+
+    rigid = case.compliance == 0.0
+    if rigid and side != SEPARATION:
+        u = w
+        u_rate = w_rate
+    height = case.N + case.k * (u - case.u_0) + case.c * u_rate
+    lean = 0.0
+    if case.normal:
+        lean = slope
+
+    V = 0.0
+    H = 0.0
+    R = 0.0
+    T = 0.0
+    if side == STICK:
+        if rigid:
+            V = (height + m * A) / vertical
+        else:
+            V = (w - u) / case.compliance
+        H = (r_0 * F - m * G) / horizontal
+        T = (H - V * lean) / (1.0 + lean**2)
+        R = V + T * lean
+    elif side != SEPARATION:
+        mu = side * case.mu_k
+        if rigid:
+            share = mu * slope * horizontal
+            if case.normal:
+                share = -mu * slope * vertical + slope * (mu + slope) * horizontal
+            R = (height + m * A + slope * (r_0 * F - m * G)) / (vertical + share)
+        else:
+            R = (w - u) / case.compliance / (1.0 - mu * lean)
+        T = mu * R
+        V = R - T * lean
+        H = T + R * lean
+
+    rates[:n] = alpha + l * g * b
+    rates[n : 2 * n] = beta - l * g * a
+    rates[2 * n : 3 * n] = along - s * V
+    rates[3 * n : 4 * n] = across + t * H
+    rates[4 * n] = case.Omega - f
+    rates[4 * n + 1] = (F - H / r_0) / m
+    rates[4 * n + 2] = u_rate
+    rates[4 * n + 3] = (V - height) / m
+    return Contact(R, T, r_0 * g, surface, w, w_rate)
+
+
+@njit
+def advance(case, modes, y, side, h):
+    """Return the state after h, and what is negative there if the phase has ended before."""
+    k1 = np.empty_like(y)
+    k2 = np.empty_like(y)
+    k3 = np.empty_like(y)
+    k4 = np.empty_like(y)
+    motion(case, modes, y, side, k1)
+    motion(case, modes, y + h / 2 * k1, side, k2)
+    motion(case, modes, y + h / 2 * k2, side, k3)
+    motion(case, modes, y + h * k3, side, k4)
     y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
-    P, T, speed, _, w, _ = motion(q, modes, y, side, consistent, k1)
-    if side == 2:
-        return y, y[-2] - w
-    margin = q[7] * P - abs(T) if side == 0 else side * speed
-    return y, margin if bilateral else min(P, margin)
+    now = motion(case, modes, y, side, k1)
+    if side == SEPARATION:
+        return y, y[-2] - now.w
+    if side == STICK:
+        margin = case.mu_s * now.R - abs(now.T)
+    else:
+        margin = side * now.slip_speed
+    return y, margin if case.bilateral else min(now.R, margin)
 
 
 @njit
-def change(q, modes, y, side, consistent, bilateral):
-    """The next phase at an event, where contact may be lost or slip may end or turn; changes the
-    state."""
-    out, n = np.empty_like(y), len(modes[1])
-    P, T, speed, _, w, v = motion(q, modes, y, side, consistent, out)
-    if side == 2:  # a plastic impact
-        y[2 * n : 3 * n] -= modes[1] * (v - y[-1]) / (np.sum(modes[1] ** 2) + 1 / q[2])
-        side = np.sign(speed)
-        P, _, _, _, w, v = motion(q, modes, y, side, consistent, out)
-        if P >= 0:
+def collide(case, modes, y, now):
+    """Carry out a plastic impact."""
+    n = len(modes.s)
+    slope = np.sum(modes.l * modes.s * y[n : 2 * n]) / case.r_0
+    lean = 0.0
+    if case.normal:
+        lean = slope
+    give = np.sum(modes.s**2) + 1.0 / case.m
+    give += lean**2 * (1.0 / case.m + np.sum(modes.t**2))
+    p = (now.w_rate - y[-1]) / give
+    y[2 * n : 3 * n] -= modes.s * p
+    y[3 * n : 4 * n] += modes.t * p * lean
+    y[-3] -= p * lean / (case.m * case.r_0)
+
+
+@njit
+def change(case, modes, y, side):
+    """Return the phase after an event; contact may be lost, slip may end or turn."""
+    rates = np.empty_like(y)
+    now = motion(case, modes, y, side, rates)
+    rigid = case.compliance == 0.0
+    if side == SEPARATION:
+        if rigid:
+            collide(case, modes, y, now)
+        now = motion(case, modes, y, side, rates)
+        side = np.sign(now.slip_speed)
+        now = motion(case, modes, y, side, rates)
+        if not rigid or now.R >= 0.0:
             return side
-    if P < 0 and not bilateral:
-        y[-2], y[-1] = w, v
-        return 2.0
-    if side == 0:
-        return np.sign(T)
-    y[-3] -= speed / q[9]
-    P, T, _, _, _, _ = motion(q, modes, y, 0.0, consistent, out)
-    return 0.0 if abs(T) < q[7] * P else np.sign(T)
+    if now.R <= 0.0 and not case.bilateral:
+        if rigid:
+            y[-2] = now.w
+            y[-1] = now.w_rate
+        return SEPARATION
+    if side == STICK:
+        return np.sign(now.T)
+    y[-3] -= now.slip_speed / case.r_0
+    now = motion(case, modes, y, STICK, rates)
+    if abs(now.T) < case.mu_s * now.R:
+        return STICK
+    return np.sign(now.T)
 
 
 @njit
-def follow(q, modes, y, t_end, h, consistent, bilateral, stop):
-    """From stick: first separation or nan, range of u in the last second, largest abs(v_s) before
-    the separation; with ``stop`` no further than to the separation."""
-    t, side, low, high, fastest, first, out = (
-        0.0,
-        0.0,
-        np.inf,
-        -np.inf,
-        0.0,
-        np.nan,
-        np.empty_like(y),
-    )
+def follow(case, modes, y, t_end, h, stop):
+    """Follow the motion from stick.
+
+    Returns the first separation (s, or nan), the range of the slider in the last second (m), and
+    the largest speed of the surface before the separation (m/s); with ``stop`` no further than to
+    the separation."""
+    t = 0.0
+    side = STICK
+    first = np.nan
+    low = np.inf
+    high = -np.inf
+    fastest = 0.0
+    rates = np.empty_like(y)
     while t < t_end:
-        before, (y, margin), step = y, advance(q, modes, y, side, consistent, bilateral, h), h
-        if margin < 0:
-            left, right = 0.0, h
+        before = y
+        step = h
+        y, margin = advance(case, modes, before, side, h)
+        if margin < 0.0:
+            left = 0.0
+            right = h
             while right - left > 1e-15:
                 middle = (left + right) / 2
-                y, margin = advance(q, modes, before, side, consistent, bilateral, middle)
-                left, right = (left, middle) if margin < 0 else (middle, right)
-            y, margin = advance(q, modes, before, side, consistent, bilateral, right)
-            side, step = change(q, modes, y, side, consistent, bilateral), right
-            if side == 2 and np.isnan(first):
+                y, margin = advance(case, modes, before, side, middle)
+                if margin < 0.0:
+                    right = middle
+                else:
+                    left = middle
+            y, margin = advance(case, modes, before, side, right)
+            side = change(case, modes, y, side)
+            step = right
+            if side == SEPARATION and np.isnan(first):
                 first = t + right
                 if stop:
                     break
             if right < 1e-9:  # leads away from an event at the start of a phase
-                y, step = advance(q, modes, y, side, consistent, bilateral, 1e-9)[0], right + 1e-9
+                y = advance(case, modes, y, side, 1e-9)[0]
+                step = right + 1e-9
         t += step
-        _, _, _, surface, w, _ = motion(q, modes, y, side, consistent, out)
-        fastest = max(fastest, abs(surface)) if np.isnan(first) else fastest
-        if t > t_end - 1:
-            w = y[-2] if side == 2 else w
-            low, high = min(low, w), max(high, w)
+        now = motion(case, modes, y, side, rates)
+        if np.isnan(first):
+            fastest = max(fastest, abs(now.surface_speed))
+        if t > t_end - 1.0:
+            own = case.compliance > 0.0 or side == SEPARATION
+            if own:
+                height = y[-2]
+            else:
+                height = now.w
+            low = min(low, height)
+            high = max(high, height)
     return first, high - low, fastest
 
 
-def first_separation(problem, t_end, h=STEP, consistent=False, bilateral=False, stop=True):
-    """Of a `taylor.Problem`, from the static start: `follow`, the last over r_0 Omega."""
-    names = ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0", "u_0")
-    q = np.array([float(getattr(problem, name)) for name in names])
-    modes = np.array([problem.w2, problem.s, problem.l, problem.d, problem.t], float)
-    start = np.zeros(4 * len(problem.s) + 4)
-    start[: len(problem.s)] = problem.equilibrium().a
-    time, width, fastest = follow(q, modes, start, float(t_end), h, consistent, bilateral, stop)
-    return time, width, fastest / (q[9] * q[1])
-
-
-CASES = [(385, 10), (385, 15), (385, 20), (600, 15), (600, 20), (200, 20), (200, 30)]
-"""N and rad/s; the paper's disc with orthonormal modes, friction half a thickness above its middle plane."""
-BRAKE = [(N, Omega) for N in (8000, 16000) for Omega in (20, 40, 60, 80, 120)]
-"""The same on the disc of config/discs/brake.csv (docs/details_friction.md)."""
-
-
-def compare_laws():
-    """Prints, for both laws, first separations, ranges of u in the end, and largest abs(v_s)/(r_0
-    Omega) before."""
-    from disc_model import Disc, Parameters
-    from tests.references.taylor import problem_of
-
-    brake = {
-        "disc": Disc.from_csv(Path(__file__).parents[2] / "config" / "discs" / "brake.csv"),
-        "r_0": 0.1,
-        "k": 1e6,
-    }
-    brake |= {"k_p": 1e6, "m": 0.5, "mu_s": 0.45, "mu_k": 0.35}
-    for N, Omega in CASES + BRAKE:
-        values, t_end, h = (
-            (brake, 40, 4e-6)
-            if (N, Omega) in BRAKE
-            else ({"normalization": "orthonormal"}, 80, STEP)
-        )
-        p = Parameters(N=N, Omega=Omega, friction_offset="surface", **values)
-        for consistent in (False, True):
-            time, width, share = first_separation(problem_of(p), t_end, h, consistent, False, False)
-            held = first_separation(problem_of(p), t_end, h, consistent, True)[1]
-            print(
-                f"N={N} Omega={Omega} {'consistent' if consistent else 'model'}: separates at {time:.2f} s,",
-                end=" ",
-            )
-            print(
-                f"range {1e3 * width:.3g} mm, bilateral {1e3 * held:.3g} mm, surface before {share:.3f}",
-                flush=True,
-            )
-
-
-if __name__ == "__main__":
-    compare_laws()
+def first_separation(problem, t_end, h=STEP, *, bilateral=False, stop=True):
+    """Of a `taylor.Problem`, from the static start: see `follow`, the last over r_0 Omega."""
+    names = ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0", "u_0", "C")
+    numbers = [float(getattr(problem, name)) for name in names]
+    case = Case(*numbers, normal=problem.normal, bilateral=bilateral)
+    modes = Modes(*(np.asarray(getattr(problem, name), float) for name in Modes._fields))
+    n = len(modes.s)
+    start = np.zeros(4 * n + 4)
+    start[:n] = problem.equilibrium().a
+    start[-2] = case.u_0
+    time, width, fastest = follow(case, modes, start, float(t_end), h, stop)
+    return time, width, fastest / (case.r_0 * case.Omega)

@@ -1,103 +1,154 @@
 """Eigenvalues of steady sliding from the equations as they stand, nothing eliminated by hand; only
 numpy.
 
-The unknowns are the rates of all coordinates and the forces V, R and T; the equations of motion, of
-contact and of friction stand in two matrices, left @ unknowns = right @ coordinates, linear about
-the state in which the slider rests in space.  There the modes rest in the slider's frame too, so
-that they follow from the forces by one linear system.
+The unknowns are the rates of all coordinates, the forces V, H, R and T, and the rate g at which the
+contact travels over the material.  The equations of motion, of contact and of friction are one
+residual F(x, z) = 0 of the coordinates x and the unknowns z.  About the state in which the slider
+rests in space, dz = -(dF/dz)^-1 (dF/dx) dx, with derivatives by complex steps, which have no error
+of differences.
 """
 
 import numpy as np
 
+STEP = 1e-30
 
-def steady_eigenvalues(values, omega, psi, l, damping, tangential):
-    """Eigenvalues (1/s), and V, R, T (N); ``damping`` is 2 xi omega, ``tangential`` the surface's
-    amplitude of modes.
+
+class SteadySliding:
+    """The equations of slip in the direction of the drive.
 
     values : by the names of `Parameters`; the contact is rigid if ``contact_compliance`` is 0
+    omega, psi, l, damping, tangential : of the modes, damping being 2 xi omega (1/s) and tangential
+        the amplitudes at the surface of friction (1/sqrt(kg))
     """
-    N, Omega, m, k, c, k_p, c_p, mu, r_0 = (
-        float(values[name]) for name in ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_k", "r_0")
-    )
-    decay, falling = float(values.get("friction_decay", np.inf)), 0.0
-    if np.isfinite(decay):
-        above = (float(values["mu_s"]) - mu) / (1 + decay * r_0 * Omega)
-        mu, falling = mu + above, -above * decay * r_0 / (1 + decay * r_0 * Omega)
-    C, lean = float(values.get("contact_compliance", 0)), values.get("contact_force") == "normal"
-    omega, psi, l, d, t = (np.asarray(x, float) for x in (omega, psi, l, damping, tangential))
-    n, O, I = len(omega), np.zeros((len(omega),) * 2), np.eye(len(omega))
-    turn, spring, damp = np.diag(l * Omega), np.diag(omega**2), np.diag(d)
-    # rates of a, b, alpha, beta without forces, at the constant speed Omega
-    modal = np.block(
-        [[O, turn, I, O], [-turn, O, O, I], [-spring, O, -damp, turn], [O, -spring, -turn, -damp]]
-    )
-    zero = np.zeros(n)
-    pair = np.repeat([l > 0], 4, axis=0) | np.array([[True], [False], [True], [False]])
-    present = np.flatnonzero(pair.ravel())
 
-    def resting(V, T):
-        """All coordinates of the modes under these forces."""
-        rest = np.zeros(4 * n)
-        load = np.concatenate([zero, zero, -psi * V, t * T])[present]
-        rest[present] = np.linalg.solve(modal[np.ix_(present, present)], -load)
-        return rest
+    def __init__(self, values, omega, psi, l, damping, tangential):
+        for name in ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0"):
+            setattr(self, name, float(values[name]))
+        self.decay = float(values.get("friction_decay", np.inf))
+        self.exponential = values.get("friction_law") == "exponential"
+        self.mu_v = float(values.get("viscous_friction", 0))
+        self.C = float(values.get("contact_compliance", 0))
+        self.normal = values.get("contact_force") == "normal"
+        self.w2 = np.asarray(omega, float) ** 2
+        self.s, self.l, self.d, self.t = (
+            np.asarray(x, float) for x in (psi, l, damping, tangential)
+        )
+        self.n = len(self.s)
+        self.u_0 = -self.N * (np.sum(self.s**2 / self.w2) + self.C)
+        # coordinates a, b, alpha, beta, psi, f, (u, v)
+        self.size = 4 * self.n + (4 if self.C else 2)
 
-    # V = N + k (w - C V - u_0) by secants, V being almost linear in itself; friction works on the
-    # slope
-    u_0, V, R = -N * np.sum(psi**2 / omega**2) - C * N, N, N
-    for _ in range(20):
-        shapes = [(V * step, resting(V * step, mu * R * step)) for step in (1, 1.01)]
-        residual, further = (N + k * (psi @ x[:n] - C * force - u_0) - force for force, x in shapes)
-        V = V - residual * 0.01 * V / (further - residual)
-        slope = np.sum(l * psi * shapes[0][1][n : 2 * n]) / r_0
-        R = V / (1 - mu * slope) if lean else V
-    T = mu * R
-    q = resting(V, T)
-    a, b, alpha, beta = q.reshape(4, n)
-    B = np.sum(l * psi * b)
+    def friction(self, v):
+        """Coefficient at the slip speed v > 0, m/s."""
+        if not np.isfinite(self.decay):
+            fall = 0.0
+        elif self.exponential:
+            fall = np.exp(-self.decay * v)
+        else:
+            fall = 1 / (1 + self.decay * v)
+        return self.mu_k + (self.mu_s - self.mu_k) * fall + self.mu_v * v
 
-    # coordinates a, b, alpha, beta, psi, f, (u, v); unknowns: their rates, V, R, T
-    size = 4 * n + (4 if C else 2)
-    psi_row, f_row, u_row, v_row = 4 * n, 4 * n + 1, 4 * n + 2, 4 * n + 3
-    vertical, normal, tangent = size, size + 1, size + 2
-    left, right = np.eye(size + 3), np.zeros((size + 3, size))
-    right[: 4 * n, : 4 * n] = modal
-    right[: 4 * n, f_row] = np.concatenate([l * b, -l * a, l * beta, -l * alpha])
-    left[2 * n : 3 * n, vertical], left[3 * n : 4 * n, tangent] = psi, -t
-    right[psi_row, f_row] = -1
-    # m r_0 f' = r_0 F - T (- R B / r_0)
-    pull = np.zeros(size)
-    pull[psi_row], pull[f_row] = k_p, -c_p
-    steep = np.zeros(size)
-    steep[n : 2 * n] = l * psi
-    left[f_row, f_row], left[f_row, tangent], right[f_row] = m * r_0, 1, r_0 * pull
-    if lean:
-        left[f_row, normal] = B / r_0
-        right[f_row] -= R * steep / r_0
-    height, climb = np.zeros(size), np.zeros(size)
-    if C:
-        right[u_row, v_row] = left[v_row, vertical] = 1
-        height[u_row] = climb[v_row] = 1
-        left[v_row, v_row], left[v_row, vertical], right[v_row] = m, -1, -k * height - c * climb
-        left[vertical, vertical] = C
-        right[vertical, :n], right[vertical, u_row] = psi, -1
-    else:
-        height[:n] = psi
-        # u' = w' = sum psi a', and m u'' = V - N - k (u - u_0) - c u'
-        climb[: 4 * n] = np.concatenate([psi, zero, zero, zero]) @ modal
-        climb[f_row] = B
-        left[vertical] = 0
-        left[vertical, :size], left[vertical, vertical] = m * climb, -1
-        right[vertical] = -k * height - c * climb
-    # R = V (+ T B / r_0), T = mu R, where mu may fall with the speed r_0 f
-    left[normal, vertical] = -1
-    if lean:
-        left[normal, tangent] = -B / r_0
-        right[normal] = T * steep / r_0
-    left[tangent, normal], right[tangent, f_row] = -mu, falling * R
-    kept = np.append(present, np.arange(4 * n, size))
-    rates = np.linalg.solve(left, right)[np.ix_(kept, kept)]
-    return np.linalg.eigvals(rates), (V, R, T)
+    def residual(self, x, z):
+        """F: one equation for each of the unknowns."""
+        n = self.n
+        s = self.s
+        l = self.l
+        t = self.t
+        a, b, alpha, beta = x[: 4 * n].reshape(4, n)
+        spring = x[4 * n]
+        f = x[4 * n + 1]
+        a_rate, b_rate, alpha_rate, beta_rate = z[: 4 * n].reshape(4, n)
+        spring_rate = z[4 * n]
+        f_rate = z[4 * n + 1]
+        V, H, R, T, g = z[self.size :]
+        F = self.k_p * spring + self.c_p * (self.Omega - f)
+        slope = np.sum(l * s * b) / self.r_0
+        if self.C:
+            u, v = x[4 * n + 2 :]
+            climb = z[4 * n + 3]
+        else:
+            g_rate = f_rate - np.sum(t * beta_rate) / self.r_0
+            u = np.sum(s * a)
+            v = np.sum(s * a_rate)
+            climb = np.sum(s * alpha_rate) + np.sum(l * s * (g_rate * b + g * b_rate))
+        lean = 0.0
+        if self.normal:
+            lean = slope
+        equations = [
+            a_rate - alpha - l * g * b,
+            b_rate - beta + l * g * a,
+            alpha_rate + self.d * alpha + self.w2 * a - l * g * beta + s * V,
+            beta_rate + self.d * beta + self.w2 * b + l * g * alpha - t * H,
+            [spring_rate - self.Omega + f],
+            [self.m * self.r_0 * f_rate - self.r_0 * F + H],
+            [self.m * climb - V + self.N + self.k * (u - self.u_0) + self.c * v],
+            [g - f + np.sum(t * beta) / self.r_0],
+            [T - self.friction(self.r_0 * g) * R],
+            [V - R + T * lean],
+            [H - T - R * lean],
+        ]
+        if self.C:
+            equations += [[z[4 * n + 2] - v], [self.C * V - np.sum(s * a) + u]]
+        return np.concatenate(equations)
+
+    def jacobian(self, x, z):
+        """dF/dx and dF/dz."""
+        both = np.concatenate([x, z]).astype(complex)
+        columns = []
+        for i in range(len(both)):
+            moved = both.copy()
+            moved[i] += 1j * STEP
+            columns.append(self.residual(moved[: len(x)], moved[len(x) :]).imag / STEP)
+        columns = np.array(columns).T
+        return columns[:, : len(x)], columns[:, len(x) :]
+
+    def equilibrium(self):
+        """Coordinates and unknowns where nothing changes: Newton's method, in all coordinates but
+        f = Omega and the components across of modes without diameters, which stay 0."""
+        n = self.n
+        free = np.ones(self.size, bool)
+        free[n : 2 * n] = free[3 * n : 4 * n] = self.l > 0
+        free[4 * n + 1] = False
+        if self.C:
+            free[4 * n + 3] = False
+        x = np.zeros(self.size)
+        x[:n] = -self.N * self.s / self.w2
+        x[4 * n + 1] = self.Omega
+        if self.C:
+            x[4 * n + 2] = self.u_0
+        friction = self.friction(self.r_0 * self.Omega) * self.N
+        x[4 * n] = friction / (self.r_0 * self.k_p)
+        z = np.zeros(self.size + 5)
+        z[self.size :] = [self.N, friction, self.N, friction, self.Omega]
+        forces = np.arange(self.size, self.size + 5)
+        for _ in range(50):
+            by_x, by_z = self.jacobian(x, z)
+            left = np.hstack([by_x[:, free], by_z[:, forces]])
+            right = -self.residual(x, z)
+            # newtons stand beside micrometres: without scales small singular values would be cut off
+            rows = 1 / np.maximum(abs(left).max(axis=1), STEP)
+            left = rows[:, None] * left
+            columns = 1 / np.maximum(abs(left).max(axis=0), STEP)
+            step = columns * np.linalg.lstsq(left * columns, rows * right, rcond=None)[0]
+            x[free] += step[: free.sum()]
+            z[forces] += step[free.sum() :]
+        return x, z
+
+    def eigenvalues(self):
+        """Eigenvalues, 1/s, and V, R, T, N."""
+        x, z = self.equilibrium()
+        by_x, by_z = self.jacobian(x, z)
+        rates = -np.linalg.solve(by_z, by_x)[: self.size]
+        pair = np.repeat([self.l > 0], 4, axis=0)
+        pair[[0, 2]] = True
+        kept = np.append(np.flatnonzero(pair.ravel()), np.arange(4 * self.n, self.size))
+        V, _, R, T, _ = z[self.size :]
+        return np.linalg.eigvals(rates[np.ix_(kept, kept)]), (V, R, T)
+
+
+def steady_eigenvalues(values, omega, psi, l, damping, tangential):
+    """`SteadySliding.eigenvalues` of these arguments."""
+    return SteadySliding(values, omega, psi, l, damping, tangential).eigenvalues()
 
 
 def couple(offset, psi, l, r_0):

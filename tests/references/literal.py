@@ -22,7 +22,10 @@ def signed_diameters(diameters):
     signed = []
     rows = []
     for row, d in enumerate(diameters):
-        for l in (0,) if d == 0 else (-int(d), int(d)):
+        waves = (-int(d), int(d))
+        if d == 0:
+            waves = (0,)
+        for l in waves:
             signed.append(l)
             rows.append(row)
     return np.array(signed, int), np.array(rows, int)
@@ -126,7 +129,10 @@ class Literal:
         if phase == "stick":  # Eq. (19): phi is constant
             matrix[n, n] = 1.0
         else:  # Eq. (22)
-            friction = p["mu_k"] * (1 if phase == "slip+" else -1)
+            sense = -1
+            if phase == "slip+":
+                sense = 1
+            friction = p["mu_k"] * sense
             drive = p["c_p"] * (p["Omega"] - rate) + p["k_p"] * self.psi(t, phi)
             matrix[n, :n] = friction * p["m"] * e
             matrix[n, n] = p["r_0"] * p["m"] + friction * p["m"] * turned
@@ -224,7 +230,9 @@ def from_slider_frame(state, diameters):
 
     phase = state.phase
     if phase == "slip":
-        phase = "slip+" if state.direction > 0 else "slip-"
+        phase = "slip-"
+        if state.direction > 0:
+            phase = "slip+"
     displacement = complex_modes(state.a, state.b)
     velocity = complex_modes(state.alpha, state.beta)
     modes = np.concatenate([displacement, velocity]).astype(complex).view(float)

@@ -76,7 +76,10 @@ def described(run, difference, *more):
     }
     for name in ("P", *more):
         values = [e[name] for e in run.events]
-        columns[name] = values if name == "phase" else [float(value) for value in values]
+        if name == "phase":
+            columns[name] = values
+        else:
+            columns[name] = [float(value) for value in values]
     return columns
 
 
@@ -111,7 +114,10 @@ def record(name, data, start, t_end):
     q = stored_problem(data)
     run, difference = repeated(q, start or q.equilibrium(), t_end)
     found = described(run, difference, "phase", "psi", "f")
-    stored_start = None if start is None else vars(start)
+    if start is None:
+        stored_start = None
+    else:
+        stored_start = vars(start)
     write(name, {**data, "start": stored_start, "t_end": t_end, **found})
 
 
@@ -217,7 +223,10 @@ def contact(name):
     q = stored_problem({"parameters": parameters})
     run, difference = repeated(q, q.equilibrium(), 1.0)
     runs = [{"start": None, "t_end": 1.0, **described(run, difference)}]
-    start = violent_start(1.0 if q.C else 1.3)
+    size = 1.3
+    if q.C:
+        size = 1.0
+    start = violent_start(size)
     for i in range(round(0.5 / PIECE)):
         t_end = (i + 1) * PIECE
         run, difference = repeated(q, start, t_end)

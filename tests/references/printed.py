@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from disc_model import plate_modes
+from disc_model.disc.plate import tangential_amplitudes
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from tests.references import stored
@@ -52,15 +53,18 @@ def lively(phase, direction=0, p=P):
     psi = modes["psi"].to_numpy()
     l = modes["diameters"].to_numpy()
     paired = l > 0
-    held = 0.0 if phase == "separation" else p.N
+    if phase == "separation":
+        held = 0.0
+    else:
+        held = p.N
 
     a = -held * psi / omega**2 + 1e-5 * rng.normal(size=n) * 1500 / omega
     b = (1e-4 * np.sign(psi) * rng.uniform(0.5, 1, n) * 1500 / omega) * paired
     alpha = 0.03 * rng.normal(size=n)
     beta = (0.1 * rng.normal(size=n)) * paired
-    f = {"stick": 0.0, "slip": 40.0 * direction, "separation": 30.0}[phase]
+    rate = {"stick": 0.0, "slip": 40.0 * direction, "separation": 30.0}[phase]
     u = float(psi @ a)
-    velocity = float(psi @ (alpha + l * f * b))
+    velocity = float(psi @ (alpha + l * rate * b))
     if phase == "separation":
         u += 1e-3
         velocity += 0.2
@@ -69,7 +73,7 @@ def lively(phase, direction=0, p=P):
         phase=phase,
         direction=direction,
         psi=0.004,
-        f=f,
+        f=rate + float(tangential_amplitudes(p) @ beta) / p.r_0,
         u=u,
         u_velocity=velocity,
         a=a,

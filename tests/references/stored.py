@@ -43,7 +43,9 @@ class State:
 def _read(found):
     """Return an object of JSON, as a `State` if it is one."""
     names = {field.name for field in fields(State)}
-    return State(**found) if found.keys() == names else found
+    if found.keys() == names:
+        return State(**found)
+    return found
 
 
 @cache

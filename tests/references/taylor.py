@@ -6,9 +6,13 @@ or a contact of compliance ``C`` (m/N), contact force ``vertical`` or ``normal``
 quotients of series.  A switch is looked for by exclusion: on an interval of middle m and half width
 r a polynomial has no root if |p(m)| > sum |p_j(m)| r^j, and at most one if the same holds for its
 derivative; else the interval is halved.  Omega and N may change at constant rates, from corner to
-corner of a course; u_0 stays that of the first N.  The couple of friction on a surface at
-``offset`` (m) from the middle plane is a force ``t T`` on beta, t = -(offset/r_0) l psi
-(1/sqrt(kg)). Friction falls with the speed by ``decay`` (s/m), or at once.
+corner of a course; u_0 stays that of the first N.
+
+Friction acts on the disc's surface, where a mode has the tangential amplitude t.  The contact
+travels over the material at the rate g, the slip speed v = r_0 g is the slider's speed less the
+surface's, v_s = sum t beta, and the modes are resolved about the material point of contact, which
+lies ``shift`` (rad) behind the slider.  The coefficient of friction falls with v by a hyperbola or an exponential, or
+at once, and may grow by a viscous part.
 """
 
 from functools import cache
@@ -36,44 +40,55 @@ class Problem:
     their nodal diameters.
 
     ``rates`` are those of Omega (rad/s^2) and N (N/s), from the time ``since`` on; ``offset`` is
-    that of the friction surface (m), and ``tangential`` the modes' amplitudes there if they do not
-    follow from it.
+    that of the friction surface (m), and ``tangential`` the modes' amplitudes there (1/sqrt(kg)) if
+    they do not follow from it.  A pad's arc is in the amplitudes already.
     """
 
     since = LONG(0)
 
     def __init__(self, values, omega, psi, l, rates=(0.0, 0.0), offset=0.0, tangential=None):
-        self.Omega_rate, self.N_rate = LONG(rates[0]), LONG(rates[1])
+        self.Omega_rate = LONG(rates[0])
+        self.N_rate = LONG(rates[1])
         for name in ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0"):
             setattr(self, name, LONG(values[name]))
-        self.C, self.normal = (
-            LONG(values.get("contact_compliance", 0)),
-            values.get("contact_force") == "normal",
-        )
+        self.C = LONG(values.get("contact_compliance", 0))
+        self.rigid = self.C == 0
+        self.normal = values.get("contact_force") == "normal"
+        self.bonded = values.get("contact") in ("bonded", "bilateral")
         self.decay = LONG(values.get("friction_decay", np.inf))
         self.falls = bool(np.isfinite(self.decay)) and self.mu_s > self.mu_k
-        self.rigid, self.bonded = self.C == 0, values.get("contact") in ("bonded", "bilateral")
-        w, self.s, self.l = (
-            np.array([LONG(x) for x in column], LONG) for column in (omega, psi, l)
-        )
+        self.exponential = values.get("friction_law") == "exponential"
+        self.mu_v = LONG(values.get("viscous_friction", 0))
+
+        w = np.array([LONG(x) for x in omega], LONG)
+        self.s = np.array([LONG(x) for x in psi], LONG)
+        self.l = np.array([LONG(x) for x in l], LONG)
         self.w2 = w * w
-        D_star, E, h, nu = (LONG(values[name]) for name in ("D_star", "E", "h", "nu"))
-        disc = values.get("disc")
-        ratio = (
-            values.get("damping_ratio")
-            if disc is None
-            else [LONG(x) for x in disc["damping_ratio"]]
-        )
-        self.d = (
-            D_star / (E * h**3 / 12 / (1 - nu**2)) * self.w2
-            if ratio is None
-            else 2 * np.array(ratio, LONG) * w
-        )
-        given = None if tangential is None else np.array([LONG(x) for x in tangential], LONG)
-        self.t = -LONG(offset) / self.r_0 * self.l * self.s if given is None else given
+        self.d = self._damping(values, w)
+        if tangential is None:
+            self.t = -LONG(offset) / self.r_0 * self.l * self.s
+        else:
+            self.t = np.array([LONG(x) for x in tangential], LONG)
+
         self.S2 = (self.s**2).sum()
+        self.St = (self.t**2).sum()
         self.w_0 = -self.N * (self.s**2 / self.w2).sum()
         self.u_0 = self.w_0 - self.C * self.N
+
+    def _damping(self, values, w):
+        """2 xi omega of each mode, 1/s."""
+        disc = values.get("disc")
+        ratio = values.get("damping_ratio")
+        if disc is not None:
+            ratio = [LONG(x) for x in disc["damping_ratio"]]
+        if ratio is not None:
+            return 2 * np.array(ratio, LONG) * w
+        D_star, E, h, nu = (LONG(values[name]) for name in ("D_star", "E", "h", "nu"))
+        return D_star / (E * h**3 / 12 / (1 - nu**2)) * self.w2
+
+    def surface_speed(self, beta):
+        """v_s, m/s, of modal velocities beta across the path."""
+        return (self.t * beta).sum()
 
     def equilibrium(self):
         """The static start."""
@@ -85,10 +100,14 @@ class Problem:
 def problem_of(p, rates=(0.0, 0.0)):
     """`Problem` of disc_model `Parameters`, with the modes of `plate_modes` (amplitudes made
     positive)."""
-    modes, values = plate_modes(p), p.model_dump() | {"contact_compliance": contact_compliance(p)}
+    modes = plate_modes(p)
+    values = p.model_dump() | {"contact_compliance": contact_compliance(p)}
     sign = np.sign(modes["psi"].to_numpy())
     offset, tangential = surface_of(p)
-    given = None if tangential is None else sign * np.array(tangential)
+    if tangential is None:
+        given = None
+    else:
+        given = sign * np.array(tangential)
     return Problem(
         values, modes["omega"], sign * modes["psi"], modes["diameters"], rates, offset, given
     )
@@ -99,7 +118,9 @@ def surface_of(p):
     table has them."""
     if p.friction_offset != "surface":
         return p.friction_offset, None
-    return (p.h / 2, None) if p.disc is None else (0.0, p.disc.tangential)
+    if p.disc is None:
+        return (p.h / 2, None)
+    return (0.0, p.disc.tangential)
 
 
 def stored_problem(data):
@@ -117,127 +138,154 @@ def product(x, y, k):
 class Step:
     """Series of all quantities about one instant.
 
-    a, b, alpha, beta: (ORDER + 1, n); the others (ORDER + 1,): psi, f, u, v, and in contact V
-    (vertical force on slider and disc), R (normal force), B (slope); V and R are known up to ORDER
-    - 1.
+    a, b, alpha, beta: (ORDER + 1, n); the others (ORDER + 1,): psi, f, g, shift, u, v, and in
+    contact V (vertical force on slider and disc), H (horizontal force), R (normal force), T
+    (friction); forces are known up to ORDER - 1.  slope is B/r_0.
     """
 
     def __init__(self, q, phase, direction, state, order=ORDER):
-        n, K = len(q.s), order
-        self.q, self.phase, self.direction = q, phase, direction
-        for name in ("a", "b", "alpha", "beta"):
+        n = len(q.s)
+        K = order
+        self.q = q
+        self.phase = phase
+        self.direction = direction
+        for name in ("a", "b", "alpha", "beta", "ga"):
             setattr(self, name, np.zeros((K + 1, n), LONG))
+        for name in ("a", "b", "alpha", "beta"):
             getattr(self, name)[0] = getattr(state, name)
-        for name in ("psi", "f", "u", "v", "V", "R", "T", "B", "F", "excess", "mu"):
+        scalars = ("psi", "f", "g", "shift", "u", "v", "V", "H", "R", "T", "F", "slope")
+        for name in (*scalars, "squared", "fall", "mu", "steep", "pull", "below"):
             setattr(self, name, np.zeros(K + 1, LONG))
-        self.fa, self.below = np.zeros((K + 1, n), LONG), np.zeros(K + 1, LONG)
         # Omega and N of each order
-        self.drive, self.load = np.zeros(K + 1, LONG), np.zeros(K + 1, LONG)
+        self.drive = np.zeros(K + 1, LONG)
+        self.load = np.zeros(K + 1, LONG)
         time = LONG(state.time) - q.since
         self.drive[:2] = q.Omega + q.Omega_rate * time, q.Omega_rate
         self.load[:2] = q.N + q.N_rate * time, q.N_rate
-        self.psi[0], self.f[0] = state.psi, state.f
-        self.u[0], self.v[0] = state.u, state.u_velocity
+        self.psi[0] = state.psi
+        self.f[0] = state.f
+        self.u[0] = state.u
+        self.v[0] = state.u_velocity
         for k in range(K):
             self._order(k)
-        self._slider(K, None)
+        self._kinematics(K)
 
-    def _slider(self, k, fb):
-        """u, v and the slope of order k where they follow from the disc."""
+    def _kinematics(self, k):
+        """g, B and, where they follow from the disc, f, u and v of order k."""
         q = self.q
-        self.B[k] = (q.l * q.s * self.b[k]).sum()
+        surface = q.surface_speed(self.beta[k])
+        if self.phase == "stick":
+            self.f[k] = surface / q.r_0
+        else:
+            self.g[k] = self.f[k] - surface / q.r_0
+        self.slope[k] = (q.l * q.s * self.b[k]).sum() / q.r_0
         if q.rigid and self.phase != "separation":
-            fb = product(self.f, self.b, k) if fb is None else fb
             self.u[k] = (q.s * self.a[k]).sum()
-            self.v[k] = (q.s * (self.alpha[k] + q.l * fb)).sum()
+            self.v[k] = (q.s * (self.alpha[k] + q.l * product(self.g, self.b, k))).sum()
 
     def _order(self, k):
-        q, f = self.q, self.f
-        fa, fb, fp, fq = (product(f, x, k) for x in (self.a, self.b, self.alpha, self.beta))
-        self.fa[k] = fa
-        self._slider(k, fb)
-        self.F[k] = q.k_p * self.psi[k] + q.c_p * (self.drive[k] - f[k])
-        free = -q.d * self.alpha[k] - q.w2 * self.a[k]
+        q = self.q
+        self._kinematics(k)
+        ga, gb, gp, gq = (product(self.g, x, k) for x in (self.a, self.b, self.alpha, self.beta))
+        self.ga[k] = ga
+        self.F[k] = q.k_p * self.psi[k] + q.c_p * (self.drive[k] - self.f[k])
+        # accelerations without forces, along and across
+        along = -q.d * self.alpha[k] - q.w2 * self.a[k] + q.l * gq
+        across = -q.d * self.beta[k] - q.w2 * self.b[k] - q.l * gp
         height = q.k * self.u[k] + q.c * self.v[k] + self.load[k] - (q.k * q.u_0 if k == 0 else 0)
-        self._forces(k, free, fq, height)
+        if self.phase != "separation":
+            carried = q.l * (gq - q.l * product(self.g, self.ga, k))
+            self._forces(k, (q.s * (along + carried)).sum(), q.surface_speed(across), height)
+
         j = k + 1
-        self.a[j] = (self.alpha[k] + q.l * fb) / j
-        self.b[j] = (self.beta[k] - q.l * fa) / j
-        self.alpha[j] = (free + q.l * fq - q.s * self.V[k]) / j
-        self.beta[j] = (-q.d * self.beta[k] - q.w2 * self.b[k] - q.l * fp + q.t * self.T[k]) / j
-        self.psi[j] = (self.drive[k] - f[k]) / j
+        self.a[j] = (self.alpha[k] + q.l * gb) / j
+        self.b[j] = (self.beta[k] - q.l * ga) / j
+        self.alpha[j] = (along - q.s * self.V[k]) / j
+        self.beta[j] = (across + q.t * self.H[k]) / j
+        self.psi[j] = (self.drive[k] - self.f[k]) / j
+        self.shift[j] = (self.f[k] - self.g[k]) / j
         if self.phase != "stick":
-            dragged = self.T[k] + (product(self.R, self.B, k) / q.r_0 if q.normal else 0)
-            f[j] = (self.F[k] - dragged / q.r_0) / q.m / j
+            self.f[j] = (self.F[k] - self.H[k] / q.r_0) / q.m / j
         if not q.rigid or self.phase == "separation":
             self.u[j], self.v[j] = self.v[k] / j, (self.V[k] - height) / q.m / j
 
-    def _forces(self, k, free, fq, height):
-        """V, R and T of order k."""
-        q, s, f = self.q, self.direction, self.f
-        if self.phase == "separation":
-            return
-        if self.phase == "slip":
-            # mu is the signed coefficient; its excess over mu_k times 1 + decay r_0 abs(f) is a
-            # constant
-            if q.falls:
-                rest = (q.mu_s - q.mu_k if k == 0 else 0) - q.decay * q.r_0 * s * product(
-                    f, self.excess, k
-                )
-                self.excess[k] = rest / (1 + q.decay * q.r_0 * s * f[0])
-            self.mu[k] = s * (self.excess[k] + (q.mu_k if k == 0 else 0))
-            steep = product(self.mu, self.B, k) / q.r_0
-        if q.rigid:
-            A = (q.s * (free + 2 * q.l * fq - q.l**2 * product(self.f, self.fa, k))).sum()
-            top = height + q.m * A
-        else:
+    def _forces(self, k, A, G, height):
+        """V, H, R and T of order k; A and G: accelerations of the disc's point up and along the
+        path, without forces."""
+        q = self.q
+        vertical = 1 + q.m * q.S2
+        horizontal = 1 + q.m * q.St
+        self.squared[k] = product(self.slope, self.slope, k)
+        one = LONG(k == 0)
+        if not q.rigid:
             self.V[k] = ((q.s * self.a[k]).sum() - self.u[k]) / q.C
         if self.phase == "stick":
+            self.H[k] = (q.r_0 * self.F[k] - q.m * G) / horizontal
             if q.rigid:
-                self.V[k] = top / (1 + q.m * q.S2)
-            self._held(k)
-        elif q.normal:
-            if q.rigid:
-                # D R = top + B F
-                self.below[k] = product(self.B, self.B, k) / q.r_0**2 - q.m * q.S2 * steep
-                self.below[k] += 1 + q.m * q.S2 if k == 0 else 0
-                top += product(self.B, self.F, k)
+                self.V[k] = (height + q.m * A) / vertical
+            if q.normal:
+                self.below[k] = one + self.squared[k]
+                self._divide(k, self.V[k] + product(self.slope, self.H, k))
+                self.T[k] = self.H[k] - product(self.slope, self.R, k)
             else:
-                self.below[k], top = -steep + (1 if k == 0 else 0), self.V[k]
-            self._divide(k, top)
-            self.T[k] = product(self.mu, self.R, k)
-            if q.rigid:
-                self.V[k] = self.R[k] - product(self.T, self.B, k) / q.r_0
+                self.R[k], self.T[k] = self.V[k], self.H[k]
+            return
+
+        self._friction(k)
+        self.steep[k] = product(self.mu, self.slope, k)
+        if q.rigid:
+            self.pull[k] = q.r_0 * self.F[k] - q.m * G
+            top = height + q.m * A + product(self.slope, self.pull, k)
+            if q.normal:
+                self.below[k] = vertical * (one - self.steep[k])
+                self.below[k] += horizontal * (self.steep[k] + self.squared[k])
+            else:
+                self.below[k] = one * vertical + horizontal * self.steep[k]
         else:
-            if q.rigid:
-                self.below[k] = steep + (1 + q.m * q.S2 if k == 0 else 0)
-                self._divide(k, top + product(self.B, self.F, k))
-                self.V[k] = self.R[k]
-            self.R[k] = self.V[k]
-            self.T[k] = product(self.mu, self.R, k)
+            top = self.V[k]
+            self.below[k] = one - (self.steep[k] if q.normal else 0)
+        self._divide(k, top)
+        self.T[k] = product(self.mu, self.R, k)
+        self.V[k], self.H[k] = self.R[k], self.T[k]
+        if q.normal:
+            self.V[k] -= product(self.slope, self.T, k)
+            self.H[k] += product(self.slope, self.R, k)
+
+    def _friction(self, k):
+        """Signed coefficient of order k: mu_k + (mu_s - mu_k) fall + mu_v abs(v)."""
+        q = self.q
+        s = self.direction
+        speed = s * q.r_0 * self.g
+        if q.falls and q.exponential:
+            # fall' = -decay speed' fall
+            if k == 0:
+                self.fall[0] = np.exp(-q.decay * speed[0])
+            else:
+                terms = [j * speed[j] * self.fall[k - j] for j in range(1, k + 1)]
+                self.fall[k] = -q.decay * sum(terms) / k
+        elif q.falls:
+            # (1 + decay speed) fall = 1; order k of fall is still zero
+            rest = (1 if k == 0 else 0) - q.decay * product(speed, self.fall, k)
+            self.fall[k] = rest / (1 + q.decay * speed[0])
+        coefficient = (q.mu_s - q.mu_k) * self.fall[k] + q.mu_v * speed[k]
+        if k == 0:
+            coefficient += q.mu_k
+        self.mu[k] = s * coefficient
 
     def _divide(self, k, top):
         """R of order k from (below R)_k = top; R_k is still zero."""
         self.R[k] = (top - product(self.below, self.R, k)) / self.below[0]
 
-    def _held(self, k):
-        """R and T of stick."""
-        q = self.q
-        if not q.normal:
-            self.R[k], self.T[k] = self.V[k], q.r_0 * self.F[k]
-            return
-        self.below[k] = product(self.B, self.B, k) / q.r_0**2 + (1 if k == 0 else 0)
-        self._divide(k, self.V[k] + product(self.F, self.B, k))
-        self.T[k] = q.r_0 * self.F[k] - product(self.R, self.B, k) / q.r_0
-
     # -- what a run needs
     def length(self, truncation):
         """Step at which the last terms are below ``truncation`` of the motion."""
-        q, h = self.q, LONG(np.inf)
+        q = self.q
+        h = LONG(np.inf)
         groups = [
             (self.alpha, 0),
             (self.beta, 0),
             (self.f, abs(q.Omega)),
+            (self.g, abs(q.Omega)),
             (self.a, 0),
             (self.b, 0),
             (self.R, q.N),
@@ -264,7 +312,7 @@ class Step:
 
     def at(self, h):
         """State values at h as a dict."""
-        names = ["a", "b", "alpha", "beta", "psi", "f", "u", "v"]
+        names = ["a", "b", "alpha", "beta", "psi", "f", "shift", "u", "v"]
         return {name: polyval(h, getattr(self, name)) for name in names}
 
 
@@ -290,25 +338,36 @@ def first_zero(c, h):
     if c[0] <= 0:
         return LONG(0)
     found = _search(c, LONG(0), LONG(1), 0)
-    return None if found is None else found * h
+    if found is None:
+        return None
+    return found * h
 
 
 def _search(c, left, right, depth):
-    m, r = (left + right) / 2, (right - left) / 2
+    m = (left + right) / 2
+    r = (right - left) / 2
     here = _about(c, m)
     width = r ** np.arange(len(c))
     if abs(here[0]) > (abs(here[1:]) * width[1:]).sum():
-        return None if here[0] > 0 else left
+        if here[0] > 0:
+            return None
+        return left
     slope = here[1:] * np.arange(1, len(c))
     single = abs(slope[0]) > (abs(slope[1:]) * width[1:-1]).sum()
     if single:
         if polyval(left, c) <= 0:
             return left
-        return None if polyval(right, c) > 0 else _bisect(c, left, right)
+        if polyval(right, c) > 0:
+            return None
+        return _bisect(c, left, right)
     if depth > 60:
-        return right if polyval(right, c) <= 0 else None
+        if polyval(right, c) <= 0:
+            return right
+        return None
     found = _search(c, left, m, depth + 1)
-    return found if found is not None else _search(c, m, right, depth + 1)
+    if found is not None:
+        return found
+    return _search(c, m, right, depth + 1)
 
 
 def _bisect(c, left, right):
@@ -330,14 +389,23 @@ class Reference:
     """
 
     def __init__(self, q, state, truncation=TRUNCATION, course=()):
-        self.q, self.truncation, self.course, self.events = q, truncation, course, []
-        self.phase, self.direction = state.phase, int(state.direction)
-        self.start, self.local = LONG(state.time), LONG(0)
+        self.q = q
+        self.truncation = truncation
+        self.course = course
+        self.events = []
+        self.phase = state.phase
+        self.direction = int(state.direction)
+        self.start = LONG(state.time)
+        self.local = LONG(0)
         for name in ("a", "b", "alpha", "beta"):
             setattr(self, name, np.array([LONG(x) for x in getattr(state, name)]))
-        self.psi, self.f = LONG(state.psi), LONG(state.f)
-        self.u, self.v = LONG(state.u), LONG(state.u_velocity)
-        self.divide = {"f": 0, "gap": 0, "R": 0}
+        self.psi = LONG(state.psi)
+        self.f = LONG(state.f)
+        self.u = LONG(state.u)
+        self.v = LONG(state.u_velocity)
+        # known zeros of the slip speed, the gap and the contact force at the start of a phase
+        self.divide = {"g": 0, "gap": 0, "R": 0}
+        self.shift = LONG(0)
 
     @property
     def time(self):
@@ -353,7 +421,27 @@ class Reference:
         """w, w' and the slope under the slider."""
         q = self.q
         B = (q.l * q.s * self.b).sum()
-        return (q.s * self.a).sum(), (q.s * self.alpha).sum() + self.f * B, B
+        return (q.s * self.a).sum(), (q.s * self.alpha).sum() + self.rate() * B, B
+
+    def rate(self):
+        """g, rad/s, at which the contact travels over the material."""
+        if self.phase == "stick":
+            return LONG(0)
+        return self.f - self.q.surface_speed(self.beta) / self.q.r_0
+
+    def energy(self):
+        """Energy of disc, slider, springs and contact, J, without that of the preload's ramp."""
+        q = self.q
+        w, velocity, _ = self.disc()
+        held = self.phase != "separation" and q.rigid
+        u, rate = (w, velocity) if held else (self.u, self.v)
+        disc = (self.alpha**2 + self.beta**2 + q.w2 * (self.a**2 + self.b**2)).sum() / 2
+        vertical = q.m * rate**2 / 2 + q.k * (u - q.u_0) ** 2 / 2 + q.N * u
+        inplane = q.r_0**2 * (q.m * self.f**2 + q.k_p * self.psi**2) / 2
+        contact = LONG(0)
+        if not q.rigid and self.phase != "separation":
+            contact = (w - u) ** 2 / q.C / 2
+        return disc + vertical + inplane + contact
 
     def forces(self, phase, direction=0):
         """R and T if the phase were this one."""
@@ -363,15 +451,16 @@ class Reference:
     def sample(self, drive, theta):
         """The quantities `SAMPLED`, now; ``drive`` : angle of the drive point, ``theta`` : of a
         point of the disc."""
-        q, (w, velocity, _), turn = self.q, self.disc(), self.q.l * (theta - drive + self.psi)
+        q = self.q
+        w, velocity, _ = self.disc()
+        turn = q.l * (theta - drive + self.psi + self.shift)
         R, _ = self.forces(self.phase, self.direction)
         held = self.phase != "separation" and q.rigid
         u, u_velocity = (w, velocity) if held else (self.u, self.v)
-        along, across = q.s * np.cos(turn), q.s * np.sin(turn)
-        point, point_velocity = (
-            along @ self.a + across @ self.b,
-            along @ self.alpha + across @ self.beta,
-        )
+        along = q.s * np.cos(turn)
+        across = q.s * np.sin(turn)
+        point = along @ self.a + across @ self.b
+        point_velocity = along @ self.alpha + across @ self.beta
         turning = q.Omega + q.Omega_rate * (self.time - q.since) - self.f
         return np.array([R, u, u_velocity, w, point, point_velocity, self.psi, turning], float)
 
@@ -379,7 +468,8 @@ class Reference:
         """Advance to the absolute time `t_end`.  Returns self."""
         if not self.course:
             return self._advance(t_end)
-        q, last = self.q, (np.inf, *self.course[-1][1:])
+        q = self.q
+        last = (np.inf, *self.course[-1][1:])
         for corner, following in pairwise([*self.course, last]):
             if self.time < min(following[0], t_end):
                 here, there = (np.array(one, LONG) for one in (corner, following))
@@ -397,10 +487,12 @@ class Reference:
                 (t, kind) for kind, c in self._switches(step) if (t := first_zero(c, h)) is not None
             ]
             t, kind = min(found) if found else (h, None)
+            shift = self.shift
             for name, value in step.at(t).items():
                 setattr(self, name, value)
+            self.shift += shift
             self.local += t
-            self.divide = {"f": 0, "gap": 0, "R": 0}
+            self.divide = {"g": 0, "gap": 0, "R": 0}
             if kind:
                 self._switch(kind)
         return self
@@ -412,20 +504,27 @@ class Reference:
             return [("reattachment", gap[self.divide["gap"] :])]
         R = step.R[self.divide["R"] : K]
         if self.phase == "slip":
-            ends = [("rest", self.direction * step.f[self.divide["f"] :])]
+            ends = [("rest", self.direction * step.g[self.divide["g"] :])]
         else:
             ends = [
                 ("stick_to_slip", self.q.mu_s * step.R[:K] - side * step.T[:K]) for side in (1, -1)
             ]
             # a compliant contact does not pull, though friction may hold where it would
-            R = R if self.q.rigid else step.V[self.divide["R"] : K]
-        return ends if self.q.bonded else [("separation", R), *ends]
+            if not self.q.rigid:
+                R = step.V[self.divide["R"] : K]
+        if self.q.bonded:
+            return ends
+        return [("separation", R), *ends]
 
     # -- switching
     def _enter(self, kind, phase, direction, **divide):
-        self.phase, self.direction = phase, direction
-        self.divide = {"f": 0, "gap": 0, "R": 0} | divide
-        P = LONG(0) if phase == "separation" else self.forces(phase, direction)[0]
+        self.phase = phase
+        self.direction = direction
+        self.divide = {"g": 0, "gap": 0, "R": 0} | divide
+        if phase == "separation":
+            P = LONG(0)
+        else:
+            P = self.forces(phase, direction)[0]
         self.events.append(
             {"time": self.time, "kind": kind, "phase": phase, "psi": self.psi, "f": self.f, "P": P}
         )
@@ -434,19 +533,20 @@ class Reference:
 
     def _switch(self, kind):
         if kind in ("stick_to_slip", "rest"):
-            self.f = LONG(0)
+            self.f = self.q.surface_speed(self.beta) / self.q.r_0
             R, T = self.forces("stick")
             if kind == "rest" and abs(T) < self.q.mu_s * R:
                 self._enter("slip_to_stick", "stick", 0)
             else:
-                # f begins at zero; at a release so does its rate where friction does not fall
-                zeros = (
-                    2
-                    if kind == "stick_to_slip" and (self.q.falls or self.q.mu_s == self.q.mu_k)
-                    else 1
-                )
-                kind = "slip_reversal" if kind == "rest" else kind
-                self._enter(kind, "slip", 1 if T > 0 else -1, f=zeros)
+                # the slip speed begins at zero; at a release so does its rate if friction does not
+                # jump
+                steady = self.q.falls or self.q.mu_s == self.q.mu_k
+                zeros = 1
+                if kind == "stick_to_slip" and steady:
+                    zeros = 2
+                if kind == "rest":
+                    kind = "slip_reversal"
+                self._enter(kind, "slip", 1 if T > 0 else -1, g=zeros)
         elif kind == "separation":
             self._separate(3 if self.q.rigid else 1)
         else:
@@ -459,31 +559,44 @@ class Reference:
 
     def _reattach(self):
         q = self.q
-        if not q.rigid:
-            self._enter("reattachment", "slip", 1 if self.f > 0 else -1, R=1)
-            return
+        if q.rigid:
+            self._impact()
+        if self.rate() == 0:
+            raise RuntimeError("a slider that hits the disc at rest is not met in the stored cases")
+        if q.rigid:
+            zeros = {}
+        else:
+            zeros = {"R": 1}
+        self._enter("reattachment", "slip", 1 if self.rate() > 0 else -1, **zeros)
+
+    def _impact(self):
+        """Plastic: the impulse p is vertical, or that of a normal force without friction."""
+        q = self.q
         _, velocity, B = self.disc()
-        give = q.S2 + 1 / q.m + (B**2 / (q.m * q.r_0**2) if q.normal else 0)
+        slope = B / q.r_0
+        give = q.S2 + 1 / q.m
+        if q.normal:
+            give += slope**2 * (1 / q.m + q.St)
         p = (velocity - self.v) / give
         self.alpha = self.alpha - q.s * p
         if q.normal:
-            self.f = self.f - p * B / (q.m * q.r_0**2)
+            self.f = self.f - p * slope / (q.m * q.r_0)
+            self.beta = self.beta + q.t * p * slope
         self.u, self.v, _ = self.disc()
-        if self.f == 0:
-            raise RuntimeError("impact at rest: not met in the stored cases")
-        self._enter("reattachment", "slip", 1 if self.f > 0 else -1)
 
 
 def violent_start(scale):
     """The stored state C, its distance from equilibrium times ``scale``, the slider 10 micrometres
     above the disc."""
-    given, modes = load("C")["start"], load("C")["modes"]
+    given = load("C")["start"]
+    modes = load("C")["modes"]
     s = np.array(modes["psi"])
     rest = -385.0 * s / np.array(modes["omega"]) ** 2
     a, b, alpha, beta = (
         scale * np.array(getattr(given, name)) for name in ("a", "b", "alpha", "beta")
     )
-    a, f = a + (1 - scale) * rest, float(given.f)
+    a = a + (1 - scale) * rest
+    f = float(given.f)
     velocity = float(s @ alpha + f * (np.arange(len(s)) * s) @ b)
     modal = [x.tolist() for x in (a, b, alpha, beta)]
     return State(0.0, "separation", 0, float(given.psi), f, float(s @ a) + 1e-5, velocity, *modal)

@@ -20,7 +20,10 @@ def same(a: Result, b: Result) -> None:
         np.testing.assert_array_equal(
             getattr(a.final_state, name), getattr(b.final_state, name), err_msg=name
         )
-    assert (a.status, a.message, a.u_0, a.parameters) == (b.status, b.message, b.u_0, b.parameters)
+    assert a.status == b.status
+    assert a.message == b.message
+    assert a.u_0 == b.u_0
+    assert a.parameters == b.parameters
     np.testing.assert_array_equal(a.first_separation, b.first_separation)
     assert set(a.statistics) == set(b.statistics)
     for name in set(a.statistics) - {"wall_time"}:

@@ -32,7 +32,8 @@ def test_a_run_stops_at_its_first_separation():
     result = simulate(p, 0.05, initial_state=kicked, stop_at="first_separation")
     assert result.status == "stopped"
     assert result.status.complete
-    assert result.first_separation == result.final_state.time == result.events["time"].iloc[-1]
+    assert result.first_separation == result.final_state.time
+    assert result.final_state.time == result.events["time"].iloc[-1]
     assert result.final_state.phase == "separation"
     assert result.raise_for_status() is result
 

@@ -27,7 +27,10 @@ def test_envelopes_are_the_extremes_of_the_samples():
         cells = samples[name][:100].reshape(10, 10)
         np.testing.assert_array_equal(envelope[f"{name}_min"], cells.min(axis=1))
         np.testing.assert_array_equal(envelope[f"{name}_max"], cells.max(axis=1))
-    np.testing.assert_allclose(envelope["time"], samples["time"][:100].reshape(10, 10).mean(axis=1))
+    first = samples["time"][:100]
+    bins = first.reshape(10, 10)
+    middles = bins.mean(axis=1)
+    np.testing.assert_allclose(envelope["time"], middles)
     assert turns["time"].tolist() == [0.0]
 
 
@@ -39,7 +42,8 @@ def test_envelopes_are_the_extremes_of_the_samples():
 def test_a_window_has_the_samples_within_it(begin, duration, start, length, until, envelope):
     """Times are in quarters of the interval between samples, 1/64 s: none is rounded, all digits
     are shown."""
-    end, stop = begin + duration + 1, start + length + 1
+    end = begin + duration + 1
+    stop = start + length + 1
     times = {"last": {"last": length + 1}, "stop": {"start": start, "stop": stop}}.get(
         until, {"start": start}
     )
@@ -51,11 +55,14 @@ def test_a_window_has_the_samples_within_it(begin, duration, start, length, unti
             resolved_windows({"w": window}, begin / 64, end / 64)
         return
     resolved = resolved_windows({"w": window}, begin / 64, end / 64)["w"]
-    first, last = (
-        max(begin, end - length - 1) if until == "last" else start,
-        stop if until == "stop" else end,
-    )
-    assert (resolved.start, resolved.last) == (first / 64, None)
+    first = start
+    if until == "last":
+        first = max(begin, end - length - 1)
+    last = end
+    if until == "stop":
+        last = stop
+    assert resolved.start == first / 64
+    assert resolved.last is None
     assert resolved.stop <= last / 64
     if (
         envelope and until != "stop"
@@ -71,7 +78,8 @@ def test_rounding_loses_no_sample(intervals, rate):
 
 
 def test_a_section_has_one_sample_a_turn():
-    p, turn = P.replace(Omega=500), 2 * np.pi / 500
+    p = P.replace(Omega=500)
+    turn = 2 * np.pi / 500
     windows = {"turns": Poincare(start=1.5 * turn, stop=4.1 * turn, theta=2.0)}
     windows |= {
         f"at {theta:g}": Window(start=2 * turn, rate=1 / turn, theta=theta) for theta in (1.0, 2.0)
@@ -149,7 +157,9 @@ def test_what_no_memory_holds_is_refused_before_anything_runs(what, monkeypatch)
     """Bins, samples of a step and sections were not counted: they ended in a MemoryError."""
     monkeypatch.setattr(collector, "_memory", lambda: 5e5)
     windows = {f"w{i}": window for i, window in enumerate(GREEDY[what])}
-    p = P.replace(Omega=1e300) if what == "sections" else P
+    p = P
+    if what == "sections":
+        p = P.replace(Omega=1e300)
     with pytest.raises(
         ParameterError,
         match=rf"^windows\.w{len(windows) - 1}: must fit into memory: .* GB of samples",

@@ -40,9 +40,13 @@ def test_the_static_disc_is_lowest_under_the_slider(p: Parameters) -> None:
     (start,) = snapshots(p, 0.0)
     theta = np.linspace(-np.pi, np.pi, 181)
     w = deflection(p, start, [p.a, p.r_0], theta)
-    assert float(w.isel(r=1)[0, 90]) == pytest.approx(start.u, rel=1e-12)
+    at_slider = w.isel(r=1)[0, 90]
+    assert float(at_slider) == pytest.approx(start.u, rel=1e-12)
     assert np.allclose(w.isel(r=0), 0, atol=1e-9 * abs(start.u))
-    assert np.allclose(w.isel(r=1), w.isel(r=1, theta=slice(None, None, -1)).values, atol=1e-15)
+    circle = w.isel(r=1)
+    backwards = slice(None, None, -1)
+    mirrored = circle.isel(theta=backwards)
+    assert np.allclose(circle, mirrored.values, atol=1e-15)
 
 
 RAMPS = (
@@ -91,7 +95,8 @@ def test_a_point_of_the_disc_does_not_jump_where_the_speed_of_the_drive_does(
 def test_a_film_shows_the_disc_and_the_slider_of_the_run_with_its_ramps(tmp_path: Path) -> None:
     """They were those of a run without ramps, beside the force of the right one."""
     run = simulate(P, 0.1, {"w": AT_ONE}, ramps=RAMPS)
-    film = run.animate(tmp_path / "film.gif", window="w", frames=2)
+    path = tmp_path / "film.gif"
+    film = run.animate(path, window="w", frames=2)
     disc, circle, _ = film._fig.axes
     (slider,) = (line for line in disc.lines if line.get_marker() == "o")
     angle = np.arctan2(slider.get_ydata()[0], slider.get_xdata()[0])

@@ -21,7 +21,8 @@ RELIEF = Ramp(parameter="N", to=150.0, start=0.02, end=0.04)
 # ------------------------------------------------------------------------ what is requested
 @pytest.mark.parametrize("law", [{}, LAWS["compliant_normal"]])  # whose kernels others use as well
 def test_rate_zero_and_a_ramp_after_the_end_change_no_bit(law):
-    p, windows = P.replace(**law), {"all": Window(rate=5e3)}
+    p = P.replace(**law)
+    windows = {"all": Window(rate=5e3)}
     constant = simulate(p, 0.05, windows)
     none = (
         Ramp(parameter="Omega", to=50.0, start=0.007, end=0.03),
@@ -41,7 +42,9 @@ def test_pieces_of_overlapping_ramps():
     assert [piece.N for piece in found] == pytest.approx([200, 200, 200, 175, 150])
     assert [piece.Omega_rate for piece in found] == pytest.approx([0, -1500, -1500, 0, 0])
     assert [piece.N_rate for piece in found] == pytest.approx([0, 0, -2500, -2500, 0])
-    assert found[3].Omega == found[4].Omega == 20.0  # not nearly
+    # not nearly
+    assert found[3].Omega == found[4].Omega
+    assert found[4].Omega == 20.0
     assert found[4].angle == pytest.approx(0.5 + 0.7 + 0.2)
 
 
@@ -63,7 +66,9 @@ def test_a_run_in_pieces_is_the_whole_run():
     """Each run continues where the last one ended, in the midst of ramps; the same ramps are said
     to all."""
     ramps = (BRAKE, RELIEF)
-    whole, state, times = simulate(P, 0.06, tol=1e-13, ramps=ramps), None, []
+    whole = simulate(P, 0.06, tol=1e-13, ramps=ramps)
+    state = None
+    times = []
     for end in (0.005, 0.015, 0.025, 0.035, 0.06):
         part = simulate(P, end, tol=1e-13, initial_state=state, ramps=ramps)
         times += list(part.events["time"])
@@ -80,7 +85,8 @@ def test_samples_events_and_statistics_know_no_pieces():
         "bins": Window(rate=2e3, start=0.015, stop=0.045, envelope=3),
     }
     result = simulate(P, 0.05, windows, ramps=(BRAKE, RELIEF))
-    sample, statistics = result.samples["all"], result.statistics
+    sample = result.samples["all"]
+    statistics = result.statistics
     np.testing.assert_allclose(sample["time"], np.arange(501) * 1e-4, rtol=0, atol=1e-15)
     assert len(result.samples["bins"]["time"]) == 61 // 3
     spent = sum(statistics[f"time_{phase}"] for phase in ("stick", "slip", "separation"))

@@ -65,6 +65,8 @@ def test_two_hours_need_no_more_memory_than_twelve_minutes() -> None:
     assert found["status"] == "ok"
     assert found["events"] >= 1e6
     assert found["energy_residual"] < 1e-10
-    unit = 1 if sys.platform == "darwin" else 1024
+    unit = 1024
+    if sys.platform == "darwin":
+        unit = 1
     early = max(size for time, size in found["seen"] if time <= 720)
     assert (found["seen"][-1][1] - early) * unit < 2e6

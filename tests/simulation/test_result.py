@@ -43,7 +43,8 @@ def test_a_result_survives_its_file_to_the_last_bit(
     tmp_path: Path, suffix: str, events: bool
 ) -> None:
     ramps = (Ramp(parameter="N", to=190, start=0.01, end=0.02),)
-    result, path = simulate(P, 0.05, WINDOWS, events=events, ramps=ramps), tmp_path / f"r{suffix}"
+    result = simulate(P, 0.05, WINDOWS, events=events, ramps=ramps)
+    path = tmp_path / f"r{suffix}"
     result.save(path)
     assert b"unilateral" in path.read_bytes(), "and not the older word of texts that identify cases"
     again = Result.load(path)
@@ -74,23 +75,26 @@ def test_files_of_no_kind_and_names_that_matlab_has_not_are_refused(tmp_path: Pa
     ):
         with pytest.raises(ParameterError, match=rule):
             result.save(tmp_path / name)
-    result.final_state.save(tmp_path / "state.nc")
+    file = tmp_path / "state.nc"
+    result.final_state.save(file)
     with pytest.raises(ParameterError, match=r"must be a file written by Result\.save"):
-        Result.load(tmp_path / "state.nc")
+        Result.load(file)
     assert [path.name for path in tmp_path.iterdir()] == ["state.nc"]
 
 
 def test_a_state_survives_its_file_to_the_last_bit(tmp_path: Path) -> None:
     state = simulate(P, 0.0371).final_state
-    state.save(tmp_path / "state.nc")
-    again = State.load(tmp_path / "state.nc")
+    state_path = tmp_path / "state.nc"
+    state.save(state_path)
+    again = State.load(state_path)
     for name in State.__dataclass_fields__:
         assert np.array_equal(getattr(again, name), getattr(state, name)), name
     one, other = (simulate(P, 0.06, initial_state=start).final_state for start in (state, again))
     assert np.array_equal(one.a, other.a)
-    simulate(P, 0.01).save(tmp_path / "result.nc")
+    result_path = tmp_path / "result.nc"
+    simulate(P, 0.01).save(result_path)
     with pytest.raises(ParameterError, match=r"must be a file written by State\.save"):
-        State.load(tmp_path / "result.nc")
+        State.load(result_path)
 
 
 def test_a_height_that_contradicts_contact_is_refused() -> None:
@@ -111,7 +115,8 @@ def test_a_height_that_contradicts_contact_is_refused() -> None:
 @pytest.mark.parametrize("suffix", [".nc", ".mat"])
 def test_a_result_keeps_the_ratio_by_which_its_case_was_given(tmp_path: Path, suffix: str) -> None:
     p = P.replace(mu_k_over_mu_s=0.6)
-    result, path = simulate(p, 0.02), tmp_path / f"r{suffix}"
+    result = simulate(p, 0.02)
+    path = tmp_path / f"r{suffix}"
     result.save(path)
     for again in (Result.load(path), pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
         assert again.parameters == p
@@ -122,12 +127,14 @@ def test_a_run_that_overflowed_is_saved_but_its_last_state_is_not(tmp_path: Path
     start = simulate(P, 1e-6).final_state
     with np.errstate(all="ignore"):
         run = simulate(P, 0.01, initial_state=start.replace(phase="slip", direction=1, f=1e308))
-    run.save(tmp_path / "run.nc")
-    same(Result.load(tmp_path / "run.nc"), run)
+    run_path = tmp_path / "run.nc"
+    run.save(run_path)
+    same(Result.load(run_path), run)
     broken = start.replace(a=np.full_like(start.a, np.nan))
+    state_path = tmp_path / "state.nc"
     with pytest.raises(ParameterError, match=r"^a=.*: must be finite"):
-        broken.save(tmp_path / "state.nc")
-    assert not (tmp_path / "state.nc").exists()
+        broken.save(state_path)
+    assert not state_path.exists()
 
 
 def test_pictures_of_a_run_begin_where_it_begins() -> None:
@@ -185,7 +192,8 @@ def test_what_is_no_result_is_an_unreadable_file_whatever_it_is(
     path = tmp_path / "r.mat"
     RECORDED.save(path)
     text, tables = load_tables(path)
-    header, refused = json.loads(text), 0
+    header = json.loads(text)
+    refused = 0
     changed: list[Any] = [edited(header, *edit) for edit in edits(header)]
     changed += [None, 1, [], "x", {}]
     texts = [json.dumps(each) for each in changed] + ["{", "[" * 100_000, "\0"]
@@ -239,10 +247,12 @@ def test_a_state_that_cannot_be_is_an_unreadable_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A phase "x" and a psi of nan were read, and refused by simulate."""
-    path, state = tmp_path / "s.nc", RECORDED.final_state
+    path = tmp_path / "s.nc"
+    state = RECORDED.final_state
     state.save(path)
     text, tables = load_tables(path)
-    values, arrays = json.loads(text), tables["state"]
+    values = json.loads(text)
+    arrays = tables["state"]
     found = []
     for name, wrong in (
         ("phase", "x"), ("psi", "NaN"), ("time", "Infinity"), ("direction", 2), ("roots", [9, 0]),

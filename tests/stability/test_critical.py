@@ -9,6 +9,7 @@ import pytest
 from disc_model import ParameterError, Parameters, continue_cycle, floquet, neutral_curves
 from disc_model.data.variables import STABLE_CYCLES
 from disc_model.stability import critical
+from disc_model.stability.continuation import spectrum
 
 
 @pytest.mark.compiled
@@ -25,7 +26,8 @@ def test_a_narrow_tongue_between_two_values_is_seen():
         mu_k_over_mu_s=0.6,
     )
     found = critical.critical(p, "Omega", (20, 60), points=11, precision=1e-4)
-    assert found.value == found.crossings[0] == pytest.approx(20.1239, abs=2e-4)
+    assert found.value == found.crossings[0]
+    assert found.crossings[0] == pytest.approx(20.1239, abs=2e-4)
     tongues = [[20.1240, 20.1691], [22.7129, 22.7183], [28.0701, 28.1055]]
     np.testing.assert_allclose(found.unstable[:3], tongues, rtol=0, atol=2e-4)
     assert found.unstable_above.tolist() == [True, False, True, False, True, False, True]
@@ -44,7 +46,9 @@ def scan_of(
 
     def find_cycle(p: Parameters, tol: float) -> SimpleNamespace:
         grows = any(low < p.c < high for low, high in stretches)
-        word = "unstable_sliding" if grows else "steady_sliding"
+        word = "steady_sliding"
+        if grows:
+            word = "unstable_sliding"
         return SimpleNamespace(motion=word, multipliers=np.zeros(0), growth_rate=math.nan)
 
     monkeypatch.setattr(critical, "find_cycle", find_cycle)
@@ -112,25 +116,31 @@ def test_a_pair_that_only_touches_the_axis_is_looked_for() -> None:
     assert found.value < 10_235
 
 
+def shares_of_meetings(angles: list[float], turns: list[float]) -> list[float]:
+    """Where undamped multipliers of these angles meet while they turn by these."""
+    before = np.exp(1j * np.array(angles))
+    after = before * np.exp(1j * np.array(turns))
+    return [each.share for each in spectrum.passings(spectrum.turns_of(before, after))]
+
+
 def test_places_where_multipliers_meet_are_found_by_their_angles() -> None:
     """Linear in the share of the way, which is known then."""
     # two that cross each other, at equal angles
-    shares = critical._meetings(np.array([0.5, 0.6]), np.array([0.2, 0.0]))
-    assert shares == pytest.approx([0.5])
+    assert shares_of_meetings([0.5, 0.6], [0.2, 0.0]) == pytest.approx([0.5])
     # one that comes to -1, and one to 1
-    shares = critical._meetings(np.array([math.pi - 0.1]), np.array([0.4]))
-    assert shares == pytest.approx([0.25])
-    shares = critical._meetings(np.array([0.1]), np.array([-0.4]))
-    assert shares == pytest.approx([0.25])
-    shares = critical._meetings(np.array([0.5, 1.0]), np.array([0.1, 0.1]))
-    assert shares == []
+    assert shares_of_meetings([math.pi - 0.1], [0.4]) == pytest.approx([0.25])
+    assert shares_of_meetings([0.1], [-0.4]) == pytest.approx([0.25])
+    assert shares_of_meetings([0.5, 1.0], [0.1, 0.1]) == []
+
+
+def test_pairs_that_may_have_turned_back_at_the_axis_are_found() -> None:
+    """Linear in the share of the way, which is known then."""
     # through the axis and back: from 0.1 to -0.3 looks like 0.3
     one = np.array([0.1, 2.0])
     two = np.array([0.3, 2.1])
-    shares = critical._returns_from_axis(one, two, 0.4)
-    assert shares == pytest.approx([0.25])
-    shares = critical._returns_from_axis(math.pi - one, math.pi - two, 0.4)
-    assert shares == pytest.approx([0.25])
+    assert critical._returns_from_axis(one, two, 0.4) == pytest.approx([0.25])
+    upside_down = critical._returns_from_axis(math.pi - one, math.pi - two, 0.4)
+    assert upside_down == pytest.approx([0.25])
     assert critical._returns_from_axis(one, two, 0.1) == []
 
 
@@ -207,7 +217,10 @@ def test_scans_overlook_nothing_against_dense_ones(seed: int) -> None:
 def test_bounds_may_have_units_and_those_of_another_kind_are_refused():
     p = Parameters(N=385, Omega=14.95, mu_k_over_mu_s=0.6)
     found = critical.critical(p, "Omega", ("142.5 rpm", 15), points=3)
-    assert found.values[[0, -1]].tolist() == pytest.approx([142.5 * math.tau / 60, 15])
+    first = 142.5 * math.tau / 60
+    last = 15
+    ends = found.values[[0, -1]]
+    assert ends.tolist() == pytest.approx([first, last])
     branch = continue_cycle(p, "Omega", ("142.5 rpm", "15 rad/s"))
     assert "the bound Omega = 14.9226 rad/s was reached" in branch.ended
     plane = neutral_curves(

@@ -44,7 +44,9 @@ def test_a_light_slider_sees_waves_that_turn_with_and_against_it() -> None:
             expected[int(mode.diameters), side] = mode.omega / math.tau - shift
     for i, l in enumerate(found.diameters.tolist()):
         if l > 0:
-            side = 1 if found.forward[i] > 0.5 else -1
+            side = -1
+            if found.forward[i] > 0.5:
+                side = 1
             frequency = expected.pop((l, side))
             assert found.frequency[i] == pytest.approx(frequency, abs=1e-4)
     assert not expected
@@ -116,5 +118,8 @@ def test_of_two_real_multipliers_a_mode_grows_by_the_larger(monkeypatch: pytest.
         assert found[mode] == pytest.approx(math.log(abs(value)) * rate, rel=1e-8)  # by rounding
         # a multiple of f_s, or half of one where the multiplier is negative, next to the mode
         turns = frequency[mode] * cycle.period
-        assert turns % 1 == pytest.approx(0 if value > 0 else 0.5, abs=1e-9)
+        rest = 0.5
+        if value > 0:
+            rest = 0
+        assert turns % 1 == pytest.approx(rest, abs=1e-9)
         assert abs(frequency[mode] - modes.frequency[mode]) <= 0.5 * rate

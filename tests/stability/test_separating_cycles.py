@@ -114,7 +114,9 @@ def test_continuation_finds_the_simulated_motion_and_where_it_ends() -> None:
         repeats = np.ptp(times[2:] - times[:-2]) < 1e-9
         assert repeats == found
         if shift == 0:
-            assert times[2] - times[0] == pytest.approx(branch.period[point], rel=0, abs=1e-9)
+            period = times[2] - times[0]
+            expected = branch.period[point]
+            assert period == pytest.approx(expected, rel=0, abs=1e-9)
 
 
 def test_a_branch_passes_a_grazing_at_which_the_map_is_continuous() -> None:

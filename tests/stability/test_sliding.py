@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import Disc, Parameters, plate_modes, steady_sliding
-from disc_model.disc.plate import mode_arrays
+from disc_model.disc.plate import mode_arrays, tangential_amplitudes
 from disc_model.engine import transitions
 from disc_model.simulation.states import State
 from disc_model.stability.sliding import (
@@ -31,7 +31,8 @@ def state_of(p: Parameters, sliding: SteadySliding) -> State:
     if p.contact_force == "normal":
         weights = modes["diameters"] * modes["psi"]
         slope = float(weights @ sliding.b)
-        falls = 1 + p.friction_decay * p.r_0 * p.Omega
+        surface_speed = float(tangential_amplitudes(p) @ sliding.beta)
+        falls = 1 + p.friction_decay * (p.r_0 * p.Omega - surface_speed)
         mu = p.mu_k + (p.mu_s - p.mu_k) / falls
         share = 1 - mu * slope / p.r_0
     height = w - p.contact_compliance * share * sliding.contact_force
@@ -72,15 +73,24 @@ def test_steady_sliding_is_an_equilibrium_with_the_flows_eigenvalues(p):
     sliding = steady_sliding(p)
     duration = 1e-3
     assert sliding.status is SlidingStatus.OK
-    name = "R" if p.contact_force == "normal" else "P"
-    verdict = "stable" if sliding.growth_rate < 0 else "not stable"
+    name = "P"
+    if p.contact_force == "normal":
+        name = "R"
+    verdict = "not stable"
+    if sliding.growth_rate < 0:
+        verdict = "stable"
     force = f"{sliding.contact_force:.6g} N"
     assert sliding.message == f"steady sliding with {name} = {force}, {verdict}"
-    run = Full(p, state_of(p, sliding), scalars=4 if p.contact_compliance else 2)
+    scalars = 2
+    if p.contact_compliance:
+        scalars = 4
+    start = state_of(p, sliding)
+    run = Full(p, start, scalars=scalars)
     before = run.coordinates
     assert run.fly(duration) == transitions.TIME_OVER
     size = np.max(np.abs(before))
-    np.testing.assert_allclose(run.coordinates, before, rtol=0, atol=1e-12 * size)
+    rounding = 1e-12 * size
+    np.testing.assert_allclose(run.coordinates, before, rtol=0, atol=rounding)
 
     flow = np.linalg.eigvals(run.columns)
     expected = np.exp(sliding.eigenvalues * duration)
@@ -103,7 +113,10 @@ def test_without_friction_sliding_is_stable_up_to_the_critical_speed_of_the_movi
     critical = float((modes["omega"] / modes["diameters"]).min())
     for share, grows in ((0.5, False), (0.999, False), (1.001, True)):
         sliding = steady_sliding(p.replace(Omega=share * critical))
-        assert sliding.message.endswith(", not stable" if grows else ", neutral"), share
+        end = ", neutral"
+        if grows:
+            end = ", not stable"
+        assert sliding.message.endswith(end), share
         # rounding leaves 1e-12 1/s, a thousandth above the critical speed it is 3 to 7
         assert (sliding.growth_rate > 1e-6) == grows == sliding.growing.size, share
 
@@ -122,19 +135,29 @@ def test_all_rates_of_the_model_s_equations_vanish_in_steady_sliding(law, change
     modes = plate_modes(p)
     sign = np.sign(modes["psi"].to_numpy())
     flipped = {name: sign * getattr(state, name) for name in ("a", "b", "alpha", "beta")}
-    step = taylor.Step(taylor.problem_of(p), "slip", 1, state.replace(**flipped), order=1)
+    problem = taylor.problem_of(p)
+    start = state.replace(**flipped)
+    step = taylor.Step(problem, "slip", 1, start, order=1)
     # the size of a rate is that of its largest term
-    static = p.N * np.abs(modes["psi"] / modes["omega"]).max()
+    compliance = modes["psi"] / modes["omega"]
+    static = p.N * np.abs(compliance).max()
     omega = modes["omega"].max()
     for name in ("alpha", "beta"):
-        assert np.abs(getattr(step, name)[1]).max() < 1e-12 * omega * static
+        rates = getattr(step, name)[1]
+        limit = 1e-12 * omega * static
+        assert np.abs(rates).max() < limit
     for name in ("a", "b"):
-        assert np.abs(getattr(step, name)[1]).max() < 1e-12 * static
+        rates = getattr(step, name)[1]
+        limit = 1e-12 * static
+        assert np.abs(rates).max() < limit
     assert abs(step.psi[1]) < 1e-13 * p.Omega
-    assert abs(step.f[1]) < 1e-12 * p.N / (p.m * p.r_0)
+    mass = p.m * p.r_0
+    limit = 1e-12 * p.N / mass
+    assert abs(step.f[1]) < limit
     if p.contact_compliance:
         assert abs(step.u[1]) < 1e-14
-        assert abs(step.v[1]) < 1e-11 * p.N / p.m
+        limit = 1e-11 * p.N / p.m
+        assert abs(step.v[1]) < limit
 
 
 BONDED = {"Omega": 1520.0, "contact": "bilateral"}
@@ -187,8 +210,11 @@ def test_modes_are_the_eigenvalues_of_steady_sliding():
     modes = sliding_modes(p)
     values = modes.growth_rate + 2j * math.pi * modes.frequency
     oscillating = sliding.eigenvalues[sliding.eigenvalues.imag > 0]
-    np.testing.assert_allclose(values, oscillating[np.argsort(oscillating.imag)], rtol=1e-10)
-    np.testing.assert_allclose(modes.damping_ratio, -modes.growth_rate / np.abs(values), rtol=1e-12)
+    order = np.argsort(oscillating.imag)
+    np.testing.assert_allclose(values, oscillating[order], rtol=1e-10)
+    sizes = np.abs(values)
+    ratios = -modes.growth_rate / sizes
+    np.testing.assert_allclose(modes.damping_ratio, ratios, rtol=1e-12)
     # a two-diameter mode of a disc in the space of nine has another one beside it
     assert sorted(modes.diameters) == [-1, 0, 1, 1, 2, 2, 3, 3, 4, 4]
     assert sliding.growing.size == np.sum(modes.growth_rate > 0) == 3
@@ -204,7 +230,8 @@ def test_a_real_eigenvalue_counts_as_an_unstable_mode():
     assert counts == [0, 1, 0]
     # the two modes of the pair meet at the frequency 0, and part again
     found = follow_modes(cases)
-    assert [sorted(one.numbers) for one in found] == [[0, 1, 2], [1, 2], [0, 1, 2]]
+    numbers = [sorted(one.numbers) for one in found]
+    assert numbers == [[0, 1, 2], [1, 2], [0, 1, 2]]
 
 
 def test_modes_keep_their_numbers_where_frequencies_cross():
@@ -212,7 +239,9 @@ def test_modes_keep_their_numbers_where_frequencies_cross():
     one, which rise."""
     disc = Disc(diameters=[1, 2], omega=[1000, 1100], amplitude=[1e-3, 1e-3])
     p = Parameters(N=1, Omega=1, mu_s=0, mu_k=0, contact="bilateral", disc=disc)
-    first, last = follow_modes([p.replace(Omega=1.0), p.replace(Omega=60.0)])
+    slow = p.replace(Omega=1.0)
+    fast = p.replace(Omega=60.0)
+    first, last = follow_modes([slow, fast])
     assert first.numbers.tolist() == [0, 1, 2, 3, 4]
     assert last.numbers.tolist() != [0, 1, 2, 3, 4]
     assert waves_by_number(last) == waves_by_number(first)
@@ -225,7 +254,8 @@ def test_modes_keep_their_numbers_where_frequencies_cross():
             # with the slider the wave seems slower
             sense = 2 * round(modes.forward[i]) - 1
             expected = at_rest[l] - sense * l * 60.0
-        assert math.tau * modes.frequency[i] == pytest.approx(expected, abs=6e-3)
+        omega = math.tau * modes.frequency[i]
+        assert omega == pytest.approx(expected, abs=6e-3)
 
 
 def waves_by_number(followed):
@@ -245,9 +275,13 @@ def roots_of_energies(p, shapes):
     r_0 = p.r_0
     (a, alpha, b, beta), (psi, f), height = split_rows(modes, shapes)
     disc = np.concatenate([omega * a, alpha, omega * b, beta])
-    slider = r_0 * np.array([math.sqrt(p.k_p) * psi, math.sqrt(p.m) * f])
+    of_spring = math.sqrt(p.k_p) * psi
+    of_mass = math.sqrt(p.m) * f
+    slider = r_0 * np.array([of_spring, of_mass])
     stiffness = p.k + 1 / p.contact_compliance
-    contact = np.array([math.sqrt(stiffness) * height[0], math.sqrt(p.m) * height[1]])
+    of_contact = math.sqrt(stiffness) * height[0]
+    of_height = math.sqrt(p.m) * height[1]
+    contact = np.array([of_contact, of_height])
     forward = omega * (a + 1j * b)
     backward = omega * (a - 1j * b)
     return disc, slider, contact, forward, backward
@@ -262,7 +296,8 @@ def test_modes_are_named_and_compared_by_their_energies():
     )
     l = mode_arrays(base).diameters
     kinds = set()
-    lasts = [base.replace(k_p=k_p) for k_p in np.geomspace(1.8e5, 3.6e5, 25).tolist()]
+    stiffnesses = np.geomspace(1.8e5, 3.6e5, 25).tolist()
+    lasts = [base.replace(k_p=k_p) for k_p in stiffnesses]
     # here not |f| but its square tells whose motion it is
     lasts.append(base.replace(N=3e4, m=100.0, k_p=3.468e8))
     for last in lasts:
@@ -294,7 +329,8 @@ def test_modes_are_named_and_compared_by_their_energies():
         overlap = np.abs(np.sum(before.conj() * after, axis=0)) ** 2
         size_before = np.sum(np.abs(before) ** 2, axis=0)
         size_after = np.sum(np.abs(after) ** 2, axis=0)
-        np.testing.assert_allclose(found.mac, overlap / (size_before * size_after), rtol=1e-9)
+        mac = overlap / (size_before * size_after)
+        np.testing.assert_allclose(found.mac, mac, rtol=1e-9)
     assert len(kinds) > 2, "the energy does not pass on"
 
 
@@ -304,4 +340,5 @@ def test_a_step_that_changes_modes_much_is_halved():
     wide = follow_modes([p.replace(m=0.1), p.replace(m=0.01)])
     masses = np.linspace(0.1, 0.01, 120).tolist()
     narrow = follow_modes([p.replace(m=m) for m in masses])
-    np.testing.assert_array_equal(wide[-1].numbers, narrow[-1].numbers)
+    numbers = narrow[-1].numbers
+    np.testing.assert_array_equal(wide[-1].numbers, numbers)

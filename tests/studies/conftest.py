@@ -13,7 +13,8 @@ import xarray as xr
 from disc_model.analysis.classify import Settled, Settling
 from disc_model.errors import Status
 from disc_model.stability import attractors
-from disc_model.stability.outcome import OutcomeResult, Segment
+from disc_model.stability.outcome import OutcomeResult
+from disc_model.stability.segments import Segment
 from disc_model.studies import run
 from disc_model.studies.merge import merge_batches
 from disc_model.studies.quantity import STATUSES, tried
@@ -71,8 +72,14 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         """Separation never comes below 12.35 rad/s nor from 14.15 to 14.45, sooner at higher speed
         and load."""
         never = p.Omega < 12.35 or 14.15 < p.Omega < 14.45
-        first = math.inf if never else 2e5 / p.N - 50 * (p.Omega - 12)
-        first_separation = first if first <= horizon else math.nan
+        if never:
+            first = math.inf
+        else:
+            first = 2e5 / p.N - 50 * (p.Omega - 12)
+        if first <= horizon:
+            first_separation = first
+        else:
+            first_separation = math.nan
         return OutcomeResult(None, simulated=min(first, horizon), first_separation=first_separation)
 
     def arrival(p, legs):
@@ -88,9 +95,12 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         return SimpleNamespace(final_state=state, status=Status.OK, message="")
 
     def final_segment(p, state, duration, late, tol):
-        assert (duration, late) == (2, 2)
+        assert duration == 2
+        assert late == 2
         apart = state.apart
-        share = 0.25 if apart else 0.0
+        share = 0.0
+        if apart:
+            share = 0.25
         values = dict.fromkeys(Segment.__dataclass_fields__, 0.0)
         found = Segment(
             **values
@@ -171,7 +181,8 @@ def made_up_samples(normalization: str = "orthonormal") -> tuple[xr.Dataset, xr.
         "base": json.dumps({"normalization": normalization}),
         "options": json.dumps({"section": "stroboscopic"}),
     }
-    known, each = {"flag_meanings": "unknown no yes"}, ("N", "exponent_number")
+    known = {"flag_meanings": "unknown no yes"}
+    each = ("N", "exponent_number")
     samples = {
         "phase": (
             ("N", "sample"),

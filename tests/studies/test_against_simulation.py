@@ -67,7 +67,8 @@ def first_separation(p: Parameters, horizon: float = HORIZON, start: State | Non
 
 def separating(law: str, count: int, seed: int = 0) -> list[Parameters]:
     """Cases that lose contact between 1 s, when they have grown, and the horizon."""
-    rng, found = np.random.default_rng(seed), list[Parameters]()
+    rng = np.random.default_rng(seed)
+    found = list[Parameters]()
     while len(found) < count:
         p = drawn(rng, law)
         if first_separation(p) > 1.0:
@@ -78,7 +79,8 @@ def separating(law: str, count: int, seed: int = 0) -> list[Parameters]:
 @EACH_LAW
 def test_outcome_loses_contact_when_the_simulated_static_start_does(law: str) -> None:
     """With an offset, two of three first separations were wrong by more than 1 %."""
-    rng, separated = np.random.default_rng(8), 0
+    rng = np.random.default_rng(8)
+    separated = 0
     for _ in range(100):
         p = drawn(rng, law)
         found = functions.outcome(p, HORIZON, evaluation_time=0.05, after_separation=0.05)
@@ -126,7 +128,12 @@ def test_critical_speed_scans_the_simulated_motions(law: str) -> None:
 @EACH_LAW
 def test_a_map_has_the_simulated_first_separations(law: str) -> None:
     for p in separating(law, 2):
-        plane = [[p.replace(N=a * p.N, Omega=b * p.Omega) for b in (0.9, 1)] for a in (0.95, 1)]
+        plane = []
+        for a in (0.95, 1):
+            case = p.replace(N=a * p.N)
+            speeds = (0.9 * p.Omega, p.Omega)
+            row = [case.replace(Omega=Omega) for Omega in speeds]
+            plane.append(row)
         rows = Regions(horizon=HORIZON, initial_cell_size=1).compute_tile(plane, [])
         for cases, line in zip(plane, rows, strict=True):
             for case, (row, message) in zip(cases, line, strict=True):
@@ -175,7 +182,8 @@ def shares_of(run: Result) -> dict[str, float]:
 def test_hysteresis_follows_the_motion_from_speed_to_speed(law: str) -> None:
     """Stays of fixed length, simulated one after the other; where it comes to a stable cycle, the
     sweep goes on from that."""
-    dwell, late = 8.0, 1.0
+    dwell = 8.0
+    late = 1.0
     for p in separating(law, 1):
         ends = 0.9 * p.Omega, p.Omega
         found = functions.hysteresis(
@@ -186,14 +194,20 @@ def test_hysteresis_follows_the_motion_from_speed_to_speed(law: str) -> None:
         for way, order in (("up", speeds), ("down", speeds[::-1])):
             for speed in order:
                 case = p.replace(Omega=float(speed))
-                begin = 0.0 if state is None else state.time
+                if state is None:
+                    begin = 0.0
+                else:
+                    begin = state.time
                 stay = simulate(case, begin + dwell, initial_state=state)
                 last = simulate(case, begin + dwell + late, initial_state=stay.final_state)
                 state = last.final_state
                 there = found.sel(direction=way, sweep_Omega=speed)
                 for name, value in shares_of(last).items():
                     # an irregular motion is not the same after a stay; its shares are
-                    near = 0.1 * value + (5.0 if name == "separation_rate" else 0.05)
+                    least = 0.05
+                    if name == "separation_rate":
+                        least = 5.0
+                    near = 0.1 * value + least
                     assert there[name].item() == pytest.approx(value, abs=near), (way, speed)
         rates = found["separation_rate"].sel(direction="up").values
         assert found["onset_speed"].item() == speeds[(rates > 0).argmax()]
@@ -231,4 +245,6 @@ def test_a_steel_disc_slides_steadily_whoever_is_asked() -> None:
     for section in ("event", "stroboscopic"):
         diagram = Bifurcation(section=section, transient=80, max_transient=80)
         values, message = diagram.compute_point(Point(p))
-        assert (values["kind"], values["settled"], message) == ("steady_sliding", "settled", "")
+        assert values["kind"] == "steady_sliding"
+        assert values["settled"] == "settled"
+        assert message == ""

@@ -36,7 +36,8 @@ def test_batches_are_fixed_axes_times_chunks_of_blocks() -> None:
         [[300.0, 10.0], [300.0, 15.0]], [[300.0, 20.0]],
     ]  # fmt: skip
     assert grid.n_points == 9
-    assert all(len(name) == 12 for name in grid.batches)
+    for name in grid.batches:
+        assert len(name) == 12
 
 
 def test_changes_change_only_the_batches_they_touch() -> None:
@@ -83,7 +84,8 @@ def test_a_perturbation_along_an_axis_is_added_to_that_of_the_start() -> None:
 
 def test_extra_values_leave_the_batches_that_there_are() -> None:
     """So does a further block; a value that is there already is not computed twice."""
-    axis, base = {"start": 0, "stop": 4, "count": 3}, {"N": 1, "Omega": 1}
+    axis = {"start": 0, "stop": 4, "count": 3}
+    base = {"N": 1, "Omega": 1}
     for finer in (axis | {"extra": [2, 3.3]}, {"blocks": [axis, [2, 3.3]]}):
         before, after = (
             parse_grid({"study": "x", "quantity": "floquet", "base": base, "axes": {"c": given}})

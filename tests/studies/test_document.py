@@ -53,7 +53,8 @@ def test_a_shipped_file_is_right(path: Path) -> None:
 def test_numbers_that_look_like_what_they_are_are_read(tmp_path: Path) -> None:
     """Zeros, hexadecimal numbers, digits in groups, leading zeros before a point, and texts."""
     text = "a: [0, 00, 0x10, 1_000, 0.5, 007.5, -0, '010', '1:30', 1.5e+3, 12 rpm]"
-    (path := tmp_path / "numbers.yaml").write_text(text)
+    path = tmp_path / "numbers.yaml"
+    path.write_text(text)
     expected = [0, 0, 16, 1000, 0.5, 7.5, 0, "010", "1:30", 1500.0, "12 rpm"]
     assert read_file(path) == {"a": expected}
 
@@ -68,7 +69,8 @@ def nested(levels: int, aliases: int) -> str:
 
 def test_aliases_are_read_as_long_as_what_they_stand_for_is_small(tmp_path: Path) -> None:
     """Ten levels of ten in 300 bytes took minutes and gigabytes, in a message about them."""
-    (path := tmp_path / "aliases.yaml").write_text("a: &a {x: 1}\nb: *a\nc: {<<: *a, y: 2}")
+    path = tmp_path / "aliases.yaml"
+    path.write_text("a: &a {x: 1}\nb: *a\nc: {<<: *a, y: 2}")
     assert read_file(path) == {"a": {"x": 1}, "b": {"x": 1}, "c": {"x": 1, "y": 2}}
     path.write_text(nested(3, 10))
     assert len(read_file(path)["a3"]) == 10
@@ -85,18 +87,21 @@ def test_a_file_is_not_refused_for_being_long(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(reading, "MOST_EXPANDED", 5)
-    (path := tmp_path / "long.yaml").write_text(f"a: [{'1, ' * 1000}]\nb: [&x 2, *x]")
+    path = tmp_path / "long.yaml"
+    path.write_text(f"a: [{'1, ' * 1000}]\nb: [&x 2, *x]")
     assert len(read_file(path)["a"]) == 1000
 
 
 def test_a_message_shows_the_first_of_many_faults(tmp_path: Path) -> None:
     names = ", ".join(f"z{i}: 1" for i in range(70))
-    (path := tmp_path / "many.yaml").write_text(f"{{study: s, {names}}}")
+    path = tmp_path / "many.yaml"
+    path.write_text(f"{{study: s, {names}}}")
     with pytest.raises(StudyError) as error:
         load_study(path)
     assert len(error.value.faults) == 70
     lines = str(error.value).splitlines()
-    assert (len(lines), lines[-1]) == (52, "  and 20 more")
+    assert len(lines) == 52
+    assert lines[-1] == "  and 20 more"
 
 
 GRID = {

@@ -26,7 +26,8 @@ from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[2]
 FAULTS = yaml.safe_load(Path(__file__).with_name("faults.yaml").read_text(encoding="utf-8"))
-GRID, CASE = FAULTS["grid"], FAULTS["case"]
+GRID = FAULTS["grid"]
+CASE = FAULTS["case"]
 STUDIES = [
     (whole | change, words)
     for whole, name in ((GRID, "grids"), (CASE, "cases"))
@@ -56,7 +57,8 @@ def test_the_faults_of_a_study_come_in_one_error() -> None:
 
 @pytest.mark.parametrize(("text", "words"), FAULTS["texts"])
 def test_text_that_is_no_study_is_located(text: str, words: str, tmp_path: Path) -> None:
-    (path := tmp_path / "text.yaml").write_text(text, encoding="utf-8")
+    path = tmp_path / "text.yaml"
+    path.write_text(text, encoding="utf-8")
     assert_named(faults_of(lambda: parse_study(read_file(path))), words)
 
 
@@ -105,7 +107,8 @@ ARGUMENTS: list[tuple[Callable[[], object], str]] = [
     (lambda: disc(circles=[0, 0, 0]), "omega.2=1820 axisymmetric"),
     (lambda: dm.simulate(p(), 1.0, ramps=(ramp(), ramp(start=0.02))), "ramps.1.start=0.02 0.03"),
     (lambda: from_state(phase="stick", f=1.0), "initial_state.f=1 0 stick"),
-    (lambda: dm.floquet(p(n_diameters=-1)), "n_diameters=-1 modes"),
+    (lambda: dm.split_growth(p(n_diameters=-1)), "n_diameters=-1 modes"),
+    (lambda: dm.basins(p(n_diameters=-1), [1e-3]), "energies rigid"),
     (lambda: lyapunov_exponents(p(), 1.0, count=9), "count=9 8"),
     (lambda: dm.Window(rate=1, start=2, stop=1), "start=2 < stop=1"),
     (lambda: ramp(start=3, end=2), "start=3 < end=2"),
@@ -130,7 +133,8 @@ def test_a_wrong_argument_is_named(call: Callable[[], object], words: str) -> No
 
 @pytest.mark.parametrize(("text", "words"), FAULTS["tables"])
 def test_a_fault_of_a_table_is_named(text: str, words: str, tmp_path: Path) -> None:
-    (path := tmp_path / "disc.csv").write_text(text)
+    path = tmp_path / "disc.csv"
+    path.write_text(text)
     assert_named(faults_of(dm.Disc.from_csv, path), words)
 
 
@@ -232,7 +236,8 @@ def test_a_run_says_in_the_end_what_has_no_result(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     grids = parse_study(GRID).grids()[0]
-    (folder := tmp_path / "results" / "s").mkdir(parents=True)
+    folder = tmp_path / "results" / "s"
+    folder.mkdir(parents=True)
     (folder / "s.failed.txt").write_text("Omega = 10: paradox\nOmega = 20: paradox\n")
     file = Path("results/s/s.failed.txt")
     assert list(closing_lines(grids)) == [f"s: 2 of 4 points have no result, see {file}"]

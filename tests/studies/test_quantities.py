@@ -26,9 +26,11 @@ OPTIONS: dict[str, dict[str, Any]] = {
     "critical_speed": {"horizons": [1, 2], "scan": SCAN, "precision": 5},
     "floquet": {},
     "hysteresis": {"scan": SCAN} | SWEEP,
+    "locking": {"transient": 0.5, "record": 0.5, "max_record": 0.5, "releases": 2, "probes": 2},
     "lyapunov": {"transient": 0.5, "duration": 0.5},
     "outcome": {"horizon": 2, "evaluation_time": 0.2, "after_separation": 0.2},
     "ramps": {"low": 10, "high": 12, "rates": {"start": 5, "stop": 10, "count": 2}, "dwell": 0.2},
+    "range_law": {"horizon": 0.6, "displaced_horizon": 0.6, "evaluation_time": 0.4},
     "regions": {"horizon": 5, "initial_cell_size": 2},
     "sensitivity": {
         "distributions": {"k": {"distribution": "uniform", "low": 4e4, "high": 5e4}},
@@ -70,7 +72,8 @@ def test_a_batch_of_a_grid_has_the_results_of_its_points(name: str) -> None:
     if name == "regions":
         tiled = grid(name)
         tiled["axes"] |= {"normalization": ["as_published", "orthonormal"]}
-        alone, together = ({"over": ["c_p", "Omega"]}, {"over": ["c_p", "Omega", "normalization"]})
+        alone = {"over": ["c_p", "Omega"]}
+        together = {"over": ["c_p", "Omega", "normalization"]}
         one, all_ = (computed(**tiled | {"batch": batch}) for batch in (alone, together))
     else:
         one, all_ = (computed(**grid(name, size=size)) for size in (1, 100))

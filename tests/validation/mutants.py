@@ -150,7 +150,9 @@ def _changeable(node: ast.AST) -> Iterator[ast.AST]:
     if isinstance(node, ast.Subscript):  # what is taken, not from where
         yield from _changeable(node.value)
         return
-    called = node.func.id if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else ""
+    called = ""
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+        called = node.func.id
     if called in NUMBERS_OF_ELEMENTS:
         return
     if _is_changeable(node):
@@ -206,7 +208,11 @@ def flip(node: ast.AST) -> str:
             node.right = ast.Constant(1)
             return f"{before} -> {ast.unparse(node.left)}"
         case ast.BinOp(right=other) | ast.AugAssign(value=other):
-            sign, opposite = ("+", "-") if isinstance(node.op, ast.Add) else ("-", "+")
+            sign = "-"
+            opposite = "+"
+            if isinstance(node.op, ast.Add):
+                sign = "+"
+                opposite = "-"
             node.op = OTHER[type(node.op)]()
             return f"{sign} {ast.unparse(other)} -> {opposite}"
         case ast.UnaryOp():
@@ -229,10 +235,13 @@ class Trials:
     """
 
     def __init__(self, modules: Iterable[str]) -> None:
-        self.modules, self.survivors, self.tried = tuple(modules), list[str](), list[str]()
+        self.modules = tuple(modules)
+        self.survivors = list[str]()
+        self.tried = list[str]()
         self._noticed: defaultdict[str, list[str]] = defaultdict(list)
         self._spent: Counter[str] = Counter()
-        self._until, self._pipe = 0.0, 0
+        self._until = 0.0
+        self._pipe = 0
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """A failure ends the fork; seconds are the processor's, so that other work beside it leaves
@@ -245,7 +254,8 @@ class Trials:
             os._exit(1)
 
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
-        functions, caches = {}, []
+        functions = {}
+        caches = []
         for found in gc.get_objects():
             if isinstance(found, FunctionType) and (found.__module__ or "").startswith(
                 "disc_model."

@@ -40,7 +40,10 @@ def edge(holds, low, high):
     assert not holds(high)
     while high - low > 1e-11 * high:
         middle = (low + high) / 2
-        low, high = (middle, high) if holds(middle) else (low, middle)
+        if holds(middle):
+            low = middle
+        else:
+            high = middle
     return low
 
 
@@ -68,7 +71,11 @@ def annulus(p):
 
 def centre(p):
     """Frequencies over h sqrt(E / (rho (1 - nu^2))) / (2 b)^2."""
-    modes, unit = plate_modes(p), p.h * sqrt(p.E / (p.rho * (1 - p.nu**2))) / (2 * p.b) ** 2
+    modes = plate_modes(p)
+    density = p.rho * (1 - p.nu**2)
+    speed = sqrt(p.E / density)
+    diameter = 2 * p.b
+    unit = p.h * speed / diameter**2
     return {
         f"(0, {c})": (None, omega / unit)
         for c, omega in zip(modes["circles"], modes["omega"], strict=True)
@@ -77,7 +84,8 @@ def centre(p):
 
 def shoe(p):
     """Half a period from stop to stop, each nearer by twice the displacement under friction."""
-    start, half = 8.5e-4, pi / sqrt(p.k_p / p.m)
+    start = 8.5e-4
+    half = pi / sqrt(p.k_p / p.m)
     states = static_start(p).replace(psi=start / p.r_0)
     run = simulate(p, 5 * half, tol=1e-14, initial_state=states)
     stops = [float(t) for t in run.events["time"][1:]]
@@ -88,8 +96,10 @@ def shoe(p):
 
 def belt(p):
     """The last slip, stick and period of a second."""
-    rate, slack = sqrt(p.k_p / p.m), (p.mu_s - p.mu_k) * p.N / (p.k_p * p.r_0)
-    slip, stick = 2 * (pi - atan(rate * slack / p.Omega)) / rate, 2 * slack / p.Omega
+    rate = sqrt(p.k_p / p.m)
+    slack = (p.mu_s - p.mu_k) * p.N / (p.k_p * p.r_0)
+    slip = 2 * (pi - atan(rate * slack / p.Omega)) / rate
+    stick = 2 * slack / p.Omega
     *_, begin, end, again = times(p, 1.0, kinds={"stick_to_slip", "slip_to_stick"})[-4:]
     lengths = sorted([end - begin, again - end], reverse=slip > stick)
     exact = {"slip, s": slip, "stick, s": stick, "period, s": slip + stick}
@@ -109,11 +119,17 @@ def damped_belt(p):
     def excess(v, c_p):
         """Velocity of the spring's end after a swing less that of the belt, v (m/s), with which it
         starts."""
-        square, decay = p.k_p / p.m, c_p / (2 * p.m)
-        w, z = sqrt(square - decay**2), ((p.mu_s - p.mu_k) * p.N - c_p * v) / p.k_p
+        square = p.k_p / p.m
+        decay = c_p / (2 * p.m)
+        w = sqrt(square - decay**2)
+        z = ((p.mu_s - p.mu_k) * p.N - c_p * v) / p.k_p
         rate = -2 * decay * v - square * z
         t = (2 * pi + atan(w * rate / (square * v + decay * rate))) / w
-        return exp(-decay * t) * (v * cos(w * t) - (square * z + decay * v) / w * sin(w * t)) - v
+        cosine = cos(w * t)
+        sine = sin(w * t)
+        factor = (square * z + decay * v) / w
+        falling = exp(-decay * t)
+        return falling * (v * cosine - factor * sine) - v
 
     found = {}
     for c_p in (0.5, 1.0, 2.0, 5.0):
@@ -128,10 +144,13 @@ def damped_belt(p):
 
 def divergence(p):
     """Both ends of the band, for two springs."""
-    (omega,), (l,), (psi,) = p.disc.omega, p.disc.diameters, p.disc.amplitude
+    (omega,) = p.disc.omega
+    (l,) = p.disc.diameters
+    (psi,) = p.disc.amplitude
     found = {}
     for k in (1e4, 5e4):
-        first, last = omega / l, sqrt(omega**2 + k * psi**2) / l
+        first = omega / l
+        last = sqrt(omega**2 + k * psi**2) / l
 
         def grows(Omega, k=k):
             # a double root of 1e-16 of omega^2 shows as 3e-5 1/s
@@ -149,7 +168,9 @@ def divergence(p):
 
 def dashpot(p):
     """Growth at three speeds of a disc without damping, and the critical speed of a damped one."""
-    (omega,), (l,), (psi,) = p.disc.omega, p.disc.diameters, p.disc.amplitude
+    (omega,) = p.disc.omega
+    (l,) = p.disc.diameters
+    (psi,) = p.disc.amplitude
 
     def growth(Omega, damping):
         """By eigenvalues of one pair of modes; a, b, alpha, beta in the slider's frame."""
@@ -182,31 +203,39 @@ def dashpot(p):
 
 def impact(p):
     """Fall, impact, a piece of a harmonic motion together, a flight."""
-    (omega,), (psi,) = p.disc.omega, p.disc.amplitude
-    g, height, mass, M = (
-        p.N / p.m,
-        0.02,
-        1 / psi**2,
-        p.m + 1 / psi**2,
-    )  # masses of the disc's mode, and of both
+    (omega,) = p.disc.omega
+    (psi,) = p.disc.amplitude
+    # masses of the disc's mode, and of both
+    g = p.N / p.m
+    height = 0.02
+    mass = 1 / psi**2
+    M = p.m + 1 / psi**2
     t1 = sqrt(2 * height / g)
     impulse = p.m * mass / M * g * t1
     # together: w = (cos - 1) N/K - v/w sin; contact ends where w'' = -g
-    K, w = mass * omega**2, omega * sqrt(mass / M)
-    rest, speed = p.N / K, impulse / mass
+    K = mass * omega**2
+    w = omega * sqrt(mass / M)
+    rest = p.N / K
+    speed = impulse / mass
 
     def height_of(t):
-        return rest * (cos(w * t) - 1) - speed / w * sin(w * t)
+        angle = w * t
+        size = speed / w
+        return rest * (cos(angle) - 1) - size * sin(angle)
 
-    size, phase = (
-        np.hypot(rest, speed / w),
-        atan(speed / (w * rest)),
-    )  # of height_of(t) + rest, a cosine
+    # of height_of(t) + rest, a cosine
+    size = np.hypot(rest, speed / w)
+    phase = atan(speed / (w * rest))
     t2 = (2 * pi - acos(g / (w**2 * size)) - phase) / w
-    x, v = height_of(t2), -rest * w * sin(w * t2) - speed * cos(w * t2)
+    x = height_of(t2)
+    v = -rest * w * sin(w * t2) - speed * cos(w * t2)
 
     def gap(t):
-        return x + v * t - g * t**2 / 2 - (x * np.cos(omega * t) + v / omega * np.sin(omega * t))
+        angle = omega * t
+        falling = x + v * t - g * t**2 / 2
+        size = v / omega
+        vibrating = x * np.cos(angle) + size * np.sin(angle)
+        return falling - vibrating
 
     flight = np.arange(1e-4, 1.0, 1e-4)
     back = flight[np.argmax(gap(flight) < 0)]
@@ -227,11 +256,9 @@ def bounce(p):
     found = {}
     for height in (1e-3, 1e-2):
         v = sqrt(2 * height * p.N / p.m)
-        fall, contact, flight = (
-            v * p.m / p.N,
-            2 * (pi - atan(v / (w * p.N * p.contact_compliance))) / w,
-            2 * v * p.m / p.N,
-        )
+        fall = v * p.m / p.N
+        contact = 2 * (pi - atan(v / (w * p.N * p.contact_compliance))) / w
+        flight = 2 * v * p.m / p.N
         none = np.zeros(0)
         start = State(0.0, "separation", 0, 0.0, 0.0, height, 0.0, none, none, none, none)
         own = times(p, fall + contact + 1.01 * flight, start)[:3]
@@ -259,7 +286,9 @@ def falling_friction(p):
     def turn(_, y):
         return y[1] - speed
 
-    stop.terminal, stop.direction, turn.direction = True, -1, 1
+    stop.terminal = True
+    stop.direction = -1
+    turn.direction = 1
     release = p.mu_s * p.N / p.k_p
     slip = solve_ivp(
         rates,
@@ -270,11 +299,13 @@ def falling_friction(p):
         atol=1e-14,
         events=(stop, turn),
     )
-    end, largest = slip.t_events[0][0], slip.y_events[1][0][0]
+    end = slip.t_events[0][0]
+    largest = slip.y_events[1][0][0]
     rest = slip.y_events[0][0][0]
     stick = (release - rest) / speed
     run = simulate(p, release / speed + 1.01 * (end + stick), tol=1e-14)
-    (start, halt, again), stopped = run.events["time"][:3], p.r_0 * run.events["psi"][1]
+    start, halt, again = run.events["time"][:3]
+    stopped = p.r_0 * run.events["psi"][1]
     # a state at the turn: from there the largest displacement is missed by the square of the turn's
     # error
     near = simulate(p, start + slip.t_events[1][0], tol=1e-14).final_state

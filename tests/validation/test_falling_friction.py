@@ -40,7 +40,8 @@ COUPLES = [
 def test_events_are_those_of_the_reference_and_the_energy_balances(law):
     """Of a violent piece with separations and impacts, and of slip and stick from rest."""
     p = Parameters(N=385, Omega=15.1, c=0.3, c_p=0.2, **(FALLING | COUPLED | BONDED)[law])
-    q, audit = taylor.problem_of(p), Execution(audit_every_step=True)
+    q = taylor.problem_of(p)
+    audit = Execution(audit_every_step=True)
     violent = stored.rounded(taylor.violent_start(1.3))
     for start, own, span in (
         (violent, stored.engine_state(violent, p), 0.012),
@@ -68,7 +69,8 @@ def test_growth_rates_of_steady_sliding(law, decay):
 def test_multipliers_are_those_of_differences_of_motions(decay):
     """To 1e-6; differences of fourth order over 1e-3 of the deflection are known to some 1e-10."""
     map_ = ReturnMap(P.replace(Omega=10, c=5, friction_decay=decay))
-    own, jacobian = map_.evaluate(map_.static).jacobian, central_differences(map_, map_.static)
+    own = map_.evaluate(map_.static).jacobian
+    jacobian = central_differences(map_, map_.static)
     assert np.abs(own - jacobian).max() < 1e-7
     values = [np.sort_complex(np.linalg.eigvals(matrix)) for matrix in (own, jacobian)]
     np.testing.assert_allclose(*values, rtol=0, atol=1e-6)
@@ -77,11 +79,10 @@ def test_multipliers_are_those_of_differences_of_motions(decay):
 def test_fast_decay_comes_to_the_paper_s_law():
     """Event times, as ln(d)/d; growth rates of steady sliding as 1/d, and the drop of friction of
     no height at once."""
-    paper, rate = (
-        simulate(P, 0.05, tol=1e-13).events["time"].to_numpy(),
-        steady_sliding(P).growth_rate,
-    )
-    differences, rates = [], []
+    paper = simulate(P, 0.05, tol=1e-13).events["time"].to_numpy()
+    rate = steady_sliding(P).growth_rate
+    differences = []
+    rates = []
     for decay in (1e4, 1e5, 1e6):
         p = P.replace(friction_decay=decay)
         late = np.abs(simulate(p, 0.05, tol=1e-13).events["time"].to_numpy() - paper).max()
@@ -100,7 +101,8 @@ def test_a_friction_limit_that_is_only_touched_releases_nothing():
     """Newton's method took points of the section where the limit rises for cycles of no
     duration."""
     p = Parameters(N=385, Omega=10, c_p=1, friction_decay=3, normalization="orthonormal")
-    map_, outcomes = ReturnMap(p), []
+    map_ = ReturnMap(p)
+    outcomes = []
     for velocity in (0.1, -0.1):  # of all modes, over the deflection's
         x = map_.static.copy()
         x[map_.size // 2 :] += velocity * map_.deflection

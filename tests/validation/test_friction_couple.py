@@ -18,10 +18,12 @@ EACH_LAW = {"default": {}} | LAWS
 def eigenvalues(p):
     """Of steady sliding, by the reference, with the modes of `plate_modes`."""
     modes = plate_modes(p)
-    l, psi = modes["diameters"], modes["psi"]
+    l = modes["diameters"]
+    psi = modes["psi"]
     values = p.model_dump() | {"contact_compliance": contact_compliance(p)}
     offset, tangential = taylor.surface_of(p)
-    tangential = couple(offset, psi, l, p.r_0) if tangential is None else tangential
+    if tangential is None:
+        tangential = couple(offset, psi, l, p.r_0)
     return steady_eigenvalues(values, modes["omega"], psi, l, modal_damping(p), tangential)
 
 
@@ -57,7 +59,8 @@ def test_growth_rates_of_a_disc_by_its_modes(law, offset):
 
 
 def compare_sliding(p):
-    sliding, (wanted, (_, R, _)) = steady_sliding(p), eigenvalues(p)
+    sliding = steady_sliding(p)
+    wanted, (_, R, _) = eigenvalues(p)
     assert sliding.contact_force == pytest.approx(R, rel=1e-10)
     apart = np.abs(sliding.eigenvalues[:, None] - wanted)
     assert len(wanted) == len(sliding.eigenvalues)

@@ -1,5 +1,7 @@
 """`simulate` on ramps of Omega and of N, against references that know nothing of the engine."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -15,9 +17,11 @@ THETA = 0.7
 def compared(p, ramps, t_end, start=None):
     """Switches of a run on ramps, its audit, and samples that also show where the drive has turned
     to."""
-    q, course = taylor.problem_of(p), course_of(p, ramps)
+    q = taylor.problem_of(p)
+    course = course_of(p, ramps)
     reference = taylor.Reference(q, start or q.equilibrium(), course=course)
-    windows, execution = {"w": Window(rate=1e3, theta=THETA)}, Execution(audit_every_step=True)
+    windows = {"w": Window(rate=1e3, theta=THETA)}
+    execution = Execution(audit_every_step=True)
     given = start and stored.engine_state(start, p)
     found = simulate(
         p, t_end, windows, tol=1e-15, initial_state=given, ramps=ramps, execution=execution
@@ -49,8 +53,35 @@ def test_every_law_on_ramps_of_both(name):
     """Of a motion that separates."""
     p = Parameters(N=385.0, Omega=15.1, c=5.0, c_p=0.5, **ALL_LAWS.get(name, {}))
     ramps = (_ramp(p, "Omega", -128.0), _ramp(p, "N", -2048.0))
-    found = compared(p, ramps, 0.02, taylor.violent_start(1.0 if p.contact_compliance else 1.3))
+    size = 1.3
+    if p.contact_compliance:
+        size = 1.0
+    start = taylor.violent_start(size)
+    found = compared(p, ramps, 0.02, start)
     assert {"separation", "reattachment"} <= set(found.events["kind"])
+
+
+def vibrating(p):
+    """The static start of a reference, with a disc that vibrates along the slider's direction."""
+    q = taylor.problem_of(p)
+    rest = q.equilibrium()
+    alpha = 0.02 * np.sqrt(q.w2) * np.abs(rest.a)
+    return replace(rest, alpha=alpha, u_velocity=q.s @ alpha)
+
+
+def test_a_run_up_from_rest():
+    p = Parameters(N=20.0, Omega=0.0, c_p=5.0, n_diameters=1)
+    run_up = Ramp(parameter="Omega", to=0.5, start=0.0, end=0.0078125)
+    kinds = list(compared(p, (run_up,), 0.025, vibrating(p)).events["kind"])
+    assert kinds == ["stick_to_slip", "slip_to_stick"]
+
+
+def test_a_brake_stop_and_the_rest_after_it():
+    p = Parameters(N=50.0, Omega=15.0, c_p=5.0, n_diameters=1)
+    stop = Ramp(parameter="Omega", to=0.0, start=0.0078125, end=0.015625)
+    found = compared(p, (stop,), 0.025, vibrating(p))
+    assert found.final_state.phase == "stick"
+    assert found.message.startswith("at_rest: at t = 0.025 s in stick, the drive stands still")
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,8 @@ pytestmark = [pytest.mark.slow, pytest.mark.compiled]
 CASES = 200
 RADIANS = 400
 """Of the fastest oscillation: how long a case is followed."""
-SAMPLES, BIN = 48, 6
+SAMPLES = 48
+BIN = 6
 ROUGH = 1e-13
 """Truncation of a second run of the reference, which shows what becomes of errors as small as the engine's."""
 
@@ -30,15 +31,20 @@ def drawn_case(rng):
     """All fields of `Parameters`; many are sometimes zero."""
 
     def sometimes(share, value, otherwise=0.0):
-        return value if rng.random() < share else otherwise
+        if rng.random() < share:
+            return value
+        return otherwise
 
-    a, mu_k = rng.uniform(0.03, 0.06), sometimes(0.9, rng.uniform(0, 0.6))
-    b, mu_s = a + rng.uniform(0.03, 0.1), mu_k + sometimes(0.8, rng.uniform(0.01, 0.6))
+    a = rng.uniform(0.03, 0.06)
+    mu_k = sometimes(0.9, rng.uniform(0, 0.6))
+    b = a + rng.uniform(0.03, 0.1)
+    mu_s = mu_k + sometimes(0.8, rng.uniform(0.01, 0.6))
     give = str(rng.choice(["rigid", "number", "residual"], p=[0.5, 0.3, 0.2]))
     # as published the residual flexibility is a sum of a thousand modes, which takes seconds
-    normalization = (
-        "orthonormal" if give == "residual" else str(rng.choice(["as_published", "orthonormal"]))
-    )
+    if give == "residual":
+        normalization = "orthonormal"
+    else:
+        normalization = str(rng.choice(["as_published", "orthonormal"]))
     p = Parameters(
         N=spread(rng, 20, 1000), Omega=spread(rng, 2, 60), c=sometimes(0.5, spread(rng, 1e-2, 10)),
         # without kinetic friction an undamped slider comes to rest where stick is just not
@@ -65,11 +71,9 @@ def fastest(p):
     modes = plate_modes(p)
     found = max(modes["omega"].max() if len(modes) else 0.0, math.sqrt(max(p.k, p.k_p) / p.m))
     give = contact_compliance(p)
-    return (
-        max(found, math.sqrt((1 / p.m + float(modes["psi"] @ modes["psi"])) / give))
-        if give
-        else found
-    )
+    if give:
+        return max(found, math.sqrt((1 / p.m + float(modes["psi"] @ modes["psi"])) / give))
+    return found
 
 
 def drawn_ramps(rng, p, span):
@@ -96,9 +100,13 @@ def drawn_start(rng, p, time):
     phase = str(rng.choice(["rest", "stick", "slip", "slip", "separation"]))
     if phase == "rest" or (phase == "separation" and p.contact == "bilateral"):
         return rest
-    modes, direction = plate_modes(p), int(rng.choice([-1, 1])) if phase == "slip" else 0
+    modes = plate_modes(p)
+    direction = 0
+    if phase == "slip":
+        direction = int(rng.choice([-1, 1]))
     psi, omega, l = (modes[name].to_numpy() for name in ("psi", "omega", "diameters"))
-    pair, size = l > 0, np.abs(p.N * psi / omega**2)
+    pair = l > 0
+    size = np.abs(p.N * psi / omega**2)
     f = {
         "stick": 0.0,
         "slip": direction * spread(rng, 0.1, 3) * p.Omega,
@@ -109,13 +117,20 @@ def drawn_start(rng, p, time):
     give = contact_compliance(p)
     for _ in range(20):
         a, b, alpha, beta = (lively * size * rng.normal(size=len(psi)) for _ in range(4))
-        a, b, alpha, beta = rest.a + a, b * pair, omega * alpha, omega * beta * pair
-        w, velocity = float(psi @ a), float(psi @ (alpha + l * f * b))
-        u, u_velocity = w, velocity
+        a = rest.a + a
+        b = b * pair
+        alpha = omega * alpha
+        beta = omega * beta * pair
+        w = float(psi @ a)
+        velocity = float(psi @ (alpha + l * f * b))
+        u = w
+        u_velocity = velocity
         if phase == "separation":
-            u, u_velocity = w + spread(rng, 1e-7, 1e-3), velocity + 0.3 * rng.normal()
+            u = w + spread(rng, 1e-7, 1e-3)
+            u_velocity = velocity + 0.3 * rng.normal()
         elif give:
-            u, u_velocity = w - give * p.N * spread(rng, 0.1, 3), velocity + 0.03 * rng.normal()
+            u = w - give * p.N * spread(rng, 0.1, 3)
+            u_velocity = velocity + 0.03 * rng.normal()
         start = rest.replace(
             phase=phase, direction=direction, psi=angle, f=f, u=u, u_velocity=u_velocity, a=a, b=b, alpha=alpha,
             beta=beta,
@@ -127,7 +142,8 @@ def drawn_start(rng, p, time):
             R > 0 and not steep and (phase == "slip" or abs(T) < p.mu_s * R)
         ):
             return start
-        lively, angle = lively / 2, angle / 2
+        lively = lively / 2
+        angle = angle / 2
     return rest
 
 
@@ -154,7 +170,10 @@ class Compared:
         self.span = RADIANS / fastest(p)
         self.ramps = drawn_ramps(rng, p, self.span)
         course = course_of(p, self.ramps)
-        self.begin = 0.0 if self.ramps or rng.random() < 0.5 else rng.uniform(0, 50)
+        if self.ramps or rng.random() < 0.5:
+            self.begin = 0.0
+        else:
+            self.begin = rng.uniform(0, 50)
         self.start, self.theta, end = (
             drawn_start(rng, p, self.begin),
             rng.uniform(0, 6),
@@ -183,12 +202,14 @@ class Compared:
     def check(self):
         """Switches, samples, envelope and end, as long as the reference is sure; how many switches
         those were."""
-        statistics, events = self.result.statistics, self.result.events
+        statistics = self.result.statistics
+        events = self.result.events
         assert self.result.status.complete, self.result.message
         names = ("residual", "residual_transverse", "residual_inplane")
         assert max(statistics[f"energy_{name}"] for name in names) < 1e-11
         sure, horizon, error = self.sure()
-        times, kinds = events["time"].to_numpy() - self.begin, list(events["kind"])
+        times = events["time"].to_numpy() - self.begin
+        kinds = list(events["kind"])
         wanted = self.events[0][:sure]
         assert kinds[:sure] == [kind for _, kind in wanted]
         off = np.abs(times[:sure] - [t for t, _ in wanted])
@@ -203,7 +224,8 @@ class Compared:
     def sure(self):
         """How many switches both runs of the reference agree on, up to when no other is, and errors
         of their times."""
-        error, same = [0.0], 0
+        error = [0.0]
+        same = 0
         for (t, kind), (u, other) in zip(*self.events, strict=False):
             if kind != other or abs(t - u) > 1e-7:
                 break
@@ -247,7 +269,8 @@ class Compared:
                 np.flatnonzero(good.reshape(-1, BIN).all(axis=1)) if f"{name}_min" in folded else ()
             ):
                 inside = slice(j * BIN, (j + 1) * BIN)
-                least, most = fine[inside, i].min(), fine[inside, i].max()
+                least = fine[inside, i].min()
+                most = fine[inside, i].max()
                 off = max(
                     abs(folded[f"{name}_min"][j] - least), abs(folded[f"{name}_max"][j] - most)
                 )
@@ -258,7 +281,8 @@ class Compared:
         fine, rough = (
             stored.engine_state(stored.rounded(run.state()), self.p) for run in self.runs
         )
-        speed, height = fastest(self.p), abs(self.result.u_0) + np.abs(fine.u)
+        speed = fastest(self.p)
+        height = abs(self.result.u_0) + np.abs(fine.u)
         modal = np.abs([fine.a, fine.b, fine.alpha / speed, fine.beta / speed]).max(initial=0.0)
         # steps end where errors are 1e-14 of static deflection, even if damping has left much less
         # than that
@@ -282,7 +306,8 @@ class Compared:
 
 def test_random_cases(seed):
     """One of them again: ``Compared(seed, number).check()``."""
-    failed, counts = [], []
+    failed = []
+    counts = []
     for number in range(CASES):
         try:
             counts.append(Compared(seed, number).check())

@@ -31,7 +31,10 @@ class Page:
         self.address = address
 
     def call(self, method: str, path: str, body: Any = None) -> Any:
-        data = None if body is None else json.dumps(body).encode()
+        if body is None:
+            data = None
+        else:
+            data = json.dumps(body).encode()
         headers = {"Content-Type": "application/json"}
         request = urllib.request.Request(
             self.address + path, method=method, data=data, headers=headers

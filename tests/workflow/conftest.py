@@ -51,7 +51,9 @@ class Project:
 
     def command(self, *options: str) -> list[str]:
         """The command of such a run."""
-        named = ["--configfile", self.config] if self.config else []
+        named = []
+        if self.config:
+            named = ["--configfile", self.config]
         return [sys.executable, "-m", "snakemake", *options, *named]
 
     @property
@@ -122,7 +124,10 @@ class Project:
         not count."""
         assert (self.folder / path).is_file()
         with (self.folder / path).open("a") as file:
-            file.write("\n_CHANGED = True\n" if path.endswith(".py") else "\n# changed\n")
+            change = "\n# changed\n"
+            if path.endswith(".py"):
+                change = "\n_CHANGED = True\n"
+            file.write(change)
 
 
 def copy_repository(
@@ -132,7 +137,8 @@ def copy_repository(
     first is run."""
     folder.mkdir(exist_ok=True)
     for part in PARTS:
-        source, target = ROOT / part, folder / part
+        source = ROOT / part
+        target = folder / part
         if source.is_symlink():
             target.symlink_to(os.readlink(source))
         elif source.is_dir():
@@ -156,4 +162,5 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Project:
 @pytest.fixture
 def project(finished: Project, tmp_path: Path) -> Project:
     """A copy of the finished study, times included."""
-    return finished.copy(tmp_path / "project")
+    file = tmp_path / "project"
+    return finished.copy(file)

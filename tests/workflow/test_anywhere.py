@@ -69,7 +69,8 @@ def test_neither_the_folder_of_the_environment_nor_the_locale_matters(tmp_path: 
     merge."""
     environment = tmp_path / 'we$ird `touch EXECUTED` "x'
     environment.symlink_to(sys.prefix)
-    (tmp_path / "mine.yaml").write_text(
+    mine_path = tmp_path / "mine.yaml"
+    mine_path.write_text(
         STUDY.replace("itle: Growth", "itle: Grüße Ω, growth").replace("P_{max}", "Größe P_{max}"),
         encoding="utf-8",
     )
@@ -84,8 +85,10 @@ def test_neither_the_folder_of_the_environment_nor_the_locale_matters(tmp_path: 
         "mine.yaml",
     )
     run(*command, "-j2", cwd=tmp_path, timeout=900, **plain)
-    assert not (tmp_path / "EXECUTED").exists()
-    with xr.open_dataset(tmp_path / "results" / "mine" / "mine.nc") as study:
+    executed_path = tmp_path / "EXECUTED"
+    assert not executed_path.exists()
+    mine_file = tmp_path / "results" / "mine" / "mine.nc"
+    with xr.open_dataset(mine_file) as study:
         assert study.attrs["title"].startswith("Grüße Ω")
 
 
@@ -96,7 +99,8 @@ def disc_model(folder: Path, *options: str) -> subprocess.CompletedProcess[str]:
 def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> None:
     """What an included file makes by default is not the default: the root's made nothing, and said
     that all was so."""
-    (tmp_path / "mine.yaml").write_text(STUDY)
+    mine_path = tmp_path / "mine.yaml"
+    mine_path.write_text(STUDY)
     for place in (ROOT / "Snakefile", SNAKEFILE):
         assert re.search(
             r"^draw_figure +2$",
@@ -104,7 +108,8 @@ def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> Non
             re.M,
         )
     disc_model(tmp_path, "init", "own")
-    assert re.search(r"^compute_batch +1$", snakemake(tmp_path / "own", "-n"), re.M)
+    own_path = tmp_path / "own"
+    assert re.search(r"^compute_batch +1$", snakemake(own_path, "-n"), re.M)
     phrase = snakemake(tmp_path, "-n", "-s", SNAKEFILE, "results/paper/figures/fig13.pdf")
     assert re.search(r"^simulate_case +2$", phrase, re.M), (
         "the two cases of the paper's figure, if no study is given"
@@ -112,9 +117,12 @@ def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> Non
 
 
 def test_it_is_a_module_of_another_workflow(elsewhere: Path, tmp_path: Path) -> None:
-    (tmp_path / "Snakefile").write_text(MODULE)
+    snakefile_path = tmp_path / "Snakefile"
+    snakefile_path.write_text(MODULE)
     study = "".join(f"  {line}\n" for line in STUDY.splitlines())
-    (tmp_path / "config.yaml").write_text(f"mine: 3\nvibration:\n{study}")
+    config_path = tmp_path / "config.yaml"
+    config_path.write_text(f"mine: 3\nvibration:\n{study}")
     snakemake(tmp_path, "-j2")
+    mine_path = tmp_path / "results" / "mine"
     for name in ("mine.nc", "cases.nc"):
-        assert (tmp_path / "results" / "mine" / name).is_file()
+        assert (mine_path / name).is_file()

@@ -35,9 +35,10 @@ def test_links_are_not_followed(
     damaged.write_bytes(b"no netCDF file")
     (outside / "late.txt").write_text("")
     (results / "s" / ".x.nc.1.tmp").write_text("left by a killed job")
+    file = tmp_path / "missing"
     links = {
-        "nowhere": tmp_path / "missing",
-        "nowhere.nc": tmp_path / "missing",
+        "nowhere": file,
+        "nowhere.nc": file,
         "damaged.nc": damaged,
         "late.txt": outside / "late.txt",
         "outside": outside,

@@ -52,20 +52,24 @@ def test_kernels_just_compiled_from_the_cache_and_none(tmp_path: Path) -> None:
     velocities of the slider are differences of larger numbers. Measured: 9e-12 of the extremes.
     Switches, phases and steps are the same.
     """
-    own = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    cache_path = tmp_path / "cache"
+    own = {"NUMBA_CACHE_DIR": str(cache_path)}
     ways = {"cold": own, "warm": own, "usual": {}, "none": {"NUMBA_DISABLE_JIT": "1"}}
     for name, variables in ways.items():
         (tmp_path / name).mkdir()
         python(CASES, tmp_path / name, **variables)
-    assert any((tmp_path / "cache").rglob("*.kernel"))
+    assert any(cache_path.rglob("*.kernel"))
+    cold_path = tmp_path / "cold"
     for name in ("warm", "usual"):
-        found = instruction_sets.differences(tmp_path / name, tmp_path / "cold")
+        found = instruction_sets.differences(tmp_path / name, cold_path)
         assert max(difference for *_, difference in found) == 0
-    for file, variable, difference in instruction_sets.differences(
-        tmp_path / "none", tmp_path / "cold"
-    ):
+    none_path = tmp_path / "none"
+    for file, variable, difference in instruction_sets.differences(none_path, cold_path):
         # residuals of the energy are rounding themselves
-        assert difference < (0.5 if "energy" in variable else 1e-10), (file, variable, difference)
+        limit = 1e-10
+        if "energy" in variable:
+            limit = 0.5
+        assert difference < limit, (file, variable, difference)
 
 
 COUNTS = """
@@ -86,8 +90,10 @@ KINDS = (TEXTS / "kinds.yaml").read_text()
 
 def test_jobs_at_the_same_time_compile_each_kernel_once(tmp_path: Path) -> None:
     counted = tmp_path / "compiled.txt"
-    environment = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-    project = copy_repository(tmp_path / "project", {"config/kinds.yaml": KINDS}, **environment)
+    cache_path = tmp_path / "cache"
+    environment = {"NUMBA_CACHE_DIR": str(cache_path)}
+    project_path = tmp_path / "project"
+    project = copy_repository(project_path, {"config/kinds.yaml": KINDS}, **environment)
     (project.folder / "src" / "sitecustomize.py").write_text(f"FILE = {str(counted)!r}\n{COUNTS}")
     replace(project, config="config/kinds.yaml").complete("-j2", "all", "explorer")
     kernels = counted.read_text().splitlines()

@@ -17,7 +17,8 @@ pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
 def assert_recovered(project: Project, finished: Project) -> None:
     """Inputs of finished files may be missing: nothing asks for them."""
-    found, wanted = project.products(), finished.products()
+    found = project.products()
+    wanted = finished.products()
     assert {name for name in found if found[name] != wanted.get(name)} == set()
     assert not {
         name
@@ -87,10 +88,8 @@ def test_check_finds_damage_that_left_the_times_and_puts_times_right(
     project: Project, finished: Project
 ) -> None:
     results = project.folder / "results"
-    damaged, early = (
-        sorted(results.glob("small/cases/*.nc")),
-        sorted(results.glob("small_map/batches/*.nc")),
-    )
+    damaged = sorted(results.glob("small/cases/*.nc"))
+    early = sorted(results.glob("small_map/batches/*.nc"))
     for path in damaged:
         times = path.stat()
         os.truncate(path, times.st_size - 1)
@@ -136,7 +135,11 @@ def test_every_fault_is_shown_and_nothing_runs(
     project: Project, file: str, old: str, new: str, faults: list[str]
 ) -> None:
     project.edit(file, old, new)
-    shown = replace(project, config=SMALL if file == SMALL else None).refused("-j2")
+    config = None
+    if file == SMALL:
+        config = SMALL
+    changed = replace(project, config=config)
+    shown = changed.refused("-j2")
     assert [fault for fault in faults if fault not in shown] == []
     assert "Traceback" not in shown
     assert "Job stats" not in shown
@@ -144,9 +147,8 @@ def test_every_fault_is_shown_and_nothing_runs(
 
 def test_results_of_another_study_of_the_same_name_are_not_overwritten(tmp_path: Path) -> None:
     """They were, without a word."""
-    project = copy_repository(
-        tmp_path / "project", {"first.yaml": STUDIES["config/small_growth.yaml"]}
-    )
+    path = tmp_path / "project"
+    project = copy_repository(path, {"first.yaml": STUDIES["config/small_growth.yaml"]})
     project.complete("check", "-j1")  # a run in which nothing is computed
     (project.folder / "second.yaml").write_text(
         (project.folder / "first.yaml").read_text().replace("25", "30")

@@ -16,7 +16,8 @@ def test_the_report_holds_every_result_and_needs_no_network(
     finished: Project, tmp_path: Path
 ) -> None:
     finished.complete("--report", "report.html")
-    with browser(tmp_path / "profile") as page:
+    path = tmp_path / "profile"
+    with browser(path) as page:
         page.open(finished.folder / "report.html")
         found = page.wait_for("return typeof categories === 'undefined' ? null : categories")
         page.wait_for("return document.body.innerText.includes('An elastic disc')")

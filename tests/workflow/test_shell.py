@@ -23,11 +23,14 @@ PROGRAM = str(Path(sys.executable).with_name("disc-model"))
 def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
     """A quarter of a second after Ctrl-C Snakemake was killed, with its lock left behind in 5 of 12
     tries."""
-    shutil.copy(TEXTS / "long.yaml", tmp_path / "mine.yaml")
+    mine_path = tmp_path / "mine.yaml"
+    shutil.copy(TEXTS / "long.yaml", mine_path)
     processes.run(PROGRAM, "compile", cwd=tmp_path, timeout=600)
-    moments, locks = random.Random(27), tmp_path / ".snakemake" / "locks"
+    moments = random.Random(27)
+    locks = tmp_path / ".snakemake" / "locks"
+    log_path = tmp_path / "log"
     for _ in range(10):
-        with (tmp_path / "log").open("w+") as log:
+        with log_path.open("w+") as log:
             study = subprocess.Popen([PROGRAM, "study", "mine.yaml", "-j2"], cwd=tmp_path, stdout=log, stderr=log,
                                      start_new_session=True)  # fmt: skip
             while not list(locks.glob("*.lock")):
@@ -47,9 +50,11 @@ def test_no_interrupt_leaves_the_folder_locked(tmp_path: Path) -> None:
 
 def test_what_was_finished_before_an_interrupt_is_not_computed_again(tmp_path: Path) -> None:
     text = (TEXTS / "long.yaml").read_text().replace("241", "4").replace("201", "3")
-    (tmp_path / "mine.yaml").write_text(f"{text}batch: {{size: 1}}\n")
+    mine_path = tmp_path / "mine.yaml"
+    mine_path.write_text(f"{text}batch: {{size: 1}}\n")
     command = [PROGRAM, "study", "mine.yaml", "-j1"]
-    with (tmp_path / "log").open("w+") as log:
+    log_path = tmp_path / "log"
+    with log_path.open("w+") as log:
         study = subprocess.Popen(
             command, cwd=tmp_path, stdout=log, stderr=log, start_new_session=True
         )

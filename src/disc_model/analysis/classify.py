@@ -14,10 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from disc_model.arrays import Array, Indices, Mask
 from disc_model.data.variables import PHASES, Outcome, Variable
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 CLOSES = 1e-8
 """s, to which intervals of a periodic motion repeat; those on a torus mostly differ by far more."""
 NEAR_RETURN = 1e-3
@@ -149,7 +148,7 @@ def zero_one(values: Array) -> float:
     return float(np.median(growths))
 
 
-def separation_location(height: Array, starts: NDArray[np.int64]) -> float:
+def separation_location(height: Array, starts: Indices) -> float:
     """Find the position in the oscillation at which contact is lost, from samples of the height.
 
     Parameters

@@ -7,14 +7,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import Array, Indices
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_shapes, mode_arrays
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
-
-Array = NDArray[np.float64]
 
 AROUND = (1.0, 6.0)
 """Hz, distances from a line between which the level of its neighbourhood is determined."""
@@ -164,6 +162,53 @@ def strongest(time: Array, values: Array, near: float, within: float) -> Line:
     return max(peaks, key=lambda line: line.amplitude)
 
 
+class MainVibration(NamedTuple):
+    """The sine that fits a signal best: frequency in Hz, amplitude in the signal's unit, and the
+    share of the signal's variance that it explains."""
+
+    frequency: float
+    amplitude: float
+    share: float
+
+
+def main_vibration(time: Array, values: Array) -> MainVibration:
+    """Find the vibration at one frequency that explains most of a signal.
+
+    Its frequency is that of the strongest line, its amplitude and share are those of a least-squares
+    fit of one sine and a constant. Raises ValueError if the signal has no line.
+
+    Examples
+    --------
+    >>> t = np.arange(4000) / 2000
+    >>> found = main_vibration(t, 3 * np.sin(2 * np.pi * 97.3 * t) + np.sin(2 * np.pi * 401 * t))
+    >>> round(found.frequency, 1), round(found.amplitude, 2), round(found.share, 2)
+    (97.3, 3.0, 0.9)
+    """
+    found = lines(time, values, floor=0.5)
+    if not found:
+        raise ValueError("the signal has no line")
+    frequency = max(found, key=lambda line: line.amplitude).frequency
+
+    amplitude, share = _fit_sine(time, values, frequency)
+    return MainVibration(frequency, amplitude, share)
+
+
+def share_at(time: Array, values: Array, frequency: float) -> float:
+    """Share of a signal's variance that one sine at a frequency in Hz explains."""
+    return _fit_sine(time, values, frequency)[1]
+
+
+def _fit_sine(time: Array, values: Array, frequency: float) -> tuple[float, float]:
+    """Amplitude of the sine at a frequency (Hz) that fits a signal best, and the share of the
+    signal's variance that it explains."""
+    angle = 2 * np.pi * frequency * (time - time[0])
+    waves = np.column_stack([np.ones_like(angle), np.cos(angle), np.sin(angle)])
+    coefficients = np.linalg.lstsq(waves, values, rcond=None)[0]
+    rest = values - waves @ coefficients
+    share = 1 - float(np.var(rest) / np.var(values))
+    return float(np.hypot(*coefficients[1:])), share
+
+
 def chance(time: Array, values: Array, line: Line, searched: float) -> float:
     """Probability that noise at the level of a line's neighbourhood has as strong a line in the
     searched band.
@@ -290,7 +335,7 @@ def coverage(time: Array, values: Array, low: float, high: float, floor: float =
     return float(np.mean(amplitude[band] > floor * strongest))
 
 
-def _maxima(amplitude: Array, distance: int) -> NDArray[np.int64]:
+def _maxima(amplitude: Array, distance: int) -> Indices:
     """Bins of local maxima that are not side lobes and at least `distance` bins apart; the higher
     one is kept."""
     from scipy.signal import find_peaks

@@ -177,10 +177,11 @@ def from_section(  # noqa: PLR0913
     ImplausibleValue
         If E or rho is not within a hundredth and a hundred times that of Table 1.
     """
-    from disc_model.disc.files import section as sections
+    from disc_model.disc.files.mesh import mesh_of
+    from disc_model.disc.files.section import disc_of_section
 
     mesh = section
     if size is not None:
-        mesh = sections.section(section, size)
+        mesh = mesh_of(section, size)
     material = {"E": E, "nu": nu, "rho": rho, "damping_ratio": damping_ratio}
-    return sections.disc_of_section(mesh, material, clamped, slider, highest_Hz)
+    return disc_of_section(mesh, material, clamped, slider, highest_Hz)

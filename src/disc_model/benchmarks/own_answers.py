@@ -15,7 +15,7 @@ from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.stability.continuation import continue_cycle
-from disc_model.stability.cycle import floquet
+from disc_model.stability.floquet import floquet
 
 RICHEST: dict[str, Any] = {"n_diameters": 12, "contact_compliance": "residual"}
 CELLS = 64

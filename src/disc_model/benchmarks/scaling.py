@@ -11,7 +11,7 @@ import xarray as xr
 from disc_model.benchmarks import study
 from disc_model.benchmarks.study import Row
 from disc_model.mode_choice import real_modes
-from disc_model.studies.functions import run_study
+from disc_model.studies.whole_study import run_study
 
 Model = tuple[int, int]
 """Highest number of nodal diameters, and number of nodal circles."""

@@ -9,15 +9,14 @@ from typing import Any
 import xarray as xr
 
 from disc_model import mode_choice
-from disc_model.benchmarks import study
-from disc_model.benchmarks.study import CONTACTS, TABLES, Row
+from disc_model.benchmarks.study import CONTACTS, TABLES, Row, run
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.simulation.states import State
-from disc_model.stability.cycle import floquet
+from disc_model.stability.floquet import floquet
 
 Model = tuple[int, int]
 """Highest number of nodal diameters, and number of nodal circles."""
@@ -66,7 +65,7 @@ def contact_study(
         "contact": [*CONTACTS],
         "model": [f"{diameters},{circles}" for diameters, circles in models],
     }
-    return study.run(
+    return run(
         "contact_truncation",
         axes,
         measure,

@@ -4,15 +4,12 @@ times are stored, so that equal runs give equal bytes."""
 
 from __future__ import annotations
 
-import contextlib
 import json
-import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import xarray as xr
 from netCDF4 import Dataset
 from xarray.backends import NetCDF4DataStore
@@ -27,76 +24,12 @@ from disc_model.data.files import (
     unreadable,
     write_atomically,
 )
-from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes
-from disc_model.disc.flexibility import contact_compliance
+from disc_model.data.variables import STATUSES
 from disc_model.errors import DiscModelError, require
-from disc_model.parameters import PLATE, RESIDUAL, SURFACE, Parameters
 
 __all__ = ["MissingFile", "UnreadableFile", "WriteError", "load", "save"]
 
 CONVENTIONS = "CF-1.11"
-
-
-def series_dataset(columns: Mapping[str, Any], along: str) -> xr.Dataset:
-    """Dataset of columns of numbers: samples along `time`, or events along `event`, as two may have
-    the same time."""
-    data: dict[str, Any] = {}
-    for name, column in columns.items():
-        kind: type = float
-        if name in SERIES:
-            kind = SERIES[name].dtype
-        data[name] = (along, np.asarray(column, kind), attributes(name))
-    return xr.Dataset(data).set_coords("time")
-
-
-def scalars_dataset(
-    p: Parameters, values: Mapping[str, Any], status: str, message: str
-) -> xr.Dataset:
-    """The root of a case: its scalars, `SCALARS`, of which most values are missing if it failed,
-    and the parameters."""
-    known = {"status": STATUSES.index(status), **values}
-    data: dict[str, Any] = {
-        name: ((), variable.dtype(known.get(name, variable.missing)), variable.attributes)
-        for name, variable in SCALARS.items()
-    }
-    for name, value in _parameter_values(p).items():
-        if name in CHOICES:
-            value = np.int8(CHOICES[name].index(value))
-        data[name] = ((), value, attributes(name))
-    attrs = {
-        "Conventions": CONVENTIONS,
-        "parameters": p.canonical_json,
-        "parameters_key": p.key,
-        "status": status,
-        "message": message,
-    }
-    return xr.Dataset(data, attrs=attrs)
-
-
-def _parameter_values(p: Parameters) -> dict[str, Any]:
-    """The parameters by name: numbers in place of words where these stand for one, and nan for what
-    has no value, or does not count beside another one."""
-    values: dict[str, Any] = p.model_dump()
-    values["disc"] = ""
-    if p.disc is not None:
-        values["disc"] = p.disc.model_dump_json()  # variables hold no mapping
-    if p.contact_compliance == RESIDUAL:
-        # nan if no modes are left out for it, which has made the case fail
-        values["contact_compliance"] = math.nan
-        with contextlib.suppress(DiscModelError):
-            values["contact_compliance"] = contact_compliance(p)
-    if p.friction_offset == SURFACE:
-        values["friction_offset"] = p.h / 2
-        if p.disc is not None:  # it follows from the table
-            values["friction_offset"] = math.nan
-
-    unused = [name for name, value in values.items() if value is None]
-    if p.disc is not None:
-        unused += [name for name in PLATE if isinstance(values[name], float)]
-    elif p.damping_ratio is not None:
-        unused.append("D_star")
-    values |= dict.fromkeys(unused, math.nan)
-    return values
 
 
 # ---- Trees and files
@@ -133,34 +66,8 @@ def _write(tree: xr.DataTree, name: str) -> None:
 
 
 def load(path: str | Path) -> xr.DataTree:
-    """Read a dataset of a study, or a netCDF file of `Result.save`, into memory.
-
-    Parameters
-    ----------
-    path : of a netCDF file
-
-    Returns
-    -------
-    xarray.DataTree
-        Of a run: single numbers at its root, and a group for the events and for each window.
-
-    Raises
-    ------
-    ParameterError
-        If the name is not allowed for a file.
-    disc_model.data.dataset.UnreadableFile
-        If the file is damaged, or is no netCDF file.
-    disc_model.data.dataset.MissingFile
-        If there is no such file.
-
-    Examples
-    --------
-    >>> import disc_model as dm
-    >>> case = dm.Parameters(N=385, Omega=15.1)
-    >>> dm.simulate(case, 1, {"late": dm.Window(last=0.5, rate=1e4)}).save("run.nc")
-    >>> sorted(dm.load("run.nc").children)
-    ['events', 'final_state', 'late']
-    """
+    """Read a netCDF file as a tree, into memory; raises `ParameterError`, `UnreadableFile` or
+    `MissingFile`."""
     return read_tree(regular_file(path))
 
 
@@ -232,8 +139,10 @@ class Missing(Exception):
 def group(case: xr.DataTree, name: str) -> xr.Dataset:
     """A window, the Poincare section ``poincare`` or ``events``, as recorded."""
     if name not in case.children:
-        status = STATUSES[int(case.dataset["status"])] if "status" in case.dataset else "ok"
-        raise Missing("failed" if status == "failed" else f"did not record {name}")
+        known = case.dataset
+        if "status" in known and STATUSES[int(known["status"])] == "failed":
+            raise Missing("failed")
+        raise Missing(f"did not record {name}")
     return case.children[name].to_dataset(inherit=False)
 
 

@@ -1,8 +1,11 @@
-"""Tables of numbers, with a text that describes them, as netCDF or in the format of MATLAB."""
+"""Tables of numbers: with a text that describes them as netCDF or in the format of MATLAB, or as
+text."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +23,8 @@ from disc_model.data.files import (
     unreadable,
     write_atomically,
 )
-from disc_model.data.variables import SERIES
-from disc_model.errors import Fault, ParameterError, raise_faults
+from disc_model.data.variables import SERIES, flag_names
+from disc_model.errors import Fault, ParameterError, raise_faults, require
 
 # columns of numbers, shape (n,), by the names of tables and their own
 Tables = dict[str, dict[str, NDArray[Any]]]
@@ -134,3 +137,52 @@ def _load_mat(file: Path) -> tuple[object, dict[str, dict[str, Any]]]:
         if name not in BESIDE and isinstance(table, dict)
     }
     return content.get("result", ""), tables
+
+
+# ---- Text
+
+
+def save_csv(tables: Mapping[str, xr.Dataset], path: str | Path) -> None:
+    """Write tables of one dimension as text to files of a folder.
+
+    Heads of columns have units, such as ``P (N)``, and words stand in place of their numbers.
+
+    Parameters
+    ----------
+    tables : by the names of their files, without suffix
+    path : of the folder, which is made if it is missing
+
+    Raises
+    ------
+    ParameterError
+        If there can be no such folder.
+    WriteError
+        If a file cannot be written.
+    """
+    folder = _made_folder(path)
+    for name, table in tables.items():
+        columns = {}
+        for key in (*table.coords, *table.data_vars):
+            variable = table[key]
+            head = str(key)
+            values = variable.values
+            if "flag_meanings" in variable.attrs:
+                values = flag_names(variable)
+            elif variable.attrs.get("units", "1") != "1":
+                head = f"{key} ({variable.attrs['units']})"
+            columns[head] = ("row", values)
+        frame = xr.Dataset(columns).to_dataframe()
+        write_atomically(folder / f"{name}.csv", partial(frame.to_csv, index=False))
+
+
+def _made_folder(path: str | Path) -> Path:
+    """A folder, made if it is missing; raises `ParameterError`."""
+    rule = "must be the name of a folder"
+    possible = isinstance(path, str | Path) and "\0" not in str(path)
+    require((possible, "path", str(path), rule))
+    folder = Path(path)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:  # such as a file of this name
+        raise ParameterError(Fault.of(("path",), str(path), f"{rule}: {error.strerror}")) from None
+    return folder

@@ -43,10 +43,10 @@ class Outcome(enum.StrEnum):
 class CycleStatus(StatusBase):
     """Result of the search for a cycle; `advice` says what it means and what to do."""
 
-    OK = "ok", "A periodic stick-slip cycle was found; its growth rate says whether it is stable."
+    OK = "ok", "A cycle was found; its growth rate says whether it is stable."
     NO_CYCLE = (
         "no_cycle",
-        "The slider sticks and slips, but no cycle of up to three releases exists near the static start, "
+        "The slider moves on, but no such cycle of up to three releases exists near the start of the search, "
         "as beyond a fold: give floquet the last state of a simulation as guess, or follow the cycle of another case "
         "by disc_model.continue_cycle.",
     )

@@ -110,7 +110,9 @@ def _flexibility(p: Parameters) -> Flexibility:
         whole = p.replace(n_diameters=diameters, n_circles=circles)
         return Flexibility(_modal_sum(whole), kept, np.nan)
     value, bound = _point_load(p.a / p.b, p.r_0 / p.b, p.nu)
-    return Flexibility(value * p.b**2 / p.D, kept, bound * p.b**2 / p.D)
+    total = value * p.b**2 / p.D
+    remainder = bound * p.b**2 / p.D
+    return Flexibility(total, kept, remainder)
 
 
 def contact_compliance(p: Parameters) -> float:
@@ -129,7 +131,8 @@ def _modal_sum(p: Parameters) -> float:
     total = mode_arrays(p).flexibility
     if not total < np.inf:
         rule = "static flexibility of the modes must be within the range of numbers"
-        raise ModeError(f"E={as_text(p.E)}, h={as_text(p.h)}, b={as_text(p.b)}: {rule}")
+        values = [f"{name}={as_text(getattr(p, name))}" for name in ("E", "h", "b")]
+        raise ModeError(f"{', '.join(values)}: {rule}")
     return total
 
 
@@ -153,23 +156,31 @@ def _point_load(inner: float, x: float, nu: float) -> tuple[float, float]:
     tail = x**2 / (8 * last * (last + 1))
     # the edge acts on the last harmonic by this factor, and on higher ones by less
     factor = harmonics[-1] / (x**2 / (4 * last * (last**2 - 1.0)))
-    total = harmonics[0] / 2 + np.sum(harmonics[:0:-1]) + factor * tail
-    return float(total / np.pi), float(abs(factor - 1) * tail / np.pi + ROUNDING * total)
+    summed = np.sum(harmonics[:0:-1])  # the smallest first
+    total = harmonics[0] / 2 + summed + factor * tail
+    truncation = abs(factor - 1) * tail / np.pi
+    bound = truncation + ROUNDING * total
+    return float(total / np.pi), float(bound)
 
 
 def _free(l: NDArray[np.int64] | int, nu: float, w: Array) -> tuple[Array, Array]:
     """Radial moment and Kirchhoff shear at r = 1 of functions with the derivatives `w` (4, ...)
     there."""
     square = np.square(l)
-    shear = (
-        w[3] + w[2] - (1 + square) * w[1] + 2 * square * w[0] - (1 - nu) * square * (w[1] - w[0])
-    )
-    return w[2] + nu * (w[1] - square * w[0]), shear
+    value, slope, second, third = w
+    moment = second + nu * (slope - square * value)
+    of_laplacian = third + second - (1 + square) * slope + 2 * square * value
+    of_twist = (1 - nu) * square * (slope - value)
+    return moment, of_laplacian - of_twist
 
 
 def _power(n: Array, r: float) -> Array:
     """Derivatives 0 to 3 of r^n over r^n: (4, ...)."""
-    return np.stack([np.ones_like(n), n / r, n * (n - 1) / r**2, n * (n - 1) * (n - 2) / r**3])
+    value = np.ones_like(n)
+    slope = n / r
+    second = n * (n - 1) / r**2
+    third = n * (n - 1) * (n - 2) / r**3
+    return np.stack([value, slope, second, third])
 
 
 def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> Array:
@@ -181,20 +192,29 @@ def _high_harmonics(l: NDArray[np.int64], inner: float, x: float, nu: float) -> 
     clamped, free, at_slider = ((r / largest) ** powers for r in (inner, 1.0, x))
     at_inner, at_outer = (_power(powers, r) for r in (inner, 1.0))
     moment, shear = _free(l, nu, at_outer)
-    matrix = np.stack(
-        [clamped, clamped * at_inner[1] * inner / n, free * moment / n**2, free * shear / n**3]
-    )
+    slope = clamped * at_inner[1] * inner / n
+    free_moment = free * moment / n**2
+    free_shear = free * shear / n**3
+    matrix = np.stack([clamped, slope, free_moment, free_shear])
     # the unbounded plate: [s^2 (r/s)^l/(l-1) - r^2 (r/s)^l/(l+1)] / 8 l inside of s; outside, r and
     # s are exchanged, so that its powers are the last two
     near = (inner / x) ** n / (8 * n)
     far = x**n / (8 * n)
-    inside = [near * x**2 / (n - 1), -near * inner**2 / (n + 1)]
-    outside = [far / (n - 1), -far * x**2 / (n + 1)]
-    at_clamp = [inside[0] + inside[1], (inside[0] * n + inside[1] * (n + 2)) / n]
-    at_edge = [(outside[0] * w[3] + outside[1] * w[2]) / n**i for i, w in ((2, moment), (3, shear))]
-    right = np.stack([*at_clamp, *at_edge])
-    edges = np.linalg.solve(np.moveaxis(matrix, -1, 0), -right.T[..., None])[..., 0]
-    return x**2 / (4 * n * (n**2 - 1)) + np.sum(edges.T * at_slider, axis=0)
+    inside_l = near * x**2 / (n - 1)  # its power r^l,
+    inside_next = -near * inner**2 / (n + 1)  # and r^(l + 2)
+    outside_next = far / (n - 1)  # r^(2 - l),
+    outside_l = -far * x**2 / (n + 1)  # and r^-l
+    value = inside_l + inside_next
+    slope = (inside_l * n + inside_next * (n + 2)) / n
+    load_moment = (outside_next * moment[3] + outside_l * moment[2]) / n**2
+    load_shear = (outside_next * shear[3] + outside_l * shear[2]) / n**3
+    right = np.stack([value, slope, load_moment, load_shear])
+
+    # the homogeneous solution that meets the conditions at both edges
+    systems = np.moveaxis(matrix, -1, 0)
+    edges = np.linalg.solve(systems, -right.T[..., None])[..., 0]
+    unbounded = x**2 / (4 * n * (n**2 - 1))
+    return unbounded + np.sum(edges.T * at_slider, axis=0)
 
 
 def _particular(l: int, s: float) -> Array:
@@ -202,17 +222,16 @@ def _particular(l: int, s: float) -> Array:
     [(r^2 + s^2) ln(r/s) - r^2 + s^2]/4, for l = 1 r^3/(16 s) - s r ln(r/s)/4 - s^3/(16 r)."""
     log = -np.log(s)
     if l == 0:
-        first = [
-            (1 + s**2) * log - 1 + s**2,
-            2 * log + (1 + s**2) - 2,
-            2 * log + 3 - s**2 - 2,
-            2 + 2 * s**2,
-        ]
-        return np.array(first) / 4
-    first = [1 / (16 * s) - s * log / 4 - s**3 / 16, 3 / (16 * s) - s * (log + 1) / 4 + s**3 / 16]
-    return np.array(
-        [*first, 6 / (16 * s) - s / 4 - 2 * s**3 / 16, 6 / (16 * s) + s / 4 + 6 * s**3 / 16]
-    )
+        value = (1 + s**2) * log - 1 + s**2
+        slope = 2 * log + (1 + s**2) - 2
+        second = 2 * log + 3 - s**2 - 2
+        third = 2 + 2 * s**2
+        return np.array([value, slope, second, third]) / 4
+    value = 1 / (16 * s) - s * log / 4 - s**3 / 16
+    slope = 3 / (16 * s) - s * (log + 1) / 4 + s**3 / 16
+    second = 6 / (16 * s) - s / 4 - 2 * s**3 / 16
+    third = 6 / (16 * s) + s / 4 + 6 * s**3 / 16
+    return np.array([value, slope, second, third])
 
 
 def _logarithmic(l: int, r: float) -> Array:
@@ -220,14 +239,16 @@ def _logarithmic(l: int, r: float) -> Array:
     3 at r: (4, 4)."""
     log = np.log(r)
     if l == 0:
-        last = [r**2 * log, 2 * r * log + r, 2 * log + 3, 2 / r]
-        return np.array(
-            [[1, 0, 0, 0], [log, 1 / r, -1 / r**2, 2 / r**3], [r**2, 2 * r, 2, 0], last]
-        ).T
-    last = [r * log, log + 1, 1 / r, -1 / r**2]
-    return np.array(
-        [[r, 1, 0, 0], [1 / r, -1 / r**2, 2 / r**3, -6 / r**4], [r**3, 3 * r**2, 6 * r, 6], last]
-    ).T
+        constant = [1, 0, 0, 0]
+        logarithm = [log, 1 / r, -1 / r**2, 2 / r**3]
+        square = [r**2, 2 * r, 2, 0]
+        product = [r**2 * log, 2 * r * log + r, 2 * log + 3, 2 / r]
+        return np.array([constant, logarithm, square, product]).T
+    linear = [r, 1, 0, 0]
+    inverse = [1 / r, -1 / r**2, 2 / r**3, -6 / r**4]
+    cube = [r**3, 3 * r**2, 6 * r, 6]
+    product = [r * log, log + 1, 1 / r, -1 / r**2]
+    return np.array([linear, inverse, cube, product]).T
 
 
 def _with_edges(l: int, inner: float, x: float, nu: float) -> float:

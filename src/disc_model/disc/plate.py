@@ -20,15 +20,14 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import Array, Indices
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults
 from disc_model.parameters import SURFACE, Disc, Parameters, foreign_case
 
 if TYPE_CHECKING:
     import pandas as pd
 
-Array = NDArray[np.float64]
 
 POINTS_PER_ROOT = 6  # grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought
 WIDEST = 1e11  # greatest ratio of squared frequencies of disc and slider: their error is 1e-5, compared with 60 digits
@@ -83,8 +82,8 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
 class Modes:
     """The columns of `plate_modes` as read-only arrays of shape (n_modes,)."""
 
-    circles: NDArray[np.int64]
-    diameters: NDArray[np.int64]
+    circles: Indices
+    diameters: Indices
     omega: Array
     psi: Array
 
@@ -134,7 +133,9 @@ def mode_shapes(p: Parameters, r: Array) -> Array:
     radial = np.column_stack(
         [shapes.at(float(x), p.normalization == "orthonormal") for x in r / p.b]
     )
-    return np.where(shapes.l > 0, np.sqrt(2), 1.0)[:, None] * radial / np.sqrt(p.rho * p.h * p.b**2)
+    around = np.where(shapes.l > 0, np.sqrt(2), 1.0)  # norm of cos(l theta)
+    root_of_mass = np.sqrt(p.rho * p.h * p.b**2)
+    return around[:, None] * radial / root_of_mass
 
 
 def radial_range(p: Parameters) -> tuple[float, float]:
@@ -225,8 +226,11 @@ def _inverse_squares(
     except (linalg.LinAlgError, ValueError):  # a matrix that is singular by rounding, or not finite
         resolved = False
     if not resolved:
-        case = f"m={as_text(p.m)}, k={as_text(p.k)}, a contact compliance of {compliance:g} m/N and disc modes of "
-        case += f"{omega.min(initial=np.inf):g} to {omega.max(initial=0):g} rad/s"
+        low = omega.min(initial=np.inf)
+        high = omega.max(initial=0)
+        case = f"m={as_text(p.m)}, k={as_text(p.k)}, "
+        case += f"a contact compliance of {compliance:g} m/N and "
+        case += f"disc modes of {low:g} to {high:g} rad/s"
         rule = f"squared frequencies must be within a factor of {WIDEST:g}"
         raise ModeError(f"disc and slider at rest: {case}: {rule}")
     return solution
@@ -240,12 +244,14 @@ def _coupling(
     over the root of its compliance."""
     phi = psi / omega
     if compliance == 0:
-        return np.diag(omega**-2) + m * np.outer(phi, phi), np.eye(omega.size) + k * np.outer(
-            phi, phi
-        )
+        at_slider = np.outer(phi, phi)
+        mass = np.diag(omega**-2) + m * at_slider
+        stiffness = np.eye(omega.size) + k * at_slider
+        return mass, stiffness
     stretch = np.append(phi / np.sqrt(compliance), -1.0)
     mass = np.diag(np.append(omega**-2, m * compliance))
-    stiffness = np.diag(np.append(np.ones(omega.size), k * compliance)) + np.outer(stretch, stretch)
+    uncoupled = np.append(np.ones(omega.size), k * compliance)
+    stiffness = np.diag(uncoupled) + np.outer(stretch, stretch)
     return mass, stiffness
 
 
@@ -282,27 +288,29 @@ def _modes(plate: tuple[Any, ...], orthonormal: bool) -> Modes:
     reuses them."""
     a, b, r_0, h, E, nu, rho, n_diameters, n_circles = plate
     if n_diameters < 0:  # a rigid disc
-        return Modes(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0))
+        no_numbers = np.zeros(0, np.int64)
+        no_values = np.zeros(0)
+        return Modes(no_numbers, no_numbers.copy(), no_values, no_values.copy())
     shapes = _shapes(a / b, nu, n_diameters, n_circles)
     stiffness = E * h**3 / 12 / (1 - nu**2)
-    with np.errstate(
-        all="ignore"
-    ):  # numpy's floats overflow without an exception, and the outcome is checked
-        omega = shapes.lam**2 / np.float64(b) ** 2 * np.sqrt(stiffness / (np.float64(rho) * h))
+    # numpy's floats overflow without an exception, and the outcome is checked
+    with np.errstate(all="ignore"):
+        area = np.float64(b) ** 2
+        area_mass = np.float64(rho) * h
+        omega = shapes.lam**2 / area * np.sqrt(stiffness / area_mass)
+        around = np.where(shapes.l > 0, np.sqrt(2), 1.0)  # norm of cos(l theta)
         amplitude = shapes.at(r_0 / b, orthonormal)
-        psi = (
-            np.where(shapes.l > 0, np.sqrt(2), 1.0)
-            * amplitude
-            / np.sqrt(rho * h * np.float64(b) ** 2)
-        )
-    if not (np.all((omega > 0) & np.isfinite(omega)) and np.all(np.isfinite(psi)) and np.any(psi)):
-        values = ", ".join(
-            f"{name}={as_text(x)}" for name, x in (("b", b), ("h", h), ("E", E), ("rho", rho))
-        )
+        psi = around * amplitude / np.sqrt(rho * h * area)
+    vibrate = np.all((omega > 0) & np.isfinite(omega))
+    move = np.all(np.isfinite(psi)) and np.any(psi)
+    if not (vibrate and move):
+        named = {"b": b, "h": h, "E": E, "rho": rho}
+        values = ", ".join(f"{name}={as_text(x)}" for name, x in named.items())
         raise ModeError(
             f"plate modes: {values}: frequencies or amplitudes must be within the range of numbers"
         )
-    return Modes(np.repeat(np.arange(n_circles + 1), n_diameters + 1), shapes.l.copy(), omega, psi)
+    circles = np.repeat(np.arange(n_circles + 1), n_diameters + 1)
+    return Modes(circles, shapes.l.copy(), omega, psi)
 
 
 @dataclass(frozen=True)
@@ -315,7 +323,7 @@ class _Shapes:
     """
 
     inner: float
-    l: NDArray[np.int64]
+    l: Indices
     lam: Array
     coefficients: Array
     exponents: Array
@@ -323,13 +331,15 @@ class _Shapes:
 
     def at(self, x: float, orthonormal: bool) -> Array:
         """R(x) of every mode in the requested normalisation, (n,)."""
-        value = _evaluate(self.l, self.lam, self.coefficients, self.exponents, np.array([x]))[:, 0]
+        radius = np.array([x])
+        [value] = _evaluate(self.l, self.lam, self.coefficients, self.exponents, radius).T
         if orthonormal:
             return value / np.sqrt(self.norm)
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
             amplitude = value / self.coefficients[0] * np.exp(self.exponents[0])
         if not np.all(np.isfinite(amplitude)):
-            mode = f"the mode with {self.l[~np.isfinite(amplitude)][0]} nodal diameters at a/b={self.inner:g}"
+            first = self.l[~np.isfinite(amplitude)][0]
+            mode = f"the mode with {first} nodal diameters at a/b={self.inner:g}"
             rule = "overflows when its coefficient of J_l is 1; use fewer diameters or normalization='orthonormal'"
             raise ModeError(f"normalization='as_published': {mode} {rule}")
         return amplitude
@@ -356,10 +366,12 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     )
     # nodes that integrate R^2 r to rounding: several per half wave, more for edge layers of many
     # diameters
-    count = 8 * (int(40 + lam[-1] * (1 - inner) + 1.2 * n_diameters) // 8)
+    needed = int(40 + lam[-1] * (1 - inner) + 1.2 * n_diameters)
+    count = 8 * (needed // 8)
     nodes, weights = np.polynomial.legendre.leggauss(count)
     half = (1 - inner) / 2
-    nodes, weights = inner + half * (nodes + 1), half * weights
+    nodes = inner + half * (nodes + 1)
+    weights = half * weights
     values = _evaluate(l, lam, coefficients, exponents, nodes)
     circles = np.repeat(np.arange(n_circles + 1), n_diameters + 1)
     for shape, diameters, expected in zip(values, l, circles, strict=True):
@@ -376,12 +388,11 @@ def _shapes(inner: float, nu: float, n_diameters: int, n_circles: int) -> _Shape
     return _Shapes(inner, l, lam, coefficients, exponents, norm)
 
 
-def _evaluate(
-    l: NDArray[np.int64], lam: Array, coefficients: Array, exponents: Array, x: Array
-) -> Array:
+def _evaluate(l: Indices, lam: Array, coefficients: Array, exponents: Array, x: Array) -> Array:
     """R of n modes at the radii `x` (k,), roughly in units of its largest value: (n, k)."""
     values, logs = _bessel(l[:, None], lam[:, None] * x)
-    return np.sum(coefficients[..., None] * values * np.exp(logs - exponents[..., None]), axis=0)
+    factors = np.exp(logs - exponents[..., None])
+    return np.sum(coefficients[..., None] * values * factors, axis=0)
 
 
 def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
@@ -399,11 +410,12 @@ def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
         grid = start[missing, None] + step * np.arange(first, first + chunk + 1)
         orders = np.broadcast_to(missing[:, None], grid.shape)
         signs = np.sign(_determinant(orders.ravel(), grid.ravel(), inner, nu)).reshape(grid.shape)
-        # A zero on the grid belongs to the interval that ends there.
-        for row, i in zip(
-            *np.nonzero((signs[:, 1:] != signs[:, :-1]) & (signs[:, :-1] != 0)), strict=True
-        ):
-            by_diameters[missing[row]].append((grid[row, i], grid[row, i + 1]))
+        # a zero on the grid belongs to the interval that ends there
+        before = signs[:, :-1]
+        changes = (signs[:, 1:] != before) & (before != 0)
+        for row, i in np.argwhere(changes):
+            bracket = (grid[row, i], grid[row, i + 1])
+            by_diameters[missing[row]].append(bracket)
         missing = np.array(
             [order for order in missing if len(by_diameters[order]) <= n_circles], dtype=np.int64
         )
@@ -437,7 +449,8 @@ def _refine(function: Callable[[Array], Array], low: Array, high: Array) -> Arra
         same = np.sign(f) == np.sign(f_1)
         x_3 = np.where(same, x_1, x_2)
         f_3 = np.where(same, f_1, f_2)
-        x_2, f_2 = np.where(same, x_2, x_1), np.where(same, f_2, f_1)
+        x_2 = np.where(same, x_2, x_1)
+        f_2 = np.where(same, f_2, f_1)
         x_1 = x
         f_1 = f
         best = np.where(np.abs(f_1) < np.abs(f_2), x_1, x_2)
@@ -450,16 +463,16 @@ def _refine(function: Callable[[Array], Array], low: Array, high: Array) -> Arra
             phi = (f_1 - f_2) / (f_3 - f_2)
             quadratic = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)
             alpha = (x_3 - x_1) / (x_2 - x_1)
-            t = f_1 / (f_1 - f_2) * f_3 / (f_3 - f_2) - alpha * f_1 / (f_3 - f_1) * f_2 / (
-                f_2 - f_3
-            )
+            first = f_1 / (f_1 - f_2) * f_3 / (f_3 - f_2)
+            second = alpha * f_1 / (f_3 - f_1) * f_2 / (f_2 - f_3)
+            t = first - second
             edge = np.minimum(tolerance / width, 0.5)
         t = np.where(quadratic & np.isfinite(t), np.clip(t, edge, 1 - edge), 0.5)
         t = np.where(np.isfinite(t), t, 0.5)
     return best
 
 
-def _determinant(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> Array:
+def _determinant(l: Indices, lam: Array, inner: float, nu: float) -> Array:
     """Determinant of the scaled edge conditions, up to a positive factor, for `l` and `lam` (n,):
     (n,)."""
     m, _ = _columns(l, lam, inner, nu)
@@ -468,13 +481,14 @@ def _determinant(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> A
     i = [0, 2, 0, 1, 0, 1]
     j = [1, 3, 2, 3, 3, 2]
     partner = [1, 0, 3, 2, 5, 4]
-    clamped = m[0, i] * m[1, j] - m[0, j] * m[1, i]
-    free = m[2, i] * m[3, j] - m[2, j] * m[3, i]
+    value, slope, moment, shear = m
+    clamped = value[i] * slope[j] - value[j] * slope[i]
+    free = moment[i] * shear[j] - moment[j] * shear[i]
     sign = np.array([1.0, 1.0, -1.0, -1.0, 1.0, 1.0])[:, None]
     return np.sum(sign * clamped * free[partner], axis=0)
 
 
-def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple[Array, Array]:
+def _columns(l: Indices, lam: Array, inner: float, nu: float) -> tuple[Array, Array]:
     """Matrix of the edge conditions, (4 conditions, 4 functions, n), and logarithms (4, n) taken
     out of its columns. Its rows are R and R' at the inner edge, radial moment and Kirchhoff shear
     at the outer one, over lambda x."""
@@ -482,32 +496,38 @@ def _columns(l: NDArray[np.int64], lam: Array, inner: float, nu: float) -> tuple
     # J and I grow outwards, Y and K inwards: scaled by the larger edge, no entry is much above one.
     exponents = np.max(logs, axis=1)
     scale = np.exp(logs - exponents[:, None])
-    value, slope = value * scale, slope * scale
+    value = value * scale
+    slope = slope * scale
     kind = np.array([-1.0, -1.0, 1.0, 1.0])[:, None]  # Laplacian R = kind * lambda^2 R
     bend = (1 - nu) * (l / lam) ** 2
     # M = Laplacian R - (1 - nu) (R'/r - l^2 R/r^2)
-    moment = (kind + bend) * value[:, 1] - (1 - nu) / lam * slope[:, 1]
+    value_outer = value[:, 1]
+    slope_outer = slope[:, 1]
+    moment = (kind + bend) * value_outer - (1 - nu) / lam * slope_outer
     # V = (Laplacian R)' - (1 - nu) l^2/r^2 (R' - R/r)
-    shear = (kind - bend) * slope[:, 1] + bend / lam * value[:, 1]
+    shear = (kind - bend) * slope_outer + bend / lam * value_outer
     return np.stack([value[:, 0], slope[:, 0], moment, shear]), exponents
 
 
-def _with_slope(l: NDArray[np.int64], x: Array) -> tuple[Array, Array, Array]:
+def _with_slope(l: Indices, x: Array) -> tuple[Array, Array, Array]:
     """J, Y, I, K of order l and their derivatives at `x` (..., n), the larger of them 1 in
     magnitude, and the logarithms of their factors: (4, ..., n) each."""
     value, exponent = _bessel(l, x)
     following, exponent_next = _bessel(l + 1, x)
-    sign = np.array([-1.0, -1.0, 1.0, -1.0]).reshape((4,) + (1,) * x.ndim)
-    slope = l / x * value + sign * following * np.exp(exponent_next - exponent)
+    along_functions = (4,) + (1,) * x.ndim
+    sign = np.array([-1.0, -1.0, 1.0, -1.0]).reshape(along_functions)
+    scale = np.exp(exponent_next - exponent)
+    slope = l / x * value + sign * following * scale
     size = np.maximum(np.abs(value), np.abs(slope))
     return value / size, slope / size, exponent + np.log(size)
 
 
-def _bessel(l: NDArray[np.int64], x: Array) -> tuple[Array, Array]:
+def _bessel(l: Indices, x: Array) -> tuple[Array, Array]:
     """J, Y, I, K of the orders `l` at `x` as mantissa and natural exponent, each (4, *shape of
     x)."""
     from scipy import special  # takes 0.2 s, and merges and figures do without
 
-    value = np.stack([special.jv(l, x), special.yv(l, x), special.ive(l, x), special.kve(l, x)])
+    functions = (special.jv, special.yv, special.ive, special.kve)
+    value = np.stack([function(l, x) for function in functions])
     exponent = np.stack([np.zeros_like(x), np.zeros_like(x), x, -x])
     return value, exponent

@@ -1,12 +1,14 @@
 """Energy balances of a step (docs/model.md, Energy), by Gauss-Legendre quadrature of the dense
 output.
 
-d/dt (disc + vertical slider) = P f B + T v_s - sum 2 xi omega (alpha^2 + beta^2) - c u'^2
-d/dt (in-plane)               = Omega r_0^2 F - mu r_0 P |f| - c_p r_0^2 (Omega - f)^2
+d/dt (disc + vertical slider) = V g B + H v_s - sum 2 xi omega (alpha^2 + beta^2) - c u'^2
+d/dt (in-plane)               = Omega r_0^2 F - H r_0 f - c_p r_0^2 (Omega - f)^2
 
-T v_s is the work of friction T on the disc's surface, whose velocity is v_s; it has no counterpart
-in the plane. On a ramp of N the first balance gains N' (u - u_0), because the energy contains N (u
-- u_0).
+V and H are the vertical and horizontal forces of contact on the disc, v_s the velocity of the
+surface on which friction acts, and g = f - v_s / r_0. Together they take T v, the power of friction
+T at the slip speed v = r_0 g, from the motion, and V g B - (H - T) v feeds it, which is 0 under the
+normal force but for friction on the slope. On a ramp of N the first balance gains N' (u - u_0),
+because the energy contains N (u - u_0).
 """
 
 import math
@@ -16,11 +18,17 @@ import numpy as np
 
 from .dense_output import force_at, move_to
 from .jit import helper, inlined
-from .jit.simd import WIDTH, load, splat, total
-from .laws import friction_coefficient
+from .laws import friction_coefficient, hold_per_radius
 from .model import drive_now, load_now
-from .state import DIRECTION, PHASE, PHI_RATE, PSI, SEPARATION, SLIP, U_VELOCITY, U
-from .transitions import disc_point, friction_force, inplane_force_per_radius, slider_motion
+from .state import DIRECTION, PHASE, PHI_RATE, PSI, SEPARATION, SLIP, STICK, U_VELOCITY, U
+from .transitions import (
+    disc_point,
+    inplane_force_per_radius,
+    instant,
+    slider_motion,
+    slider_rate,
+    surface_velocity,
+)
 
 # 24 nodes integrate degree 47: products of two series of the usual order are exact to rounding.
 _NODES, _WEIGHTS = (a * 0.5 for a in np.polynomial.legendre.leggauss(24))
@@ -28,10 +36,10 @@ _NODES = _NODES + 0.5
 _PANEL = 8.0  # time units that the nodes resolve; only stick in closed form is longer
 # Places of the sums in the audit's array. TRANSVERSE, INPLANE: sums of the residuals; *_SCALE:
 # largest energy exchanged in one step; *_TURNOVER: sum of the moduli of all energy put in and taken
-# out; COUPLE: sum of the work T v_s; SURFACE: largest abs(v_s) / (r_0 Omega) at the ends of steps,
+# out; SURFACE: largest abs(v_s) / (r_0 Omega) at the starts of steps,
 # audited or not.
 STEPS, WORST, TRANSVERSE, INPLANE, TRANSVERSE_SCALE, INPLANE_SCALE = range(6)
-TRANSVERSE_TURNOVER, INPLANE_TURNOVER, COUPLE, SURFACE, N_SUMS = range(6, 11)
+TRANSVERSE_TURNOVER, INPLANE_TURNOVER, SURFACE, N_SUMS = range(6, 10)
 
 
 class Powers(NamedTuple):
@@ -41,7 +49,6 @@ class Powers(NamedTuple):
     inplane: float  # into the in-plane motion
     transverse_size: float  # sum of the moduli of the parts of the former
     inplane_size: float  # of the latter
-    couple: float  # T v_s
 
 
 # ---- Energies and powers
@@ -72,33 +79,42 @@ def transverse_energy(model, state, phase):
 @helper
 def inplane_energy(model, state):
     """Return the energy of the slider's motion in the plane and of its spring there, J."""
-    f = state.x[PHI_RATE]
+    f = slider_rate(model, state)
     psi = state.x[PSI]
     return 0.5 * model.r_0**2 * (model.m * f**2 + model.k_p * psi**2)
 
 
 @inlined
-def surface_velocity(model, state):
-    """v_s: velocity of the disc's surface under the slider, along its path, by which friction bends
-    the disc; m/s."""
-    velocity = splat(0.0)
-    for b in range(0, len(model.shift), WIDTH):
-        velocity = velocity + load(model.couple, b) * load(state.e, b)
-    return -total(velocity)
+def surface_share(model, series):
+    """Return abs(v_s) over the speed of the drive point at the start of a step by series; 0 if that
+    rests."""
+    speed = model.r_0 * series.drive[0]
+    return abs(series.surface[0]) / speed if speed > 0.0 else 0.0
 
 
 @inlined
-def surface_share(model, state):
-    """Return abs(v_s) over the speed of the drive point; 0 if that rests."""
-    speed = model.r_0 * drive_now(model, state)
-    return abs(surface_velocity(model, state)) / speed if speed > 0.0 else 0.0
+def _forces_on_disc(model, state, phase, direction, P):
+    """Return the forces V and H of contact in a phase; P: the contact force, of which H in stick is
+    only found where the surface moves."""
+    V = P
+    H = 0.0
+    if phase == SLIP:
+        H = friction_coefficient(model, direction, state.x[PHI_RATE]) * P
+        if model.has_normal_force:
+            _, _, dw_dtheta = disc_point(model, state)
+            V -= H * dw_dtheta / model.r_0
+            H += P * dw_dtheta / model.r_0
+    elif model.has_moving_surface and phase == STICK:
+        i, _ = instant(model, state)
+        H = model.r_0 * hold_per_radius(model, i)
+    return V, H
 
 
 @helper
 def _powers_in(model, state, phase, direction, P):
     """Return the `Powers` in a state of a phase under the contact force P."""
     u, v, dw_dtheta = slider_motion(model, state)
-    f = state.x[PHI_RATE]
+    f = slider_rate(model, state)
     F = inplane_force_per_radius(model, state)
     Omega = drive_now(model, state)
 
@@ -110,29 +126,19 @@ def _powers_in(model, state, phase, direction, P):
         lost += model.damping0[j] * state.g[j] ** 2
     damped = model.c_p * model.r_0**2 * (Omega - f) ** 2
 
-    # what the contact force and friction do
-    driven = P * f * dw_dtheta
+    # what the forces of contact do
+    V, H = _forces_on_disc(model, state, phase, direction, P)
+    driven = V * state.x[PHI_RATE] * dw_dtheta
+    carried = H * surface_velocity(model, state)
     supplied = Omega * model.r_0**2 * F
-    friction = friction_coefficient(model, direction, f)
-    rubbed = friction * model.r_0 * P * f if phase == SLIP else 0.0
-    if model.has_normal_force:
-        # P is R: V = R (1 - s mu B / r_0) is what acts vertically, and R B / r_0 acts in the plane
-        rubbed += driven
-        driven *= 1.0 - friction * dw_dtheta / model.r_0
+    braked = H * model.r_0 * f
     if model.has_ramp:
         driven += model.N_rate * (u - model.u_0)
-    transverse_size = abs(driven) + lost
-    couple = 0.0
-    if model.has_couple:
-        couple = friction_force(model, state, phase, direction, P) * surface_velocity(model, state)
-        driven += couple
-        transverse_size += abs(couple)
     return Powers(
-        transverse=driven - lost,
-        inplane=supplied - rubbed - damped,
-        transverse_size=transverse_size,
-        inplane_size=abs(supplied) + abs(rubbed) + damped,
-        couple=couple,
+        transverse=driven + carried - lost,
+        inplane=supplied - braked - damped,
+        transverse_size=abs(driven) + abs(carried) + lost,
+        inplane_size=abs(supplied) + abs(braked) + damped,
     )
 
 
@@ -164,7 +170,6 @@ def audit_step(model, series, order, x_end, state, probe, audit):
         work_p += weight * power.inplane
         size_t += weight * power.transverse_size
         size_p += weight * power.inplane_size
-        audit[COUPLE] += weight * power.couple
 
     # energies at both ends
     move_to(model, series, order, 0.0, phase, probe)
@@ -197,18 +202,21 @@ def accumulate_residuals(audit, residual_t, residual_p, size_t, size_p):
 
 @helper
 def audit_impact(model, before, impulse, dw_dtheta, state, audit):
-    """Add the balance of a plastic impact: Delta E = -p^2 (S + 1/m) / 2 + p f B, f being that after
+    """Add the balance of a plastic impact: Delta E = -p^2 (S + 1/m) / 2 + p g B, g being that after
     it. The normal force changes f: the energy that the slope takes from the in-plane motion beyond
-    p f B is lost.
+    p f B is lost. It also pushes the surface, by the impulse p B / r_0.
 
     before : transverse energy before the impact, J
     impulse : p, N s
     dw_dtheta : B
     state : after the impact
     """
-    f = state.x[PHI_RATE]
     lost = 0.5 * impulse**2 * (model.inverse_effective_mass + 1.0 / model.m)
-    expected = -lost + impulse * f * dw_dtheta
+    expected = -lost + impulse * state.x[PHI_RATE] * dw_dtheta
+    if model.has_normal_force and model.has_moving_surface:
+        along = impulse * dw_dtheta / model.r_0
+        mean = surface_velocity(model, state) - 0.5 * model.surface_inverse_mass * along
+        expected += along * mean
     after = transverse_energy(model, state, SEPARATION)
     accumulate_residuals(audit, after - before - expected, 0.0, abs(before) + abs(expected), 0.0)
     audit[TRANSVERSE_TURNOVER] += abs(expected)

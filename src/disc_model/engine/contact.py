@@ -6,7 +6,9 @@ R makes friction T, the vertical force V and the force H that brakes the slider 
 Other laws of contact):
 
     slip:   T = q R               V = R - beta T        H = T + beta R
-    stick:  T = r_0 F - beta R    V = R - beta T
+
+The disc itself feels V and H alone. In stick these do not depend on T and R, so that they need no
+products (`stick`).
 
 Under the vertical force, the paper's, beta counts as zero here. The coefficient k of a product is
 the product of the first coefficient of one factor and the k-th of the other, and terms that lower
@@ -21,7 +23,7 @@ are numbers, and changes of coefficients, which are lanes (`tangent`).
 from typing import NamedTuple
 
 from .jit import inlined
-from .laws import friction_coefficient, slip_denominator, slip_shares
+from .laws import friction_coefficient, slip_denominator, slip_shares, surface_mobility
 from .modes import slope
 
 
@@ -100,6 +102,8 @@ def known_of(model, law, T, leaning_R, leaning_T):
 def known_numerator(model, law, known):
     """Return what the known forces add to the numerator of R in rigid contact, numbers or lanes."""
     braked = 0.0 - law.beta * known.H
+    if model.has_moving_surface:
+        braked = surface_mobility(model, model.m) * braked
     if model.has_normal_force:
         mobility = 1.0 + model.m * model.inverse_effective_mass
         return mobility * known.V + braked
@@ -129,16 +133,10 @@ def put_weakening(model, series, k, direction):
     series.weakening[k] = -fall * excess / (1.0 + fall * series.f[0])
 
 
-# ---- Stick
-
-
 @inlined
-def stick_forces(beta, pull, V, known_R, known_T):
-    """Return R and T of one order in stick, or their changes, numbers or lanes.
-
-    pull : r_0 F
-    known_R, known_T : of beta R and beta T, what lower orders determine; 0 without a slope
-    """
-    R = V + known_T
-    T = (pull - known_R - beta * R) * (1.0 / (1.0 + beta * beta))
-    return R + beta * T, T
+def slip_growth(model, series, direction):
+    """Return the rate at which a change of g grows at the start of a step of slip where friction
+    falls with the speed, 1/s."""
+    put_weakening(model, series, 0, direction)
+    growth = abs(series.weakening[0]) / (model.m * model.r_0)
+    return growth * surface_mobility(model, model.m)

@@ -5,7 +5,7 @@ from .jit.simd import WIDTH, splat, store
 from .model import ROWS, lane_count
 from .roots import dot, set_powers
 from .series import displacement, load_at_start, velocity
-from .state import DRIVE, LOAD, PHASE, PHI_RATE, PSI, SEPARATION, STICK, U_VELOCITY, U
+from .state import DRIVE, LOAD, PHASE, PHI_RATE, PSI, SEPARATION, STICK, SURFACE_TURN, U_VELOCITY, U
 from .stick_propagator import propagate_stick
 from .transitions import force_in_stick, stick_force
 
@@ -53,6 +53,8 @@ def state_at(model, series, order, x, phase, state):
     state.x[PHASE] = phase
     state.x[PSI] = psi
     state.x[PHI_RATE] = 0.0 if phase == STICK else f
+    if model.has_moving_surface:
+        state.x[SURFACE_TURN] = dot(series.turn, 0, powers, order)
     if model.has_ramp:
         state.x[DRIVE] = series.drive[0] + x * series.drive[1]
         state.x[LOAD] = load_at_start(model, series) + x * series.preload[1]

@@ -29,32 +29,62 @@ class Instant(NamedTuple):
     Omega: float
     compliance: float  # 0 if contact is rigid
     psi: float
-    f: float
+    g: float  # rate of the contact over the material
     w: float  # displacement of the disc under the slider
     w_velocity: float  # its velocity, in the slider's frame
     dw_dtheta: float  # B
-    free: float  # A, the disc's acceleration there but for the contact force and f'
+    free: float  # A, the disc's acceleration there but for the contact force and g'
+    surface_velocity: float  # v_s of the surface on which friction acts; 0 if it does not move
+    surface_free: float  # G, its acceleration but for the contact force, likewise
     u: float  # of the slider, where that is a state of its own
     u_velocity: float
 
 
 (
     PSI_ENTRY,
-    F_ENTRY,
+    G_ENTRY,
     W_ENTRY,
     W_VELOCITY_ENTRY,
     DW_DTHETA_ENTRY,
     FREE_ENTRY,
+    SURFACE_VELOCITY_ENTRY,
+    SURFACE_FREE_ENTRY,
     U_ENTRY,
     U_VELOCITY_ENTRY,
     N_ENTRIES,
-) = range(8, 17)
+) = range(8, 19)
 
 
 @inlined
-def inplane_force_per_radius(i):
+def slider_rate(model, i):
+    """The slider's angular speed f: that over the material and that of the surface."""
+    if model.has_moving_surface:
+        return i.g + i.surface_velocity / model.r_0
+    return i.g
+
+
+@inlined
+def inplane_force_per_radius(model, i):
     """F = k_p psi + c_p (Omega - f): the in-plane force divided by r_0, N/m."""
-    return i.k_p * i.psi + i.c_p * (i.Omega - i.f)
+    return i.k_p * i.psi + i.c_p * (i.Omega - slider_rate(model, i))
+
+
+@inlined
+def free_pull(model, i):
+    """F - m G / r_0: what accelerates the slider over the material but for contact, divided by r_0,
+    N/m."""
+    if model.has_moving_surface:
+        return inplane_force_per_radius(model, i) - i.m / model.r_0 * i.surface_free
+    return inplane_force_per_radius(model, i)
+
+
+@inlined
+def surface_mobility(model, m):
+    """1 + m S_t: by how much more a force H accelerates slider and surface apart than the slider
+    alone."""
+    if model.has_moving_surface:
+        return 1.0 + m * model.surface_inverse_mass
+    return 1.0
 
 
 @inlined
@@ -92,6 +122,8 @@ def slip_denominator(model, m, friction, dw_dtheta):
     vertical, inplane = slip_shares(model, friction, beta)
     if model.has_compliance:
         return vertical
+    if model.has_moving_surface:
+        inplane = inplane * surface_mobility(model, m)
     # in this order: the quotient does not wait for the slope
     return (1.0 + m * model.inverse_effective_mass) * vertical + inplane / model.r_0 * dw_dtheta
 
@@ -101,16 +133,17 @@ def slip_numerator(model, i):
     """The contact force in slip, P, or R under the normal force, multiplied by its denominator."""
     if model.has_compliance:
         return stick_numerator(model, i)
-    return free_force(model, i) + i.dw_dtheta * inplane_force_per_radius(i)
+    return free_force(model, i) + i.dw_dtheta * free_pull(model, i)
 
 
 @inlined
 def slip_rates(model, i, friction, force):
-    """Vertical force V on the disc, and f', under the contact force of slip and a
+    """Forces V and H on the disc, and g', under the contact force of slip and a
     ``friction_coefficient``."""
     vertical, inplane = slip_shares(model, friction, i.dw_dtheta / model.r_0)
     H = inplane * force
-    return vertical * force, (inplane_force_per_radius(i) - H / model.r_0) / i.m
+    braked = surface_mobility(model, i.m) * H / model.r_0
+    return vertical * force, H, (free_pull(model, i) - braked) / i.m
 
 
 # ---- Stick
@@ -118,7 +151,7 @@ def slip_rates(model, i, friction, force):
 
 @inlined
 def stick_numerator(model, i):
-    """The vertical contact force V in stick (f = 0), multiplied by 1 + m S in rigid contact."""
+    """The vertical contact force V in stick (g = 0), multiplied by 1 + m S in rigid contact."""
     if model.has_compliance:
         return (i.w - i.u) / i.compliance
     return free_force(model, i)
@@ -126,10 +159,18 @@ def stick_numerator(model, i):
 
 @inlined
 def vertical_in_stick(model, i):
-    """Vertical contact force V in stick (f = 0)."""
+    """Vertical contact force V in stick (g = 0)."""
     if model.has_compliance:
         return stick_numerator(model, i)
     return stick_numerator(model, i) / (1.0 + i.m * model.inverse_effective_mass)
+
+
+@inlined
+def hold_per_radius(model, i):
+    """The force H by which the disc holds the slider in stick (g = 0), divided by r_0, N/m."""
+    if model.has_moving_surface:
+        return free_pull(model, i) / surface_mobility(model, i.m)
+    return free_pull(model, i)
 
 
 @inlined
@@ -137,21 +178,13 @@ def stick_loads(model, i, V):
     """Tangential load (pull) and normal load (press) of stick under V: friction holds while
     abs(pull) <= mu_s press. Under the normal force both are in units of 1 / (1 + beta^2), a common
     factor."""
-    pull = model.r_0 * inplane_force_per_radius(i)
+    hold = hold_per_radius(model, i)
+    pull = model.r_0 * hold
     press = V
     if model.has_normal_force:
-        press = press + inplane_force_per_radius(i) * i.dw_dtheta
+        press = press + hold * i.dw_dtheta
         pull = pull - i.dw_dtheta / model.r_0 * V
     return pull, press
-
-
-@inlined
-def friction_in_stick(model, i, V):
-    """Friction T in stick under V, N."""
-    pull, _ = stick_loads(model, i, V)
-    if model.has_normal_force:
-        return pull / (1.0 + (i.dw_dtheta / model.r_0) ** 2)
-    return pull
 
 
 # ---- Impact
@@ -159,14 +192,14 @@ def friction_in_stick(model, i, V):
 
 @inlined
 def impact(model, i):
-    """Plastic impact (Eqs. 29-37): the impulse, and f after it, which the slope reduces if the
-    force is normal."""
+    """Plastic impact (Eqs. 29-37): the vertical impulse, and g after it, which the slope reduces if
+    the force is normal."""
     lever = 0.0 * i.dw_dtheta  # of the type of an entry
     if model.has_normal_force:
-        lever = i.dw_dtheta / (i.m * model.r_0**2)
+        lever = i.dw_dtheta / (i.m * model.r_0**2) * surface_mobility(model, i.m)
     give = model.inverse_effective_mass + 1.0 / i.m + i.dw_dtheta * lever
     p = (i.w_velocity - i.u_velocity) / give
-    return p, i.f - p * lever
+    return p, i.g - p * lever
 
 
 # ---- Derivatives
@@ -190,11 +223,13 @@ def stepped(i, entry):
         Omega=_step(i.Omega, entry == 6),
         compliance=_step(i.compliance, entry == 7),
         psi=_step(i.psi, entry == PSI_ENTRY),
-        f=_step(i.f, entry == F_ENTRY),
+        g=_step(i.g, entry == G_ENTRY),
         w=_step(i.w, entry == W_ENTRY),
         w_velocity=_step(i.w_velocity, entry == W_VELOCITY_ENTRY),
         dw_dtheta=_step(i.dw_dtheta, entry == DW_DTHETA_ENTRY),
         free=_step(i.free, entry == FREE_ENTRY),
+        surface_velocity=_step(i.surface_velocity, entry == SURFACE_VELOCITY_ENTRY),
+        surface_free=_step(i.surface_free, entry == SURFACE_FREE_ENTRY),
         u=_step(i.u, entry == U_ENTRY),
         u_velocity=_step(i.u_velocity, entry == U_VELOCITY_ENTRY),
     )

@@ -35,10 +35,11 @@ MOST_FREE = 1e4  # longest ``Model.free_unit``: the highest power of eight of th
 
 # Rows of ``Model.lanes``. Sums over lanes of a row times the displacements z, or the velocities e:
 # AMPLITUDE (psi_l in lanes of a) gives w and, with e, its velocity; SLOPE (l psi_l in lanes of b)
-# B = dw/dtheta; BEND (-l^2 psi_l in lanes of a) d2w/dtheta2, all under the slider. FORCES: psi_l in
-# lanes of a, on which V acts, and in lanes of b the arm of friction, on which T acts; ARM: the
-# latter alone. From SLOPE_RATE on, a row for each order k: SLOPE, and in lanes of a the same times
-# (k + 1) / unit.
+# B = dw/dtheta; BEND (-l^2 psi_l in lanes of a) d2w/dtheta2, all under the slider. TANGENTIAL (t_l in
+# lanes of b) gives, with e, the velocity v_s of the surface on which friction acts, and its rate
+# are the next three: -t_l 2 xi omega and -t_l omega^2 in lanes of b, and -l t_l in lanes of a. FORCES:
+# psi_l in lanes of a, on which V acts, and t_l in lanes of b, on which H acts. From SLOPE_RATE on, a
+# row for each order k: SLOPE, and in lanes of a the same times (k + 1) / unit.
 (
     SHIFT,
     STIFFNESS,
@@ -49,9 +50,12 @@ MOST_FREE = 1e4  # longest ``Model.free_unit``: the highest power of eight of th
     MINUS_AMPLITUDE_DAMPING,
     MINUS_AMPLITUDE_STIFFNESS,
     FORCES,
-    ARM,
+    TANGENTIAL,
+    TANGENTIAL_DAMPING,
+    TANGENTIAL_STIFFNESS,
+    TANGENTIAL_TURN,
     SLOPE_RATE,
-) = range(11)
+) = range(14)
 
 
 @packed()
@@ -91,14 +95,18 @@ class Model(NamedTuple):
     slider_scale: float  # m/s: what u' is compared with where it is not the disc's
     bonded: bool  # whether contact is bilateral
     compliance: float  # of the contact, m/N; 0 if it is rigid
-    couple: np.ndarray  # arm of friction T on a mode in lanes of b, 0 in lanes of a
-    couple_swing: float  # sum l psi_l couple_l, 1/kg
+    tangential: (
+        np.ndarray
+    )  # t_l of the surface on which friction acts in lanes of b, 0 in lanes of a
+    surface_inverse_mass: float  # S_t = sum t_l^2, 1/kg
+    damped_surface_inverse_mass: float  # sum 2 xi_l omega_l t_l^2, 1/(kg s)
+    surface_swing: float  # sum l psi_l t_l, 1/kg
     decay: float  # of friction, r_0 times ``friction_decay``, s/rad
     modes: StickModes  # closed form of stick
     has_more_blocks: tuple[bool, ...]  # whether there is more than one block of lanes
     has_compliance: tuple[bool, ...]  # whether the contact is compliant
     has_normal_force: tuple[bool, ...]  # whether the contact force is normal to the bent disc
-    has_couple: tuple[bool, ...]  # whether friction acts on the disc's surface, and so bends it
+    has_moving_surface: tuple[bool, ...]  # whether the surface on which friction acts moves
     has_falling_friction: tuple[bool, ...]  # whether friction in slip falls with the speed
     has_ramp: tuple[bool, ...] = ()  # whether Omega and N may change with time
     ramp_begin: float = 0.0  # s
@@ -170,15 +178,17 @@ def build_model(modes: DiscModes, slider: Mapping[str, Any], contact: Contact) -
         slider_scale=N * (float(np.sum(psi**2 / omega)) + compliance / unit),
         bonded=contact.bonded,
         compliance=compliance,
-        couple=rows[ARM],
-        couple_swing=float(np.sum(rows[SLOPE] * rows[ARM])),
+        tangential=rows[TANGENTIAL],
+        surface_inverse_mass=float(np.sum(rows[TANGENTIAL] ** 2)),
+        damped_surface_inverse_mass=-float(np.sum(rows[TANGENTIAL] * rows[TANGENTIAL_DAMPING])),
+        surface_swing=float(np.sum(rows[SLOPE] * rows[TANGENTIAL])),
         decay=slider["r_0"] * float(contact.friction_decay) if falls else 0.0,
         # under the normal force friction in stick is no linear function of the state
         modes=no_modes() if contact.normal else _stick_modes(modes, slider, compliance, unit),
         has_more_blocks=_flag(rows.shape[1] > WIDTH),
         has_compliance=_flag(compliance),
         has_normal_force=_flag(contact.normal),
-        has_couple=_flag(np.any(rows[ARM])),
+        has_moving_surface=_flag(np.any(rows[TANGENTIAL])),
         has_falling_friction=_flag(falls),
     )
 
@@ -211,8 +221,12 @@ def _lanes(modes: DiscModes, unit: float) -> np.ndarray:
     rows[BEND, of_a] = -(l**2) * psi
     rows[MINUS_AMPLITUDE_DAMPING] = -rows[AMPLITUDE] * rows[DAMPING]
     rows[MINUS_AMPLITUDE_STIFFNESS] = -rows[AMPLITUDE] * rows[STIFFNESS]
-    rows[ARM, of_b] = -modes.tangential[pairs]
-    rows[FORCES] = rows[AMPLITUDE] + rows[ARM]
+    tangential = modes.tangential[pairs]
+    rows[TANGENTIAL, of_b] = tangential
+    rows[TANGENTIAL_DAMPING] = -rows[TANGENTIAL] * rows[DAMPING]
+    rows[TANGENTIAL_STIFFNESS] = -rows[TANGENTIAL] * rows[STIFFNESS]
+    rows[TANGENTIAL_TURN, of_a] = -l * tangential
+    rows[FORCES] = rows[AMPLITUDE] + rows[TANGENTIAL]
     rows[SLOPE_RATE:, of_b] = l * psi
     rows[SLOPE_RATE:, of_a] = np.outer(np.arange(1.0, ROWS + 1.0) / unit, l * psi)
     return lanes
@@ -233,7 +247,7 @@ def _stick_modes(
         omega=modes.omega[each],
         damping=modes.damping[each],
         shape=np.where(is_b, 0.0, modes.psi[each]),
-        arm=np.where(is_b, -modes.tangential[each], 0.0),
+        tangential=np.where(is_b, modes.tangential[each], 0.0),
     )
     displacements = np.concatenate([along[upright], across[pairs]])
     velocities = np.concatenate([along_velocity[upright], across_velocity[pairs]])

@@ -1,9 +1,10 @@
 """The recurrence of the disc's modes: Taylor coefficients of one order from those before, eight
 lanes at a time.
 
-In slip and separation the modes turn with the slider, at the rate f, so that their equations have
-products of series with f. In stick they are linear. The vertical force V acts on both, and friction
-T where it bends the disc (docs/model.md, Disc in the slider's frame). Displacements of the pairs,
+In slip and separation the modes turn with the place of contact on the material, at the rate g of the
+state, here called f, so that their equations have products of series with f. In stick they are
+linear. The vertical force V acts on both, and the horizontal force H where the surface moves
+(docs/model.md, Disc in the slider's frame and Friction on the surface). Displacements of the pairs,
 a and b in lanes, are called z, their velocities, alpha and beta, e; those of the modes without
 nodal diameter y and g.
 
@@ -21,7 +22,12 @@ at order k is
         + f_k (sum(slope e_0) + f_0 sum(bend z_0) + (k+1) sum(slope z_1))
 
 where E_k, Z_k are the inner terms of the convolutions sum f_{k-i} e_i, sum f_{k-i} z_{i+1}, 1 <= i
-<= k - 1. Rows of the model are named as in `model`.
+<= k - 1. Where the surface moves, its acceleration along the path is gathered in the same way, and
+called "along": the part of G at order k is
+
+    sum((tangential damping + f_0 turn) e_k + tangential stiffness z_k + turn E_k) + f_k sum(turn e_0)
+
+Rows of the model are named as in `model`.
 """
 
 from typing import NamedTuple
@@ -40,11 +46,16 @@ from .model import (
     SLOPE,
     SLOPE_RATE,
     STIFFNESS,
+    TANGENTIAL,
+    TANGENTIAL_DAMPING,
+    TANGENTIAL_STIFFNESS,
+    TANGENTIAL_TURN,
     constants,
     is_rigid,
     lane_count,
 )
 from .series import (
+    ALONG_BY_VELOCITY,
     BY_DISPLACEMENT,
     BY_VELOCITY,
     CARRIED,
@@ -116,25 +127,37 @@ def largest_velocity(model, series, k):
 # ---- Slip and separation
 
 
+class Parts(NamedTuple):
+    """Parts of an order of the accelerations of the disc's point under the slider (lanes)."""
+
+    up: object  # of u''
+    along: object  # of the surface along the path; zero if that does not move
+
+
 class Turning(NamedTuple):
-    """What the first order of the modes gives to u'' of the disc under the slider."""
+    """What the first order of the modes gives to the accelerations of the disc under the slider."""
 
     acceleration: float  # u'' of order 0 without V and f'
-    pending: object  # part of order 1 that order 0 determines (lanes)
-    by_f: float  # factor of f_k in order k
-    by_f_rate: float  # factor of (k + 1) f_k / unit in order k
+    along: float  # that of the surface along the path without H
+    pending: Parts  # of order 1, as far as order 0 determines them
+    by_f: float  # factor of f_k in u'' of order k
+    by_f_rate: float  # factor of (k + 1) f_k / unit in u'' of order k
+    along_by_f: float  # factor of f_k in the acceleration along the path of order k
 
 
 @inlined
 def begin_turning(model, series):
     """Order 0 of all modes: their displacements of order 1, and their velocities but for V_0 and
-    T_0. Returns `Turning`."""
+    H_0. Returns `Turning`."""
     f_0 = series.f[0]
     up = series.up[0]
     zero = splat(0.0)
     now = zero
+    now_along = zero
     pending = zero
+    pending_along = zero
     by_e = zero
+    turning = zero
     by_z = zero
     by_z1 = zero
     for b in range(0, lane_count(model), WIDTH):
@@ -163,29 +186,54 @@ def begin_turning(model, series):
         by_e = by_e + slopes * e
         by_z = by_z + bend * z
         by_z1 = by_z1 + slopes * z_next
+        if model.has_moving_surface:
+            turn = constants(model, TANGENTIAL_TURN, b)
+            hand_on(
+                model,
+                series,
+                ALONG_BY_VELOCITY,
+                b,
+                constants(model, TANGENTIAL_DAMPING, b) + f_0 * turn,
+            )
+            now_along = now_along + _known_along(model, series, b, e, z)
+            pending_along = pending_along + _known_along(model, series, b, e_next, z_next)
+            turning = turning + turn * e
     swing = total(by_e)
     by_f = swing + f_0 * total(by_z)
     by_f_rate = total(by_z1)
     single = axisymmetric_order(model, series, 0, 0.0)
     # C contains the Coriolis term once too often, because z_1 in by_f_rate includes it already
     coriolis = f_0 * (series.down[0] * by_f_rate - swing)
-    return Turning(total(now) + single + coriolis, pending, by_f, by_f_rate)
+    return Turning(
+        acceleration=total(now) + single + coriolis,
+        along=total(now_along),
+        pending=Parts(pending, pending_along),
+        by_f=by_f,
+        by_f_rate=by_f_rate,
+        along_by_f=total(turning),
+    )
 
 
 @inlined
-def next_turning(model, series, k, f_k, V_impulse, T_impulse, pending):
-    """Order k >= 1 of all modes, from the forces V and T of order k - 1 times unit / k.
+def next_turning(model, series, k, f_k, V_impulse, H_impulse, pending):
+    """Order k >= 1 of all modes, from the forces V and H of order k - 1 times unit / k.
 
-    Returns u'' of order k of the pairs but for the terms with f_k and V_{k-1} (lanes), that of the
-    modes without nodal diameter but for V_{k-1}, and what is pending for order k + 1 (lanes).
+    Returns the `Parts` of order k of the pairs but for the terms with f_k and with these forces, u''
+    of the modes without nodal diameter but for V_{k-1}, and what is pending for order k + 1.
     """
-    push = pushed(model, V_impulse, T_impulse)
-    rest = splat(0.0)
+    push = pushed(model, V_impulse, H_impulse)
+    up, along = pending
+    next_up = splat(0.0)
+    next_along = splat(0.0)
     for b in range(0, lane_count(model), WIDTH):
-        more, more_rest = _turning_block(model, series, b, k, f_k, push)
-        pending = pending + more
-        rest = rest + more_rest
-    return pending, axisymmetric_order(model, series, k, V_impulse), rest
+        here, following = _turning_block(model, series, b, k, f_k, push)
+        up = up + here.up
+        next_up = next_up + following.up
+        if model.has_moving_surface:
+            along = along + here.along
+            next_along = next_along + following.along
+    single = axisymmetric_order(model, series, k, V_impulse)
+    return Parts(up, along), single, Parts(next_up, next_along)
 
 
 @inlined
@@ -193,8 +241,8 @@ def _turning_block(model, series, b, k, f_k, push):
     """One block of order k >= 1.
 
     Takes e_k without the forces of order k - 1, s_k, e_{k-1} and z_k; finds e_k, z_{k+1}, s_{k+1},
-    and e_{k+1} without the forces of order k. Returns (lanes) the block's part of u'' of order k
-    beyond the pending one, and what it leaves pending for order k + 1. Terms with ``push`` come
+    and e_{k+1} without the forces of order k. Returns the block's `Parts` of order k beyond the
+    pending ones, and those which it leaves pending for order k + 1. Terms with ``push`` come
     last in every sum: that chain sets the pace.
     """
     e = velocity(model, series, k, b)
@@ -203,6 +251,9 @@ def _turning_block(model, series, b, k, f_k, push):
     z_last = displacement(model, series, k, b)
     e_inner, z_inner = _inner_terms(model, series, b, k, e_last, z_last)
     part = constants(model, SLOPE_RATE + k, b) * simd.high_halves(z_inner, e_inner)
+    along = splat(0.0)
+    if model.has_moving_surface:
+        along = constants(model, TANGENTIAL_TURN, b) * e_inner
 
     # velocities of order k, displacements of order k + 1
     shift = constants(model, SHIFT, b)
@@ -222,7 +273,11 @@ def _turning_block(model, series, b, k, f_k, push):
     put_displacement(model, series, k + 1, b, z_next)
     put_velocity(model, series, k + 1, b, e_next)
     hand_on(model, series, CARRIED, b, carried)
-    return part, _known_acceleration(model, series, b, e_next, z_next, carried)
+    next_up = _known_acceleration(model, series, b, e_next, z_next, carried)
+    next_along = splat(0.0)
+    if model.has_moving_surface:
+        next_along = _known_along(model, series, b, e_next, z_next)
+    return Parts(part, along), Parts(next_up, next_along)
 
 
 @inlined
@@ -231,6 +286,14 @@ def _known_acceleration(model, series, b, e, z, carried):
     known = handed_on(model, series, BY_DISPLACEMENT, b) * low_halves(z, carried)
     # in this order: the first of two products is added to the second one, which does not wait for e
     return handed_on(model, series, BY_VELOCITY, b) * e + known
+
+
+@inlined
+def _known_along(model, series, b, e, z):
+    """A block's part of the acceleration along the path of an order, as far as the order before
+    determines it (lanes)."""
+    by_z = constants(model, TANGENTIAL_STIFFNESS, b) * z
+    return handed_on(model, series, ALONG_BY_VELOCITY, b) * e + by_z
 
 
 @inlined
@@ -338,25 +401,29 @@ def _products_apart(model, series, b, k, f_high, e_low, z_low):
 
 @inlined
 def begin_stick(model, series):
-    """Part of u'' of order 0 that the pairs give without V (lanes)."""
-    pending = splat(0.0)
+    """`Parts` of order 0 that the pairs give without V and H."""
+    up = splat(0.0)
+    along = splat(0.0)
     for b in range(0, lane_count(model), WIDTH):
         z = displacement(model, series, 0, b)
         e = velocity(model, series, 0, b)
-        pending = pending + _acceleration_in_stick(model, b, e, z)
-    return pending
+        up = up + _acceleration_in_stick(model, b, e, z)
+        if model.has_moving_surface:
+            along = along + _along_in_stick(model, b, e, z)
+    return Parts(up, along)
 
 
 @inlined
-def next_stick(model, series, k, V_impulse, T_impulse):
-    """Order k of all modes in stick, from the forces V and T of order k - 1 times unit / k.
+def next_stick(model, series, k, V_impulse, H_impulse):
+    """Order k of all modes in stick, from the forces V and H of order k - 1 times unit / k.
 
-    Returns u'' of order k of the modes without nodal diameter but for V_{k-1}, and that of the
-    pairs for order k + 1 but for V_k (lanes).
+    Returns u'' of order k of the modes without nodal diameter but for V_{k-1}, and the `Parts` of
+    the pairs for order k + 1 but for V_k and H_k.
     """
-    push = pushed(model, V_impulse, T_impulse)
+    push = pushed(model, V_impulse, H_impulse)
     up = series.up[k]
-    pending = splat(0.0)
+    next_up = splat(0.0)
+    next_along = splat(0.0)
     for b in range(0, lane_count(model), WIDTH):
         z = displacement(model, series, k, b)
         e = velocity(model, series, k, b) + push * constants(model, FORCES, b)
@@ -366,8 +433,10 @@ def next_stick(model, series, k, V_impulse, T_impulse):
         put_velocity(model, series, k, b, e)
         put_displacement(model, series, k + 1, b, z_next)
         put_velocity(model, series, k + 1, b, e_next)
-        pending = pending + _acceleration_in_stick(model, b, e_next, z_next)
-    return axisymmetric_order(model, series, k, V_impulse), pending
+        next_up = next_up + _acceleration_in_stick(model, b, e_next, z_next)
+        if model.has_moving_surface:
+            next_along = next_along + _along_in_stick(model, b, e_next, z_next)
+    return axisymmetric_order(model, series, k, V_impulse), Parts(next_up, next_along)
 
 
 @inlined
@@ -377,15 +446,33 @@ def _acceleration_in_stick(model, b, e, z):
     return constants(model, MINUS_AMPLITUDE_DAMPING, b) * e + by_z
 
 
+@inlined
+def _along_in_stick(model, b, e, z):
+    """A block's part of the acceleration along the path in stick (lanes)."""
+    by_z = constants(model, TANGENTIAL_STIFFNESS, b) * z
+    return constants(model, TANGENTIAL_DAMPING, b) * e + by_z
+
+
 # ---- In every phase
 
 
 @inlined
-def pushed(model, V_impulse, T_impulse):
-    """Minus the impulses of V, in lanes of a, and of friction T, in lanes of b: what multiplies the
-    row ``FORCES`` (lanes)."""
-    if model.has_couple:
-        return low_halves(splat(-V_impulse), splat(-T_impulse))
+def surface_velocity(model, series):
+    """v_s, the surface's velocity along the path, of order 0; 0 if that does not move."""
+    velocities = splat(0.0)
+    if model.has_moving_surface:
+        for b in range(0, lane_count(model), WIDTH):
+            e = velocity(model, series, 0, b)
+            velocities = velocities + constants(model, TANGENTIAL, b) * e
+    return total(velocities)
+
+
+@inlined
+def pushed(model, V_impulse, H_impulse):
+    """Minus the impulse of V, in lanes of a, and that of H, in lanes of b: what multiplies the row
+    ``FORCES`` (lanes)."""
+    if model.has_moving_surface:
+        return low_halves(splat(-V_impulse), splat(H_impulse))
     return splat(-V_impulse)
 
 
@@ -419,9 +506,9 @@ def _axisymmetric_mode(model, series, k, j, V_impulse):
 
 
 @inlined
-def put_last_forces(model, series, order, V_impulse, T_impulse):
-    """Put the last contact force and friction into the velocities of the highest order."""
-    push = pushed(model, V_impulse, T_impulse)
+def put_last_forces(model, series, order, V_impulse, H_impulse):
+    """Put the last forces V and H into the velocities of the highest order."""
+    push = pushed(model, V_impulse, H_impulse)
     for b in range(0, lane_count(model), WIDTH):
         e = velocity(model, series, order, b) + push * constants(model, FORCES, b)
         put_velocity(model, series, order, b, e)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .audit import SURFACE, audit_impact, audit_step, surface_share, transverse_energy
-from .dense_output import force_at, move_to
+from .dense_output import CLOSED_FORM, force_at, move_to
 from .jit import helper, inlined
 from .model import drive_angle, drive_now, is_rigid
 from .state import (
@@ -18,10 +18,10 @@ from .state import (
     FORCE,
     HALF,
     PHASE,
-    PHI_RATE,
     PSI,
     SEPARATION,
     STICK,
+    SURFACE_TURN,
     TIME,
     TIME_LOW,
     U_VELOCITY,
@@ -37,6 +37,7 @@ from .transitions import (
     change_phase,
     disc_point,
     slider_motion,
+    slider_rate,
 )
 
 # Kinds of event, in the order of ``disc_model.data.variables.EVENT_KINDS``.
@@ -116,8 +117,8 @@ def record_step(model, series, state, probe, step, limits, buffers):
     if len(buffers.samplers) > 0:
         sample_step(model, series, step, state, probe, buffers)
     move_to(model, series, step.order, step.length, phase, state)
-    if model.has_couple:
-        share = surface_share(model, state)
+    if model.has_moving_surface and step.order != CLOSED_FORM:
+        share = surface_share(model, series)
         buffers.audit[SURFACE] = max(buffers.audit[SURFACE], share)
 
 
@@ -140,7 +141,8 @@ def sample_step(model, series, step, state, probe, buffers):
                 break
             move_to(model, series, step.order, max(x, 0.0), phase, probe)
             P = force_at(model, series, step.order, phase, probe)
-            angle = samplers[i, THETA] - (drive_angle(model, time) - probe.x[PSI])
+            place = drive_angle(model, time) - probe.x[PSI] - probe.x[SURFACE_TURN]
+            angle = samplers[i, THETA] - place
             row = buffers.sample_rows[buffers.counters[SAMPLE_ROWS]]
             row[0] = i
             row[1] = time
@@ -152,20 +154,21 @@ def sample_step(model, series, step, state, probe, buffers):
 
 @inlined
 def _describe(model, state, angle, row):
-    """Fill a row of samples from column 3 on; angle: of the fixed point ahead of the slider,
-    rad."""
+    """Fill a row of samples from column 3 on; angle: of the fixed point ahead of the
+    material under the slider, rad."""
     w, _, _ = disc_point(model, state)
     row[3], row[4], _ = slider_motion(model, state)
     row[5] = w
     row[6], row[7] = point_motion(model, state, angle)
     row[8] = state.x[PSI]
-    row[9] = drive_now(model, state) - state.x[PHI_RATE]
+    row[9] = drive_now(model, state) - slider_rate(model, state)
     row[10] = state.x[PHASE]
 
 
 @helper
 def point_motion(model, state, angle):
-    """Return displacement and velocity of the disc's point (r_0, slider's angle + ``angle``)."""
+    """Return displacement and velocity of the disc's point ``angle`` ahead of the material under
+    the slider."""
     w = 0.0
     velocity = 0.0
     for j in range(len(model.shift)):
@@ -243,7 +246,7 @@ def _record_event(model, state, kind, buffers):
     row[2] = x[PHASE]
     row[3] = x[DIRECTION]
     row[4] = x[PSI]
-    row[5] = x[PHI_RATE]
+    row[5] = slider_rate(model, state)
     row[6] = u
     row[7] = v
     row[8] = x[FORCE]

@@ -45,7 +45,7 @@ from .state import (
     velocity0_place,
     velocity_place,
 )
-from .tangent import point_change
+from .tangent import point_change, surface_change
 from .transitions import (
     AT_REST,
     CONSISTENT,
@@ -72,8 +72,8 @@ def rates(model, state, out):
     """Put the rates of all rows in the state's phase into the first lane of ``out`` ([row][8])."""
     phase = state.x[PHASE]
     i, _ = instant(model, state)
-    f = i.f
-    V, T, rate_f = _forces(model, i, phase, state.x[DIRECTION])
+    f = i.g
+    V, H, rate_f = _forces(model, i, phase, state.x[DIRECTION])
 
     # the disc
     for j in range(len(model.mode_amplitude)):
@@ -83,8 +83,8 @@ def rates(model, state, out):
         out[j * WIDTH] = state.e[j] + shift * f * state.z[other]
         row = velocity_place(model, j)
         out[row * WIDTH] = own + shift * f * state.e[other] - model.mode_amplitude[j] * V
-        if model.has_couple:
-            out[row * WIDTH] -= model.couple[j] * T
+        if model.has_moving_surface:
+            out[row * WIDTH] += model.tangential[j] * H
     for j in range(len(model.mode_amplitude0)):
         own = -model.damping0[j] * state.g[j] - model.stiffness0[j] * state.y[j]
         out[displacement0_place(model, j) * WIDTH] = state.g[j]
@@ -97,7 +97,7 @@ def rates(model, state, out):
         u = i.u
         v = i.u_velocity
     vertical = model.N + model.k * (u - model.u_0) + model.c * v
-    out[slider_place(model, PSI) * WIDTH] = model.Omega - f
+    out[slider_place(model, PSI) * WIDTH] = model.Omega - laws.slider_rate(model, i)
     out[slider_place(model, PHI_RATE) * WIDTH] = rate_f
     out[slider_place(model, U) * WIDTH] = v
     out[slider_place(model, U_VELOCITY) * WIDTH] = (V - vertical) / model.m
@@ -105,16 +105,14 @@ def rates(model, state, out):
 
 @inlined
 def _forces(model, i, phase, direction):
-    """V, T and f' at an instant of a phase."""
+    """V, H and g' at an instant of a phase."""
     if phase == STICK:
-        V = laws.vertical_in_stick(model, i)
-        return V, laws.friction_in_stick(model, i, V), 0.0
+        return laws.vertical_in_stick(model, i), model.r_0 * laws.hold_per_radius(model, i), 0.0
     if phase == SEPARATION:
-        return 0.0, 0.0, laws.inplane_force_per_radius(i) / i.m
-    friction = friction_coefficient(model, direction, i.f)
+        return 0.0, 0.0, laws.free_pull(model, i) / i.m
+    friction = friction_coefficient(model, direction, i.g)
     force = laws.slip_numerator(model, i) / slip_denominator(model, i.m, friction, i.dw_dtheta)
-    V, rate_f = laws.slip_rates(model, i, friction, force)
-    return V, friction * force, rate_f
+    return laws.slip_rates(model, i, friction, force)
 
 
 # ---- Changes of laws at an instant
@@ -147,11 +145,15 @@ def put_changes(model, state, tangent, rows, block, changes):
     _, _, dw_dtheta = disc_point(model, state)
     dw, dv, d_slope = point_change(model, rows, at, state.x[PHI_RATE], dw_dtheta)
     put_entry(out, 0, laws.PSI_ENTRY, entry(rows, at, slider_place(model, PSI)))
-    put_entry(out, 0, laws.F_ENTRY, entry(rows, at, slider_place(model, PHI_RATE)))
+    put_entry(out, 0, laws.G_ENTRY, entry(rows, at, slider_place(model, PHI_RATE)))
     put_entry(out, 0, laws.W_ENTRY, dw)
     put_entry(out, 0, laws.W_VELOCITY_ENTRY, dv)
     put_entry(out, 0, laws.DW_DTHETA_ENTRY, d_slope)
     put_entry(out, 0, laws.FREE_ENTRY, _free_change(model, state, tangent, rows, block, changes))
+    if model.has_moving_surface:
+        along = _along_change(model, state, tangent, rows, block, changes)
+        put_entry(out, 0, laws.SURFACE_VELOCITY_ENTRY, surface_change(model, rows, at))
+        put_entry(out, 0, laws.SURFACE_FREE_ENTRY, along)
     put_entry(out, 0, laws.U_ENTRY, entry(rows, at, slider_place(model, U)))
     put_entry(out, 0, laws.U_VELOCITY_ENTRY, entry(rows, at, slider_place(model, U_VELOCITY)))
     return _change(tangent, 0)
@@ -191,6 +193,30 @@ def _free_change(model, state, tangent, rows, block, changes):
             d_damping = entry(tangent.inputs, inputs, N_INPUTS + g_row)
             part = part - state.y[j] * d_stiffness - state.g[j] * d_damping
         acceleration = acceleration + model.mode_amplitude0[j] * part
+    return acceleration
+
+
+@inlined
+def _along_change(model, state, tangent, rows, block, changes):
+    """Change of G, ``laws.Instant.surface_free`` (lanes); arguments as in `put_changes`."""
+    at = now_at(tangent, block)
+    inputs = inputs_at(tangent, block)
+    f = state.x[PHI_RATE]
+    df = entry(rows, at, slider_place(model, PHI_RATE))
+    acceleration = splat(0.0)
+    for j in range(len(model.mode_amplitude)):
+        if model.shift[j] > 0.0:
+            i = j + HALF
+            l = model.shift[j]
+            alpha_row = velocity_place(model, j)
+            part = -model.stiffness[i] * entry(rows, at, i)
+            part = part - model.damping[i] * entry(rows, at, velocity_place(model, i))
+            part = part - (l * f) * entry(rows, at, alpha_row) - (l * state.e[j]) * df
+            if changes:
+                d_stiffness = entry(tangent.inputs, inputs, N_INPUTS + j)
+                d_damping = entry(tangent.inputs, inputs, N_INPUTS + alpha_row)
+                part = part - state.z[i] * d_stiffness - state.e[i] * d_damping
+            acceleration = acceleration + model.tangential[i] * part
     return acceleration
 
 
@@ -254,19 +280,26 @@ def _jump(tangent, rates_at, sign):
 def impact_change(model, state, tangent):
     """Apply the Jacobian of the plastic impact to the columns; ``state`` is the one before."""
     i, _ = instant(model, state)
+    impulse, _ = laws.impact(model, i)
     for place in range(N_ENTRIES):
-        p, f = laws.impact(model, laws.stepped(i, place))
+        p, g = laws.impact(model, laws.stepped(i, place))
         _set_derivative(model, i, tangent, 0, place, p)
-        _set_derivative(model, i, tangent, 1, place, f)
+        _set_derivative(model, i, tangent, 1, place, g)
     now = tangent.now
     for block in range(tangent.columns // WIDTH):
         at = now_at(tangent, block)
         changes = has_inputs(tangent, block)
         dp = put_changes(model, state, tangent, now, block, changes)
+        # change of the impulse p B / r_0 along the path
+        d_slope = load(tangent.change, laws.DW_DTHETA_ENTRY * WIDTH)
+        along = (i.dw_dtheta * dp + impulse * d_slope) * (1.0 / model.r_0)
         put_entry(now, at, slider_place(model, PHI_RATE), _change(tangent, 1))
         for j in range(len(model.mode_amplitude)):
             row = velocity_place(model, j)
-            put_entry(now, at, row, entry(now, at, row) - model.mode_amplitude[j] * dp)
+            d_velocity = entry(now, at, row) - model.mode_amplitude[j] * dp
+            if model.has_moving_surface and model.has_normal_force:
+                d_velocity = d_velocity + model.tangential[j] * along
+            put_entry(now, at, row, d_velocity)
         for j in range(len(model.mode_amplitude0)):
             row = velocity0_place(model, j)
             put_entry(now, at, row, entry(now, at, row) - model.mode_amplitude0[j] * dp)
@@ -274,7 +307,7 @@ def impact_change(model, state, tangent):
 
 @helper
 def slider_rows(model, state, tangent):
-    """Set rows of the slider that follow from the others in contact: u, u' if it is rigid, and df =
+    """Set rows of the slider that follow from the others in contact: u, u' if it is rigid, and dg =
     0 in stick, exactly."""
     _, _, B = disc_point(model, state)
     for block in range(tangent.columns // WIDTH):

@@ -12,19 +12,25 @@ from .jit import inlined
 from .jit.packing import Part, packed
 from .jit.simd import WIDTH, aligned, load, store
 from .model import ROWS, Model, drive_now, lane_count, load_now
-from .state import PHI_RATE, PSI, U_VELOCITY, U
+from .state import PHI_RATE, PSI, SURFACE_TURN, U_VELOCITY, U
 from .stick_modes import padded
 
 # Rows of ``Series.modes``: displacements and velocities of each order in turn, then what one order
 # of the recurrence hands to the next (see `modes`): inner terms of a pair of orders, the sum s_k,
-# and the two rows of constants of the step.
-INNER_VELOCITY, INNER_DISPLACEMENT, CARRIED, BY_VELOCITY, BY_DISPLACEMENT, _N_ROWS = range(
-    2 * ROWS, 2 * ROWS + 6
-)
+# and the three rows of constants of the step.
+(
+    INNER_VELOCITY,
+    INNER_DISPLACEMENT,
+    CARRIED,
+    BY_VELOCITY,
+    BY_DISPLACEMENT,
+    ALONG_BY_VELOCITY,
+    _N_ROWS,
+) = range(2 * ROWS, 2 * ROWS + 7)
 
 _QUANTITIES = (
     "psi", "f", "u", "v", "P", "switch", "switch2", "powers", "up", "down",
-    "slope", "drive", "preload", "normal", "friction", "coefficient", "weakening", "V",
+    "slope", "drive", "preload", "friction", "coefficient", "weakening", "V", "surface", "turn", "hold",
 )  # fmt: skip
 _PLACES = {name: Part("quantities", ROWS * i, ROWS) for i, name in enumerate(_QUANTITIES)}
 _ROOT_ROWS = 7 * WIDTH
@@ -37,9 +43,11 @@ class Series(NamedTuple):
     modes: np.ndarray  # pairs, as [row][lane]
     y: np.ndarray  # displacements of the modes without nodal diameter
     g: np.ndarray  # their velocities
-    quantities: np.ndarray  # what has a coefficient an order: those from psi to V are parts of it
+    quantities: (
+        np.ndarray
+    )  # what has a coefficient an order: those from psi to hold are parts of it
     psi: np.ndarray
-    f: np.ndarray
+    f: np.ndarray  # rate of the contact over the material, g
     u: np.ndarray  # of the slider
     v: np.ndarray  # u'
     P: np.ndarray  # contact force; R under the normal force in slip, V in stick
@@ -53,11 +61,13 @@ class Series(NamedTuple):
     slope: np.ndarray  # B / r_0 under the normal force
     drive: np.ndarray  # Omega, in which only orders 0 and 1 are not zero
     preload: np.ndarray  # N - k u_0, likewise
-    normal: np.ndarray  # R in stick under the normal force, if friction acts on the surface
-    friction: np.ndarray  # T there, and where friction falls with the speed
+    friction: np.ndarray  # T where friction falls with the speed
     coefficient: np.ndarray  # of that friction
     weakening: np.ndarray  # change of that friction with f
     V: np.ndarray  # vertical force of a compliant contact
+    surface: np.ndarray  # v_s of the surface on which friction acts; 0 if it does not move
+    turn: np.ndarray  # integral of v_s / r_0, likewise
+    hold: np.ndarray  # H in stick, likewise
     roots: np.ndarray  # work space of `roots.first_root`
     amplitudes: (
         np.ndarray
@@ -97,6 +107,7 @@ def load_state(model, series, state):
         series.g[j * ROWS] = state.g[j]
     series.psi[0] = x[PSI]
     series.f[0] = x[PHI_RATE]
+    series.turn[0] = x[SURFACE_TURN]
     series.u[0] = x[U]
     series.v[0] = x[U_VELOCITY]
     series.drive[0] = drive_now(model, state)

@@ -21,18 +21,20 @@ HALF = WIDTH // 2
 # Phases, in the order of ``disc_model.data.variables.PHASES``.
 STICK, SLIP, SEPARATION = range(3)
 
-# Places of the scalars. The first four are those of the slider, which a column has, too.
-PSI, PHI_RATE, U, U_VELOCITY, SLIDER = range(5)  # PHI_RATE: f; SLIDER: how many they are
+# Places of the scalars. The first four are those of the slider, which a column has, too. PHI_RATE:
+# rate g of the contact over the material, which is the slider's f but for v_s / r_0 of a moving
+# surface. SLIDER: how many they are.
+PSI, PHI_RATE, U, U_VELOCITY, SLIDER = range(5)
 # The time is TIME + TIME_LOW, summed with compensation: event times stay exact to rounding after
-# hours. DIRECTION: sign of f in slip, else 0.
+# hours. DIRECTION: sign of g in slip, else 0.
 TIME, TIME_LOW, PHASE, DIRECTION = range(SLIDER, SLIDER + 4)
 # Multiplicities of the roots with which the phase began, of its event function and of the contact
 # force.
 KNOWN, KNOWN_FORCE = range(SLIDER + 4, SLIDER + 6)
 # FORCE: contact force after an event. PROPAGATED: not 0 if stick has used its closed form as far as
 # possible, see `step`. IN_A_ROW: number of events at this instant. DRIVE, LOAD: Omega and N now, on
-# a ramp.
-FORCE, PROPAGATED, IN_A_ROW, DRIVE, LOAD, SCALARS = range(SLIDER + 6, SLIDER + 12)
+# a ramp. SURFACE_TURN: angle by which the surface has turned under the slider, integral of v_s / r_0.
+FORCE, PROPAGATED, IN_A_ROW, DRIVE, LOAD, SURFACE_TURN, SCALARS = range(SLIDER + 6, SLIDER + 13)
 
 
 @packed()
@@ -109,13 +111,13 @@ def views_of_disc(width: int, n_single: int, compliant: bool) -> EngineState:
 
 # ---- What Python reads and writes
 
-SCALAR_NAMES = ("time", "time_low", "psi", "f", "u", "u_velocity")
-_PLACES = [TIME, TIME_LOW, PSI, PHI_RATE, U, U_VELOCITY]
+SCALAR_NAMES = ("time", "time_low", "psi", "g", "u", "u_velocity", "surface_turn")
+_PLACES = [TIME, TIME_LOW, PSI, PHI_RATE, U, U_VELOCITY, SURFACE_TURN]
 
 
 def scalars_of(state: EngineState) -> dict[str, float]:
     """Return the scalars of a motion by `SCALAR_NAMES`, in SI units: time (s), what was lost of it
-    by rounding, psi (rad), f (rad/s), u (m), u' (m/s)."""
+    by rounding, psi (rad), g (rad/s), u (m), u' (m/s), and the surface's turn (rad)."""
     return dict(zip(SCALAR_NAMES, state.x[_PLACES].tolist(), strict=True))
 
 
@@ -135,7 +137,7 @@ def phase_of(state: EngineState) -> int:
 
 
 def direction_of(state: EngineState) -> int:
-    """Return the sign of f in slip, else 0."""
+    """Return the sign of g in slip, else 0."""
     return int(state.x[DIRECTION])
 
 

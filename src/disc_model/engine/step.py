@@ -3,7 +3,7 @@ it."""
 
 from typing import NamedTuple
 
-from .contact import put_weakening
+from .contact import slip_growth
 from .dense_output import CLOSED_FORM
 from .jit import helper, inlined
 from .model import drive_now, is_rigid, set_course
@@ -107,10 +107,9 @@ def series_step(model, series, state, order, tolerance, longest, left):
     if not length > 0.0:
         return Step(NON_FINITE, order, 0.0, NOTHING)
     if model.has_falling_friction and phase == SLIP:
-        # where friction falls steeply, a change of f grows faster than the fastest motion
-        put_weakening(model, series, 0, state.x[DIRECTION])
-        growth = abs(series.weakening[0]) * model.unit / (model.m * model.r_0)
-        longest /= max(growth, 1.0)
+        # where friction falls steeply, a change of g grows faster than the fastest motion
+        growth = slip_growth(model, series, state.x[DIRECTION])
+        longest /= max(growth * model.unit, 1.0)
     longest = min(min(length, longest), left)
     length, cause = first_event(model, series, state, order, longest, tolerance)
     return Step(CONSISTENT, order, length, cause)
@@ -213,7 +212,7 @@ def _zeros_of_gap(model, series, state, tolerance):
 
 @inlined
 def _end_of_slip(model, series, state, order, x_end, tolerance):
-    """As `first_event`: f reaches 0."""
+    """As `first_event`: g reaches 0."""
     known = int(state.x[KNOWN])
     end = _earlier(series, series.switch, known, order, AT_REST, (x_end, NOTHING))
     if end[1] == AT_REST and known == 0:
@@ -226,7 +225,7 @@ def _end_of_slip(model, series, state, order, x_end, tolerance):
 
 @helper
 def _zeros_of_slip(model, series, state, tolerance):
-    """Return how many first coefficients of f in slip are zero, but for their errors: see
+    """Return how many first coefficients of g in slip are zero, but for their errors: see
     `first_event`."""
     usual_speed = drive_now(model, state)
     rounding = slip_error(model, state, 0.0)
@@ -258,8 +257,7 @@ def _end_of_stick(model, series, state, order, x_end, known_force, tolerance):
     """As `first_event`: friction is overcome in either direction, or contact is lost."""
     end = x_end, NOTHING
     known_release = known_force
-    undriven = model.k_p * model.Omega == 0.0
-    if not model.bonded and undriven and inplane_force_per_radius(model, state) == 0.0:
+    if not model.bonded and _stays_unloaded(model, series, state):
         # P = 0 and the friction limit coincide, and it is contact that ends
         end = _end_of_contact(model, series, state, known_force, order, end, tolerance)
         if not model.has_normal_force:
@@ -267,10 +265,10 @@ def _end_of_stick(model, series, state, order, x_end, known_force, tolerance):
         # the slope of the disc may pull: here P is no factor of the release functions
         known_release = 0
     end = _earlier(series, series.switch, known_release, order - 1, RELEASE_FORWARD, end)
-    # under the vertical force the pull only grows; a bent disc's slope can turn it, or the damper
-    # of a slowing drive
+    # under the vertical force the pull only grows; a bent disc's slope can turn it, a surface that
+    # moves, or the damper of a slowing drive
     turned = series.switch2[0] < series.switch[0]
-    if model.has_normal_force or model.has_ramp or turned:
+    if model.has_normal_force or model.has_moving_surface or model.has_ramp or turned:
         end = _earlier(series, series.switch2, known_release, order - 1, RELEASE_BACKWARD, end)
     # friction may hold although contact ends: without any, or on a slope so steep that it holds the
     # slider down
@@ -278,6 +276,17 @@ def _end_of_stick(model, series, state, order, x_end, known_force, tolerance):
     if not model.bonded and (without or (model.has_compliance and model.has_normal_force)):
         end = _end_of_contact(model, series, state, known_force, order, end, tolerance)
     return end
+
+
+@inlined
+def _stays_unloaded(model, series, state):
+    """Return whether nothing pulls at a sticking slider throughout the step but the disc's slope."""
+    if (model.k_p + model.c_p) * model.Omega_rate != 0.0:
+        return False  # the drive begins to move, on a ramp
+    if model.has_moving_surface:
+        return series.hold[0] == 0.0 and series.hold[1] == 0.0
+    undriven = model.k_p * model.Omega == 0.0
+    return undriven and inplane_force_per_radius(model, state) == 0.0
 
 
 # ---- The clock
@@ -313,7 +322,7 @@ def _propagated(step):
 
 @inlined
 def settle(state):
-    """Set f to zero if it has reached that within rounding at the end of a run: a motion that
+    """Set g to zero if it has reached that within rounding at the end of a run: a motion that
     continues from here begins with that event."""
     x = state.x
     if x[PHASE] == SLIP and x[DIRECTION] * x[PHI_RATE] < 0.0:

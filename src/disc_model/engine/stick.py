@@ -1,9 +1,22 @@
-"""Taylor coefficients of stick (docs/model.md, Stick), with the law of contact as a stage."""
+"""Taylor coefficients of stick (docs/model.md, Stick), with the law of contact as a stage.
 
-from .contact import leverage, stick_forces
+Where the surface on which friction acts moves, the slider moves with it, and inertia is a part of
+the force H by which the disc holds the slider (docs/model.md, Friction on the surface).
+"""
+
+from .contact import leverage
 from .jit import inlined
 from .jit.simd import total
-from .modes import begin_stick, deflection, next_stick, put_last_forces, rest_on_disc, slope
+from .laws import surface_mobility
+from .modes import (
+    begin_stick,
+    deflection,
+    next_stick,
+    put_last_forces,
+    rest_on_disc,
+    slope,
+    surface_velocity,
+)
 
 
 @inlined
@@ -21,11 +34,13 @@ def stick_series(model, series, order):
     u = series.u[0]
     v = series.v[0]
     v_free = v  # u' without V of the order before
+    series.surface[0] = surface_velocity(model, series)
     V_impulse = 0.0
-    T_impulse = 0.0
+    H_impulse = 0.0
     for k in range(order):
-        pairs = total(pending)
-        single, pending = next_stick(model, series, k, V_impulse, T_impulse)
+        pairs = total(pending.up)
+        along = pending.along
+        single, pending = next_stick(model, series, k, V_impulse, H_impulse)
 
         # the law of contact
         up = series.up[k]
@@ -44,17 +59,17 @@ def stick_series(model, series, order):
             v_free = acceleration * up
             V_impulse = V * up
             v = v_free - S * V_impulse
-        if model.has_couple:
-            T_impulse = _friction(model, series, k, V) * up
+        series.psi[k + 1] = series.drive[k] * up
+        if model.has_moving_surface:
+            H_impulse = _surface_order(model, series, k, total(along), H_impulse)
         series.P[k] = V
         series.switch[k] = model.mu_s * V
         series.switch2[k] = model.mu_s * V
         series.u[k + 1] = u
         series.v[k + 1] = v
-        series.psi[k + 1] = series.drive[k] * up
         series.f[k] = 0.0
 
-    put_last_forces(model, series, order, V_impulse, T_impulse)
+    put_last_forces(model, series, order, V_impulse, H_impulse)
     series.f[order] = 0.0
     series.P[order] = 0.0
     series.switch[order] = 0.0
@@ -62,36 +77,46 @@ def stick_series(model, series, order):
     if model.has_normal_force:
         _release_on_slope(model, series, order)
     else:
-        _release(model, series)
+        _release(model, series, order)
 
 
 @inlined
-def _pull(model, series, k):
-    """r_0 F of order k, in N; 0 from order 3 on."""
+def _surface_order(model, series, k, along, H_impulse):
+    """Enter H of order k, and v_s, psi and the surface's turn of order k + 1. Returns the impulse of
+    H, which is that of the order before in ``H_impulse``; along: G of order k without it."""
+    up = series.up[k]
+    surface = series.surface[k]
+    G = along - model.damped_surface_inverse_mass * H_impulse
+    F = model.k_p * series.psi[k] + model.c_p * (series.drive[k] - surface / model.r_0)
+    H = (model.r_0 * F - model.m * G) / surface_mobility(model, model.m)
+    turn = surface / model.r_0 * up
+    series.hold[k] = H
+    series.surface[k + 1] = (G + model.surface_inverse_mass * H) * up
+    series.psi[k + 1] -= turn
+    series.turn[k + 1] = turn
+    return H * up
+
+
+@inlined
+def _hold(model, series, k):
+    """H of order k, in N: r_0 F, which is 0 from order 3 on, unless the surface moves."""
+    if model.has_moving_surface:
+        return series.hold[k]
     return model.r_0 * (model.k_p * series.psi[k] + model.c_p * series.drive[k])
 
 
 @inlined
-def _friction(model, series, k, V):
-    """Friction T of order k under V of this order; enters R and T if the force is normal."""
-    pull = _pull(model, series, k)
-    if not model.has_normal_force:
-        return pull
-    series.slope[k] = slope(model, series, k) / model.r_0
-    known_R = leverage(series.slope, series.normal, k)
-    known_T = leverage(series.slope, series.friction, k)
-    R, T = stick_forces(series.slope[0], pull, V, known_R, known_T)
-    series.normal[k] = R
-    series.friction[k] = T
-    return T
+def _orders_of_hold(model, order):
+    """Return how many orders H is entered to, or is not zero."""
+    return order if model.has_moving_surface else 3
 
 
 @inlined
-def _release(model, series):
+def _release(model, series, order):
     """Complete both release functions, mu_s press -/+ pull (see `laws.stick_loads`), by the pull,
-    which is that of the spring."""
-    for k in range(3):
-        pull = _pull(model, series, k)
+    which is H."""
+    for k in range(_orders_of_hold(model, order)):
+        pull = _hold(model, series, k)
         series.switch[k] -= pull
         series.switch2[k] += pull
 
@@ -102,14 +127,14 @@ def _release_on_slope(model, series, order):
     slider that may leave the disc, they are divided by the common factor V: mu_s -/+ beta."""
     for k in range(order):
         series.slope[k] = slope(model, series, k) / model.r_0
-        pull = _pull(model, series, k)
+        pull = _hold(model, series, k)
         pull -= leverage(series.slope, series.P, k) + series.slope[0] * series.P[k]
         press = series.P[k]
-        for j in range(min(k, 2) + 1):
-            press += _pull(model, series, j) * series.slope[k - j]
+        for j in range(min(k + 1, _orders_of_hold(model, order))):
+            press += _hold(model, series, j) * series.slope[k - j]
         series.switch[k] = model.mu_s * press - pull
         series.switch2[k] = model.mu_s * press + pull
-    only_slope = _pull(model, series, 0) == 0.0 and _pull(model, series, 1) == 0.0
+    only_slope = _hold(model, series, 0) == 0.0 and _hold(model, series, 1) == 0.0
     if only_slope and not model.bonded:
         for k in range(order):
             series.switch[k] = series.slope[k]

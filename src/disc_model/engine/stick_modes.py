@@ -1,12 +1,17 @@
 """The modes of stick, for the closed form of `stick_propagator`.
 
-With f = 0, disc and slider are one linear system.  In deviations d from the static equilibrium,
+In stick, disc and slider are one linear system.  In deviations d from the static equilibrium,
 
     (1 + m psi psi^T) d'' + (2 xi omega + c psi psi^T) d' + (omega^2 + k psi psi^T) d = 0
 
-for the a-components and l = 0, and without the slider for the b-components; a compliant contact
-adds the coordinate u. The modes are q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are lanes of
-real parts, then of imaginary parts.
+for the a-components and l = 0; a compliant contact adds the coordinate u. The b-components,
+
+    (1 + m t t^T) d'' + (2 xi omega + c_p t t^T) d' + (omega^2 + k_p t t^T) d = t Q,
+
+carry the slider along if they move the surface, t being their amplitudes there. Q is the pull of
+the spring and the damper in the plane as if the surface rested, and grows steadily with the drive.
+The modes are q_i(x) = q_i(0) exp(lambda_i x).  Complex numbers are lanes of real parts, then of
+imaginary parts.
 """
 
 from collections.abc import Mapping
@@ -36,8 +41,7 @@ WORST_CONDITION = 100.0
 @packed()
 class StickModes(NamedTuple):
     """n modes, padded with zeros to whole blocks of lanes; L = len(EngineState.disc). Empty if
-    stick has no closed form. The two responses to friction are empty if friction does not bend the
-    disc."""
+    stick has no closed form. Those of Q and H are empty if the surface does not move."""
 
     decay: np.ndarray  # Re lambda in 1 / time unit, shape (n,)
     turn: np.ndarray  # Im lambda, likewise
@@ -47,8 +51,10 @@ class StickModes(NamedTuple):
     offset: np.ndarray  # q of the zero state, shape (2 * n,)
     leave: np.ndarray  # state of a unit of Re q, then of Im q, shape (2 * n * L,)
     rest: np.ndarray  # static equilibrium, shape (L,)
-    friction_offset: np.ndarray  # -q of ``friction_rest``, shape (2 * 2 * n,)
-    friction_rest: np.ndarray  # disc's response to T = 1 N and to T' = 1 N/s, shape (2 * L,)
+    pull_offset: np.ndarray  # -q of ``pull_rest``, shape (2 * 2 * n,)
+    pull_rest: np.ndarray  # disc's response to Q = 1 N and to Q' = 1 N/s, shape (2 * L,)
+    hold: np.ndarray  # H in these responses, but for vibration, shape (2,)
+    hold_gain: np.ndarray  # |dH / dq|, shape (n,)
 
 
 class Components(NamedTuple):
@@ -58,7 +64,17 @@ class Components(NamedTuple):
     omega: np.ndarray  # rad/s
     damping: np.ndarray  # 2 xi omega, 1/s
     shape: np.ndarray  # amplitude under the slider, 0 for components b
-    arm: np.ndarray  # of friction, 0 for all but components b
+    tangential: np.ndarray  # amplitude of the surface, 0 for all but components b
+
+
+class Springs(NamedTuple):
+    """What the slider adds to the disc; k_p and c_p are 0 if the surface does not move."""
+
+    k: float  # N/m
+    c: float  # N s/m
+    k_p: float  # N/m
+    c_p: float  # N s/m
+    m: float  # kg
 
 
 def padded(n: int) -> int:
@@ -84,7 +100,7 @@ def build_stick_modes(
     """Return the modes of stick.
 
     places : shape (2, n), of displacements and velocities in `EngineState.disc`
-    slider : k, c, m and N by name
+    slider : k, c, k_p, c_p, m and N by name
     u : place of u there, followed by u', where contact is compliant
     length : of `EngineState.disc`
     unit : of time, s
@@ -99,24 +115,27 @@ def build_stick_modes(
     # tuples, by which cases that differ in Omega and N share modes
     values = tuple(tuple(component.tolist()) for component in components)
     where = tuple(places.ravel().tolist())
-    numbers = map(float, (slider["k"], slider["c"], slider["m"], unit, compliance))
-    modes = _under_unit_load(values, where, length, *numbers)
+    moves = components.tangential.any()
+    in_plane = (slider["k_p"], slider["c_p"]) if moves else (0.0, 0.0)
+    springs = Springs(slider["k"], slider["c"], *in_plane, slider["m"])
+    modes = _under_unit_load(values, where, length, springs, unit, compliance)
     return modes._replace(rest=slider["N"] * modes.rest, offset=slider["N"] * modes.offset)
 
 
 @lru_cache(maxsize=256)
-def _under_unit_load(values, where, length, k, c, m, unit, compliance) -> StickModes:
+def _under_unit_load(values, where, length, slider, unit, compliance) -> StickModes:
     """Return the modes for N = 1.
 
     values : those of `Components`
     where : places of displacements d, then of velocities d', in `EngineState.disc`; on a compliant
         contact the last entry of d is u
     length : of `EngineState.disc`
+    slider : `Springs`
     """
     components = Components(*map(np.array, values))
     displacements, velocities = np.split(np.array(where), 2)
     system = _compliant_system if compliance else _rigid_system
-    stiffness, damping, scale, force = system(components, k, c, m, unit, compliance)
+    stiffness, damping, scale, force = system(components, slider, unit, compliance)
     modes = _decomposed(stiffness, damping, scale, unit)
     if modes is None:
         return no_modes()
@@ -139,7 +158,9 @@ def _under_unit_load(values, where, length, k, c, m, unit, compliance) -> StickM
     powers[:, 1, :n] = tabled.imag
 
     rest = _static_rest(components, displacements, length, compliance)
-    friction = _friction_response(components, displacements, velocities, length)
+    moves = components.tangential.any()
+    pull, hold = _pull_response(components, slider, displacements, velocities, length)
+    hold_force = _hold_force(components, slider, len(displacements))
     unpadded = StickModes(
         decay=rates.real,
         turn=rates.imag,
@@ -149,37 +170,71 @@ def _under_unit_load(values, where, length, k, c, m, unit, compliance) -> StickM
         offset=-np.tensordot(rest, enter, 1),
         leave=leave,
         rest=rest,
-        friction_offset=-np.tensordot(friction, enter, 1),
-        friction_rest=friction,
+        pull_offset=-np.tensordot(pull, enter, 1) if moves else np.zeros(0),
+        pull_rest=pull if moves else np.zeros(0),
+        hold=hold if moves else np.zeros(0),
+        hold_gain=2.0 * np.abs(hold_force @ vectors) if moves else np.zeros(0),
     )
     return StickModes(*map(_in_lanes, unpadded))
 
 
-def _rigid_system(components, k, c, m, unit, compliance):
+def _rigid_system(components, slider, unit, compliance):
     """Matrices of stiffness and damping over the masses, scale of displacements, and change of P
     with d and d', of stick in rigid contact; ``compliance`` is 0."""
     omega, rates, shape, _ = components
+    k, c, _, _, m = slider
     mobility = 1.0 + m * shape @ shape
     rank_one = np.outer(shape, shape)
-    inverse_mass = np.eye(len(omega)) - rank_one * (m / mobility)
-    stiffness = np.diag(omega**2) + k * rank_one
-    damping = np.diag(rates) + c * rank_one
+    inverse_mass, stiffness, damping = _disc_in_plane(components, slider)
+    inverse_mass -= rank_one * (m / mobility)
+    stiffness += k * rank_one
+    damping += c * rank_one
     by_displacement = shape * (k - m * omega**2)
     by_velocity = shape * (c - m * rates)
     force = np.concatenate([by_displacement, by_velocity]) / mobility
     return inverse_mass @ stiffness, inverse_mass @ damping, omega * unit, force
 
 
-def _compliant_system(components, k, c, m, unit, compliance):
+def _disc_in_plane(components, slider):
+    """Inverse matrix of mass, and matrices of stiffness and damping, of the disc with the slider in
+    the plane."""
+    omega, rates, _, tangential = components
+    rank_one = np.outer(tangential, tangential)
+    mobility = 1.0 + slider.m * tangential @ tangential
+    inverse_mass = np.eye(len(omega)) - rank_one * (slider.m / mobility)
+    stiffness = np.diag(omega**2) + slider.k_p * rank_one
+    return inverse_mass, stiffness, np.diag(rates) + slider.c_p * rank_one
+
+
+def _hold_force(components, slider, n):
+    """Change of H in stick with the n coordinates d and their d', shape (2 n,)."""
+    omega, rates, _, tangential = components
+    _, _, k_p, c_p, m = slider
+    mobility = 1.0 + m * tangential @ tangential
+    force = np.zeros((2, n))
+    force[0, : len(omega)] = tangential * (m * omega**2 - k_p)
+    force[1, : len(omega)] = tangential * (m * rates - c_p)
+    return force.ravel() / mobility
+
+
+def _compliant_system(components, slider, unit, compliance):
     """As `_rigid_system`, on a compliant contact, with u as last coordinate."""
-    omega, rates, shape, _ = components
+    omega, _, shape, _ = components
+    k, c, _, _, m = slider
+    n = len(omega)
     stretch = np.append(shape, -1.0)  # of the contact, w - u
-    mass = np.append(np.ones(len(omega)), m)
-    stiffness = np.diag(np.append(omega**2, k)) + np.outer(stretch, stretch) / compliance
-    damping = np.diag(np.append(rates, c / m))
+    inverse_mass, disc_stiffness, disc_damping = _disc_in_plane(components, slider)
+    stiffness = np.diag(np.append(np.zeros(n), k))
+    stiffness[:n, :n] = disc_stiffness
+    stiffness += np.outer(stretch, stretch) / compliance
+    damping = np.zeros((n + 1, n + 1))
+    damping[:n, :n] = inverse_mass @ disc_damping
+    damping[-1, -1] = c / m
     scale = np.append(omega, np.sqrt(stiffness[-1, -1] / m)) * unit
     force = np.concatenate([shape / compliance, [-1.0 / compliance], np.zeros(len(omega) + 1)])
-    return stiffness / mass[:, None], damping, scale, force
+    stiffness[:n] = inverse_mass @ stiffness[:n]
+    stiffness[-1] /= m
+    return stiffness, damping, scale, force
 
 
 def _decomposed(stiffness, damping, scale, unit):
@@ -221,22 +276,24 @@ def _static_rest(components: Components, displacements, length, compliance) -> n
     return rest
 
 
-def _friction_response(components: Components, displacements, velocities, length) -> np.ndarray:
-    """Response to friction T = 1 N, and to T' = 1 N/s, shape (2, length), or (0, length) if it does
-    not bend the disc: d'' + damping d' + omega^2 d = -arm T with T'' = 0.
+def _pull_response(components: Components, slider, displacements, velocities, length):
+    """Response to the pull Q = 1 N, and to Q' = 1 N/s, of the disc in stick but for vibration, shape
+    (2, length), and H in it, shape (2,).
 
     displacements, velocities : places of d and d'
     """
-    omega, damping, _, arm = components
-    if not arm.any():
-        return np.zeros((0, length))
+    omega, _, _, tangential = components
     n = len(omega)
-    give = arm / omega**2
+    _, stiffness, damping = _disc_in_plane(components, slider)
+    by_pull = np.linalg.solve(stiffness, tangential)
+    by_rate = -np.linalg.solve(stiffness, damping @ by_pull)
     response = np.zeros((2, length))
-    response[0, displacements[:n]] = -give
-    response[1, velocities[:n]] = -give
-    response[1, displacements[:n]] = give * damping / omega**2
-    return response
+    response[0, displacements[:n]] = by_pull
+    response[1, velocities[:n]] = by_pull
+    response[1, displacements[:n]] = by_rate
+    steady = tangential @ by_pull
+    hold = [1.0 - slider.k_p * steady, -slider.k_p * tangential @ by_rate - slider.c_p * steady]
+    return response, np.array(hold)
 
 
 def _in_lanes(a: np.ndarray) -> np.ndarray:

@@ -29,10 +29,11 @@ from .columns import (
     order_at,
     put_entry,
 )
-from .contact import known_numerator, known_of, put_weakening, slip_law, stick_forces
+from .contact import known_numerator, known_of, put_weakening, slip_law
 from .dense_output import state_at
 from .jit import helper, inlined
 from .jit.simd import WIDTH, load, splat, spread, store
+from .laws import surface_mobility
 from .model import ROWS, is_rigid
 from .modes import slope
 from .series import displacement_at, velocity_at
@@ -122,20 +123,21 @@ def _next_order(model, series, tangent, block, k, phase, law, du, dv):
     there = order_at(tangent, block, k + 1)
 
     # rates without forces
-    free = _modal_rates(model, series, tangent, block, k, phase)
-    slider = _slider_loads(model, series, tangent, block, k, du, dv)
+    free, along = _modal_rates(model, series, tangent, block, k, phase)
+    slider = _slider_loads(model, series, tangent, block, k, du, dv, along)
 
     # forces, and the rates that they change
     V = splat(0.0)
-    T = splat(0.0)
+    H = splat(0.0)
     rate_f = splat(0.0)
     if phase == SLIP:
         if is_rigid(model):
             free = free + series.down[k] * _path_change(model, series, tangent, block, k)
-        V, T, H = _forces_in_slip(model, series, tangent, block, k, law, free, slider)
-        rate_f = lightness * (slider.pull - H * (1.0 / model.r_0))
+        V, H = _forces_in_slip(model, series, tangent, block, k, law, free, slider)
+        lever = surface_mobility(model, model.m) * (1.0 / model.r_0)
+        rate_f = lightness * (slider.pull - H * lever)
     elif phase == STICK:
-        V, T = _forces_in_stick(model, series, tangent, block, k, free, slider)
+        V, H = _forces_in_stick(model, series, tangent, block, k, free, slider)
     else:
         rate_f = slider.pull * lightness
     if model.has_compliance or phase == SEPARATION:
@@ -144,7 +146,7 @@ def _next_order(model, series, tangent, block, k, phase, law, du, dv):
         acceleration = free - model.inverse_effective_mass * V
         if phase == SLIP:
             acceleration = acceleration + tangent.motion_slope[0] * rate_f
-    _apply_forces(model, tangent, block, k, up, V, T)
+    _apply_forces(model, tangent, block, k, up, V, H)
 
     # the slider
     du_next = dv * up
@@ -182,29 +184,44 @@ def point_change(model, rows, at, f, B):
 
 
 @inlined
+def surface_change(model, rows, at):
+    """Return the change of v_s, the velocity along the path of the surface on which friction acts,
+    from the block of columns that begins at ``at`` of ``rows`` (lanes)."""
+    change = splat(0.0)
+    for j in range(len(model.mode_amplitude)):
+        if model.shift[j] > 0.0:
+            i = j + HALF
+            change = change + model.tangential[i] * entry(rows, at, velocity_place(model, i))
+    return change
+
+
+@inlined
 def _modal_rates(model, series, tangent, block, k, phase):
     """Enter the changes of all modes of order k + 1, of velocities that the contact force changes
-    their rates without it; and that of the slope. Returns the change of u'' of order k but for
-    forces (lanes)."""
+    their rates without it; and that of the slope. Returns the changes of order k, but for forces,
+    of u'' and of the surface's acceleration along the path (lanes)."""
     free = splat(0.0)
+    along = splat(0.0)
     d_slope = splat(0.0)
     for j in range(len(model.mode_amplitude)):
         if model.shift[j] > 0.0:
-            rate, db_next = _pair_rates(model, series, tangent, block, k, j, phase)
+            rate, rate_beta, db_next = _pair_rates(model, series, tangent, block, k, j, phase)
             free = free + model.mode_amplitude[j] * rate
             d_slope = d_slope + model.dw_dtheta[j + HALF] * db_next
+            if model.has_moving_surface:
+                along = along + model.tangential[j + HALF] * rate_beta
     single = splat(0.0)
     for j in range(len(model.mode_amplitude0)):
         rate = _axisymmetric_rates(model, series, tangent, block, k, j)
         single = single + model.mode_amplitude0[j] * rate
     store(tangent.slope, chain_at(tangent, block, k + 1), d_slope)
-    return free + single
+    return free + single, along
 
 
 @inlined
 def _pair_rates(model, series, tangent, block, k, j, phase):
-    """Changes of order k + 1 of the pair whose a is in lane j. Returns the rate of alpha without
-    the contact force, and b of order k + 1 (lanes)."""
+    """Changes of order k + 1 of the pair whose a is in lane j. Returns the rates of alpha and beta
+    without the contact force, and b of order k + 1 (lanes)."""
     i = j + HALF
     up = series.up[k]
     here = order_at(tangent, block, k)
@@ -245,7 +262,7 @@ def _pair_rates(model, series, tangent, block, k, j, phase):
     put_entry(tangent.series, there, i, db_next)
     put_entry(tangent.series, there, alpha_row, rate_alpha)
     put_entry(tangent.series, there, beta_row, rate_beta * up)
-    return rate_alpha, db_next
+    return rate_alpha, rate_beta, db_next
 
 
 class PairProducts(NamedTuple):
@@ -328,20 +345,20 @@ def _axisymmetric_rates(model, series, tangent, block, k, j):
 
 
 @inlined
-def _apply_forces(model, tangent, block, k, up, V, T):
-    """Complete the velocities of order k + 1 by the changes V of the vertical contact force and T
-    of friction, of order k (lanes)."""
+def _apply_forces(model, tangent, block, k, up, V, H):
+    """Complete the velocities of order k + 1 by the changes V and H of the contact forces of order k
+    (lanes)."""
     there = order_at(tangent, block, k + 1)
     for j in range(len(model.mode_amplitude)):
         if model.shift[j] > 0.0:
             row = velocity_place(model, j)
             rate = entry(tangent.series, there, row) - model.mode_amplitude[j] * V
             put_entry(tangent.series, there, row, rate * up)
-            if model.has_couple:
+            if model.has_moving_surface:
                 row += HALF
                 d_beta = entry(tangent.series, there, row)
-                push = (up * model.couple[j + HALF]) * T
-                put_entry(tangent.series, there, row, d_beta - push)
+                push = (up * model.tangential[j + HALF]) * H
+                put_entry(tangent.series, there, row, d_beta + push)
     for j in range(len(model.mode_amplitude0)):
         row = velocity0_place(model, j)
         rate = entry(tangent.series, there, row) - model.mode_amplitude0[j] * V
@@ -354,27 +371,36 @@ def _apply_forces(model, tangent, block, k, up, V, T):
 class SliderLoads(NamedTuple):
     """Changes of what acts on the slider but for contact forces (lanes)."""
 
-    pull: object  # of F, and of m at the same f'
+    pull: object  # of F - m G / r_0, and of m at the same accelerations
     vertical: object  # of N + k (u - u_0) + c u', and of m at the same u''
     turn: object  # of psi'
 
 
 @inlined
-def _slider_loads(model, series, tangent, block, k, du, dv):
-    """`SliderLoads` of order k; du, dv: changes of u and u' of order k (lanes)."""
+def _slider_loads(model, series, tangent, block, k, du, dv, along):
+    """`SliderLoads` of order k; du, dv, along: changes of u, u' and G of order k (lanes)."""
     here = order_at(tangent, block, k)
     dpsi = entry(tangent.series, here, slider_place(model, PSI))
     df = entry(tangent.series, here, slider_place(model, PHI_RATE))
+    if model.has_moving_surface:
+        # the slider's own rate
+        df = df + surface_change(model, tangent.series, here) * (1.0 / model.r_0)
     pull = model.k_p * dpsi - model.c_p * df
     vertical = model.k * du + model.c * dv
     turn = 0.0 - df
+    if model.has_moving_surface:
+        pull = pull - along * (model.m / model.r_0)
     if has_inputs(tangent, block):
         at = inputs_at(tangent, block)
         d_m = entry(tangent.inputs, at, D_M)
         d_c_p = entry(tangent.inputs, at, D_C_P)
+        f = series.f[k]
         f_rate = series.f[k + 1] * series.down[k]
+        if model.has_moving_surface:
+            f += series.surface[k] / model.r_0
+            f_rate += series.surface[k + 1] / model.r_0 * series.down[k]
         v_rate = series.v[k + 1] * series.down[k]
-        pull = pull + entry(tangent.inputs, at, D_K_P) * series.psi[k] - d_c_p * series.f[k]
+        pull = pull + entry(tangent.inputs, at, D_K_P) * series.psi[k] - d_c_p * f
         pull = pull - d_m * f_rate
         vertical = vertical + entry(tangent.inputs, at, D_K) * series.u[k]
         vertical = vertical + entry(tangent.inputs, at, D_C) * series.v[k] + d_m * v_rate
@@ -441,7 +467,7 @@ def _compression_change(model, series, tangent, block, k):
 
 @inlined
 def _forces_in_slip(model, series, tangent, block, k, law, free, slider):
-    """Changes of order k of V, T and H (lanes); enters those of the contact force and of T.
+    """Changes of order k of V and H (lanes); enters those of the contact force and of T.
 
     law : `contact.SlipLaw` of the motion
     free : change of u'' but for forces and f'
@@ -465,32 +491,21 @@ def _forces_in_slip(model, series, tangent, block, k, law, free, slider):
         if model.has_normal_force or model.has_falling_friction:
             numerator = numerator + known_numerator(model, law, known)
     R = numerator * (1.0 / law.denominator)
-    T = law.friction * R + known.T
     store(tangent.force, chain_at(tangent, block, k), R)
     if model.has_falling_friction:
-        store(tangent.friction, chain_at(tangent, block, k), T)
-    return law.share_V * R - known.V, T, law.share_H * R + known.H
+        store(tangent.friction, chain_at(tangent, block, k), law.friction * R + known.T)
+    return law.share_V * R - known.V, law.share_H * R + known.H
 
 
 @inlined
 def _forces_in_stick(model, series, tangent, block, k, free, slider):
-    """Changes of order k of V and T (lanes), T being 0 where it does not act on the disc; enters
-    those of R and T under the normal force."""
+    """Changes of order k of V and H (lanes), H being 0 where the surface does not move."""
     if model.has_compliance:
         V = _compression_change(model, series, tangent, block, k)
     else:
         mobility = 1.0 + model.m * model.inverse_effective_mass
         V = (model.m * free + slider.vertical) * (1.0 / mobility)
-    T = splat(0.0)
-    if model.has_couple:
-        pull = model.r_0 * slider.pull
-        if model.has_normal_force:
-            known_R = _leaning_change(model, tangent, block, k, series.normal, tangent.force)
-            known_T = _leaning_change(model, tangent, block, k, series.friction, tangent.friction)
-            beta = tangent.motion_slope[0] / model.r_0
-            R, T = stick_forces(beta, pull, V, known_R, known_T)
-            store(tangent.force, chain_at(tangent, block, k), R)
-            store(tangent.friction, chain_at(tangent, block, k), T)
-        else:
-            T = pull
-    return V, T
+    H = splat(0.0)
+    if model.has_moving_surface:
+        H = slider.pull * (model.r_0 / surface_mobility(model, model.m))
+    return V, H

@@ -1,9 +1,11 @@
 """Events: contact force, impact, and the choice of the next phase (docs/model.md, Contact and
 events)."""
 
+from typing import NamedTuple
+
 from . import laws
 from .jit import helper, inlined
-from .jit.simd import WIDTH, absolute, load, splat, total
+from .jit.simd import WIDTH, absolute, load, splat, swap_halves, total
 from .laws import Instant
 from .model import drive_now, load_now
 from .state import (
@@ -109,11 +111,56 @@ def free_acceleration(model, state):
     return acceleration, size
 
 
+class Sizes(NamedTuple):
+    """Sums of the moduli of terms that may nearly cancel."""
+
+    up: float  # of A, m/s^2
+    along: float  # of G, m/s^2
+
+
+@inlined
+def surface_velocity(model, state):
+    """Return v_s, the velocity along the path of the surface on which friction acts, under the
+    slider, m/s."""
+    velocity = splat(0.0)
+    if model.has_moving_surface:
+        for b in range(0, len(model.shift), WIDTH):
+            velocity = velocity + load(model.tangential, b) * load(state.e, b)
+    return total(velocity)
+
+
+@inlined
+def surface_acceleration(model, state):
+    """Return G, the acceleration of that surface but for the contact force, and the sum of the
+    moduli of its terms, in m/s^2."""
+    parts = splat(0.0)
+    sizes = splat(0.0)
+    if model.has_moving_surface:
+        f = splat(state.x[PHI_RATE])
+        for b in range(0, len(model.shift), WIDTH):
+            e = load(state.e, b)
+            pull = load(model.stiffness, b) * load(state.z, b) + load(model.damping, b) * e
+            turned = f * (load(model.shift, b) * swap_halves(e))
+            part = load(model.tangential, b) * (turned - pull)
+            parts = parts + part
+            sizes = sizes + absolute(part)
+    return total(parts), total(sizes)
+
+
+@inlined
+def slider_rate(model, state):
+    """Return f, the slider's angular speed, rad/s."""
+    if model.has_moving_surface:
+        return state.x[PHI_RATE] + surface_velocity(model, state) / model.r_0
+    return state.x[PHI_RATE]
+
+
 @inlined
 def instant(model, state):
-    """Return the arguments of the laws of contact, and the size of the terms of A."""
+    """Return the arguments of the laws of contact, and `Sizes`."""
     w, velocity, dw_dtheta = disc_point(model, state)
     acceleration, size = free_acceleration(model, state)
+    along, along_size = surface_acceleration(model, state)
     arguments = Instant(
         N=load_now(model, state),
         k=model.k,
@@ -124,22 +171,33 @@ def instant(model, state):
         Omega=drive_now(model, state),
         compliance=model.compliance,
         psi=state.x[PSI],
-        f=state.x[PHI_RATE],
+        g=state.x[PHI_RATE],
         w=w,
         w_velocity=velocity,
         dw_dtheta=dw_dtheta,
         free=acceleration,
+        surface_velocity=surface_velocity(model, state),
+        surface_free=along,
         u=state.x[U],
         u_velocity=state.x[U_VELOCITY],
     )
-    return arguments, size
+    return arguments, Sizes(size, along_size)
 
 
 @inlined
 def inplane_force_per_radius(model, state):
     """Return F, N/m."""
     i, _ = instant(model, state)
-    return laws.inplane_force_per_radius(i)
+    return laws.inplane_force_per_radius(model, i)
+
+
+@inlined
+def _free_pull(model, i, sizes):
+    """Return what pulls the slider over the material but for contact, over r_0, and its size, N/m."""
+    pull = laws.free_pull(model, i)
+    if model.has_moving_surface:
+        return pull, abs(pull) + i.m / model.r_0 * sizes.along
+    return pull, abs(pull)
 
 
 # ---- Forces
@@ -158,17 +216,18 @@ def deflection_size(model, state):
 
 
 @inlined
-def _rounding(model, state, i, size):
-    """Rounding error of V in stick, or of the numerator of P where B F is rounded too; size: that
-    of the terms of A."""
+def _rounding(model, state, i, sizes):
+    """Rounding error of V in stick, or of the numerator of P where B F is rounded too."""
     if model.has_compliance:
         return ROUNDING * deflection_size(model, state) / i.compliance
-    return ROUNDING * (i.N + abs(i.k * (i.w - model.u_0)) + abs(i.c * i.w_velocity) + i.m * size)
+    return ROUNDING * (
+        i.N + abs(i.k * (i.w - model.u_0)) + abs(i.c * i.w_velocity) + i.m * sizes.up
+    )
 
 
 @inlined
 def stick_force(model, state):
-    """Return the vertical contact force in stick (f = 0): P, or V under the normal force."""
+    """Return the vertical contact force in stick (g = 0): P, or V under the normal force."""
     i, _ = instant(model, state)
     return laws.vertical_in_stick(model, i)
 
@@ -184,18 +243,6 @@ def force_in_stick(model, state, V):
 
 
 @inlined
-def friction_force(model, state, phase, direction, P):
-    """Return friction T on the disc, in the direction of the slider's path; P: the contact force,
-    used in slip."""
-    if phase == SLIP:
-        return laws.friction_coefficient(model, direction, state.x[PHI_RATE]) * P
-    if phase == SEPARATION:
-        return 0.0
-    i, _ = instant(model, state)
-    return laws.friction_in_stick(model, i, laws.vertical_in_stick(model, i))
-
-
-@inlined
 def usual_denominator(model):
     """Return the denominator of the contact force in slip without friction."""
     if model.has_compliance:
@@ -207,12 +254,13 @@ def usual_denominator(model):
 def slip_force(model, state, direction):
     """Return the contact force in slip (P, or R under the normal force), its denominator, and its
     rounding error."""
-    i, size = instant(model, state)
-    friction = laws.friction_coefficient(model, direction, i.f)
+    i, sizes = instant(model, state)
+    friction = laws.friction_coefficient(model, direction, i.g)
     denominator = laws.slip_denominator(model, i.m, friction, i.dw_dtheta)
-    noise = _rounding(model, state, i, size)
+    noise = _rounding(model, state, i, sizes)
     if not model.has_compliance:
-        noise += ROUNDING * abs(i.dw_dtheta * laws.inplane_force_per_radius(i))
+        _, pull_size = _free_pull(model, i, sizes)
+        noise += ROUNDING * abs(i.dw_dtheta) * pull_size
     return laws.slip_numerator(model, i) / denominator, denominator, noise / abs(denominator)
 
 
@@ -220,7 +268,7 @@ def slip_force(model, state, direction):
 def event_function(model, i, cause, slipping):
     """Return the event function of a cause at an instant; slipping: whether it ends slip."""
     if cause == AT_REST:
-        return i.f
+        return i.g
     if cause == GAP_CLOSED:
         return i.u - i.w
     if cause == CONTACT_LOST:
@@ -263,16 +311,17 @@ def gap_error(model, state, order, tolerance):
 
 @helper
 def slip_error(model, state, tolerance):
-    """Return the error of f' where slip has just begun, in rad/s per time unit: that of rounding if
+    """Return the error of g' where slip has just begun, in rad/s per time unit: that of rounding if
     ``tolerance`` is 0, else also that of series of this relative tolerance."""
     P, _, noise = slip_force(model, state, state.x[DIRECTION])
-    F = inplane_force_per_radius(model, state)
+    i, sizes = instant(model, state)
+    _, pull_size = _free_pull(model, i, sizes)
     resistance = model.mu_s if model.has_falling_friction else model.mu_k
     if model.has_normal_force:
-        _, _, dw_dtheta = disc_point(model, state)
-        resistance += abs(dw_dtheta) / model.r_0
+        resistance += abs(i.dw_dtheta) / model.r_0
+    resistance *= laws.surface_mobility(model, i.m)
     load = max(abs(P), load_now(model, state))
-    pull_error = (ROUNDING + tolerance) * abs(F)
+    pull_error = (ROUNDING + tolerance) * pull_size
     friction_error = resistance * (noise + tolerance * load) / model.r_0
     return model.unit * (pull_error + friction_error) / model.m
 
@@ -307,21 +356,22 @@ def _enter_separation(model, state, P, noise):
 
 @inlined
 def _known_at_rest(model, state, direction, P, noise):
-    """Multiplicity of the root of f where slip begins at f = 0 under the contact force P, up to
+    """Multiplicity of the root of g where slip begins at g = 0 under the contact force P, up to
     ``noise``.
 
-    It is two where f', which points into the direction of slip or vanishes, is rounding: (1 + m S +
-    s mu B / r_0) f' m = (1 + m S) (|F| - mu P_stick / r_0).
+    It is two where g', which points into the direction of slip or vanishes, is rounding: (1 + m S +
+    s mu B / r_0) g' m = (1 + m S) (|F| - mu P_stick / r_0), if the surface does not move.
     """
     resistance = model.mu_s if model.has_falling_friction else model.mu_k
     bound = resistance
+    i, sizes = instant(model, state)
     if model.has_normal_force:
-        _, _, dw_dtheta = disc_point(model, state)
-        resistance += direction * dw_dtheta / model.r_0
-        bound += abs(dw_dtheta) / model.r_0
-    F = inplane_force_per_radius(model, state)
-    rounding = ROUNDING * abs(F) + bound * noise / model.r_0
-    return 2 if direction * F - resistance * P / model.r_0 <= rounding else 1
+        resistance += direction * i.dw_dtheta / model.r_0
+        bound += abs(i.dw_dtheta) / model.r_0
+    mobility = laws.surface_mobility(model, i.m)
+    pull, size = _free_pull(model, i, sizes)
+    rounding = ROUNDING * size + mobility * bound * noise / model.r_0
+    return 2 if direction * pull - mobility * resistance * P / model.r_0 <= rounding else 1
 
 
 @helper
@@ -347,8 +397,8 @@ def friction_drops(model):
 
 @helper
 def stop_slip(model, state):
-    """f has reached zero: begin stick if friction holds the spring, else slip to the side of the
-    spring's pull. Returns CONSISTENT or NO_SOLUTION."""
+    """g has reached zero: begin stick if friction holds the slider, else slip to the side of the
+    pull. Returns CONSISTENT or NO_SOLUTION."""
     state.x[PHI_RATE] = 0.0
     i, _ = instant(model, state)
     P = laws.vertical_in_stick(model, i)
@@ -365,10 +415,14 @@ def impact(model, state):
     """Carry out the plastic impact (Eqs. 29-37), in which the slider takes the disc's velocity.
     Returns the impulse p, N s."""
     i, _ = instant(model, state)
-    p, f = laws.impact(model, i)
-    state.x[PHI_RATE] = f
+    p, g = laws.impact(model, i)
+    state.x[PHI_RATE] = g
     for j in range(len(model.shift)):
         state.e[j] -= model.mode_amplitude[j] * p
+    if model.has_moving_surface and model.has_normal_force:
+        along = p * i.dw_dtheta / model.r_0
+        for j in range(len(model.shift)):
+            state.e[j] += model.tangential[j] * along
     for j in range(len(model.mode_amplitude0)):
         state.g[j] -= model.mode_amplitude0[j] * p
     state.x[U], state.x[U_VELOCITY], _ = disc_point(model, state)
@@ -379,16 +433,16 @@ def impact(model, state):
 def _touch(model, state):
     """Begin contact on a compliant contact, whose force rises from zero without an impact. Returns
     CONSISTENT or NO_SOLUTION."""
-    f = state.x[PHI_RATE]
-    F = inplane_force_per_radius(model, state)
-    if f == 0.0 and F == 0.0:
+    i, _ = instant(model, state)
+    pull = laws.free_pull(model, i)
+    if i.g == 0.0 and pull == 0.0:
         return _begin(state, STICK, 0.0, 0, 0.0, 1)
-    ahead = f if f != 0.0 else F
+    ahead = i.g if i.g != 0.0 else pull
     direction = 1.0 if ahead > 0.0 else -1.0
     _, denominator, _ = slip_force(model, state, direction)
     if denominator <= PAINLEVE_MARGIN:
         return NO_SOLUTION
-    return _begin(state, SLIP, direction, 1 if f == 0.0 else 0, 0.0, 1)
+    return _begin(state, SLIP, direction, 1 if i.g == 0.0 else 0, 0.0, 1)
 
 
 @helper
@@ -397,10 +451,10 @@ def reattach(model, state):
     if model.has_compliance:
         return _touch(model, state)
     impact(model, state)
-    f = state.x[PHI_RATE]
-    if f == 0.0:
+    g = state.x[PHI_RATE]
+    if g == 0.0:
         return stop_slip(model, state)
-    return enter_slip(model, state, 1.0 if f > 0.0 else -1.0)
+    return enter_slip(model, state, 1.0 if g > 0.0 else -1.0)
 
 
 @helper
@@ -409,9 +463,9 @@ def lose_contact(model, state):
     if state.x[PHASE] == SLIP:
         P, _, noise = slip_force(model, state, state.x[DIRECTION])
     else:
-        i, size = instant(model, state)
+        i, sizes = instant(model, state)
         P = laws.stick_numerator(model, i)
-        noise = _rounding(model, state, i, size)
+        noise = _rounding(model, state, i, sizes)
     return _enter_separation(model, state, P, noise)
 
 
@@ -427,7 +481,7 @@ def change_phase(model, state, cause, at_once):
         return lose_contact(model, state)
     outcome = enter_slip(model, state, 1.0 if cause == RELEASE_FORWARD else -1.0)
     if state.x[PHASE] == SLIP and not friction_drops(model) and not at_once:
-        # friction does not jump: f' = 0, despite the error of the event's time. Where stick had no
+        # friction does not jump: g' = 0, despite the error of the event's time. Where stick had no
         # duration, the spring may pull harder than friction can hold.
         state.x[KNOWN] = 2
     return outcome

@@ -5,19 +5,27 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names, stated_in
-from disc_model.figures import drawing
-from disc_model.figures.arrays import Array
 from disc_model.figures.cells import entries
 from disc_model.figures.classes import LOOKS
-from disc_model.figures.drawing import BLACK, GREY, SEPARATED, large, mark, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    GREY,
+    PAGE,
+    SEPARATED,
+    large,
+    letters,
+    mark,
+    mark_failed,
+    new_figure,
+    say,
+    wide,
+)
 from disc_model.figures.kinds.motions import BasinShares
 from disc_model.figures.legends import figure_legend, legend_above
 from disc_model.figures.selection import failed
-from disc_model.figures.sizes import PAGE
+from disc_model.figures.types import Array, Axes, Figure
 from disc_model.figures.words import measured
 
 STACKED = (
@@ -56,11 +64,11 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     _draw_attractors(attractors, study, across.values)
     _draw_kicks(kicks, study, across.values)
 
-    drawing.letters(axes, [f"{energy:g} J" for energy in energies])
+    letters(axes, [f"{energy:g} J" for energy in energies])
     for ax in axes:
         ax.margins(x=0.04)
         ax.set_xlabel(across.label)
-        drawing.mark_failed(ax, across.values[failed(study).values])
+        mark_failed(ax, across.values[failed(study).values])
     horizon = stated_in(study, "options")["horizon"]
     undecided = LOOKS["undecided"]._replace(label=f"undecided after {horizon:g} s")
     handles = entries(classes, {**LOOKS, "undecided": undecided})
@@ -72,10 +80,10 @@ def _panels(width: float, count: int) -> tuple[Figure, list[Axes]]:
     """A figure with a panel of shares for each energy, and two below; in one column, all below each
     other."""
     if width != PAGE:
-        figure = drawing.new_figure(width, 1.0 + 1.5 * count + 4.0)
+        figure = new_figure(width, 1.0 + 1.5 * count + 4.0)
         grid = figure.add_gridspec(count + 2, 1, height_ratios=[1.0] * count + [1.3, 1.3])
         return figure, [figure.add_subplot(grid[i]) for i in range(count + 2)]
-    figure = drawing.new_figure(width, 4.6)
+    figure = new_figure(width, 4.6)
     above, below = np.asarray(figure.subfigures(2, 1))
     shares = above.subplots(1, count, sharey=True, squeeze=False)[0]
     return figure, [*shares, *below.subplots(1, 2)]
@@ -160,7 +168,7 @@ def _draw_kicks(ax: Axes, study: xr.Dataset, along: Array) -> None:
         ax.set_yscale("log")
         # energy 0 has no place on this logarithmic scale
         for x in along[bound == 0]:
-            drawing.say(
+            say(
                 ax,
                 "0",
                 (x, 0),

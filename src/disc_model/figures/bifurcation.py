@@ -5,16 +5,25 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.data.variables import axis_of, flag_names, stated_in
-from disc_model.figures import drawing
-from disc_model.figures.arrays import Array, Words
-from disc_model.figures.drawing import BLACK, BLUE, BROWN, GREY, PHASE_COLOURS, mark, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    BLUE,
+    BROWN,
+    GREY,
+    PHASE_COLOURS,
+    letters,
+    mark,
+    mark_cases,
+    mark_failed,
+    panels,
+    wide,
+)
 from disc_model.figures.kinds.motions import Bifurcation
 from disc_model.figures.legends import legend_above
 from disc_model.figures.selection import broken, failed
+from disc_model.figures.types import Array, Axes, Figure, Words
 
 MARKS: dict[str, dict[str, Any]] = {
     "stick": {"marker": "x", "markersize": 2.0, "mew": 0.4},
@@ -53,9 +62,7 @@ def draw(plot: Bifurcation, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
         heights.append(1.4)
     width = plot.inches
     rows = len(heights)
-    figure, axes = drawing.panels(
-        width, sum(heights) + 0.7, rows, sharex=True, height_ratios=heights
-    )
+    figure, axes = panels(width, sum(heights) + 0.7, rows, sharex=True, height_ratios=heights)
     axes[-1].set_xlabel(label)
 
     _draw_samples(axes[0], study, along)
@@ -64,11 +71,11 @@ def draw(plot: Bifurcation, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     if "lyapunov" in overlays:
         _draw_exponents(axes[2], overlays["lyapunov"], plot.x)
 
-    drawing.letters(axes)
+    letters(axes)
     for panel in axes:
         panel.margins(x=0.01)  # no dot is cut at the edge
     places = {case: value * factor for case, value in plot.paper_cases.items()}
-    drawing.mark_cases(axes, places)
+    mark_cases(axes, places)
     legend = legend_above(axes[0])
     for line in legend.get_lines() if legend else ():
         line.set_markersize(mark(IN_LEGEND))
@@ -96,7 +103,7 @@ def _draw_samples(ax: Axes, study: xr.Dataset, along: Array) -> None:
         if mask.any():
             sized = {**look, "markersize": mark(look["markersize"])}
             ax.plot(position[mask], values[mask], linestyle="", label=name, **sized)
-    drawing.mark_failed(ax, along[failed(study).values])
+    mark_failed(ax, along[failed(study).values])
     ax.set_ylabel(axis_of("psi")[0].replace("rad", "mrad"))
 
 
@@ -133,7 +140,7 @@ def _draw_periods(ax: Axes, study: xr.Dataset, along: Array) -> None:
     ax.set_ylabel("Period\n(events)")
     ax.set_ylim(0.4, None)  # room for crosses below period 1
     ax.yaxis.set_major_formatter("{x:g}")
-    drawing.mark_failed(ax, along[moving][~repeats], name="not shown to repeat")
+    mark_failed(ax, along[moving][~repeats], name="not shown to repeat")
     if not repeats.all():
         legend_above(ax)
 
@@ -166,6 +173,6 @@ def _draw_exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     ax.fill_between([], [], [], color=GREY, alpha=0.3, linewidth=0, label=errors)
     if moving.any():
         ax.plot([], [], "o", label="not converged", color=GREY, **ring)
-    drawing.mark_failed(ax, along[np.isnan(exponent[0])])
+    mark_failed(ax, along[np.isnan(exponent[0])])
     ax.set_ylabel("Lyapunov\nexponents,\nwithout the\ntrivial one (1/s)")
     legend_above(ax)

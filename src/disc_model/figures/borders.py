@@ -1,24 +1,31 @@
-"""Neutral curves and folds of the cycle over speed and preload: their selection and drawing."""
+"""Borders of stability over two parameters: neutral curves and folds of the cycle, their selection and
+drawing, and the edges of cells where no curves are known.
+"""
 
 from collections.abc import Sequence
 from dataclasses import fields
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from scipy.ndimage import binary_dilation
 
 from disc_model.analysis.spectra import Resonance
 from disc_model.data.variables import flag_names, typeset
-from disc_model.figures import drawing
-from disc_model.figures.arrays import Array, Indices, Mask
-from disc_model.figures.drawing import BLACK, BORDERS, border, large, mark
+from disc_model.figures.cells import Edges, edges_of, unresolved
+from disc_model.figures.drawing import BLACK, BORDERS, border, halo, large, mark, sample, say
+from disc_model.figures.growth import stability_of
+from disc_model.figures.types import Array, Artist, Axes, Indices, Mask
 
 NEAR = 3.0  # Hz, from a resonance, within which a fold has its name
 BOUNDING = 0.5
 """Share of points from which a stretch of a curve bounds a cycle, as cells are coarser."""
+JOINED = ("branch_continues_first", "branch_continues_second")
+"""Whether the branch continues along the study's first and second dimension."""
+CAPS: dict[str, Any] = {"neutral": "projecting", "fold": None}
+"""Ends of the segments of borders; dashes have none."""
+Segment = list[tuple[float, float]]
 
 
 class Curve(NamedTuple):
@@ -131,10 +138,10 @@ def draw_curves(ax: Axes, curves: Sequence[Curve]) -> list[Artist]:
             _number(ax, curve, numbers[curve.label])
 
     kinds = {curve.kind for curve in curves}
-    handles = [drawing.sample(**border(kind)) for kind in BORDERS if kind in kinds]
+    handles = [sample(**border(kind)) for kind in BORDERS if kind in kinds]
     for label, number in numbers.items():
         sign = {"marker": f"${number}$", "ls": "", "c": BLACK, "ms": mark(4), "mew": 0}
-        handles.append(drawing.sample(label=typeset(label), **sign))
+        handles.append(sample(label=typeset(label), **sign))
     return handles
 
 
@@ -142,12 +149,61 @@ def _number(ax: Axes, curve: Curve, number: int) -> None:
     """Write the number of a curve beyond its upper end."""
     i = int(np.nanargmax(curve.N))
     end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
-    drawing.say(
-        ax,
-        str(number),
-        end,
-        (0, 2),
-        fontsize=large(6),
-        annotation_clip=False,
-        path_effects=drawing.halo(),
-    )
+    say(ax, str(number), end, (0, 2), fontsize=large(6), annotation_clip=False, path_effects=halo())
+
+
+# ---- Borders between cells
+
+
+def draw_borders(ax: Axes, plane: xr.Dataset, upward: bool) -> list[Artist]:
+    """Draw borders between resolved cells: where one cycle changes its stability, and where a
+    stable one ends: the next cell has none and does not stay quiet. Upward: the study's first
+    dimension is the vertical one."""
+    up, right = JOINED
+    if not upward:
+        up, right = right, up
+    edges = edges_of(plane["outcome"])
+    rows = _segments(plane, edges, up, vertical=True)
+    columns = _segments(plane, edges, right, vertical=False)
+    drawn = []
+    for kind in BORDERS:
+        segments = rows[kind] + columns[kind]
+        ax.add_collection(LineCollection(segments, capstyle=CAPS[kind], **border(kind)))
+        if segments:
+            drawn.append(sample(**border(kind)))
+    return drawn
+
+
+def _segments(
+    plane: xr.Dataset, edges: Edges, joined: str, vertical: bool
+) -> dict[str, list[Segment]]:
+    """Segments of borders between cells that are neighbours in one direction, by their kind."""
+    state = stability_of(plane)
+    state[unresolved(state)] = "unresolved"
+    stable = state == "stable"
+    unstable = state == "unstable"
+    ends = (flag_names(plane["cycle"]) == "no_cycle") & (flag_names(plane["outcome"]) != "quiet")
+
+    here: Any = np.s_[:, :-1]
+    ahead: Any = np.s_[:, 1:]
+    if vertical:
+        here = np.s_[:-1, :]
+        ahead = np.s_[1:, :]
+    same = flag_names(plane[joined])[here] == "yes"
+    changes = (stable[here] & unstable[ahead]) | (unstable[here] & stable[ahead])
+    stops = (stable[here] & ends[ahead]) | (ends[here] & stable[ahead])
+    found = {"neutral": np.argwhere(changes & same), "fold": np.argwhere(stops)}
+
+    segments: dict[str, list[Segment]] = {}
+    for kind, cells in found.items():
+        segments[kind] = [_edge(edges, i, j, vertical) for i, j in cells]
+    return segments
+
+
+def _edge(edges: Edges, row: int, column: int, vertical: bool) -> Segment:
+    """The edge between a cell and the one above it, or the one on its right."""
+    x, y = edges
+    corner = (x[column + 1], y[row + 1])
+    if vertical:
+        return [(x[column], y[row + 1]), corner]
+    return [(x[column + 1], y[row]), corner]

@@ -6,17 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 
 from disc_model.data.variables import axis_of
 from disc_model.errors import require
-from disc_model.figures import drawing
 from disc_model.figures.branches import STABLE, THIN, draw_branch
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.curve import scale_rates
-from disc_model.figures.drawing import BLACK, BLUE, SEPARATED, mark, wide
+from disc_model.figures.drawing import BLACK, BLUE, COLUMN, SEPARATED, mark, sample, wide
 from disc_model.figures.runs import stated
-from disc_model.figures.sizes import COLUMN
+from disc_model.figures.types import Axes
 from disc_model.figures.words import label_of
 
 if TYPE_CHECKING:
@@ -28,6 +26,7 @@ SPECIAL_MARKS = {
     "neimark_sacker": ("o", BLUE, "Neimark-Sacker bifurcation"),
     "branch_point": ("*", BLACK, "branch point"),
     "grazing": ("X", SEPARATED, "grazing"),
+    "hopf": ("^", BLUE, "Hopf point"),
 }
 """Kinds of special points, with their mark, colour and name in the legend."""
 
@@ -46,7 +45,8 @@ def plot_branch(
     first, *second = branch.parameters
     across, factor = axis_of(first)
     x = branch.values[:, 0] * factor
-    label, values = _heights(branch, y)
+    label, upward = _axis_upward(branch, y)
+    values = _upward(branch, branch, y) * upward
     case = stated(branch.case, *branch.parameters)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
         axes = page.ax
@@ -57,10 +57,10 @@ def plot_branch(
         if y == "growth_rate" and not second:
             scale_rates(axes)
         handles = [
-            drawing.sample(color=BLACK, linewidth=wide(width), label=text)
+            sample(color=BLACK, linewidth=wide(width), label=text)
             for width, text in ((STABLE, "stable"), (THIN, "unstable"))
         ]
-        handles += _mark_special_points(axes, branch, y, factor)
+        handles += _mark_special_points(axes, branch, y, (factor, upward))
         axes.margins(0.04)
         axes.set_xlabel(across)
         axes.set_ylabel(label)
@@ -68,44 +68,42 @@ def plot_branch(
     return page.ax
 
 
-def _heights(branch: Branch, y: str) -> tuple[str, np.ndarray]:
-    """The label of what is drawn upward, and its values in the label's unit."""
+def _axis_upward(branch: Branch, y: str) -> tuple[str, float]:
+    """The label of what is drawn upward, and the factor from SI to the label's unit."""
     if len(branch.parameters) > 1:
-        label, factor = axis_of(branch.parameters[1])
-        return label, branch.values[:, 1] * factor
+        return axis_of(branch.parameters[1])
     known = isinstance(y, str) and y in branch.variables
     require((known, "y", y, f"must be one of {', '.join(branch.variables)}"))
-    values = getattr(branch, y) * _scale_of(y)
     attributes = branch.variables[y].attributes
+    factor = 1.0
     if y == "period":
         attributes["units"] = "ms"
-    label, _ = label_of(xr.DataArray(values, name=y, attrs=attributes))
-    return label, values
+        factor = 1e3
+    label, _ = label_of(xr.DataArray(name=y, attrs=attributes))
+    return label, factor
 
 
-def _scale_of(y: str) -> float:
-    """The factor from a variable of a branch to what is drawn: periods are drawn in ms."""
-    return 1e3 if y == "period" else 1.0
-
-
-def _height_of(point: SpecialPoint, branch: Branch, y: str) -> float:
-    """How high a special point is drawn, in the unit of the label."""
+def _upward(of: Branch | SpecialPoint, branch: Branch, y: str) -> np.ndarray:
+    """What is drawn upward, of all cycles of a branch or of a special point, in SI units."""
     if len(branch.parameters) > 1:
-        _, factor = axis_of(branch.parameters[1])
-        return float(point.values[1] * factor)
-    return float(getattr(point, y) * _scale_of(y))
+        return np.asarray(of.values[..., 1])
+    return np.asarray(getattr(of, y))
 
 
-def _mark_special_points(ax: Axes, branch: Branch, y: str, factor: float) -> list[Any]:
+def _mark_special_points(
+    ax: Axes, branch: Branch, y: str, factors: tuple[float, float]
+) -> list[Any]:
     """Mark the special points of a branch; returns the entries of a legend, with the value of a
-    kind that is there once, or else how many there are."""
+    kind that is there once, or else how many there are. The factors are those from SI to the units
+    of both axes."""
+    across, upward = factors
     handles: list[Any] = []
     for kind, (sign, colour, name) in SPECIAL_MARKS.items():
         special = [each for each in branch.special if each.kind == kind]
         if not special:
             continue
-        places = np.array([each.values[0] for each in special]) * factor
-        heights = [_height_of(each, branch, y) for each in special]
+        places = np.array([each.values[0] for each in special]) * across
+        heights = [_upward(each, branch, y) * upward for each in special]
         text = f"{len(special)} {name}s"
         if len(special) == 1:
             text = f"{name} at {places[0]:.5g}"

@@ -6,18 +6,26 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.legend_handler import HandlerTuple
 
 from disc_model.data.variables import axis_of, flag_names, stated_in
-from disc_model.figures import drawing
-from disc_model.figures.arrays import Array, Mask
-from disc_model.figures.drawing import BLACK, GREY, SEPARATED, large, mark, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    GREY,
+    PAGE,
+    SEPARATED,
+    large,
+    mark,
+    mark_cases,
+    panels,
+    sample,
+    say,
+    wide,
+)
 from disc_model.figures.kinds.motions import Branches
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import broken, stretches
-from disc_model.figures.sizes import PAGE
+from disc_model.figures.types import Array, Axes, Figure, Mask
 
 LOWEST = 1e-3  # least range that is distinguished from rest, mm
 STABLE = 2.0  # width of lines of stable motions, points,
@@ -35,7 +43,7 @@ def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     label, factor = axis_of(str(stated_in(study, "options")["parameter"]))
     along = study["sweep_value"].values * factor
     width = plot.inches
-    figure, [ax] = drawing.panels(width, 3.6 if width == PAGE else 3.9)
+    figure, [ax] = panels(width, 3.6 if width == PAGE else 3.9)
     ax.set_yscale("log")
 
     for i in range(int(study["n_branches"])):
@@ -49,7 +57,7 @@ def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
         _draw_sweep(ax, sweep)
 
     places = {case: value * factor for case, value in plot.paper_cases.items()}
-    drawing.mark_cases([ax], places, 0.05)
+    mark_cases([ax], places, 0.05)
     ax.set_xlabel(label)
     ax.set_ylabel("Range of the slider's height (mm)")
     ax.set_xlim((along[0], along[-1]))
@@ -85,7 +93,7 @@ def _draw_sliding(ax: Axes, study: xr.Dataset, along: Array) -> None:
         phrase = "stable"
     draw_branch(ax, along, np.full(along.size, LOWEST), ~unstable, GREY)
     place = (along[-1], LOWEST)
-    drawing.say(ax, f"steady sliding: {phrase}", place, (-4, 3), fontsize=large(7), color=GREY)
+    say(ax, f"steady sliding: {phrase}", place, (-4, 3), fontsize=large(7), color=GREY)
 
 
 # ---- Sweeps
@@ -154,16 +162,16 @@ def _legend(figure: Figure, study: xr.Dataset) -> None:
     unsettled = bool((flag_names(study["sweep_settled"])[swept] != "settled").any())
 
     named: dict[str, Any] = {
-        "stable cycle, in contact": drawing.sample(color=BLACK, linewidth=wide(STABLE))
+        "stable cycle, in contact": sample(color=BLACK, linewidth=wide(STABLE))
     }
     if separating:
-        thick = drawing.sample(color=SEPARATED, linewidth=wide(STABLE))
+        thick = sample(color=SEPARATED, linewidth=wide(STABLE))
         named["stable cycle, separating"] = thick
-    named["unstable cycle"] = drawing.sample(color=BLACK, linewidth=wide(THIN))
+    named["unstable cycle"] = sample(color=BLACK, linewidth=wide(THIN))
 
     def both(colour: str) -> tuple[Any, Any]:
         """Marks of both sweeps, up and down."""
-        up, down = (drawing.sample(ls="", marker=way, c=colour, **_mark_look()) for way in "^v")
+        up, down = (sample(ls="", marker=way, c=colour, **_mark_look()) for way in "^v")
         return up, down
 
     rising, falling = both(BLACK)

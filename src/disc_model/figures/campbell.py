@@ -5,17 +5,22 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names
-from disc_model.figures import drawing
-from disc_model.figures.arrays import Array, Mask
 from disc_model.figures.curve import LINEAR, scale_rates
-from disc_model.figures.drawing import BLACK, GREY, large, mark, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    GREY,
+    halo,
+    large,
+    letters,
+    mark,
+    panels,
+    say_beside,
+    wide,
+)
 from disc_model.figures.kinds.motions import Campbell
-from disc_model.figures.mode_names import named_modes
-from disc_model.figures.names import Names
+from disc_model.figures.names import Names, named_modes
 from disc_model.figures.selection import (
     NORM,
     broken,
@@ -25,6 +30,7 @@ from disc_model.figures.selection import (
     stretches,
     titles_of,
 )
+from disc_model.figures.types import Array, Axes, Figure, Mask
 from disc_model.figures.words import SPEED
 
 MOST = 5  # number of peaks that are named at most
@@ -49,7 +55,7 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
         study = study.sel({NORM: chosen})
     parts = parts_along(study, plot.by, plot.names)
     width = plot.inches
-    figure, axes = drawing.panels(
+    figure, axes = panels(
         width, 5.4, 2, len(parts), height_ratios=[3, 2], sharex=True, sharey="row"
     )
     above = axes[: len(parts)]
@@ -64,7 +70,7 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     below[0].set_ylim(min(1.3 * low, -LINEAR), max(3 * high, LINEAR))
     above[0].set_ylabel("Frequency in the slider's frame (Hz)")
     below[0].set_ylabel("Largest growth rate\nof the cycle (1/s)")
-    drawing.letters(axes, titles_of(parts))
+    letters(axes, titles_of(parts))
     for top, bottom, part in zip(above, below, parts, strict=True):
         _name_peaks(top, bottom, part.data.transpose("Omega", ...))
     return figure
@@ -96,7 +102,7 @@ def _draw_modes(ax: Axes, study: xr.Dataset) -> None:
     heights = ends["sliding_frequency"].values
     for part in named_modes(of_disc, heights, apart):
         height = float(heights[part.modes].mean())
-        drawing.say_beside(ax, height, part.name, 3, fontsize=large(7))
+        say_beside(ax, height, part.name, 3, fontsize=large(7))
 
 
 def _dot(alone: bool) -> dict[str, Any]:
@@ -151,15 +157,15 @@ def _name_peaks(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
     """Write the multiples at peaks and at crossings, where there is room."""
     above = Names(top)
     below = Names(bottom)
-    halo = drawing.halo()
+    outline = halo()
     for peak in peaks(study):
         if peak.crossing is None:
             continue
         name = _multiple(peak.crossing)
         meeting = _meeting(peak.crossing)
-        above.add(name, meeting, BESIDE_MEETING, fontsize=large(6), path_effects=halo)
+        above.add(name, meeting, BESIDE_MEETING, fontsize=large(6), path_effects=outline)
         place = (study["Omega"].values[peak.place], study["growth_rate"].values[peak.place])
-        below.add(name, place, BESIDE_PEAK, fontsize=large(7), path_effects=halo)
+        below.add(name, place, BESIDE_PEAK, fontsize=large(7), path_effects=outline)
 
 
 def _multiple(crossing: xr.Dataset) -> str:

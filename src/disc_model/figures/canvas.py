@@ -9,14 +9,13 @@ from typing import Any, Literal
 
 import numpy as np
 from matplotlib import pyplot
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
 from matplotlib.legend import Legend
 
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.drawing import large, readers_style
 from disc_model.figures.labels import break_labels
 from disc_model.figures.legends import figure_legend, legend_below, legend_inside
+from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import head_text
 
 Place = Literal["inside", "below"]

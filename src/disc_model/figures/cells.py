@@ -5,17 +5,15 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.figures import selection
-from disc_model.figures.arrays import Array, Mask, Words
 from disc_model.figures.classes import LOOKS, UNRESOLVED, WEIGHTS, Look, looks_of
 from disc_model.figures.drawing import DECADES, GREY, wide
+from disc_model.figures.types import Array, Artist, Axes, Mask, Words
 from disc_model.figures.words import measured
 
 Colours = Array  # red, green, blue and opacity along the last dimension

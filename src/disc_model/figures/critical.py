@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from matplotlib.axes import Axes
-
 from disc_model.data.variables import axis_of
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.curve import scale_rates
-from disc_model.figures.drawing import BLACK, SEPARATED, mark, wide
+from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, mark, wide
 from disc_model.figures.runs import stated
-from disc_model.figures.sizes import COLUMN
+from disc_model.figures.types import Axes
 
 if TYPE_CHECKING:
     from disc_model.stability.critical import Critical

@@ -1,26 +1,33 @@
 """Charts over speed and preload: where separation begins from the static start, and in sweeps."""
 
-from collections.abc import Iterable, Mapping, Sequence
-from itertools import pairwise
-from typing import NamedTuple
+from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
-from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names, stated_in
-from disc_model.figures import drawing
-from disc_model.figures.arrays import Array, Mask
 from disc_model.figures.borders import curves_of, draw_curves, parts_of, passes
 from disc_model.figures.cells import edges_of, entries, paint
 from disc_model.figures.classes import LOOKS
-from disc_model.figures.drawing import BLACK, BLUE, ORANGE, PAPER, SEPARATED, mark, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    BLUE,
+    ORANGE,
+    PAPER,
+    SEPARATED,
+    halo,
+    letters,
+    mark,
+    mark_failed,
+    row_of_panels,
+    wide,
+)
 from disc_model.figures.kinds.maps import CriticalSpeed
 from disc_model.figures.legends import figure_legend
+from disc_model.figures.onsets import branches, speeds_of
 from disc_model.figures.selection import failed, stretches
+from disc_model.figures.types import Artist, Axes, Figure
 from disc_model.figures.words import LOAD, SPEED
 
 ONSET = SEPARATED  # colour of speeds at which separation begins,
@@ -42,13 +49,13 @@ def draw(plot: CriticalSpeed, study: xr.Dataset, overlays: Mapping[str, xr.Datas
     # panels
     count = 1 if sweep is None else 2
     width = plot.inches_of(count)
-    figure, axes = drawing.row_of_panels(width, count, 3.8, 3.8, sharex=True, sharey=True)
+    figure, axes = row_of_panels(width, count, 3.8, 3.8, sharex=True, sharey=True)
     speeds = study["scan_Omega"].values
     if cycle is not None:
         speeds = cycle["Omega"].values
     axes[0].set_xlim(speeds.min(), speeds.max())
     axes[0].set_ylim(0.95 * loads.min(), 1.02 * loads.max())
-    drawing.mark_failed(axes[0], loads[lost], on="y")
+    mark_failed(axes[0], loads[lost], on="y")
     study = study.isel(N=~lost).sortby("N")
 
     # from the static start
@@ -67,7 +74,7 @@ def draw(plot: CriticalSpeed, study: xr.Dataset, overlays: Mapping[str, xr.Datas
         _onsets(axes[1], study, horizon, "_nolegend_")
         titles.append(_beside(axes[1], sweep, cycle, overlays.get("basins")))
 
-    drawing.letters(axes, titles, pad=12)
+    letters(axes, titles, pad=12)
     for ax in axes:
         ax.set_xlabel(SPEED)
         handles += ax.get_legend_handles_labels()[0]
@@ -125,55 +132,13 @@ def _paper_points(ax: Axes, points: Mapping[str, tuple[float, float]]) -> None:
         label="paper",
         mfc="none",
         mec=PAPER,
-        path_effects=drawing.halo(2.1, BLACK),
+        path_effects=halo(2.1, BLACK),
         zorder=5,
         clip_on=False,
     )
 
 
 # ---- Onsets
-
-
-class Link(NamedTuple):
-    """Two crossings at neighbouring loads that are joined: index of the lower load, the speed
-    there, and the next."""
-
-    load: int
-    speed: float
-    ahead: float
-
-
-def speeds_of(study: xr.Dataset, horizon: float, kind: str = "begins") -> list[Array]:
-    """Rising speeds, rad/s, at which separation begins (or the scan begins with it), or ends, for
-    each load."""
-    of_horizon = study.sel(horizon=horizon).transpose("N", ..., "crossing_number")
-    kinds = flag_names(of_horizon["crossing_kind"])
-    speeds = np.where(kinds == kind, of_horizon["crossing"].values, np.nan)
-    first = of_horizon["critical_speed"].where(kind == "begins")
-    rows = np.column_stack([first, speeds])
-    return [np.unique(row[np.isfinite(row)]) for row in rows]
-
-
-def branches(speeds: Sequence[Array], ends: Sequence[Iterable[float]]) -> list[Link]:
-    """Nearest crossings at neighbouring loads, if no end is between."""
-    links = []
-    for i, (current, ahead) in enumerate(pairwise(speeds)):
-        if not (current.size and ahead.size):
-            continue
-        for j, k in np.argwhere(_nearest(current, ahead)):
-            link = Link(i, float(current[j]), float(ahead[k]))
-            higher = ends[i + (link.speed > link.ahead)]
-            if not any((end - link.speed) * (end - link.ahead) < 0 for end in higher):
-                links.append(link)
-    return links
-
-
-def _nearest(current: Array, ahead: Array) -> Mask:
-    """Pairs of speeds that are nearest to each other; as they are rounded, two may be as near."""
-    apart = np.abs(current[:, None] - ahead[None, :])
-    from_ahead = np.isclose(apart, apart.min(0), rtol=1e-9)
-    from_current = np.isclose(apart, apart.min(1)[:, None], rtol=1e-9)
-    return from_ahead & from_current
 
 
 def _onsets(ax: Axes, study: xr.Dataset, horizon: float, label: str) -> None:
@@ -189,7 +154,7 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, label: str) -> None:
     for load, row in zip(loads, speeds, strict=True):
         for speed in row:
             points += [(speed, load), gap]
-    outline = drawing.halo(1.3, BLACK)
+    outline = halo(1.3, BLACK)
     ax.plot(
         *np.reshape(points, (-1, 2)).T,
         path_effects=outline,
@@ -229,7 +194,7 @@ def _beside(
             clip_on=False,
             label=label,
         )
-    drawing.mark_failed(ax, loads[lost], on="y")
+    mark_failed(ax, loads[lost], on="y")
     if basins is not None:
         _coexistence(ax, basins)
     elif cycle is not None:

@@ -6,13 +6,19 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.data.variables import stated_in
-from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, GREY, large, mark, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    GREY,
+    large,
+    letters,
+    mark,
+    row_of_panels,
+    say,
+    say_beside,
+    wide,
+)
 from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.legends import figure_legend
@@ -25,6 +31,7 @@ from disc_model.figures.selection import (
     remaining,
     titles_of,
 )
+from disc_model.figures.types import Artist, Axes, Figure
 from disc_model.figures.words import as_numbers, measured
 
 LINEAR = 0.1
@@ -45,7 +52,7 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     """Draw a line, or one for each value of a second dimension, in one panel or several."""
     panels = panels_of(plot, picked(study, plot.at))
     width = plot.inches_of(len(panels))
-    figure, axes = drawing.row_of_panels(width, len(panels), 2.9, 2.2, sharey=True)
+    figure, axes = row_of_panels(width, len(panels), 2.9, 2.2, sharey=True)
     marks: dict[str, str] = {}
     for ax, part in zip(axes, panels, strict=True):
         draw_lines(ax, part.data, plot.variable, plot.x, plot.log, marks)
@@ -55,7 +62,7 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     pad = None
     if plot.panels == "each":  # for the rows of missing values
         pad = 20
-    drawing.letters(axes, titles_of(panels), pad=pad)
+    letters(axes, titles_of(panels), pad=pad)
     _name_lines(figure, axes, several=bool(plot.panels))
     return figure
 
@@ -189,7 +196,7 @@ def _mark_gaps(
             top += 0.05
         if array.name == "first_separation" and name == "no value":
             name = f"none within {stated_in(study, 'options')['horizon']:g} s"
-        drawing.say(ax, name, (0, top - 0.02), (1, 1), xycoords="axes fraction", fontsize=large(7))
+        say(ax, name, (0, top - 0.02), (1, 1), xycoords="axes fraction", fontsize=large(7))
         top += 0.1
 
 
@@ -222,5 +229,5 @@ def name_ends(ax: Axes) -> bool:
         return False
     for line, end in zip(lines, ends, strict=True):
         line.set_color(BLACK)
-        drawing.say_beside(ax, end, line.get_label(), fontsize=large(7))
+        say_beside(ax, end, line.get_label(), fontsize=large(7))
     return True

@@ -1,27 +1,18 @@
-"""The whole disc: its deflection from above and along the slider's circle, and a film of them."""
+"""The whole disc: its deflection from above, and along the slider's circle."""
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any, NamedTuple, Self
 
 import numpy as np
-import xarray as xr
 from cmcrameri import cm
-from matplotlib.animation import FuncAnimation, writers
-from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
-from matplotlib.figure import Figure
 from matplotlib.patches import Circle
-from numpy.typing import NDArray
 
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
-from disc_model.errors import require
-from disc_model.figures import drawing
-from disc_model.figures.arrays import Array, Words
-from disc_model.figures.drawing import BLACK, GREY, SEPARATED, SLIDER, styled, wide
+from disc_model.figures.drawing import BLACK, DISC, GREY, SEPARATED, SLIDER, wide
+from disc_model.figures.types import Array, Axes, ComplexArray, Words
 from disc_model.parameters import Parameters
-from disc_model.units import is_number
 
 RADII = 25  # points across the disc at which it is drawn
 ANGLES = 181  # points around it
@@ -34,14 +25,14 @@ class Motion(NamedTuple):
     parameters : of the case
     time : s, shape (n,)
     amplitudes : m sqrt(kg), cosine + i sine of the angle fixed to the disc, shape (n_modes, n)
-    slider : rad, its angle on the disc, shape (n,)
+    slider : rad, angle on the disc of the material under it, shape (n,)
     u : m, its height, shape (n,)
     phase : shape (n,)
     """
 
     parameters: Parameters
     time: Array
-    amplitudes: NDArray[np.complex128]
+    amplitudes: ComplexArray
     slider: Array
     u: Array
     phase: Words
@@ -52,7 +43,7 @@ class Motion(NamedTuple):
         time = np.array([state.time for state in states])
         u = np.array([state.u for state in states])
         phase = np.array([state.phase for state in states])
-        slider = np.array([state.slider_angle(p) for state in states])
+        slider = np.array([state.material_angle(p) for state in states])
         shapes = np.transpose([state.a + 1j * state.b for state in states])
         turned = shapes * np.exp(1j * np.multiply.outer(mode_arrays(p).diameters, slider))
         return cls(p, time, turned, slider, u, phase)
@@ -165,80 +156,9 @@ def draw_circle(ax: Axes, motion: Motion, i: int, size: float, **look: Any) -> N
     size in points."""
     theta = np.linspace(0, 2 * np.pi, ANGLES)
     deflection = 1e3 * motion.deflection(i, None, theta)[0]
-    ax.plot(theta, deflection, color=drawing.DISC, **look)
+    ax.plot(theta, deflection, color=DISC, **look)
     angle = motion.slider[i] % (2 * np.pi)
     ax.plot(angle, 1e3 * motion.u[i], "s", ms=size, mfc=colour_of(motion, i), mec=BLACK, mew=0.6)
     ax.set_xlabel("Angle θ (rad)")
     ax.set_ylabel("Deflection at $r_0$ (mm)")
     ax.set_xlim((0, 2 * np.pi))
-
-
-# ---- A film
-
-
-def film(figure: Figure, motion: Motion, time: Array, force: Array) -> FuncAnimation:
-    """Make the film of disc, circle under the slider, and contact force (N) over the time (s) of
-    the whole stretch."""
-    disc = figure.add_axes((0.01, 0.05, 0.38, 0.9))
-    circle = figure.add_axes((0.48, 0.62, 0.5, 0.29))
-    trace = figure.add_axes((0.48, 0.13, 0.5, 0.29))
-    scale = scale_of(motion)
-    begin = motion.time[0]
-
-    def draw(i: int) -> list[Axes]:
-        for ax in (disc, circle, trace):
-            ax.cla()
-        draw_disc(disc, motion, i, scale)
-
-        draw_circle(circle, motion, i, 6)
-        circle.set_ylim(scale.vmin, scale.vmax)
-        now = motion.time[i]
-        words = f"{1e3 * (now - begin):.1f} ms, {motion.phase[i]}"
-        circle.set_title(words, color=colour_of(motion, i, BLACK))
-
-        trace.plot(1e3 * (time - begin), force, color=GREY, lw=wide(0.7))
-        trace.plot(
-            1e3 * (now - begin),
-            np.interp(now, time, force),
-            "o",
-            ms=4,
-            mfc=colour_of(motion, i),
-            mec=BLACK,
-        )
-        trace.set_xlabel("Time (ms)")
-        trace.set_ylabel("Contact force P (N)")
-        trace.set_xlim(1e3 * (time[[0, -1]] - begin))
-        return [disc, circle, trace]
-
-    return FuncAnimation(figure, draw, frames=motion.time.size, blit=False)
-
-
-def animate(
-    p: Parameters, states: Sequence[Any], window: xr.Dataset, path: str | Path | None, fps: int
-) -> FuncAnimation:
-    """Make a film of disc, slider and contact force through states; written to a path if there is
-    one."""
-    writer = film_writer(path, fps)
-    with styled():
-        figure = Figure(figsize=(6.4, 2.7))
-        motion = Motion.of(p, states)
-        made = film(figure, motion, window["time"].values, window["P"].values)
-        if path is not None:
-            made.save(path, writer=writer, fps=fps, dpi=100)
-        return made
-
-
-def film_writer(path: str | Path | None, fps: int) -> str:
-    """The program that writes a film to a path, "" without a path; raises `ParameterError` if none
-    can, or `fps` is no number of pictures in a second."""
-    file = Path(path) if isinstance(path, str | Path) else Path()
-    writer = {".gif": "pillow", ".mp4": "ffmpeg"}.get(file.suffix, "")
-    suffix = "must end in .gif or .mp4; a window is given by window="
-    available = not writer or writers.is_available(writer)
-    require(
-        (is_number(fps) and fps > 0, "fps", fps, "must be a number > 0"),
-        (path is None or writer, "path", str(path), suffix),
-        (file.absolute().parent.is_dir(), "path", str(path), "must be in a folder that exists"),
-        (available, "path", str(path), f"needs the program {writer}"),
-    )
-    return writer

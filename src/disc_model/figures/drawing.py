@@ -4,7 +4,6 @@ Widths of lines, sizes of text and of marks follow the settings of matplotlib in
 common style, or of a reader who brings own axes.
 """
 
-import json
 import logging
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
@@ -13,20 +12,16 @@ from pathlib import Path
 from typing import Any, Literal
 
 import matplotlib as mpl
-import matplotlib.figure
 import matplotlib.style
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
-from disc_model.data.variables import SHOWN, axis_of, typeset
-from disc_model.figures.sizes import PAGE
-from disc_model.figures.words import UNITS, measured
+from disc_model.figures.sizes import COLUMN as COLUMN  # sizes are a part of the style
+from disc_model.figures.sizes import PAGE as PAGE
+from disc_model.figures.types import Artist, Axes, Figure
+from disc_model.figures.words import measured
 
 # the reports of fontTools on fonts would fill the logs of figures
 logging.getLogger("fontTools").setLevel(logging.WARNING)
@@ -152,29 +147,6 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
         figure.set_layout_engine(None)  # not "none", with which all is drawn twice
 
 
-def restate_axes(figure: Figure) -> None:
-    """Give axes in the units of the reader: their labels and ticks; what is drawn stays."""
-    for ax in figure.axes:
-        for axis in (ax.xaxis, ax.yaxis):
-            for name, (unit, factor) in UNITS.get().items():
-                shown = SHOWN[name]
-                text = axis.get_label_text()
-                known = typeset(f"{shown.name} {shown.symbol}".strip())
-                if text.startswith(known) and text.endswith(f"({shown.unit})"):
-                    axis.set_label_text(text.removesuffix(f"({shown.unit})") + f"({unit})")
-                    _set_ticks(axis, factor / shown.factor)
-
-
-def _set_ticks(axis: Any, ratio: float) -> None:
-    """Set ticks at round numbers of another unit, `ratio` of which are one of the axis's."""
-    ticks = np.asarray(DECADES)
-    if axis.get_scale() == "linear":
-        low, high = ratio * np.asarray(axis.get_view_interval())
-        ticks = np.asarray(MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high))
-    axis.set_major_locator(FixedLocator((ticks / ratio).tolist()))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value * ratio:.6g}"))
-
-
 # ---- Samples of a legend, and outlines
 
 
@@ -195,58 +167,7 @@ def border(kind: str) -> dict[str, Any]:
     return look
 
 
-# ---- Sampled variables of a case
-
-NO_BREAK = "\N{NO-BREAK SPACE}"
-
-
-def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
-    """Axis label of a sampled variable, with the angle of the disc's fixed point, factor to its
-    unit, and colour."""
-    where = ""
-    if name.startswith("w_point"):
-        angles = {float(window.attrs["theta"]) for window in windows if "theta" in window.attrs}
-        shown = " and ".join(f"{angle:g}" for angle in sorted(angles))
-        angle_text = rf"$\theta$ = {shown} rad".replace(" ", NO_BREAK)
-        where = f", {angle_text}"
-    label, factor = axis_of(name, where)
-    colour = SLIDER
-    if name == "P":
-        colour = FORCE
-    elif name.partition("_")[0] == "w":
-        colour = DISC
-    return label, factor, colour
-
-
-def envelope(ax: Axes, ranges: xr.Dataset, name: str, color: str = "", label: str = "") -> None:
-    """Draw the range of a variable against time, as a band that stays visible where it is thin."""
-    time = ranges["time"].values
-    _, factor, usual_colour = sampled(name)
-    low, high = (ranges[f"{name}_{end}"].values * factor for end in ("min", "max"))
-    ax.fill_between(time, low, high, color=color or usual_colour, linewidth=0.5, label=label)
-    bin_width = time[-1] - time[-2]
-    ax.set_xlim(0, round(time[-1] + bin_width / 2, 2))
-
-
-def show(ax: Axes, case: xr.DataTree, window: xr.Dataset, name: str, *, named: bool = True) -> None:
-    """Draw a variable against time, as a line or as ranges, and mark the first separation, with its
-    time if `named`."""
-    label, factor, colour = sampled(name, window)
-    if f"{name}_min" in window:
-        envelope(ax, window, name)
-    else:
-        values = window[name].values * factor
-        ax.plot(window["time"], values, color=colour, linewidth=wide(0.6))
-        ax.set_xlim(*window["time"].values[[0, -1]])
-    ax.set_xlabel("Time (s)")
-    ax.set_ylabel(label)
-    mark_first_separation(ax, case, named=named)
-
-
 # ---- Marks
-
-ABOVE = 1.04  # height of a bar above a panel, as a share of it,
-RIGHT = 1.02  # and place of one beside it
 
 
 def headroom(ax: Axes, share: float) -> None:
@@ -265,44 +186,6 @@ def mark_cases(axes: Sequence[Axes], places: Mapping[str, float], height: float 
         place = ("data", "axes fraction")
         say(axes[0], case, (x, height), (side, 2), xycoords=place, fontsize=large(7))
         side = -side
-
-
-def show_thickness(ax: Axes, case: xr.DataTree, along: Literal["x", "y"]) -> None:
-    """Draw a bar as long as the disc is thick, beside a panel whose axis is a displacement in mm,
-    if it finds room."""
-    thickness = json.loads(case.attrs.get("parameters", "{}")).get("h")
-    if not thickness:
-        return
-    low, high = {"x": ax.get_xlim, "y": ax.get_ylim}[along]()
-    share = 1e3 * thickness / (high - low)
-    if share > 0.8:
-        return
-    start: tuple[float, float] = (RIGHT, 0)
-    end: tuple[float, float] = (RIGHT, share)
-    offset = (3, 1)
-    rotation = 90
-    if along == "x":
-        start = (1 - share, ABOVE)
-        end = (1, ABOVE)
-        offset = (-3, 0)
-        rotation = 0
-    ax.plot(
-        *zip(start, end, strict=True),
-        color=BLACK,
-        linewidth=2.5,
-        solid_capstyle="butt",
-        transform=ax.transAxes,
-        clip_on=False,
-    )
-    say(
-        ax,
-        f"thickness {1e3 * thickness:g} mm",
-        start,
-        offset,
-        xycoords="axes fraction",
-        fontsize=large(6),
-        rotation=rotation,
-    )
 
 
 def mark_printed(ax: Axes, time: float) -> None:
@@ -333,28 +216,6 @@ def mark_printed(ax: Axes, time: float) -> None:
         xycoords=("data", "axes fraction"),
         fontsize=large(6),
     )
-
-
-def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:
-    """Mark the first separation by a line with its time above it; nothing if the time shown has
-    none."""
-    time = float(case["first_separation"])
-    low, high = ax.get_xlim()
-    if not low <= time <= high:
-        return
-    usual: dict[str, Any] = {"color": SEPARATED, "linewidth": wide(0.8), "linestyle": (0, (4, 2))}
-    usual.update(look)
-    ax.axvline(time, **usual)
-    if named:
-        say(
-            ax,
-            f"first separation {time:.2f} s",
-            (time, 1),
-            (0, 2),
-            color=SEPARATED,
-            xycoords=("data", "axes fraction"),
-            fontsize=large(7),
-        )
 
 
 def mark_failed(

@@ -5,13 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from disc_model.errors import Fault, ParameterError
-from disc_model.figures import drawing
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, BLUE, SEPARATED, large, mark, wide
-from disc_model.figures.sizes import COLUMN
+from disc_model.figures.drawing import BLACK, BLUE, COLUMN, SEPARATED, large, mark, say, wide
+from disc_model.figures.types import Axes
 from disc_model.figures.words import head_text
 
 if TYPE_CHECKING:
@@ -48,7 +46,7 @@ def plot_eigenvalues(
                 rate[mask], frequency[mask], shape, color=colour, markersize=mark(4), label=name
             )
         for x, y in zip(rate[grows], frequency[grows], strict=True):
-            drawing.say(axes, f"{y:.0f} Hz", (x, y), (4, 0), fontsize=large(7), color=SEPARATED)
+            say(axes, f"{y:.0f} Hz", (x, y), (4, 0), fontsize=large(7), color=SEPARATED)
         span = max(map(abs, axes.get_xlim())) * ROOM
         axes.set_xlabel("Growth rate (1/s)")
         axes.set_ylabel("Frequency (Hz)")

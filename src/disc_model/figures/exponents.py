@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from disc_model.display import counted
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLUE, GREY, mark, wide
-from disc_model.figures.sizes import COLUMN
+from disc_model.figures.drawing import BLUE, COLUMN, GREY, mark, wide
+from disc_model.figures.types import Axes
 
 if TYPE_CHECKING:
     from disc_model.stability.lyapunov import Lyapunov

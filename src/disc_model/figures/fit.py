@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, GREY, SEPARATED, large, mark, wide
-from disc_model.figures.sizes import PAGE
+from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, large, mark, wide
+from disc_model.figures.types import Axes
 
 if TYPE_CHECKING:
     from disc_model.fitting.fit import Fit

@@ -6,16 +6,13 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
 from matplotlib.colors import AsinhNorm
-from matplotlib.figure import FigureBase
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.arrays import Array, Mask, Words
 from disc_model.figures.cells import edges_of, entries, lay_over, paint, unresolved
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED
 from disc_model.figures.selection import class_of_gap, statuses_like
+from disc_model.figures.types import Array, Artist, Axes, FigureBase, Mask, Words
 from disc_model.figures.words import label_of
 
 GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates are larger

@@ -2,19 +2,11 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import xarray as xr
-from cmcrameri import cm
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize, from_levels_and_colors
-from matplotlib.figure import Figure, FigureBase
 
 from disc_model.data.variables import EXCLUDED, flag_names
-from disc_model.figures import drawing
 from disc_model.figures.cells import (
     MARKED,
     class_cells,
@@ -25,6 +17,8 @@ from disc_model.figures.cells import (
     scale_of,
 )
 from disc_model.figures.classes import LOOKS, UNRESOLVED
+from disc_model.figures.colours import colours_of, within_a_decade
+from disc_model.figures.drawing import COLUMN, letter, panels, set_label
 from disc_model.figures.growth import growth_panels, is_growth
 from disc_model.figures.kinds.general import General, HeatMap
 from disc_model.figures.legends import Key, figure_legend
@@ -38,10 +32,9 @@ from disc_model.figures.selection import (
     statuses_like,
     titles_of,
 )
-from disc_model.figures.sizes import COLUMN
+from disc_model.figures.types import Artist, Axes, Figure, FigureBase
 from disc_model.figures.words import label_of, measured
 
-FEW = 12  # counts below which each has a colour of its own
 IN_A_ROW = 4  # panels on a page
 
 
@@ -54,7 +47,7 @@ def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -
         lines = math.ceil(len(parts) / IN_A_ROW)
         columns = math.ceil(len(parts) / lines)
     rows = math.ceil(len(parts) / columns)
-    figure, axes = drawing.panels(width, 2.9 * rows, rows, columns, sharex=True, sharey=True)
+    figure, axes = panels(width, 2.9 * rows, rows, columns, sharex=True, sharey=True)
     for ax in axes[len(parts) :]:
         ax.remove()
     axes = axes[: len(parts)]
@@ -63,9 +56,9 @@ def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -
 
     titles = titles_of(parts)
     if len(axes) > 1:
-        for ax, letter, title in zip(axes, "abcdef", titles, strict=False):
+        for ax, name, title in zip(axes, "abcdef", titles, strict=False):
             unbroken = title.replace(" = ", "\u00a0=\u00a0")  # a value stays beside its name
-            drawing.letter(ax, letter, unbroken)
+            letter(ax, name, unbroken)
     for ax in axes:
         ax.label_outer()
     for ax in axes[-columns:]:  # below some of them there is none
@@ -107,8 +100,8 @@ def draw_maps(
     axes[0].set_xscale(scale(across))
     axes[0].set_yscale(scale(up))
     for ax in axes:
-        drawing.set_label(ax, "x", across)
-        drawing.set_label(ax, "y", up)
+        set_label(ax, "x", across)
+        set_label(ax, "y", up)
     return key
 
 
@@ -139,16 +132,6 @@ def class_panels(
     return entries(used, {**looks, UNRESOLVED.label: UNRESOLVED})
 
 
-@dataclass(frozen=True)
-class Scale:
-    """Colours of numbers: a map and a scale of matplotlib, and the ticks of its bar if each number
-    has a colour of its own."""
-
-    cmap: Colormap
-    norm: Normalize
-    ticks: Sequence[str] = ()
-
-
 def number_panels(
     figure: FigureBase, axes: Sequence[Axes], planes: Sequence[xr.Dataset], variable: str, log: bool
 ) -> list[Artist]:
@@ -157,7 +140,7 @@ def number_panels(
     label, factor = label_of(planes[0][variable])
     arrays = [plane[variable] for plane in planes]
     numbers = factor * np.concatenate([array.values.ravel() for array in arrays])
-    colours = _scale_of(numbers, arrays[0], log)
+    colours = colours_of(numbers, arrays[0], log)
     used: set[str] = set()
     for ax, plane, array in zip(axes, planes, arrays, strict=True):
         edges = edges_of(array)
@@ -176,47 +159,9 @@ def number_panels(
     return entries(used, MARKED)
 
 
-def within_a_decade(norm: Normalize) -> bool:
-    """Whether a logarithmic scale has no two powers of ten, and needs further ticks."""
-    return norm.vmin is not None and norm.vmax is not None and norm.vmax < 10 * norm.vmin
-
-
 def _classes_of_gaps(plane: xr.Dataset, array: xr.DataArray) -> np.ndarray:
     """The class of each point without a number, "" where there is one."""
     status = statuses_like(plane, array)
     gone = array.isnull().values | (status == EXCLUDED)
     classes = np.vectorize(class_of_gap, otypes=[str])(status)
     return np.where(gone, classes, "")
-
-
-def _scale_of(numbers: np.ndarray, array: xr.DataArray, log: bool) -> Scale:
-    """Colours of all numbers of a figure: each of few counts, logarithmic, around zero, or between
-    the least and the greatest."""
-    if array.dtype.kind == "i" and numbers.max() < FEW:
-        return counted(int(numbers.max()) + 1)
-    values = numbers[np.isfinite(numbers)]
-    if log:
-        return _logarithmic(values, is_growth(array.name))
-    if not values.size:
-        return Scale(cm.batlow, Normalize(0.0, 1.0))
-    low = float(values.min())
-    high = float(values.max())
-    if low < 0 < high:
-        most = max(-low, high)
-        return Scale(cm.vik, Normalize(-most, most))
-    return Scale(cm.batlow, Normalize(low, high))
-
-
-def counted(count: int) -> Scale:
-    """A colour for each of the numbers 0, 1, ... below a count."""
-    colours = [cm.batlow(i / count) for i in range(count)]
-    cmap, norm = from_levels_and_colors((np.arange(count + 1) - 0.5).tolist(), colours)
-    return Scale(cmap, norm, [str(i) for i in range(count)])
-
-
-def _logarithmic(values: np.ndarray, growth: bool) -> Scale:
-    """Colours of positive numbers; growth rates have the red half of the scale of their maps."""
-    above = values[values > 0]
-    low, high = (above.min(), above.max()) if above.size else (1.0, 10.0)
-    cmap: Any = ListedColormap(cm.vik(np.linspace(0.55, 1, 256))) if growth else cm.batlow
-    return Scale(cmap, LogNorm(low, high if high > low else 10 * low))

@@ -6,23 +6,17 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from disc_model.data import dataset
-from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
 from disc_model.errors import require
-from disc_model.figures import drawing
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import GREY, PHASE_COLOURS
+from disc_model.figures.drawing import COLUMN, GREY, PAGE, PHASE_COLOURS, letters, panels
 from disc_model.figures.kinds.cases import History
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.phases import spans_in
-from disc_model.figures.runs import stated, window_of
-from disc_model.figures.sizes import COLUMN, PAGE
+from disc_model.figures.runs import show, spans_in, stated, window_of
+from disc_model.figures.types import Artist, Axes, Figure
 
 MOST_SHADED = 60
 """Largest number of stretches of one phase that are shaded; more would be as dense as a fill."""
@@ -37,12 +31,14 @@ def draw(plot: History, case: xr.DataTree) -> Figure:
     """Draw variables of a case in a window, one above the other."""
     rows = len(plot.variables)
     width = plot.inches
-    figure, axes = drawing.panels(width, 0.8 + 1.3 * rows, rows, sharex=True)
+    figure, axes = panels(width, 0.8 + 1.3 * rows, rows, sharex=True)
     end = math.inf if plot.until is None else plot.until
     shown = dataset.group(case, plot.window).sel(time=slice(None, end))
     if shown.sizes["time"] < 2:  # the run ended before it
-        raise Missing(f"has {shown.sizes['time']} samples in {plot.window}, at least 2 are needed")
-    drawing.letters(axes)
+        raise dataset.Missing(
+            f"has {shown.sizes['time']} samples in {plot.window}, at least 2 are needed"
+        )
+    letters(axes)
     figure_legend(figure, draw_history(axes, case, shown, plot.variables))
     figure.align_ylabels()
     return figure
@@ -95,7 +91,7 @@ def draw_history(
     """Draw variables against time, over shaded phases unless these are too dense; returns entries
     of a legend."""
     for ax, name in zip(axes, variables, strict=True):
-        drawing.show(ax, case, window, name, named=ax is axes[0])
+        show(ax, case, window, name, named=ax is axes[0])
         ax.label_outer()
     axes[-1].locator_params(axis="x", nbins=6)
     axes[-1].ticklabel_format(axis="x", useOffset=False)

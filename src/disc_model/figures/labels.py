@@ -1,13 +1,18 @@
-"""Labels and titles that are no longer than their axes."""
+"""Labels and titles of axes: no longer than these, and in the units of the reader."""
 
 import math
 import re
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+import numpy as np
 from matplotlib.text import Text
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
+
+from disc_model.data.variables import SHOWN, typeset
+from disc_model.figures.drawing import DECADES
+from disc_model.figures.types import Axes, Figure
+from disc_model.figures.words import UNITS
 
 BEYOND = 1.15  # length of a label over that of its axis, at most
 MARKUP = re.compile(r"\\\w+|[${}_^]")  # of mathematical text; a symbol for a command
@@ -101,3 +106,29 @@ def _filled(words: Sequence[str], length: int) -> list[str]:
 def seen(word: str) -> int:
     """Number of characters of a word that are seen, and the blank after it."""
     return len(MARKUP.sub(lambda found: "x" if found[0].startswith("\\") else "", word)) + 1
+
+
+# ---- Units of the reader
+
+
+def restate_axes(figure: Figure) -> None:
+    """Give axes in the units of the reader: their labels and ticks; what is drawn stays."""
+    for ax in figure.axes:
+        for axis in (ax.xaxis, ax.yaxis):
+            for name, (unit, factor) in UNITS.get().items():
+                shown = SHOWN[name]
+                text = axis.get_label_text()
+                known = typeset(f"{shown.name} {shown.symbol}".strip())
+                if text.startswith(known) and text.endswith(f"({shown.unit})"):
+                    axis.set_label_text(text.removesuffix(f"({shown.unit})") + f"({unit})")
+                    _set_ticks(axis, factor / shown.factor)
+
+
+def _set_ticks(axis: Any, ratio: float) -> None:
+    """Set ticks at round numbers of another unit, `ratio` of which are one of the axis's."""
+    ticks = np.asarray(DECADES)
+    if axis.get_scale() == "linear":
+        low, high = ratio * np.asarray(axis.get_view_interval())
+        ticks = np.asarray(MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high))
+    axis.set_major_locator(FixedLocator((ticks / ratio).tolist()))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value * ratio:.6g}"))

@@ -5,14 +5,24 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names
-from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, BLUE, GREEN, GREY, PURPLE, large, mark, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    PURPLE,
+    large,
+    letters,
+    mark,
+    row_of_panels,
+    sample,
+    wide,
+)
 from disc_model.figures.kinds.motions import LateRange
 from disc_model.figures.legends import figure_legend
+from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import SPEED
 
 LOAD_COLOURS = (BLACK, BLUE, GREEN, PURPLE)
@@ -27,11 +37,10 @@ OPEN_END = ("growing", "undecided")
 def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw a panel for each disc, and in it a line for each preload and contact."""
     ranges = (study["u_max"] - study["u_min"]) / plot.thickness
-    ranges = ranges.where(_valid(plot, ranges))
     outcomes = study["outcome"].copy(data=flag_names(study["outcome"]))
     names = study[plot.by].values
     width = plot.inches
-    figure, axes = drawing.row_of_panels(width, len(names), 3.0, 2.4, sharex=True, sharey=True)
+    figure, axes = row_of_panels(width, len(names), 3.0, 2.4, sharex=True, sharey=True)
     for ax, name in zip(axes, names, strict=True):
         chosen = {plot.by: name}
         _draw_panel(ax, ranges.sel(chosen), outcomes.sel(chosen))
@@ -50,17 +59,9 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
         va="top",
         c=GREY,
     )
-    drawing.letters(axes, [plot.names.get(str(name), str(name)) for name in names])
+    letters(axes, [plot.names.get(str(name), str(name)) for name in names])
     _legend(figure, study["N"].values)
     return figure
-
-
-def _valid(plot: LateRange, ranges: xr.DataArray) -> xr.DataArray:
-    """Points at which the law of friction holds."""
-    valid = xr.ones_like(ranges, dtype=bool)
-    for part in plot.not_valid:
-        valid.loc[{dim: [*chosen] for dim, chosen in part.items()}] = False
-    return valid
 
 
 def _marks() -> dict[str, dict[str, Any]]:
@@ -94,11 +95,11 @@ def _draw_panel(ax: Axes, ranges: xr.DataArray, outcomes: xr.DataArray) -> None:
 def _legend(figure: Figure, loads: np.ndarray) -> None:
     """Name preloads, contacts and marks below the panels."""
     handles = [
-        drawing.sample(color=colour, label=f"{1e-3 * load:g} kN")
+        sample(color=colour, label=f"{1e-3 * load:g} kN")
         for load, colour in zip(loads, LOAD_COLOURS, strict=False)
     ]
-    handles.append(drawing.sample(color=GREY, linestyle="-", label="with separation"))
-    handles.append(drawing.sample(color=GREY, linestyle="--", label="separation ignored"))
+    handles.append(sample(color=GREY, linestyle="-", label="with separation"))
+    handles.append(sample(color=GREY, linestyle="--", label="separation ignored"))
     for name, look in _marks().items():
-        handles.append(drawing.sample(color=GREY, label=name, **look))
+        handles.append(sample(color=GREY, label=name, **look))
     figure_legend(figure, handles, loc="outside lower center", columns=4, columnspacing=1.0)

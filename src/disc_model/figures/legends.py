@@ -5,10 +5,7 @@ from functools import partial
 from textwrap import fill
 from typing import Any, NamedTuple
 
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.figure import FigureBase
-
+from disc_model.figures.types import Artist, Axes, FigureBase
 from disc_model.figures.words import CHARACTER
 
 PAGE_SHARE = 0.98  # of the width of a figure that its legend may have

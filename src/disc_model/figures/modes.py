@@ -4,16 +4,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
 
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.errors import raise_faults, require, violations
-from disc_model.figures import drawing
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.disc import draw_plane, plane_of
-from disc_model.figures.drawing import BLACK, wide
-from disc_model.figures.sizes import COLUMN, PAGE
+from disc_model.figures.drawing import BLACK, COLUMN, PAGE, SLIDER, wide
+from disc_model.figures.types import Axes
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import is_whole
 
@@ -62,7 +60,7 @@ def draw_modes(axes: Sequence[Axes], p: Parameters) -> None:
             x = plane.x[inside]
             y = plane.y[inside]
             ax.contour(x, y, shown, levels=[0.0], colors=BLACK, linewidths=wide(0.9))
-        ax.plot(1e3 * p.r_0, 0, "o", ms=3.5, mfc=drawing.SLIDER, mec=BLACK, mew=0.5)
+        ax.plot(1e3 * p.r_0, 0, "o", ms=3.5, mfc=SLIDER, mec=BLACK, mew=0.5)
         frequency = modes.omega[i] / (2 * np.pi)
         name = f"({modes.diameters[i]}, {modes.circles[i]})  {frequency:.0f} Hz"
         ax.set_title(name, loc="center")

@@ -1,13 +1,13 @@
-"""Names of points in a panel: written where there is room, whatever size the figure gets."""
+"""Names in a panel: of points, written where there is room, and of modes by their nodal diameters."""
 
-from collections.abc import Iterable, Sequence
-from typing import Any
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, NamedTuple
 
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
+import numpy as np
 from matplotlib.text import Annotation
 
 from disc_model.figures.drawing import say
+from disc_model.figures.types import Array, Artist, Axes, Indices
 
 GAP = 1  # points around a name that no other one covers
 
@@ -63,3 +63,32 @@ class Names(Artist):
                 taken.append(box)
                 return
             name.set_visible(False)
+
+
+# ---- Modes
+
+
+class Named(NamedTuple):
+    """Modes that share a name, since they are too near each other: their indices, and the name."""
+
+    modes: Indices
+    name: str
+
+
+def name_of(*diameters: int) -> str:
+    """Name of modes by their nodal diameters; -1: in the plane."""
+    names = ["in-plane"] if min(diameters) < 0 else []
+    numbers = [str(number) for number in sorted({*diameters}) if number >= 0]
+    if numbers:
+        names.append(f"l = {', '.join(numbers)}")
+    return ", ".join(names)
+
+
+def named_modes(diameters: Array, heights: Array, apart: float) -> Iterator[Named]:
+    """Modes, ascending by height, and their names; those nearer than `apart` to the one below share
+    one."""
+    known = np.argsort(heights)[: int(np.isfinite(heights).sum())]
+    steps = np.flatnonzero(np.diff(heights[known]) > apart) + 1
+    for part in np.split(known, steps):
+        if part.size:
+            yield Named(part, name_of(*diameters[part].astype(int).tolist()))

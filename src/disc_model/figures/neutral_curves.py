@@ -5,15 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.axes import Axes
 
 from disc_model.data.variables import axis_of, typeset
-from disc_model.figures import drawing
 from disc_model.figures.branches import STABLE, draw_branch
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, SEPARATED, large, wide
+from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, halo, large, sample, say, wide
 from disc_model.figures.runs import stated
-from disc_model.figures.sizes import COLUMN
+from disc_model.figures.types import Axes
 
 if TYPE_CHECKING:
     from disc_model.stability.curves import NeutralCurves
@@ -53,7 +51,7 @@ def plot_neutral_curves(
             _name(axes, points, typeset(curve.resonance.label), colour, names)
         present = {curve.kind for curve in curves}
         handles = [
-            drawing.sample(color=colour, linewidth=wide(STABLE), label=text)
+            sample(color=colour, linewidth=wide(STABLE), label=text)
             for kind, (colour, text) in KINDS.items()
             if kind in present
         ]
@@ -75,6 +73,4 @@ def _name(ax: Axes, points: np.ndarray, text: str, colour: str, taken: list[np.n
         return
     i = free[free.size // 2]
     taken.append(share[i])
-    drawing.say(
-        ax, text, points[i], (8, 0), fontsize=large(6), color=colour, path_effects=drawing.halo()
-    )
+    say(ax, text, points[i], (8, 0), fontsize=large(6), color=colour, path_effects=halo())

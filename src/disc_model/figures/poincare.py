@@ -1,42 +1,41 @@
 """Poincaré sections of slider and disc, in the colours of the stages of a run."""
 
 import json
-import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from disc_model.analysis.classify import first_settled, settling, stages
 from disc_model.data import dataset
 from disc_model.data.variables import values_text
-from disc_model.figures import drawing
-from disc_model.figures.arrays import Array, Mask
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, GREY, SEPARATED, SKY, large, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    GREY,
+    PAGE,
+    SEPARATED,
+    SKY,
+    large,
+    letters,
+    new_figure,
+    wide,
+)
 from disc_model.figures.kinds.cases import PoincareSections
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.runs import stated
-from disc_model.figures.sizes import PAGE
-from disc_model.parameters import Parameters
+from disc_model.figures.runs import sampled, show_thickness, stated
+from disc_model.figures.stages import SECTIONS, STAGES, stages_of
+from disc_model.figures.types import Array, Artist, Axes, Figure, Mask
 
-STAGES: dict[str, dict[str, Any]] = {
+LOOKS: dict[str, dict[str, Any]] = {
     "early": {"marker": "x", "color": SKY, "s": 9, "linewidths": 0.5},
     "later": {"marker": "o", "color": BLACK, "s": 3.5, "linewidths": 0},
     "separated": {"marker": "^", "color": SEPARATED, "s": 8, "linewidths": 0},
 }
 """Marks by stage, told apart by shape as well as by colour; later ones are drawn over earlier ones."""
-BY_SEPARATION = ("in contact, before the first separation", "in contact, after it", "separated")
-BY_SETTLING = ("not shown to have settled", "settled", "separated")
-BY_HALVES = ("first half of the run", "second half, not shown to have settled", "separated")
-"""Names of the stages, by what divides early from later."""
-SECTIONS = ("psi", "w_point")
+
+
 SMALL = 0.2  # share of both axes below which a section has an inset
 INSET = (0.66, 0.2, 0.34, 0.32)  # away from the bar of the thickness
 MANY = 2000  # points from which marks are drawn as pixels
@@ -46,7 +45,7 @@ def draw(plot: PoincareSections, *cases: xr.DataTree) -> Figure:
     """Draw the sections of cases, a row each, on common axes."""
     width = plot.inches
     rows_of_case, height = (1, 2.75) if width == PAGE else (2, 4.6)
-    figure = drawing.new_figure(width, height * len(cases))
+    figure = new_figure(width, height * len(cases))
     rows = np.atleast_1d(np.asarray(figure.subfigures(len(cases), 1)))
     sections = [dataset.samples(case, "poincare", at_least=1) for case in cases]
     differing = _differing([json.loads(case.attrs["parameters"]) for case in cases])
@@ -54,7 +53,7 @@ def draw(plot: PoincareSections, *cases: xr.DataTree) -> Figure:
         axes = list(np.ravel(row.subplots(rows_of_case, 2 // rows_of_case)))
         handles = draw_sections(axes, case, samples, sections, values_text(values))
         figure_legend(row, handles, handletextpad=0.2)
-    drawing.letters(figure.axes)
+    letters(figure.axes)
     return figure
 
 
@@ -79,58 +78,6 @@ def plot_poincare(
         samples = dataset.group(case, "poincare")
         page.explain(draw_sections(page.axes, case, samples))
     return np.array(page.axes)
-
-
-# ---- What the points of a section stand for
-
-
-@dataclass(frozen=True)
-class Stages:
-    """The stages of a run: masks of its samples, their names, and what the motion does."""
-
-    masks: Mapping[str, Mask]
-    names: Sequence[str]
-    fate: str
-
-
-def stages_of(case: xr.DataTree, samples: xr.Dataset) -> Stages:
-    """Divide the points of a section by the first separation; without one, by when the motion has
-    settled; otherwise into halves of the run."""
-    time = samples["time"].values
-    first = float(case["first_separation"])
-    since = settled_since(case, samples)
-    settled = math.isfinite(since)
-    divided = stages(time, samples["phase"].values, first, since if settled else time.mean())
-    masks = dict(zip(STAGES, divided, strict=True))
-    if math.isfinite(first):
-        return Stages(masks, BY_SEPARATION, f"first separation at {first:.2f} s")
-    p = Parameters.model_validate_json(case.attrs["parameters"])
-    fate = "separation ignored" if p.contact == "bilateral" else "no separation"
-    return Stages(masks, BY_SETTLING if settled else BY_HALVES, fate)
-
-
-def settled_since(case: xr.DataTree, samples: xr.Dataset) -> float:
-    """Time from which all points of a motion's section lie on its end, s; by a window's ranges
-    where it shows none."""
-    held = [node.to_dataset() for node in case.children.values()]
-    window = next((each for each in held if "w_point_min" in each), None)
-    latest = max(_since(samples, window, name) for name in SECTIONS)
-    if not math.isfinite(latest):
-        return math.nan
-    columns = [samples[f"{name}{of}"].values for name in SECTIONS for of in ("", "_velocity")]
-    time = samples["time"].values
-    start = min(int(np.searchsorted(time, latest)), len(time) - 1)
-    return float(time[first_settled(np.column_stack(columns), start)])
-
-
-def _since(samples: xr.Dataset, window: xr.Dataset | None, name: str) -> float:
-    """Time from which a variable has settled, s; infinite if this is not shown."""
-    answer = settling(samples["time"], samples[name])
-    if math.isnan(answer.since) and window is not None and f"{name}_min" in window:
-        bins = window.isel(time=slice(None, -1))  # the last one is cut
-        widths = bins[f"{name}_max"] - bins[f"{name}_min"]
-        answer = settling(bins["time"], widths, still=1.0)
-    return math.inf if math.isnan(answer.since) else float(answer.since)
 
 
 # ---- Drawing
@@ -174,13 +121,13 @@ def draw_sections(
         _draw_points(ax, x, y, found.masks)
         if max(x.share, y.share) < SMALL:
             _draw_inset(ax, x, y, found.masks)
-    drawing.show_thickness(axes[1], case, "x")
+    show_thickness(axes[1], case, "x")
     axes[0].set_title(", ".join(filter(None, [heading, found.fate])), loc="right")
 
     handles: list[Artist] = []
     for stage, name in zip(STAGES, found.names, strict=True):
         if found.masks[stage].any():
-            look = dict(STAGES[stage])
+            look = dict(LOOKS[stage])
             look["s"] = 14
             handles.append(axes[1].scatter([], [], label=name, **look))
     return handles
@@ -188,7 +135,7 @@ def draw_sections(
 
 def _axis(variable: str, samples: xr.Dataset, compared: Sequence[xr.Dataset]) -> Axis:
     """The axis of a variable, which shows the points of all sections that are compared."""
-    label, factor, _ = drawing.sampled(variable, samples)
+    label, factor, _ = sampled(variable, samples)
     every = np.concatenate([section[variable] for section in (samples, *compared)]) * factor
     low = float(every.min())
     high = float(every.max())
@@ -200,7 +147,7 @@ def _draw_points(ax: Axes, x: Axis, y: Axis, masks: Mapping[str, Mask]) -> None:
     for order, (stage, mask) in enumerate(masks.items()):
         above = 2 + 0.1 * order
         many = bool(mask.sum() > MANY)
-        look = STAGES[stage]
+        look = LOOKS[stage]
         ax.scatter(x.values[mask], y.values[mask], zorder=above, rasterized=many, **look)
 
 

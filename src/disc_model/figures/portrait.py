@@ -4,19 +4,15 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.data import dataset
 from disc_model.data.variables import PHASES, flag_names
-from disc_model.figures import drawing
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import PHASE_COLOURS, wide
+from disc_model.figures.drawing import COLUMN, PHASE_COLOURS, panels, sample, wide
 from disc_model.figures.kinds.cases import Portrait
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.runs import stated, window_of
-from disc_model.figures.sizes import COLUMN
+from disc_model.figures.runs import sampled, stated, window_of
+from disc_model.figures.types import Artist, Axes, Figure
 
 LINES = {"stick": 0.5, "slip": 0.5, "separation": 1.2}
 """Widths of the lines of phases, distinct in grey print, points."""
@@ -24,7 +20,7 @@ LINES = {"stick": 0.5, "slip": 0.5, "separation": 1.2}
 
 def draw(plot: Portrait, case: xr.DataTree) -> Figure:
     """Draw a portrait of the samples in a window."""
-    figure, [ax] = drawing.panels(plot.inches, 2.7)
+    figure, [ax] = panels(plot.inches, 2.7)
     samples = dataset.samples(case, plot.window)
     figure_legend(figure, draw_portrait(ax, samples, plot.x, plot.y))
     return figure
@@ -50,8 +46,8 @@ def plot_phase_portrait(
 
 def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> list[Artist]:
     """Draw one variable over another, coloured by phase; returns entries of a legend."""
-    across, in_x, _ = drawing.sampled(x, samples)
-    up, in_y, _ = drawing.sampled(y, samples)
+    across, in_x, _ = sampled(x, samples)
+    up, in_y, _ = sampled(y, samples)
     words = flag_names(samples["phase"])
     handles = []
     for name in PHASES:
@@ -63,7 +59,7 @@ def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> list[Artist]
         look: dict[str, Any] = {"color": PHASE_COLOURS[name], "label": name}
         width = wide(LINES[name])
         ax.plot(samples[x].values * in_x, height, linewidth=width, rasterized=True, **look)
-        handles.append(drawing.sample(linewidth=width + 0.5, **look))
+        handles.append(sample(linewidth=width + 0.5, **look))
     ax.margins(0.04)
     ax.set_xlabel(across)
     ax.set_ylabel(up)

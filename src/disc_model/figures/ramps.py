@@ -5,15 +5,23 @@ from itertools import chain
 
 import numpy as np
 import xarray as xr
-from matplotlib.figure import Figure
 
 from disc_model.data.variables import stated_in
-from disc_model.figures import drawing
 from disc_model.figures.borders import crossings, curves_of
 from disc_model.figures.critical_speed import END, ONSET
-from disc_model.figures.drawing import GREY, border, large, mark, wide
+from disc_model.figures.drawing import (
+    GREY,
+    border,
+    large,
+    mark,
+    mark_failed,
+    panels,
+    say_beside,
+    wide,
+)
 from disc_model.figures.kinds.maps import RampedSpeeds
 from disc_model.figures.legends import figure_legend
+from disc_model.figures.types import Figure
 from disc_model.figures.words import SPEED
 
 
@@ -24,7 +32,7 @@ def draw(plot: RampedSpeeds, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     options = stated_in(study, "options")
     rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))
     gone = study["rate_status"].values != 0
-    figure, [ax] = drawing.panels(plot.inches, 3.4)
+    figure, [ax] = panels(plot.inches, 3.4)
     for speeds, shape, colour, label in (
         (onset, "^-", ONSET, "onset, rising ramp"),
         (end, "v-", END, "end, falling ramp"),
@@ -51,8 +59,8 @@ def draw(plot: RampedSpeeds, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     limit = _end_of_cycle(study, overlays, onset)
     if limit is not None:
         ax.axhline(limit, zorder=0, **border("fold"))
-        drawing.say_beside(ax, limit, f"{limit:.2f}", fontsize=large(6), color=GREY)
-    drawing.mark_failed(ax, rates[gone])
+        say_beside(ax, limit, f"{limit:.2f}", fontsize=large(6), color=GREY)
+    mark_failed(ax, rates[gone])
     ax.set_xscale("log")
     ax.margins(x=0.04)
     ax.set_xlabel("Ramp rate (rad/s²)")

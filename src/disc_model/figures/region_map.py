@@ -4,44 +4,32 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
-from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullFormatter, NullLocator
 
 from disc_model.data.variables import axis_of, flag_names, stated_in
-from disc_model.figures import drawing
-from disc_model.figures.arrays import Array, Mask
-from disc_model.figures.borders import Curve, curves_of, draw_curves, parts_of
-from disc_model.figures.cells import (
-    MARKED,
-    Edges,
-    class_cells,
-    decades_between,
-    edges_of,
-    entries,
-    scale_of,
-    unresolved,
-)
+from disc_model.figures.borders import Curve, curves_of, draw_borders, draw_curves, parts_of
+from disc_model.figures.cells import MARKED, class_cells, decades_between, entries, scale_of
 from disc_model.figures.classes import LOOKS, UNRESOLVED
-from disc_model.figures.drawing import BLACK, BORDERS, PAPER, border, large
-from disc_model.figures.growth import growth_panels, stability_of
+from disc_model.figures.drawing import (
+    BLACK,
+    COLUMN,
+    PAPER,
+    halo,
+    large,
+    letters,
+    panels,
+    sample,
+    say,
+)
+from disc_model.figures.growth import growth_panels
 from disc_model.figures.kinds.maps import Mark, RegionMap
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import NORM, Part, alike, normalizations, parts_along, titles_of
-from disc_model.figures.sizes import COLUMN
-
-Segment = list[tuple[float, float]]
+from disc_model.figures.types import Array, Artist, Axes, Figure, Mask
 
 PAPER_MARKERS = {"quiet": "o", "growing": "^", "separation": "s"}
 """The marker of each outcome of the paper."""
-JOINED = ("branch_continues_first", "branch_continues_second")
-"""Whether the branch continues along the study's first and second dimension."""
-CAPS: dict[str, Any] = {"neutral": "projecting", "fold": None}
-"""Ends of the segments of borders; dashes have none."""
 TOGETHER = 0.02
 """Distance of two marks, as a share of the panel, from which one surrounds the other."""
 USUAL_SIZE = 55.0  # of a mark, square points,
@@ -56,7 +44,7 @@ def draw(plot: RegionMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     parts = parts_along(study, plot.by, plot.names)
     planes = [part.data.transpose(plot.y, plot.x, ...) for part in parts]
     figure, above, below = _panels(plot, len(parts))
-    drawing.letters([*above, *below], titles_of(parts))
+    letters([*above, *below], titles_of(parts))
 
     # cells and lines
     growth = growth_panels(figure, below, planes)
@@ -88,9 +76,9 @@ def _panels(plot: RegionMap, count: int) -> tuple[Figure, list[Axes], list[Axes]
     width = plot.inches
     shared: dict[str, Any] = {"sharex": True, "sharey": True}
     if width == COLUMN:
-        figure, axes = drawing.panels(width, 1.2 + 4.2 * count, 2 * count, 1, **shared)
+        figure, axes = panels(width, 1.2 + 4.2 * count, 2 * count, 1, **shared)
         return figure, axes[::2], axes[1::2]
-    figure, axes = drawing.panels(width, 5.6, 2, count, **shared)
+    figure, axes = panels(width, 5.6, 2, count, **shared)
     return figure, axes[:count], axes[count:]
 
 
@@ -121,7 +109,7 @@ def _lines(
         return _curves(ax, plane, alike(overlays["curves"], plane, plot.by))
     # branches are continued along the study's first dimension, which may be either axis
     order = [name for name in study["outcome"].dims if name in (plot.x, plot.y)]
-    return _borders(ax, plane, upward=order == [plot.y, plot.x])
+    return draw_borders(ax, plane, upward=order == [plot.y, plot.x])
 
 
 def _curves(ax: Axes, plane: xr.Dataset, curves: xr.Dataset) -> list[Artist]:
@@ -135,60 +123,6 @@ def _curves(ax: Axes, plane: xr.Dataset, curves: xr.Dataset) -> list[Artist]:
 
 def _between(values: Array, points: Array) -> Mask:
     return (values >= points.min()) & (values <= points.max())
-
-
-def _borders(ax: Axes, plane: xr.Dataset, upward: bool) -> list[Artist]:
-    """Draw borders between resolved cells: where one cycle changes its stability, and where a
-    stable one ends: the next cell has none and does not stay quiet. Upward: the study's first
-    dimension is the vertical one."""
-    up, right = JOINED
-    if not upward:
-        up, right = right, up
-    edges = edges_of(plane["outcome"])
-    rows = _segments(plane, edges, up, vertical=True)
-    columns = _segments(plane, edges, right, vertical=False)
-    drawn = []
-    for kind in BORDERS:
-        segments = rows[kind] + columns[kind]
-        ax.add_collection(LineCollection(segments, capstyle=CAPS[kind], **border(kind)))
-        if segments:
-            drawn.append(drawing.sample(**border(kind)))
-    return drawn
-
-
-def _segments(
-    plane: xr.Dataset, edges: Edges, joined: str, vertical: bool
-) -> dict[str, list[Segment]]:
-    """Segments of borders between cells that are neighbours in one direction, by their kind."""
-    state = stability_of(plane)
-    state[unresolved(state)] = "unresolved"
-    stable = state == "stable"
-    unstable = state == "unstable"
-    ends = (flag_names(plane["cycle"]) == "no_cycle") & (flag_names(plane["outcome"]) != "quiet")
-
-    here: Any = np.s_[:, :-1]
-    ahead: Any = np.s_[:, 1:]
-    if vertical:
-        here = np.s_[:-1, :]
-        ahead = np.s_[1:, :]
-    same = flag_names(plane[joined])[here] == "yes"
-    changes = (stable[here] & unstable[ahead]) | (unstable[here] & stable[ahead])
-    stops = (stable[here] & ends[ahead]) | (ends[here] & stable[ahead])
-    found = {"neutral": np.argwhere(changes & same), "fold": np.argwhere(stops)}
-
-    segments: dict[str, list[Segment]] = {}
-    for kind, cells in found.items():
-        segments[kind] = [_edge(edges, i, j, vertical) for i, j in cells]
-    return segments
-
-
-def _edge(edges: Edges, row: int, column: int, vertical: bool) -> Segment:
-    """The edge between a cell and the one above it, or the one on its right."""
-    x, y = edges
-    corner = (x[column + 1], y[row + 1])
-    if vertical:
-        return [(x[column], y[row + 1]), corner]
-    return [(x[column + 1], y[row]), corner]
 
 
 # ---- The paper's cases
@@ -215,7 +149,7 @@ def _captions(study: xr.Dataset, first: xr.Dataset | None, plot: RegionMap) -> I
 def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
     """Mark cases by the shape of the paper's outcome, with names towards the middle; returns
     entries of a legend."""
-    outline = drawing.halo(2.4, BLACK)
+    outline = halo(2.4, BLACK)
     places: list[tuple[float, float]] = []
     for name, mark in plot.marks.items():
         point = _point(plot, mark)
@@ -238,19 +172,19 @@ def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
             linewidth=1.4,
             path_effects=outline,
         )
-        drawing.say(
+        say(
             ax,
             name,
             point,
             offset,
-            path_effects=drawing.halo(2.0),
+            path_effects=halo(2.0),
             fontsize=large(7),
             zorder=5,
             annotation_clip=False,
         )
     outcomes = {mark.paper_outcome for mark in plot.marks.values()}
     return [
-        drawing.sample(
+        sample(
             marker=shape,
             label=f"paper: {LOOKS[name].label}",
             path_effects=outline,

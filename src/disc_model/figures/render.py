@@ -7,7 +7,6 @@ from textwrap import fill
 from typing import Any, NamedTuple
 
 import xarray as xr
-from matplotlib.figure import Figure
 
 from disc_model.data.dataset import Missing
 from disc_model.figures import (
@@ -17,13 +16,14 @@ from disc_model.figures import (
     campbell,
     critical_speed,
     curve,
-    drawing,
     heat_map,
     history,
     late_range,
+    locking,
     poincare,
     portrait,
     ramps,
+    range_law,
     region_map,
     root_locus,
     sensitivity,
@@ -32,12 +32,20 @@ from disc_model.figures import (
     spectrogram,
     spectrum,
 )
-from disc_model.figures.kinds import table_of
-from disc_model.figures.kinds.base import CasePlot, Compared, Kind, Plot, si_unit
-from disc_model.figures.kinds.general import General
-from disc_model.figures.labels import break_labels
-from disc_model.figures.selection import NORM, normalizations, of, picked
-from disc_model.figures.sizes import COLUMN
+from disc_model.figures.drawing import COLUMN, panels, styled
+from disc_model.figures.kinds import (
+    NORM,
+    CasePlot,
+    Compared,
+    General,
+    Kind,
+    Plot,
+    si_unit,
+    table_of,
+)
+from disc_model.figures.labels import break_labels, restate_axes
+from disc_model.figures.selection import normalizations, of, picked
+from disc_model.figures.types import Figure
 from disc_model.figures.words import MODES, UNITS, head_text, named_value, what_case
 from disc_model.units import in_si
 
@@ -52,9 +60,11 @@ DRAWINGS: Drawings = {
     "heat_map": heat_map.draw,
     "history": history.draw,
     "late_range": late_range.draw,
+    "phase_map": locking.draw_map,
     "poincare": poincare.draw,
     "portrait": portrait.draw,
     "ramps": ramps.draw,
+    "range_law": range_law.draw,
     "region_map": region_map.draw,
     "root_locus": root_locus.draw,
     "sensitivity": sensitivity.draw,
@@ -62,6 +72,7 @@ DRAWINGS: Drawings = {
     "sliding_outcome": sliding_outcome.draw,
     "spectrogram": spectrogram.draw,
     "spectrum": spectrum.draw,
+    "staircase": locking.draw_staircase,
 }
 """Functions that draw a kind: from the figure, its study and further ones by their roles, or from the
 figure and its cases."""
@@ -83,11 +94,11 @@ def render(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Figure:
     """
     token = UNITS.set(_factors(plot))
     try:
-        with drawing.styled():
+        with styled():
             drawn = (
                 _of_cases(plot, inputs) if isinstance(plot, CasePlot) else _of_grid(plot, inputs)
             )
-            drawing.restate_axes(drawn.figure)
+            restate_axes(drawn.figure)
             break_labels(drawn.figure)
             width = drawn.figure.get_figwidth()
             text = head_text(width, plot.title or drawn.title, drawn.values)
@@ -130,7 +141,7 @@ def _of_cases(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Drawn:
     try:
         figure = drawing_of(plot.kind)(plot, *cases)
     except Missing as reason:
-        figure, [ax] = drawing.panels(COLUMN, 2)
+        figure, [ax] = panels(COLUMN, 2)
         ax.set_axis_off()
         text = fill(f"not shown: the case {reason}", 24)
         ax.text(0.5, 0.5, text, ha="center", va="center", in_layout=False)

@@ -2,9 +2,9 @@
 
 from disc_model.figures.branch import plot_branch
 from disc_model.figures.critical import plot_critical
-from disc_model.figures.disc import animate, film_writer
 from disc_model.figures.eigenvalues import plot_eigenvalues
 from disc_model.figures.exponents import plot_exponents
+from disc_model.figures.film import animate, film_writer
 from disc_model.figures.fit import plot_fit
 from disc_model.figures.history import plot_run
 from disc_model.figures.modes import plot_modes

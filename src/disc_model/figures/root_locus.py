@@ -6,14 +6,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, large, mark, wide
+from disc_model.figures.drawing import BLACK, halo, large, letters, mark, row_of_panels, say, wide
 from disc_model.figures.kinds.motions import RootLocus
-from disc_model.figures.mode_names import named_modes
+from disc_model.figures.names import named_modes
 from disc_model.figures.selection import parts_along, titles_of
+from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import measured
 
 NAMES_APART = 0.01  # of the highest frequency, least distance of names
@@ -24,11 +22,11 @@ def draw(plot: RootLocus, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     """Draw the plane of growth rate and frequency, for each value of the compared dimension."""
     parts = parts_along(study, plot.by, plot.names)
     width = plot.inches
-    figure, axes = drawing.row_of_panels(width, len(parts), 4.8, 3.4, sharex=True, sharey=True)
+    figure, axes = row_of_panels(width, len(parts), 4.8, 3.4, sharex=True, sharey=True)
     for ax, part in zip(axes, parts, strict=True):
         points = _draw_panel(ax, part.data.squeeze())
         ax.label_outer()
-    drawing.letters(axes, titles_of(parts))
+    letters(axes, titles_of(parts))
     label = measured(parts[0].data["value"]).label
     figure.colorbar(points, ax=axes, label=label, pad=0.01, aspect=30)
     return figure
@@ -60,9 +58,7 @@ def _draw_panel(ax: Axes, study: xr.Dataset) -> Any:
     for part in named_modes(first["diameters"].values, heights, apart):
         side, ring = _side_of_name(study, part.modes, len(part.name))
         place = (ring, float(heights[part.modes].mean()))
-        drawing.say(
-            ax, part.name, place, (4 * side, 0), fontsize=large(7), path_effects=drawing.halo()
-        )
+        say(ax, part.name, place, (4 * side, 0), fontsize=large(7), path_effects=halo())
     ax.axvline(0, color=BLACK, linewidth=wide(0.6))
     ax.margins(x=0.02)
     ax.set_xlabel("Growth rate (1/s)")

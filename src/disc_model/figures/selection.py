@@ -8,11 +8,11 @@ import xarray as xr
 
 from disc_model.data import dataset
 from disc_model.data.variables import EXCLUDED, flag_names, stated_in
-from disc_model.figures.arrays import Array, Words
 from disc_model.figures.classes import name_of
+from disc_model.figures.kinds.base import NORM
+from disc_model.figures.types import Array, Words
 from disc_model.figures.words import named_value, rank_of, value_text
 
-NORM = "normalization"  # the dimension that a study may have beside those that a figure requires
 WITHOUT_CYCLE = (
     "no_cycle",
     "separates",

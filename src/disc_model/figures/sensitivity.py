@@ -5,8 +5,6 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.analysis.classify import share
 from disc_model.data.variables import (
@@ -17,11 +15,10 @@ from disc_model.data.variables import (
     presentation_of,
     typeset,
 )
-from disc_model.figures import drawing
-from disc_model.figures.arrays import Array
-from disc_model.figures.drawing import BLACK, BLUE, GREY, mark, wide
+from disc_model.figures.drawing import BLACK, BLUE, GREY, mark, row_of_panels, wide
 from disc_model.figures.kinds.motions import Sensitivity
 from disc_model.figures.legends import figure_legend
+from disc_model.figures.types import Array, Axes, Figure
 from disc_model.figures.words import named_value
 
 BINS = 3  # number of parts, with equal numbers of draws, of a parameter's distribution
@@ -49,9 +46,7 @@ def draw(plot: Sensitivity, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
 
     width = plot.inches
     height = 1.2 + 0.2 * len(names)
-    figure, axes = drawing.row_of_panels(
-        width, len(cells), height, height, sharey=True, sharex=True
-    )
+    figure, axes = row_of_panels(width, len(cells), height, height, sharey=True, sharex=True)
     for ax, cell, thirds in zip(axes, cells, each[:, order], strict=True):
         _draw_rows(ax, thirds, float(cell.samples["probability_unstable"]))
         title = cell.name.replace("Preload ", "").replace("Speed ", "")

@@ -5,16 +5,24 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from disc_model.figures import drawing
-from disc_model.figures.arrays import Array
-from disc_model.figures.drawing import BLACK, GREY, large, mark, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    GREY,
+    halo,
+    large,
+    letters,
+    mark,
+    panels,
+    say,
+    say_beside,
+    wide,
+)
 from disc_model.figures.kinds.motions import SlidingModes
-from disc_model.figures.mode_names import name_of, named_modes
+from disc_model.figures.names import name_of, named_modes
 from disc_model.figures.selection import parts_along, stretches, titles_of
 from disc_model.figures.sliding_outcome import ROUNDING
+from disc_model.figures.types import Array, Axes, Figure
 from disc_model.figures.words import measured
 
 DECAYS = 0.8  # width of the line of a mode that decays, points,
@@ -40,9 +48,7 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     parts = parts_along(study, plot.by, plot.names)
     count = len(parts)
     width = plot.inches
-    figure, axes = drawing.panels(
-        width, 5.6, 2, count, height_ratios=[5, 4], sharex=True, sharey="row"
-    )
+    figure, axes = panels(width, 5.6, 2, count, height_ratios=[5, 4], sharex=True, sharey="row")
     tops = axes[:count]
     bottoms = axes[count:]
     columns = [part.data.squeeze() for part in parts]
@@ -61,7 +67,7 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
         bottom.set_xlabel(across.label)
         _name_frequencies(top, column, highest)
         _name_decays(bottom, column, greatest)
-    drawing.letters(axes, titles_of(parts))
+    letters(axes, titles_of(parts))
     return figure
 
 
@@ -124,9 +130,7 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
             i = start + _place_of_name(line.rate[shown], [x.rate[shown] for x in lines], largest)
             offset = (3, 0) if i == along.size - 1 else (0, 3)
             place = (along[i], line.rate[i])
-            drawing.say(
-                bottom, line.name, place, offset, fontsize=large(7), path_effects=drawing.halo()
-            )
+            say(bottom, line.name, place, offset, fontsize=large(7), path_effects=halo())
     bottom.axhline(0, color=BLACK, linewidth=wide(0.5))
 
 
@@ -147,7 +151,7 @@ def _name_frequencies(ax: Axes, study: xr.Dataset, highest: float) -> None:
     for part in named_modes(first["diameters"].values, heights, NAMES_APART * highest):
         place = (left, float(heights[part.modes].mean()))
         if place[1] <= highest:
-            drawing.say(ax, part.name, place, (3, 0), fontsize=large(7), bbox=white)
+            say(ax, part.name, place, (3, 0), fontsize=large(7), bbox=white)
 
 
 def _name_decays(ax: Axes, study: xr.Dataset, greatest: float) -> None:
@@ -158,4 +162,4 @@ def _name_decays(ax: Axes, study: xr.Dataset, greatest: float) -> None:
     decay = np.where(shown, rates, np.nan)
     for part in named_modes(last["diameters"].values, decay, RATES_APART * greatest):
         height = float(decay[part.modes].mean())
-        drawing.say_beside(ax, height, part.name, 3, fontsize=large(7), color=GREY)
+        say_beside(ax, height, part.name, 3, fontsize=large(7), color=GREY)

@@ -4,16 +4,15 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
-from matplotlib.figure import Figure
 
 from disc_model.data.variables import axis_of, flag_names
-from disc_model.figures import drawing
-from disc_model.figures.arrays import Words
 from disc_model.figures.cells import edges_of, entries, paint
 from disc_model.figures.classes import LOOKS, STABLE, Look
+from disc_model.figures.drawing import letters, row_of_panels
 from disc_model.figures.kinds.maps import SlidingOutcome
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import alike, common_points, parts_along, titles_of
+from disc_model.figures.types import Figure, Words
 
 ROUNDING = 1e-9
 """1/s, growth rates of undamped modes by rounding."""
@@ -41,7 +40,7 @@ def draw(plot: SlidingOutcome, study: xr.Dataset, overlays: Mapping[str, xr.Data
     classes."""
     parts = parts_along(study, plot.by, plot.names)
     width = plot.inches
-    figure, axes = drawing.row_of_panels(width, len(parts), 3.4, 3.0, sharex=True, sharey=True)
+    figure, axes = row_of_panels(width, len(parts), 3.4, 3.0, sharex=True, sharey=True)
     each: list[Words] = []
     for ax, part in zip(axes, parts, strict=True):
         plane = part.data.transpose(plot.y, plot.x, ...)
@@ -55,7 +54,7 @@ def draw(plot: SlidingOutcome, study: xr.Dataset, overlays: Mapping[str, xr.Data
         ax.set_xlabel(axis_of(plot.x)[0])
         ax.set_ylabel(axis_of(plot.y)[0])
         ax.label_outer()
-    drawing.letters(axes, titles_of(parts))
+    letters(axes, titles_of(parts))
     looks = {word: _with_shares(word, look, each) for word, look in AGREEMENTS.items()}
     figure_legend(
         figure,

@@ -6,15 +6,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure, FigureBase
 
 from disc_model.analysis.spectra import TimeFrequency, time_frequency
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.figures import drawing
-from disc_model.figures.drawing import wide
+from disc_model.figures.drawing import panels, wide
 from disc_model.figures.kinds.cases import Spectrogram
+from disc_model.figures.runs import mark_first_separation, sampled
+from disc_model.figures.types import Axes, Figure, FigureBase
 from disc_model.figures.words import quantity_of_label
 
 FLOOR = -100.0  # least power shown, dB below the reference
@@ -22,13 +21,13 @@ FLOOR = -100.0  # least power shown, dB below the reference
 
 def draw(plot: Spectrogram, case: xr.DataTree) -> Figure:
     """Draw the spectrogram of a variable in a window."""
-    figure, [ax] = drawing.panels(plot.inches, 2.7)
+    figure, [ax] = panels(plot.inches, 2.7)
     spectrum = spectrum_of(case, plot.window, plot.variable)
     mesh = draw_power(ax, case, spectrum, float(spectrum.power.max()), plot.highest)
     draw_scale(figure, mesh, ax)
     ax.set_xlabel("Time (s)")
     ax.set_ylabel("Frequency (Hz)")
-    label, *_ = drawing.sampled(plot.variable, dataset.group(case, plot.window))
+    label, *_ = sampled(plot.variable, dataset.group(case, plot.window))
     ax.set_title(quantity_of_label(label))
     return figure
 
@@ -67,7 +66,7 @@ def draw_power(
     ax.set_facecolor(cm.lipari(0.0))
     ax.set_xlim(span_of(spectrum))
     ax.set_ylim((0, highest))
-    drawing.mark_first_separation(ax, case, named=False, color="white", linewidth=wide(0.9))
+    mark_first_separation(ax, case, named=False, color="white", linewidth=wide(0.9))
     return mesh
 
 

@@ -4,20 +4,17 @@ from collections.abc import Sequence
 from typing import Any
 
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.analysis.spectra import RESOLVED, amplitude_spectrum, highest_line, lines
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.errors import Fault, ParameterError, require
-from disc_model.figures import drawing
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import large, wide
+from disc_model.figures.drawing import COLUMN, large, panels, wide
 from disc_model.figures.kinds.cases import Spectrum
 from disc_model.figures.names import Names
-from disc_model.figures.runs import span_of, stated, window_of
-from disc_model.figures.sizes import COLUMN
+from disc_model.figures.runs import sampled, span_of, stated, window_of
+from disc_model.figures.types import Axes, Figure
 from disc_model.units import is_number
 
 FLOOR = -100.0  # least amplitude shown, dB below the greatest
@@ -31,7 +28,7 @@ ROUNDING = 1e-9  # relative, of half the rate of a window
 
 def draw(plot: Spectrum, case: xr.DataTree) -> Figure:
     """Draw the spectrum of a variable in the whole of a window."""
-    figure, [ax] = drawing.panels(plot.inches, 2.4)
+    figure, [ax] = panels(plot.inches, 2.4)
     draw_spectrum(ax, dataset.samples(case, plot.window), plot.variable, plot.highest)
     return figure
 
@@ -91,7 +88,7 @@ def draw_spectrum(
         )
 
     # what is shown
-    label, factor, colour = drawing.sampled(variable, samples)
+    label, factor, colour = sampled(variable, samples)
     frequency, amplitude = amplitude_spectrum(time, values)
     if highest is None:
         highest = min(ROOM_BEYOND * highest_line(time, values, WEAKEST), float(frequency[-1]))

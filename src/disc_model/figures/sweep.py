@@ -6,16 +6,15 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
-from matplotlib.axes import Axes
 
 from disc_model.errors import require, suggestion
 from disc_model.figures.basins import draw_shares, outcomes_in
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.cells import entries
 from disc_model.figures.curve import draw_lines
+from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
-from disc_model.figures.sizes import COLUMN
+from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import label_of, measured, what_case
 
 SHARES = ("basin_fraction_by_energy", "basin_fraction")
@@ -106,6 +105,8 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     usual = next(iter([*preferred, *numeric, *choices]), "")
     named = variable or usual
     rule = f"must be one over the grid{suggestion(named, choices)}"
+    if any(dim not in study.coords for dim in study.get("status", study).dims):
+        rule = "varies along paired values: study.plot.scatter(x=..., y=...) of xarray draws points"
     require((named in choices, "variable", named, rule))
     return named
 

@@ -18,8 +18,8 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import Array
 from disc_model.disc.plausibility import ImplausibleValue
 from disc_model.display import Drawn, Summarised, html_table, number_text
 from disc_model.errors import (
@@ -34,7 +34,6 @@ from disc_model.fitting.prediction import Prediction, Unpredicted, unit_of, unkn
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import in_si, is_number
 
-Array = NDArray[np.float64]
 Interval = tuple[float, float]
 
 STEP = 1e-4
@@ -189,9 +188,9 @@ class Fit(Summarised, Drawn):
     def consistent(self) -> bool:
         """Whether chi squared is as small as it is in 95 % of fits if the model and the
         uncertainties are right; True without degrees of freedom."""
-        from scipy.stats import chi2
+        from scipy import stats
 
-        return not self.freedom or bool(self.chi_squared <= chi2.ppf(0.95, self.freedom))
+        return not self.freedom or bool(self.chi_squared <= stats.chi2.ppf(0.95, self.freedom))
 
     @property
     def correlation(self) -> Array:
@@ -387,10 +386,10 @@ def fit(
     >>> found
     Fit(E=1.52256e+11 ± 4.5e+08, nu=0.208709 ± 0.0056; chi squared ... with 0 degrees of freedom)
     """
-    from scipy.optimize import least_squares
+    from scipy import optimize
 
     measurements = _checked(p, vary, measured, bounds, confidence)
-    limits = _limits(p, vary, bounds or {})
+    limits = _limits(vary, bounds or {})
     scales = {name: high - low for name, (low, high) in limits.items() if p.numbers[name] == 0}
     problem = _Problem(p, vary, measurements, scales)
     values = np.array([each.value for each in measurements])
@@ -408,7 +407,7 @@ def fit(
     with warnings.catch_warnings():
         # the start and the result are doubted, not what is tried on the way
         warnings.simplefilter("ignore", ImplausibleValue)
-        search = least_squares(
+        search = optimize.least_squares(
             deviations,
             _inside(problem, start, limits) / problem.scale,
             jac=slopes,
@@ -435,7 +434,7 @@ def _inside(problem: _Problem, start: Array, limits: Mapping[str, Interval]) -> 
 def _result(problem: _Problem, search: Any, confidence: float) -> Fit:
     """Return the fit at the end of a search. Raises `ParameterError` if the Jacobian is
     singular."""
-    from scipy.stats import norm
+    from scipy import stats
 
     names = problem.names
     scale = problem.scale
@@ -449,7 +448,7 @@ def _result(problem: _Problem, search: Any, confidence: float) -> Fit:
 
     fitted = search.x * scale
     deviation = np.sqrt(np.diag(covariance))
-    reach = float(norm.ppf((1 + confidence) / 2)) * deviation
+    reach = float(stats.norm.ppf((1 + confidence) / 2)) * deviation
     parameters = {
         name: Fitted(*map(float, row))
         for name, row in zip(
@@ -584,9 +583,7 @@ def _bounds_faults(p: Parameters, vary: Sequence[str], bounds: object) -> list[s
     return faults
 
 
-def _limits(
-    p: Parameters, vary: Sequence[str], bounds: Mapping[str, tuple[Any, Any]]
-) -> dict[str, Interval]:
+def _limits(vary: Sequence[str], bounds: Mapping[str, tuple[Any, Any]]) -> dict[str, Interval]:
     """Return the bounds in SI units."""
     found = {}
     for name in vary:

@@ -17,7 +17,7 @@ from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
 from disc_model.errors import suggestion
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.stability.cycle import floquet
+from disc_model.stability.floquet import floquet
 from disc_model.stability.sliding import steady_sliding
 
 MODE = re.compile(r"(frequency|damping_ratio)_(\d+)_(\d+)")

@@ -8,17 +8,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from disc_model.analysis import classify, spectra
 from disc_model.analysis.classify import FEWEST, Motion, Settled, Settling
+from disc_model.arrays import Array, Mask
 from disc_model.data import dataset, variables
 from disc_model.data.dataset import Missing
 from disc_model.display import counted
 from disc_model.paper import growth
 from disc_model.parameters import Parameters
-
-Array = NDArray[np.float64]
 
 SEPARATION = variables.PHASES.index("separation")
 
@@ -493,7 +491,7 @@ def sound(study: xr.Dataset) -> xr.Dataset:
     return study
 
 
-def _failed(study: xr.Dataset) -> NDArray[np.bool_]:
+def _failed(study: xr.Dataset) -> Mask:
     """Return which points of a grid study failed, by their outcome or else their status."""
     if "outcome" in study:
         return variables.flag_names(study["outcome"]) == "failed"

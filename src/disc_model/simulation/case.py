@@ -15,18 +15,9 @@ from pydantic import Field, create_model, field_validator, model_serializer, mod
 
 from disc_model.data.variables import BESIDE_WINDOWS
 from disc_model.errors import Fault, ParameterError, as_text, require
+from disc_model.hashing import canonical_json, content_key
 from disc_model.parameters import AUTO, FORMAT, Parameters
-from disc_model.units import (
-    Count,
-    Finite,
-    Positive,
-    Real,
-    Seconds,
-    Strict,
-    Unit,
-    canonical_json,
-    content_key,
-)
+from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
 Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]
@@ -254,7 +245,7 @@ class Ramp(Interval):
     Parameters
     ----------
     parameter : "Omega" or "N"
-    to : rad/s or N, the value at ``end``
+    to : rad/s or N, the value at ``end``; 0 stops the drive, whereas a preload stays positive
     start, end : s, absolute times
 
     Examples
@@ -264,12 +255,24 @@ class Ramp(Interval):
     >>> braked = dm.simulate(dm.Parameters(N=385, Omega=15.1), 5, ramps=stop)
     >>> braked.value_at("Omega", [0.5, 2.5, 5]).round(3)
     array([15.1 , 10.05,  5.  ])
+
+    A brake stop, after which friction holds the slider:
+
+    >>> stop = dm.Ramp(parameter="Omega", to=0, start=1, end=4)
+    >>> stopped = dm.simulate(dm.Parameters(N=385, Omega=15.1, c_p=5), 5, ramps=stop)
+    >>> stopped.status.value, stopped.final_state.phase
+    ('at_rest', 'stick')
     """
 
     parameter: Literal["Omega", "N"]
-    to: Annotated[Positive, Unit(of="parameter")]
+    to: Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit(of="parameter")]
     start: Time
     end: Seconds
+
+    @model_validator(mode="after")
+    def _loaded(self) -> Self:
+        require((self.parameter != "N" or self.to > 0, "to", self.to, "must be > 0 for N"))
+        return self
 
 
 class Piece(NamedTuple):
@@ -298,9 +301,9 @@ def ramp_faults(p: Parameters, ramps: object, poincare: bool) -> Iterator[Fault]
     if not isinstance(ramps, tuple) or not all(isinstance(ramp, Ramp) for ramp in ramps):
         yield Fault(("ramps",), as_text(ramps), "must be a Ramp or a tuple of them")
         return
-    for name in RAMPED if ramps else ():
-        if not getattr(p, name) > 0:
-            yield Fault.of((name,), getattr(p, name), "must be > 0 where there are ramps")
+    if ramps and not p.N > 0:
+        yield Fault.of(("N",), p.N, "must be > 0 where there are ramps")
+    for name in RAMPED:
         of_name = [
             (ramp.start, i, ramp.end) for i, ramp in enumerate(ramps) if ramp.parameter == name
         ]

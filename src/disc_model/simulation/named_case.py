@@ -24,7 +24,8 @@ def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
     with `modes` needs."""
     import xarray as xr
 
-    from disc_model.data.dataset import json_attribute, scalars_dataset
+    from disc_model.data.columns import scalars_dataset
+    from disc_model.data.dataset import json_attribute
 
     needed = "must be `disc_model.mode_choice.choose_when_run`, as the case leaves its modes to be chosen"
     require((callable(choose) or not spec.modes, "choose", choose, needed))

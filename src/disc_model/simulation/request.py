@@ -149,11 +149,8 @@ def _span_of(t_end: Any, duration: Any, initial_state: Any) -> _Span:
         name = "duration"
         value = duration
     end = math.nan
-    if type(value) is float:  # as nearly always, and at once
-        end = value
-    else:
-        with suppress(ValueError):  # of what is no number
-            end = number(in_si(value, "s", [], ()))
+    with suppress(ValueError):  # of what is no number
+        end = number(in_si(value, "s", [], ()))
     if duration is not None:
         end += start
 

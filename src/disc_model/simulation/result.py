@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from disc_model import errors
 from disc_model.attachable import RunPictures
+from disc_model.data.files import unreadable
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, values_text
 from disc_model.display import Summarised, counted, number_text
 from disc_model.engine import record
@@ -138,7 +139,7 @@ class Result(Summarised, RunPictures):
     def __getitem__(self, name: str) -> xr.Dataset:
         """The samples of a window along `time`, with units, by the window's name; raises
         `ParameterError`."""
-        from disc_model.data.dataset import series_dataset
+        from disc_model.data.columns import series_dataset
 
         if not isinstance(name, str) or name not in self.samples:
             raise ParameterError(
@@ -156,7 +157,7 @@ class Result(Summarised, RunPictures):
         """
         import xarray as xr
 
-        from disc_model.data.dataset import scalars_dataset, series_dataset
+        from disc_model.data.columns import scalars_dataset, series_dataset
 
         scalars = scalars_dataset(self.parameters, self.scalars(), self.status.value, self.message)
         if self.ramps:
@@ -210,6 +211,35 @@ class Result(Summarised, RunPictures):
         columns |= self.samples
         tables.save_tables(columns, self._header(states).model_dump_json(), path, self.to_tree())
 
+    def to_csv(self, path: str | Path) -> None:
+        """Write the events and the samples of each window as tables of text.
+
+        Parameters
+        ----------
+        path : of a folder, made if it is missing, which gets "events.csv" and a file for each window, such as
+            "late.csv", with units in the heads of columns
+
+        Raises
+        ------
+        ParameterError
+            If there can be no such folder.
+        disc_model.data.dataset.WriteError
+            If a file cannot be written.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> run = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1, windows={"late": dm.Window(last=0.1, rate=2e4)})
+        >>> run.to_csv("run")
+        >>> print(open("run/events.csv").readline().strip())
+        time (s),kind,phase,psi (rad),f (rad s-1),u (m),u_velocity (m s-1),P (N)
+        """
+        from disc_model.data.columns import series_dataset
+        from disc_model.data.tables import save_csv
+
+        tables = {name: self[name] for name in self.samples}
+        save_csv({"events": series_dataset(self._event_columns, "event"), **tables}, path)
+
     def _header(self, states: Mapping[str, tuple[dict[str, Any], Any]]) -> Header:
         """What a file holds beside the arrays; states : the `State.parts` by name."""
         kinds: dict[type, dict[str, Any]] = {Window: {}, Poincare: {}}
@@ -241,7 +271,6 @@ class Result(Summarised, RunPictures):
             If there is no such file.
         """
         from disc_model.data import tables
-        from disc_model.data.files import unreadable
 
         text, columns = tables.load_tables(path)
         whole = text and {"events", "final_state"} <= columns.keys()
@@ -314,7 +343,6 @@ class Statistics(Strict):
     energy_residual_transverse: Real
     energy_residual_inplane: Real
     audited_steps: Count
-    couple_work: Real
     surface_speed: Real
 
 

@@ -17,26 +17,26 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.engine.model import blocks_of, flags_of, on_ramp, slope_under_slider
 from disc_model.engine.stick_modes import LONGEST_STICK
 from disc_model.errors import Status
+from disc_model.hashing import content_key
 from disc_model.simulation import states
 from disc_model.simulation.case import SampleTimes, angle_of_drive, pieces
 from disc_model.simulation.collector import Collector
 from disc_model.simulation.request import Request
+from disc_model.simulation.rest import holds_for_good, spring_pull
 from disc_model.simulation.result import Result
-from disc_model.units import content_key
 
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
 # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
 STEPS_PER_PAUSE = 100_000
 
-_EXITS = (  # in the order of `Status`
-    transitions.TIME_OVER,
-    transitions.STOPPED,
-    transitions.STEP_LIMIT,
-    transitions.NO_SOLUTION,
-    transitions.STALLED,
-    transitions.NON_FINITE,
-)
-_STATUS = dict(zip(_EXITS, Status, strict=True))
+_STATUS = {
+    transitions.TIME_OVER: Status.OK,
+    transitions.STOPPED: Status.STOPPED,
+    transitions.STEP_LIMIT: Status.STEP_LIMIT,
+    transitions.NO_SOLUTION: Status.PARADOX,
+    transitions.STALLED: Status.STALLED,
+    transitions.NON_FINITE: Status.NON_FINITE,
+}
 # compiled, by blocks of lanes, laws of contact and ramp
 _ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}
 
@@ -180,12 +180,25 @@ class Run:
         """Assemble the result of the run, which ends here: other runs of the case may use its
         arrays."""
         request = self.request
-        phase = PHASES[motion.phase_of(self.state)]
-        message = f"{status.value}: at t = {self.time:.9g} s in {phase}"
+        final_state = states.read_state(
+            self.case,
+            self.state,
+            self.key,
+            drive_angle=angle_of_drive(self.pieces, self.time) + self.lead,
+        )
+        stopped = status is Status.OK and self._drive_stands_still()
+        if stopped and holds_for_good(request.parameters, final_state, self.pieces[-1].N):
+            status = Status.AT_REST
+        message = f"{status.value}: at t = {self.time:.9g} s in {final_state.phase}"
+        if stopped:
+            message += ", the drive stands still"
+        if status is Status.AT_REST:
+            pull = abs(spring_pull(request.parameters, final_state))
+            message += f", and friction holds the slider against {pull:.6g} N"
         if status is Status.PARADOX:
-            scalars = motion.scalars_of(self.state)
+            end = states.read_state(self.case, self.state)
             slope = slope_under_slider(self.model, self.state)
-            message += f", psi = {scalars['psi']:.6g} rad, f = {scalars['f']:.6g} rad/s"
+            message += f", psi = {end.psi:.6g} rad, f = {end.f:.6g} rad/s"
             message += f", slope B = {slope:.6g}"
         result = Result(
             parameters=request.parameters,
@@ -196,12 +209,7 @@ class Run:
             message=message,
             event_rows=np.concatenate(self.collector.events),
             first_separation=self.collector.first_separation,
-            final_state=states.read_state(
-                self.case,
-                self.state,
-                self.key,
-                drive_angle=angle_of_drive(self.pieces, self.time) + self.lead,
-            ),
+            final_state=final_state,
             u_0=self.model.u_0,
             statistics=self._statistics(),
             samples={name: samples.arrays() for name, samples in self.collector.samples.items()},
@@ -210,6 +218,11 @@ class Run:
         )
         self.case.idle[self.limits.order].append((self.state, self.probe, self.series))
         return result
+
+    def _drive_stands_still(self) -> bool:
+        """Return whether the drive has stopped, and neither it nor the preload will change."""
+        last = self.pieces[-1]
+        return last.Omega == 0 and last.begin <= self.time
 
     def _statistics(self) -> dict[str, float]:
         """Return the `Result.statistics`."""
@@ -238,10 +251,8 @@ class Run:
             statistics["energy_residual_inplane"] = _relative(
                 total[audit.INPLANE], total[audit.INPLANE_SCALE] + total[audit.INPLANE_TURNOVER]
             )
-        if self.model.has_couple:
+        if self.model.has_moving_surface:
             statistics["surface_speed"] = total[audit.SURFACE]
-            if every_step:
-                statistics["couple_work"] = total[audit.COUPLE]
         statistics["wall_time"] = self.wall_time
         return statistics
 
@@ -251,7 +262,6 @@ _ENERGIES = (
     "energy_residual_transverse",
     "energy_residual_inplane",
     "audited_steps",
-    "couple_work",
     "surface_speed",
 )
 

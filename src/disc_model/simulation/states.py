@@ -13,9 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from pydantic import Field
 
+from disc_model.arrays import Array
+from disc_model.data.files import unreadable
 from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import (
@@ -37,10 +39,9 @@ from disc_model.units import Count, Real, Strict, in_si, is_number, is_quantity
 if TYPE_CHECKING:
     import xarray as xr
 
-Array = NDArray[np.float64]
 MODAL = ("a", "b", "alpha", "beta")
 """Names of the variables of a state with one value a mode."""
-PLAIN = motion.SCALAR_NAMES
+PLAIN = ("time", "time_low", "psi", "f", "u", "u_velocity", "surface_turn")
 """Names of its scalars."""
 SAME_HEIGHT = (
     1e-9  # relative to the disc's deflection: far above rounding, far below any intended difference
@@ -56,13 +57,16 @@ class State:
     ----------
     time : s
     phase : "stick", "slip" or "separation"
-    direction : sgn(f) in slip, 0 otherwise
+    direction : sign of the slip speed r_0 f - v_s in slip, 0 otherwise
     psi : rad, drive point's angle ahead of the slider
-    f : rad/s, the slider's angular speed over the disc
+    f : rad/s, the slider's angular speed; in stick that of the disc's surface under it, v_s / r_0, which is 0 unless
+        the surface moves
     u, u_velocity : m, m/s, the slider's height and velocity. In rigid contact they are those of the disc under it: an
         initial state with another u is refused, and its u_velocity is ignored
     a, b, alpha, beta : shape (n_modes,), in the order of `plate_modes`: modal displacements (m sqrt(kg)) and velocities
         along and across the slider's direction; b = beta = 0 for modes without nodal diameter
+    surface_turn : rad, by which the disc's surface has moved under the slider, the integral of v_s / r_0; 0 unless
+        friction acts on a surface that moves
     drive_angle : rad, by which the drive point has turned since the time 0, ramps included. None stands for Omega time
     case_key : the case in which it was computed; in any other case, the phase after an event is determined anew
     mode_amplitudes : kg^-1/2, shape (n_modes,), psi of the `plate_modes` to which a, b, alpha and beta belong. A case
@@ -94,6 +98,7 @@ class State:
     alpha: Array
     beta: Array
     time_low: float = 0.0
+    surface_turn: float = 0.0
     drive_angle: float | None = None
     case_key: str = ""
     mode_amplitudes: Array | None = None
@@ -143,6 +148,12 @@ class State:
         drive = p.Omega * self.time if self.drive_angle is None else self.drive_angle
         return drive - self.psi
 
+    def material_angle(self, p: Parameters) -> float:
+        """Angle on the disc of the material point under the slider, rad, about which modal
+        coordinates are resolved: `slider_angle` less `surface_turn`. Raises `ParameterError` unless
+        `p` is the case."""
+        return self.slider_angle(p) - self.surface_turn
+
     @property
     def parts(self) -> tuple[dict[str, Any], dict[str, Array]]:
         """What files hold of it: values for JSON text, as `StateValues` reads them, and arrays with
@@ -185,7 +196,6 @@ class State:
             If there is no such file.
         """
         from disc_model.data import tables
-        from disc_model.data.files import unreadable
 
         text, found = tables.load_tables(path)
         holds_state = text and [*found] == ["state"]
@@ -209,6 +219,7 @@ class StateValues(Strict):
     f: Real
     u: Real
     u_velocity: Real
+    surface_turn: Real = 0.0
     drive_angle: Real | None
     case_key: str
     roots: tuple[Annotated[Count, Field(ge=0, le=3)], Annotated[Count, Field(ge=0, le=3)]]
@@ -251,21 +262,31 @@ def perturb(
     """
     modes = mode_arrays(p)
     give = modes.psi / modes.omega**2
-    speed = state.f + f
     phase = state.phase
     direction = state.direction
     if f and phase != "separation":
-        phase = "slip" if speed else "stick"
-        direction = int(np.sign(speed))
+        rate = f + (slip_rate(p, state) if phase == "slip" else 0.0)
+        phase = "slip" if rate else "stick"
+        direction = int(np.sign(rate))
     return state.replace(
         a=state.a + u * give / (modes.psi @ give),
         alpha=state.alpha + u_velocity * modes.psi / (modes.psi @ modes.psi),
         u=state.u + u,
         u_velocity=state.u_velocity + u_velocity,
-        f=speed,
+        f=state.f + f,
         phase=phase,
         direction=direction,
     )
+
+
+def slip_rate(p: Parameters, state: State) -> float:
+    """Slip speed over r_0, rad/s: the slider's angular speed f less that of the surface under it."""
+    return state.f - surface_rate(p, state)
+
+
+def surface_rate(p: Parameters, state: State) -> float:
+    """Speed of the disc's surface under the slider over r_0, rad/s."""
+    return float(tangential_amplitudes(p) @ state.beta) / p.r_0
 
 
 def transfer_state(p: Parameters, state: State) -> State:
@@ -281,8 +302,17 @@ def transfer_state(p: Parameters, state: State) -> State:
     slope = float(more @ (mode_arrays(p).diameters * state.b))
     if state.phase != "separation" and p.contact_compliance == 0:
         u = float(psi @ state.a)
-    velocity = state.u_velocity + float(more @ state.alpha) + state.f * slope
-    return state.replace(time=0.0, u=u, u_velocity=velocity, mode_amplitudes=psi)
+    f = state.f
+    direction = state.direction
+    if state.phase == "stick":
+        f = surface_rate(p, state)
+    rate = f - surface_rate(p, state)
+    if state.phase == "slip" and rate:
+        direction = int(np.sign(rate))
+    velocity = state.u_velocity + float(more @ state.alpha) + rate * slope
+    return state.replace(
+        time=0.0, f=f, direction=direction, u=u, u_velocity=velocity, mode_amplitudes=psi
+    )
 
 
 def deflection(
@@ -347,8 +377,7 @@ def deflection(
     shapes = mode_shapes(p, radii)
     w = np.empty((len(states_in_order), len(radii), len(angles)))
     for i, state in enumerate(states_in_order):
-        # modal coordinates are relative to the slider
-        turn = np.multiply.outer(modes.diameters, angles - state.slider_angle(p))
+        turn = np.multiply.outer(modes.diameters, angles - state.material_angle(p))
         w[i] = shapes.T @ (state.a[:, None] * np.cos(turn) + state.b[:, None] * np.sin(turn))
     coords = {
         "time": (
@@ -382,9 +411,8 @@ class EngineCase:
         np.ndarray
     )  # indices in a, b, alpha, beta of all modes of what exists: no b, beta without nodal diameter
     places: np.ndarray  # their indices in `EngineState.disc`
-    point: (
-        np.ndarray
-    )  # matrix from there to u, u' (without the slope's share) and slope B under the slider
+    # matrix from there to u, u' (without the slope's share), slope B and v_s / r_0 under the slider
+    point: np.ndarray
     idle: defaultdict[
         int, list[Workspace]
     ]  # workspaces that no run uses at present, by the order of their series
@@ -395,13 +423,14 @@ def engine_case(p: Parameters) -> EngineCase:
     """The engine's constants of a case, cached for equal parameters."""
     warn_of_doubts(p)
     modes = mode_arrays(p)
+    tangential = tangential_amplitudes(p)
     model = build_model(
         DiscModes(
             diameters=modes.diameters,
             omega=modes.omega,
             psi=modes.psi,
             damping=modal_damping(p),
-            tangential=tangential_amplitudes(p),
+            tangential=tangential,
         ),
         {name: getattr(p, name) for name in Model._fields if name in Parameters.model_fields},
         Contact(
@@ -415,9 +444,10 @@ def engine_case(p: Parameters) -> EngineCase:
     places = motion.mode_places(modes.diameters)
     present = np.flatnonzero(places >= 0)
     start = build_state(model)
-    point = np.zeros((3, len(start.disc)))
+    point = np.zeros((4, len(start.disc)))
     point[0, places[0]] = point[1, places[2]] = modes.psi
     point[2, places[1, pairs]] = (modes.diameters * modes.psi)[pairs]
+    point[3, places[3, pairs]] = tangential[pairs] / p.r_0
     return EngineCase(
         p.key, model, start, modes.psi, present, places.ravel()[present], point, defaultdict(list)
     )
@@ -445,11 +475,14 @@ def read_state(
     modal.setflags(write=False)
     phase = motion.phase_of(state)
     values: dict[str, Any] = motion.scalars_of(state)
-    if phase == SLIP and values["f"] * motion.direction_of(state) < 0:
-        values["f"] = 0.0  # slip that has just begun or is about to end, and f is rounding
+    rate = values.pop("g")
+    if phase == SLIP and rate * motion.direction_of(state) < 0:
+        rate = 0.0  # slip that has just begun or is about to end, and g is rounding
+    w, velocity, slope, surface = case.point.dot(state.disc).tolist()
+    values["f"] = rate + surface
     if phase != SEPARATION and not case.model.has_compliance:
-        values["u"], velocity, slope = case.point.dot(state.disc).tolist()
-        values["u_velocity"] = velocity + values["f"] * slope
+        values["u"] = w
+        values["u_velocity"] = velocity + rate * slope
     return State(
         phase=PHASES[phase],
         direction=motion.direction_of(state),
@@ -470,30 +503,50 @@ def write_state(case: EngineCase, source: State, state: EngineState, key: str = 
     state.disc[case.places] = np.concatenate((source.a, source.b, source.alpha, source.beta))[
         case.present
     ]
-    row = case.point[0]
-    if (
-        source.phase != "separation" and not case.model.has_compliance
-    ):  # the disc determines u, which would be ignored
-        w = float(row.dot(state.disc))
-        off = abs(source.u - w)
-        # the cheap comparison with w itself nearly always suffices
-        if off > SAME_HEIGHT * abs(w) and off > SAME_HEIGHT * float(
-            np.abs(row).dot(np.abs(state.disc))
-        ):
-            rule = (
-                f"must be the disc's displacement under the slider in contact, {w:.9g}; "
-                "change a with it, or the phase"
-            )
-            raise ParameterError(Fault.of(("initial_state", "u"), source.u, rule))
+    if source.phase != "separation" and not case.model.has_compliance:
+        _require_touch(case, source, state)
     direction = source.direction if source.phase == "slip" else 0
-    values = {name: getattr(source, name) for name in PLAIN}
-    if values["f"] * direction < 0:  # by rounding, as `_check` has found
-        values["f"] = 0.0
-    motion.put_scalars(state, values.values())
+    # the engine's scalars are those of `PLAIN`, with the rate over the material in place of f
+    values = [getattr(source, name) for name in PLAIN]
+    values[PLAIN.index("f")] = _rate_over_material(case, source, state)
+    motion.put_scalars(state, values)
     motion.put_phase(state, PHASES.index(source.phase), direction, source._roots)
     return (
         any(source._roots) and source.case_key != (key or case.key) and _forget_switch(case, state)
     )
+
+
+def _require_touch(case: EngineCase, source: State, state: EngineState) -> None:
+    """Raise `ParameterError` if the slider has another height than the disc under it, which
+    determines it in rigid contact."""
+    row = case.point[0]
+    w = float(row.dot(state.disc))
+    off = abs(source.u - w)
+    if off <= SAME_HEIGHT * abs(w):  # as nearly always, and at once
+        return
+    if off > SAME_HEIGHT * float(np.abs(row).dot(np.abs(state.disc))):
+        rule = (
+            f"must be the disc's displacement under the slider in contact, {w:.9g}; "
+            "change a with it, or the phase"
+        )
+        raise ParameterError(Fault.of(("initial_state", "u"), source.u, rule))
+
+
+def _rate_over_material(case: EngineCase, source: State, state: EngineState) -> float:
+    """The rate g of a state that `_check` has found good: 0 in stick, and where only rounding makes
+    it differ from 0 or from the direction of slip."""
+    if source.phase == "stick":
+        return 0.0
+    surface = 0.0
+    if case.model.has_moving_surface:
+        surface = float(case.point[3].dot(state.disc))
+    rate = source.f - surface
+    if source.phase == "slip":
+        begins = source._roots[0] > 0
+        rounding = SAME_SPEED * (case.model.Omega + abs(surface))
+        if (begins and abs(rate) <= rounding) or rate * source.direction < 0:
+            return 0.0
+    return rate
 
 
 def _forget_switch(case: EngineCase, state: EngineState) -> bool:
@@ -501,21 +554,21 @@ def _forget_switch(case: EngineCase, state: EngineState) -> bool:
     vanish here. Returns whether the engine must determine if contact lasts: a slider that rests on
     the disc is put into contact."""
     sizes = np.abs(case.point).dot(np.abs(state.disc))
-    w, velocity, slope = case.point.dot(state.disc)
+    w, velocity, slope, _ = case.point.dot(state.disc)
     scalars = motion.scalars_of(state)
     phase = motion.phase_of(state)
     direction = motion.direction_of(state)
-    f = scalars["f"]
+    rate = scalars["g"]
     begins = motion.known_roots(state)[1] > 0
-    opening = scalars["u_velocity"] - velocity - f * slope
+    opening = scalars["u_velocity"] - velocity - rate * slope
     touches = abs(scalars["u"] - w) <= SAME_HEIGHT * sizes[0]
-    rests = abs(opening) <= SAME_HEIGHT * (sizes[1] + abs(f) * sizes[2])
+    rests = abs(opening) <= SAME_HEIGHT * (sizes[1] + abs(rate) * sizes[2])
     if phase == SEPARATION and touches and not rests:
         motion.put_phase(state, phase, direction, (1 if opening > 0 else 0, 0))
     elif case.model.has_compliance and touches and begins:
-        motion.put_phase(state, phase, direction, (1 if f == 0 and phase == SLIP else 0, 1))
+        motion.put_phase(state, phase, direction, (1 if rate == 0 and phase == SLIP else 0, 1))
     elif touches or phase == SLIP:
-        motion.put_phase(state, SLIP if f else STICK, int(np.sign(f)))
+        motion.put_phase(state, SLIP if rate else STICK, int(np.sign(rate)))
         return True
     else:
         motion.put_phase(state, phase, direction)
@@ -544,18 +597,35 @@ def _check(state: State, case: EngineCase) -> None:
     )
     # the clock's compensation is at most a unit in the last place of the time
     small = abs(state.time_low) <= math.ulp(state.time)
-    against = state.f * state.direction < -SAME_SPEED * case.model.Omega
+    surface = _surface_rate(case, state)
+    off = state.f - surface
+    against = off * state.direction < -SAME_SPEED * (case.model.Omega + abs(surface))
+    held = state.phase != "stick" or abs(off) <= SAME_SPEED * abs(surface)
+    rule = "must be 0 in stick"
+    if surface:
+        rule = f"must be {surface:.9g} in stick, the angular speed of the disc's surface"
     require(
         (small, path + "time_low", state.time_low, "must be less than the last digit of the time"),
-        (state.phase != "stick" or state.f == 0, path + "f", state.f, "must be 0 in stick"),
+        (held, path + "f", state.f, rule),
         (
             state.phase != "slip" or not against,
             path + "f",
             state.f,
-            f"must have the sign of direction={state.direction}",
+            f"must have the sign of direction={state.direction}, less the surface's {surface:.9g}"
+            if surface
+            else f"must have the sign of direction={state.direction}",
         ),
         amplitude_rule(state, case.amplitudes, path),
     )
+
+
+def _surface_rate(case: EngineCase, state: State) -> float:
+    """v_s / r_0 in a state, whose arrays fit the case."""
+    if not case.model.has_moving_surface:
+        return 0.0
+    row = np.zeros(4 * len(case.amplitudes))
+    row[case.present] = case.point[3, case.places]
+    return float(row[-len(case.amplitudes) :] @ state.beta)
 
 
 def angle_rule(drive_angle: object, path: str) -> tuple[bool, str, object, str]:

@@ -24,12 +24,12 @@ from disc_model.analysis.classify import (
     shortest_period,
 )
 from disc_model.data.variables import Outcome
-from disc_model.disc.plate import mode_arrays
+from disc_model.disc.plate import mode_arrays, tangential_amplitudes
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
-from disc_model.simulation.states import State, perturb, static_start
+from disc_model.simulation.states import State, perturb, slip_rate, static_start
 from disc_model.stability import thresholds
 from disc_model.stability.cycle import may_stick_and_slip
 from disc_model.stability.linear_motion import (
@@ -39,16 +39,9 @@ from disc_model.stability.linear_motion import (
     find_cycle_near,
 )
 from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
-from disc_model.stability.outcome import (
-    Attractor,
-    OutcomeResult,
-    Segment,
-    final_segment,
-    find_equilibrium,
-    segment_of,
-    switch_angles,
-)
+from disc_model.stability.outcome import Attractor, OutcomeResult, find_equilibrium
 from disc_model.stability.return_map import Array, ReturnMap
+from disc_model.stability.segments import Segment, final_segment, segment_of, switch_angles
 
 
 class Arrival(NamedTuple):
@@ -87,11 +80,12 @@ def arrival(p: Parameters, legs: Sequence[Result], most: int = sys.maxsize) -> A
 
 def cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
     """The cycle near the end of a simulated motion, recorded with its events; the cycle may lose
-    contact. Periods of up to half the releases of the last `FIRST_LEG` are tried, and of up to
-    `most` releases."""
-    last = leg.events[leg.events["time"] > leg.final_state.time - thresholds.FIRST_LEG]
-    releases = int((last["kind"] == "stick_to_slip").sum())
-    if not releases or not may_stick_and_slip(p) or p.n_diameters < 0:
+    contact. Periods of up to half the releases of the last `FIRST_LEG` are tried, or of the whole
+    leg if a slow motion has none there, and of up to `most` releases."""
+    released = leg.events[leg.events["kind"] == "stick_to_slip"]
+    late = released["time"] > leg.final_state.time - thresholds.FIRST_LEG
+    releases = int(late.sum()) or len(released)
+    if not releases or not may_stick_and_slip(p):
         return None
     map_ = ReturnMap(p, patient=True)
     release = map_.next_release(leg.final_state)
@@ -334,7 +328,10 @@ class Basins:
 
     def _approached_by_range(self, ranges: Sequence[float]) -> Attractor | None:
         """The attractor, other than the quiet cycle, whose range of the height those of the last
-        legs (m) approach; None if that is not clear."""
+        legs (m) approach; None if that is not clear, as on a rigid disc, whose height never
+        changes."""
+        if self.static == 0:
+            return None
         others = [attractor for attractor in self.known if attractor.kind is not Outcome.QUIET]
         if len(ranges) < thresholds.NEARING or not others:
             return None
@@ -429,7 +426,7 @@ class Basins:
 def random_perturbation(p: Parameters, state: State, energy: float, key: Sequence[int]) -> State:
     """A state after a perturbation of given energy (J), of modes, mass m and spring k, in a random
     direction, by whole numbers, its `key`: uniform in the energy norm of the modes. The slider
-    moves with the disc; f and psi stay."""
+    moves with the disc and its surface; psi and the slip speed stay."""
     if energy == 0:
         return state
     modes = mode_arrays(p)
@@ -441,14 +438,18 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
     beta = draw[3]
     u = float(modes.psi @ a)
     velocity = float(modes.psi @ alpha)
-    energy_drawn = 0.5 * (float(np.sum(draw**2)) + p.k * u**2 + p.m * velocity**2)
+    surface = float(tangential_amplitudes(p) @ beta)
+    squares = p.k * u**2 + p.m * velocity**2 + p.m * surface**2
+    energy_drawn = 0.5 * (float(np.sum(draw**2)) + squares)
     size = math.sqrt(energy / energy_drawn)
-    velocity_of_u = velocity + state.f * float(np.sum(modes.diameters * modes.psi * b))
+    slope = float(np.sum(modes.diameters * modes.psi * b))
+    velocity_of_u = velocity + slip_rate(p, state) * slope
     return state.replace(
         a=state.a + size * a,
         b=state.b + size * b,
         alpha=state.alpha + size * alpha,
         beta=state.beta + size * beta,
+        f=state.f + size * surface / p.r_0,
         u=state.u + size * u,
         u_velocity=state.u_velocity + size * velocity_of_u,
     )

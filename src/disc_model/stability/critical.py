@@ -5,16 +5,16 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
 
+from disc_model.arrays import Array, ComplexArray, Mask
 from disc_model.data.variables import STABLE_CYCLES
 from disc_model.display import Drawn, counted, html_table
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import raise_faults, violations
-from disc_model.parameters import Parameters, Quantity
-from disc_model.stability.continuation import free_faults, interval_in_si
+from disc_model.parameters import Parameters, Quantity, foreign_case
+from disc_model.stability.continuation import free_faults, interval_in_si, spectrum
 from disc_model.stability.cycle import FloquetResult, find_cycle
-from disc_model.stability.return_map import Array, ComplexArray, case_faults
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
 MOST_POINTS = 100_000  # largest number of values: an hour of work
@@ -22,8 +22,6 @@ MOST_POINTS = 100_000  # largest number of values: an hour of work
 ROUNDS = 8
 SHORTEST = 1e-6  # of the range, to which crossings are bisected
 NARROWEST = 1e-5  # of the range: between values closer than that no further ones are computed
-# modulus below which a multiplier takes part in no resonance that could make it one
-STRONGLY_DAMPED = 0.5
 # rad, by which a multiplier may turn from one value to the next; beyond, multipliers cannot be told
 # apart by their distances
 LONGEST_TURN = 0.3
@@ -61,7 +59,7 @@ class Critical(Drawn):
     name: str
     value: float
     crossings: Array
-    unstable_above: NDArray[np.bool_]
+    unstable_above: Mask
     values: Array
     growth_rate: Array
     resolution: float
@@ -150,7 +148,7 @@ def critical(
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
         (good, "precision", precision, "must be a number > 0"),
     )
-    raise_faults(case_faults(p, "critical") or wrong + free_faults(p, [name]))
+    raise_faults(foreign_case(p) or wrong + free_faults(p, [name]))
     low, high = ends
     values = np.linspace(low, high, points).tolist()
     for value in values:
@@ -250,9 +248,6 @@ def _matched(
 ) -> tuple[ComplexArray, ComplexArray]:
     """Multipliers of two cycles, each beside the one that it becomes: the sum of distances, to the
     power `exponent`, is least."""
-    # slow to import, and the package's other functions do without
-    from scipy.optimize import linear_sum_assignment
-
     distance = np.abs(first[:, None] - second[None, :])
     rows, columns = linear_sum_assignment(distance**exponent)
     return first[rows], second[columns]
@@ -260,37 +255,17 @@ def _matched(
 
 def _shares_of_change(before: ComplexArray, after: ComplexArray) -> set[float]:
     """As `_doubtful_shares`, from multipliers that are matched."""
-    weak = np.minimum(abs(before), abs(after)) > STRONGLY_DAMPED
-    on_axis_before = int(np.sum(weak & (before.imag == 0)))
-    on_axis_after = int(np.sum(weak & (after.imag == 0)))
-    upper = weak & (before.imag > 0)
-    angle = np.angle(before[upper])
-    turn = np.angle(after[upper] / before[upper])
-    longest = float(np.abs(turn).max(initial=0))
-    shares = {*_meetings(angle, turn), *_returns_from_axis(angle, angle + turn, longest)}
+    slow = spectrum.are_slow(before, after)
+    on_axis_before = int(np.sum(slow & (before.imag == 0)))
+    on_axis_after = int(np.sum(slow & (after.imag == 0)))
+    between = spectrum.turns_of(before, after)
+    longest = float(np.abs(between.turns).max(initial=0))
+    later = between.angles + between.turns
+    shares = {each.share for each in spectrum.passings(between) if 0 < each.share < 1}
+    shares.update(_returns_from_axis(between.angles, later, longest))
     if longest > LONGEST_TURN or on_axis_before != on_axis_after:
         shares.add(0.5)
     return shares
-
-
-def _meetings(angle: Array, turn: Array) -> list[float]:
-    """Shares of the way at which multipliers meet on the unit circle, from their angles (rad) and
-    by how much they turn: those of the upper half, with each other and with the conjugate ones."""
-    i, j = np.triu_indices(len(angle))
-    # a multiplier that comes to the real axis meets its conjugate, as the sum of an angle with
-    # itself comes to 2 pi
-    sums = angle[i] + angle[j]
-    differences = (angle[i] - angle[j])[i != j]
-    begin = np.concatenate([sums, differences]) / math.tau
-    turns_of_sums = turn[i] + turn[j]
-    turns_of_differences = (turn[i] - turn[j])[i != j]
-    end = begin + np.concatenate([turns_of_sums, turns_of_differences]) / math.tau
-
-    # they meet where a whole number of turns is passed
-    meets = np.floor(begin) != np.floor(end)
-    passed = np.maximum(np.floor(begin), np.floor(end))
-    shares = (passed - begin)[meets] / (end - begin)[meets]
-    return [float(share) for share in shares if 0 < share < 1]
 
 
 def _returns_from_axis(before: Array, after: Array, longest: float) -> list[float]:

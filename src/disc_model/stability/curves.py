@@ -1,16 +1,15 @@
 """Curves in the plane of two parameters on which the cycle loses stability or ceases to exist; see
 docs/method.md."""
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from disc_model.analysis.spectra import Resonance, nearest_resonance
+from disc_model.arrays import Array, ComplexArray, Mask
 from disc_model.display import Drawn, counted
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
@@ -28,7 +27,6 @@ from disc_model.stability.continuation import (
     interval_in_si,
 )
 from disc_model.stability.cycle import find_cycle
-from disc_model.stability.return_map import Array
 from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
 
 MOST_ON_LINE = 500  # points of a branch between two points of a line
@@ -61,9 +59,9 @@ class StabilityCurve:
 
     kind: str
     values: Array = field(repr=False)
-    adjoins_stable_cycle: NDArray[np.bool_] = field(repr=False)
+    adjoins_stable_cycle: Mask = field(repr=False)
     period: Array = field(repr=False)
-    multipliers: NDArray[np.complex128] = field(repr=False)
+    multipliers: ComplexArray = field(repr=False)
     resonance: Resonance
 
 
@@ -218,7 +216,7 @@ class _CurveSearch:
         continuation from both neighbours."""
         name = self.names[0]
         growth = [find_cycle(case, self.tol).growth_rate for case in cases]
-        exists = [not math.isnan(rate) for rate in growth]
+        exists = [not np.isnan(rate) for rate in growth]
         for i, (before, after) in enumerate(pairwise(growth)):
             if before * after > 0 or not (exists[i] or exists[i + 1]):
                 continue

@@ -1,11 +1,9 @@
-"""`floquet`: the stick-slip cycle as a fixed point of `disc_model.stability.return_map`, and its
-stability.
+"""Cycles as fixed points of a return map, and their stability; the search for the stick-slip cycle,
+one of `disc_model.stability.return_map`.
 
-Two multipliers of the full system are left out: 1, along the orbit, and 0, of f, because stick
-resets f to 0.
+Two multipliers of the full system are left out: 1, along the orbit, and of stick-slip 0, of f,
+because stick resets f to 0.
 """
-
-from __future__ import annotations
 
 import math
 from collections.abc import Iterator
@@ -14,24 +12,20 @@ from functools import cached_property
 
 import numpy as np
 
+from disc_model.arrays import Array, ComplexArray
 from disc_model.data.variables import CycleStatus, values_text
 from disc_model.display import Drawn, Summarised, counted, number_text
-from disc_model.engine.jit.cache import compiling
-from disc_model.errors import DiscModelError, raise_faults, violations
+from disc_model.errors import DiscModelError, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.return_map import (
-    ENDS,
-    Array,
-    ComplexArray,
-    Orbit,
-    ReturnMap,
-    case_faults,
-    newton,
-)
+from disc_model.stability.return_map import ENDS, Orbit, ReturnMap, SectionMap, newton
 from disc_model.stability.sliding import SteadySliding, steady_sliding
-from disc_model.units import CYCLE_TOLERANCES, is_whole, limits_faults
+from disc_model.units import is_whole
 
+STICK_SLIP = "stick_slip"
+SLIPPING = "slipping"
+KINDS = (STICK_SLIP, SLIPPING)
+"""Kinds of cycles, by whether they stick."""
 RETURNS_TRIED = (1, 2, 3)  # numbers of releases in a period of the cycles that are sought
 TRANSIENT = 60  # returns simulated from the static start before Newton's method is tried again
 
@@ -42,7 +36,7 @@ class CycleError(DiscModelError):
 
 @dataclass(frozen=True, eq=False)
 class FloquetResult(Summarised, Drawn):
-    """The stick-slip cycle of a case; `plot` draws the multipliers in the complex plane, and the
+    """A cycle of a case; `plot` draws the multipliers in the complex plane, and the
     unit circle.
 
     Attributes
@@ -51,15 +45,17 @@ class FloquetResult(Summarised, Drawn):
     status, message : result of the search; without a cycle numbers are nan, arrays empty and `state` None
     period : s
     multipliers : complex, shape (n,), largest modulus first; n = 4 per pair of modes + 2 per axisymmetric mode, plus 2
-        on a compliant contact
+        on a compliant contact; a single 0 where that is none, as for a block on a rigid disc; one more of a cycle that
+        slips all the time
     exponents : 1/s, complex, log(multipliers) / period
     growth_rate : 1/s, largest real part of the exponents
     stick_fraction : share of the period in stick
-    state : on the section, at the end of stick
+    state : on the section, at the end of stick; of a cycle that slips all the time, where the spring is longest
     bifurcation_type : bifurcation if the leading multiplier crosses the unit circle: "fold" (real, positive),
         "period_doubling" (real, negative) or "neimark_sacker" (complex); "" without a cycle
     releases, backward_releases, reversals, separations, sticks : numbers of these events in a period
     residual : residual of the return map, relative to the norm of the static deflection
+    kind : "stick_slip", or "slipping" for a cycle that slips all the time
     sliding : steady sliding of the same case
     """
 
@@ -81,6 +77,7 @@ class FloquetResult(Summarised, Drawn):
     separations: int = 0
     sticks: int = 0
     residual: float = math.nan
+    kind: str = STICK_SLIP
 
     def __repr__(self) -> str:
         p = self.parameters
@@ -127,62 +124,30 @@ class FloquetResult(Summarised, Drawn):
 
     @property
     def attractors(self) -> tuple[str, ...]:
-        """Those of "stick_slip" and "steady_sliding" that exist and are stable."""
-        motions = (("stick_slip", self.stable), ("steady_sliding", self.sliding.stable))
+        """Those of "stick_slip", or "slipping", and "steady_sliding" that exist and are stable."""
+        motions = ((self.kind, self.stable), ("steady_sliding", self.sliding.stable))
         return tuple(name for name, stable in motions if stable)
 
-    def raise_for_status(self) -> FloquetResult:
+    def raise_for_status(self) -> "FloquetResult":
         """Return self if a cycle was found; otherwise raise `CycleError`."""
         if self.status is not CycleStatus.OK:
             raise CycleError(f"{self.message}. {self.status.advice}")
         return self
 
 
-@compiling()
-def floquet(
-    p: Parameters, *, tol: float = 1e-12, guess: State | None = None, releases: int = 1
-) -> FloquetResult:
-    """Find the stick-slip cycle near the static start, or near a given state, and its multipliers.
-
-    Parameters
-    ----------
-    p : the case
-    tol : relative tolerance of the series and of the return map's residual; 1e-14 to 1e-6
-    guess : state, such as the last one of a simulation; the cycle is sought near the next release after it and may
-        lose contact
-    releases : number of releases in a period of the cycle near that state
-
-    Returns
-    -------
-    FloquetResult
-        It is also returned if no cycle exists: `status` and `message` then say what was found instead.
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule; the message names the argument, its value and the rule.
-
-    Examples
-    --------
-    >>> import disc_model as dm
-    >>> cycle = dm.floquet(dm.Parameters(N=385, Omega=15))
-    >>> cycle
-    FloquetResult(N=385 N, Omega=15 rad/s: growth rate -0.105494 1/s, period 0.014821021 s, 18 multipliers)
-    >>> cycle.stable, cycle.attractors
-    (True, ('stick_slip',))
-    """
-    wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases)
-    raise_faults(case_faults(p, "floquet") + wrong)
-    return find_cycle(p, float(tol), guess, releases)
-
-
-def guess_faults(guess: object, releases: object) -> list[str]:
-    """Faults of a guess for the search for a cycle, and of the number of its releases."""
+def guess_faults(guess: object, releases: object, kind: object) -> list[str]:
+    """Faults of a guess for the search for a cycle, of the number of its releases, and of its
+    kind."""
     counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or releases == 1)
+    known = isinstance(kind, str) and kind in KINDS
+    slips = known and kind == SLIPPING
+    fits = not (slips and counts) or releases == 1
     rule = "must be a whole number >= 1, and 1 without a state to look near"
     return violations(
         (isinstance(guess, State | None), "guess", guess, "must be a State"),
         (counts, "releases", releases, rule),
+        (known, "kind", kind, f"must be one of {', '.join(KINDS)}"),
+        (fits, "releases", releases, "must be left out of a cycle that never sticks"),
     )
 
 
@@ -194,8 +159,10 @@ def find_cycle(
     releases, and may lose contact."""
     if not may_stick_and_slip(p):
         if never_pulls(p):
-            return _none(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
-        return _none(p, tol, CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc")
+            return no_cycle(p, tol, CycleStatus.AT_REST, "the slider stays where it is on the disc")
+        return no_cycle(
+            p, tol, CycleStatus.NO_STICK_SLIP, "no friction holds the slider on the disc"
+        )
     if guess is None:
         return cycle_from_rest(ReturnMap(p, tol))
     from_state = isinstance(guess, State)
@@ -205,14 +172,16 @@ def find_cycle(
         if not release.reached:
             end = ENDS[release.outcome]
             status = CycleStatus.NO_STICK_SLIP if end == "time_over" else CycleStatus.NO_CYCLE
-            return _none(p, tol, status, f"the motion from the given state does not return: {end}")
+            return no_cycle(
+                p, tol, status, f"the motion from the given state does not return: {end}"
+            )
         x = release.x
     else:
         x = guess
     solution = newton(map_, x, releases=releases, may_separate=from_state)
     if solution is None:
         without = f"no cycle with {counted(releases, 'release')} near the given state"
-        return _none(p, tol, CycleStatus.NO_CYCLE, without)
+        return no_cycle(p, tol, CycleStatus.NO_CYCLE, without)
     return cycle_of(map_, solution)
 
 
@@ -240,7 +209,7 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
         if solution is not None:
             return cycle_of(map_, run_through_once(map_, solution))
     tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the static start, stick-slip continues without"
-    return _none(p, tol, CycleStatus.NO_CYCLE, tried)
+    return no_cycle(p, tol, CycleStatus.NO_CYCLE, tried)
 
 
 _LOST = (CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the static start")
@@ -261,7 +230,7 @@ _WITHOUT_RETURN = {
 def _without_return(map_: ReturnMap, outcome: int, duration: float) -> FloquetResult:
     """The result for a motion whose orbit of that duration (s) does not end on the section."""
     status, why = _WITHOUT_RETURN[ENDS[outcome]]
-    return _none(map_.parameters, map_.tol, status, why.format(duration))
+    return no_cycle(map_.parameters, map_.tol, status, why.format(duration))
 
 
 def run_through_once(map_: ReturnMap, orbit: Orbit) -> Orbit:
@@ -292,12 +261,15 @@ def never_pulls(p: Parameters) -> bool:
     return p.Omega == 0 or (p.k_p == 0 and p.r_0 * p.c_p * p.Omega < p.mu_s * p.N)
 
 
-def _none(p: Parameters, tol: float, status: CycleStatus, reason: str) -> FloquetResult:
-    return FloquetResult(p, tol, status, f"{status}: {reason}")
+def no_cycle(
+    p: Parameters, tol: float, status: CycleStatus, reason: str, kind: str = STICK_SLIP
+) -> FloquetResult:
+    """The result of a search that has found no cycle of a kind."""
+    return FloquetResult(p, tol, status, f"{status}: {reason}", kind=kind)
 
 
-def cycle_of(map_: ReturnMap, orbit: Orbit) -> FloquetResult:
-    """The result for a cycle that Newton's method has found to the tolerance."""
+def cycle_of(map_: SectionMap, orbit: Orbit, kind: str = STICK_SLIP) -> FloquetResult:
+    """The result for a cycle of a kind that Newton's method has found to the tolerance."""
     values = multipliers(orbit.jacobian)
     leading = complex(values[0])
     growth_rate = -math.inf
@@ -313,11 +285,12 @@ def cycle_of(map_: ReturnMap, orbit: Orbit) -> FloquetResult:
         "separation": counts.separations,
     }
     events = ", ".join(counted(count, name) for name, count in named.items() if count)
+    course = f"with {events}" if events else "that slips all the time"
     return FloquetResult(
         parameters=map_.parameters,
         tol=map_.tol,
         status=CycleStatus.OK,
-        message=f"{CycleStatus.OK}: cycle of {orbit.period:.9g} s with {events}",
+        message=f"{CycleStatus.OK}: cycle of {orbit.period:.9g} s {course}",
         period=orbit.period,
         multipliers=values,
         exponents=exponents,
@@ -331,12 +304,16 @@ def cycle_of(map_: ReturnMap, orbit: Orbit) -> FloquetResult:
         separations=counts.separations,
         sticks=counts.sticks,
         residual=orbit.residual / map_.deflection,
+        kind=kind,
     )
 
 
 def multipliers(jacobian: Array) -> ComplexArray:
     """Eigenvalues of the return map's Jacobian, largest modulus first; positive imaginary parts
-    first in each pair."""
+    first in each pair. A section of a single point, as that of a block on a rigid disc, has the
+    multiplier 0: stick ends in one state, whatever the motion was before."""
+    if not jacobian.size:
+        return np.zeros(1, complex)
     values = np.linalg.eigvals(jacobian).astype(complex)
     moduli = np.round(np.abs(values), 14)
     return values[np.lexsort((-values.imag, -values.real, -moduli))]

@@ -10,12 +10,14 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.arrays import Array, ComplexArray
 from disc_model.disc.plate import mode_arrays
 from disc_model.engine.jit.cache import compiling
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.cycle import FloquetResult, floquet
-from disc_model.stability.return_map import Array, ComplexArray, ReturnMap
+from disc_model.stability.cycle import FloquetResult
+from disc_model.stability.floquet import floquet
+from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.sliding import SlidingModes, sliding_modes, split_rows
 
 
@@ -28,7 +30,7 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, Sl
     modes = sliding_modes(p, cycle.sliding)
     columns = np.full((3, len(modes.frequency)), math.nan)
     disc = modes.diameters >= 0
-    if cycle.state is None or not len(modes.frequency):
+    if cycle.state is None or not disc.any():
         return cycle, modes, columns
     map_ = ReturnMap(p, tol)
     orbit = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)

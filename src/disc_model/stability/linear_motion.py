@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from disc_model.arrays import Array, ComplexArray
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.parameters import Parameters
 from disc_model.stability import thresholds
@@ -23,7 +24,7 @@ from disc_model.stability.cycle import (
     may_stick_and_slip,
     run_through_once,
 )
-from disc_model.stability.return_map import Array, ComplexArray, Orbit, Passage, ReturnMap, newton
+from disc_model.stability.return_map import Orbit, Passage, ReturnMap, newton
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +96,9 @@ class NearCycle:
 
     def follows_multipliers(self, x: Array) -> bool:
         """Whether the motion at a point of the section departs or approaches as the multipliers
-        predict."""
+        predict. On a section of a single point it is on the cycle."""
+        if not len(x):
+            return True
         return any(self._is_linear(x - self.x, times) for times in thresholds.TEST_TIMES)
 
     def stays_linear_until(self, horizon: float) -> bool:

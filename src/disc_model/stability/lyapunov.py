@@ -20,7 +20,7 @@ from disc_model.engine import state as motion
 from disc_model.engine.jit.cache import compiling
 from disc_model.engine.series import build_series
 from disc_model.errors import Status, as_text, raise_faults, violations
-from disc_model.parameters import Parameters
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import (
     State,
     engine_case,
@@ -29,13 +29,7 @@ from disc_model.simulation.states import (
     series_tolerance,
     write_state,
 )
-from disc_model.stability.return_map import (
-    ENDS,
-    Array,
-    case_faults,
-    integrate_in_pieces,
-    longest_step,
-)
+from disc_model.stability.return_map import ENDS, Array, integrate_in_pieces, longest_step
 from disc_model.units import TOLERANCES, is_number, is_whole, limits_faults
 
 _BLOCKS = 16
@@ -136,7 +130,7 @@ def lyapunov_exponents(
     >>> dm.lyapunov_exponents(case, 5, initial_state=dm.floquet(case).state, leave_out_trivial=True)
     Lyapunov(ok, over 5 s: -0.143 and -0.166 1/s)
     """
-    raise_faults(case_faults(p, "lyapunov_exponents"))
+    raise_faults(foreign_case(p))
     wrong = _faults(p, duration, count, interval, initial_state, leave_out_trivial)
     raise_faults(limits_faults("tol", tol, TOLERANCES) + wrong)
     tol = float(tol)

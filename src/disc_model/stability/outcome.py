@@ -6,19 +6,15 @@ Regions, describes it. The static start is a point of the section of the return 
 lies near the cycle that Newton's method finds.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from typing import NamedTuple
 
 import numpy as np
 
 from disc_model.data.variables import Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State
 from disc_model.stability import thresholds
@@ -31,27 +27,8 @@ from disc_model.stability.linear_motion import (
     find_cycle_near,
 )
 from disc_model.stability.return_map import Array, Passage, ReturnMap
+from disc_model.stability.segments import Segment, segment_of, shares, simulate_leg
 from disc_model.stability.sliding_motion import approaches_sliding
-
-
-@dataclass(frozen=True)
-class Segment:
-    """Ranges of contact force (N) and height over static equilibrium (m); shares of time;
-    separations per s."""
-
-    P_min: float
-    P_max: float
-    u_min: float
-    u_max: float
-    stick_fraction: float
-    slip_fraction: float
-    separation_fraction: float
-    separation_rate: float
-
-    @property
-    def range(self) -> float:
-        """Range of the height, m."""
-        return self.u_max - self.u_min
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,9 +38,9 @@ class Attractor:
 
     kind: Outcome
     segment: Segment
-    period: float = math.nan
+    period: float = np.nan
     releases: int = 0
-    growth_rate: float = math.nan
+    growth_rate: float = np.nan
     points: Array | None = None
 
 
@@ -96,13 +73,13 @@ class OutcomeResult:
     simulated: float = 0.0
     near: NearCycle | None = None
     attractor: Attractor | None = None
-    first_separation: float = math.nan
+    first_separation: float = np.nan
     time: float = 0.0
     state: State | None = None
     failed: Result | None = None
     changes: list[float] = field(default_factory=list)
     times: list[float] = field(default_factory=list)
-    distance: float = math.nan
+    distance: float = np.nan
     segment: Segment | None = None
     stage: Stage | None = None
 
@@ -152,7 +129,7 @@ def find_outcome(
     map_: ReturnMap | None = None
     if isinstance(near, NearCycle):
         map_ = near.map  # a new one takes as long as a return to the section ten times over
-    elif p.n_diameters >= 0 and may_stick_and_slip(p):
+    elif may_stick_and_slip(p):
         map_ = ReturnMap(p)
     if early and start is None and map_ is not None:
         if near is None:
@@ -288,7 +265,7 @@ class _OutcomeSearch:
             return Stage.ON_ITS_WAY
         close_return = find_close_return(self.map, release.x)
         result.times.append(result.time)
-        result.changes.append(math.nan if close_return is None else close_return.change)
+        result.changes.append(np.nan if close_return is None else close_return.change)
 
         # a cycle that the motion follows from there on
         if examined:
@@ -308,18 +285,11 @@ class _OutcomeSearch:
             mark = horizon - late
         stop = min(result.time + self.leg, mark)
         self.leg = min(2 * self.leg, thresholds.LONGEST_LEG)
-        windows = {}
+        described_from = None
         if late and stop == horizon:
-            windows = {"late": Window(start=result.time, stop=stop, rate=thresholds.SAMPLING_RATE)}
-        leg = simulate(
-            self.p,
-            stop,
-            windows,
-            tol=self.options.tol,
-            initial_state=result.state,
-            stop_at="first_separation",
-        )
-        if windows and leg.status.complete:
+            described_from = result.time
+        leg = simulate_leg(self.p, stop, result.state, self.options.tol, described_from)
+        if described_from is not None and leg.status.complete:
             result.segment = segment_of(leg)
         result.simulated += leg.final_state.time - result.time
         result.state = leg.final_state
@@ -365,7 +335,7 @@ class _OutcomeSearch:
     def _departs(self) -> bool:
         """Whether the last change of a period exceeds the one before. A motion that comes to a cycle
         changes less and less, down to errors of the simulation."""
-        known = [change for change in self.result.changes if not math.isnan(change)]
+        known = [change for change in self.result.changes if not np.isnan(change)]
         if not known:
             return False
         before = known[-2:][0]
@@ -392,68 +362,3 @@ def growing(changes: Sequence[float]) -> bool:
     later = np.fmin(changes[1:-1], changes[2:])
     risen = (later > thresholds.ARRIVED) & (later > thresholds.RISE * least)
     return bool(np.any(risen))
-
-
-def final_segment(
-    p: Parameters, state: State | None, duration: float, late: float, tol: float
-) -> tuple[Result, Segment | None]:
-    """Simulate from a state (None: the static start) for a duration (s); its last segment, if it is
-    complete."""
-    begin = 0.0
-    if state is not None:
-        begin = state.time
-    stop = begin + duration
-    if stop - late > begin:
-        result = simulate(p, stop - late, tol=tol, initial_state=state, events=False)
-        if not result.status.complete:
-            return result, None
-        state = result.final_state
-    window = Window(start=stop - late, stop=stop, rate=thresholds.SAMPLING_RATE)
-    result = simulate(p, stop, {"late": window}, tol=tol, initial_state=state)
-    if not result.status.complete:
-        return result, None
-    return result, segment_of(result)
-
-
-def segment_of(result: Result) -> Segment:
-    """The segment of a result: ranges over its window "late", and shares of its whole time."""
-    P = result.samples["late"]["P"]
-    u = result.samples["late"]["u"] - result.u_0
-    share = shares(result)
-    return Segment(
-        P_min=float(P.min()),
-        P_max=float(P.max()),
-        u_min=float(u.min()),
-        u_max=float(u.max()),
-        stick_fraction=share.stick,
-        slip_fraction=share.slip,
-        separation_fraction=share.separation,
-        separation_rate=share.separation_rate,
-    )
-
-
-class Shares(NamedTuple):
-    """Shares of a motion's time in stick, slip and separation, and separations per second."""
-
-    stick: float
-    slip: float
-    separation: float
-    separation_rate: float
-
-
-def shares(result: Result) -> Shares:
-    """Shares of a result's time."""
-    statistics = result.statistics
-    stick = statistics["time_stick"]
-    slip = statistics["time_slip"]
-    separation = statistics["time_separation"]
-    total = stick + slip + separation
-    rate = statistics["separations"] / total
-    return Shares(stick / total, slip / total, separation / total, rate)
-
-
-def switch_angles(leg: Result) -> Array:
-    """Times of releases and losses of contact of a leg, s, and the slider's angles, rad: shape (2,
-    n)."""
-    switches = leg.events[leg.events["kind"].isin(["stick_to_slip", "separation"])]
-    return switches[["time", "psi"]].to_numpy(dtype=float).T

@@ -1,9 +1,10 @@
 """The return map of the stick-slip cycle, and its fixed points.
 
-The section is the instant before a forward release: f = 0 and r_0 F = mu_s P.  A point of it
-consists of the modal coordinates alone, because psi follows from the release condition, scaled to
-the norm of the disc's energy: omega a, omega b, alpha, beta.  Derivatives come from the variational
-equations (`disc_model.engine.section`).
+The section is the instant before a forward release: g = 0 and T = mu_s P.  A point of it consists
+of the modal coordinates alone, because f follows from the speed of the surface and psi from the
+release condition, scaled to the norm of the disc's energy: omega a, omega b, alpha, beta.  On a
+rigid disc the section is a single point, to which all motions return that stick: size is 0.
+Derivatives come from the variational equations (`disc_model.engine.section`).
 """
 
 import math
@@ -11,16 +12,16 @@ import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import Array, Indices
 from disc_model.engine import columns, loop, section, step_size, tangent, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.model import Model, blocks_of, build_state
 from disc_model.engine.series import Series, build_series
-from disc_model.errors import raise_faults, violations
+from disc_model.errors import raise_faults
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 from disc_model.simulation.states import (
     State,
@@ -30,9 +31,6 @@ from disc_model.simulation.states import (
     series_tolerance,
     write_state,
 )
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 PARAMETERS = (
     "Omega",
@@ -56,6 +54,9 @@ MOST_HALVINGS = 7  # of such a step, before it is given up
 SLOW = 0.05  # a step that leaves more of the residual needs the Jacobian at its own point
 MOST_JACOBIANS = 14  # in a search for a fixed point
 COARSE_JACOBIANS = 3  # of these, which only give a direction
+# ends of motions that slip all the time, see `disc_model.stability.slipping_map`
+STOPS = -1
+VANISHED = -2
 ENDS = {
     transitions.RETURNED: "returned",
     transitions.TIME_OVER: "time_over",
@@ -64,14 +65,9 @@ ENDS = {
     transitions.NON_FINITE: "non_finite",
     transitions.STOPPED: "lost_contact",
     transitions.OFF_SECTION: "off_section",
+    STOPS: "stops",
+    VANISHED: "vanished",
 }
-
-
-def case_faults(p: Any, analysis: str) -> list[str]:
-    """Faults of a case for ``analysis``: it must be `Parameters`, and have modes, which alone can
-    become unstable."""
-    rule = f"must be >= 0: {analysis} needs modes of the disc"
-    return foreign_case(p) or violations((p.n_diameters >= 0, "n_diameters", p.n_diameters, rule))
 
 
 def longest_step(model: Model, order: int, tolerance: float) -> float:
@@ -191,6 +187,59 @@ class Orbit:
         return math.sqrt(change.dot(change))  # as np.linalg.norm, in a quarter of the time
 
 
+class SectionMap(Protocol):
+    """The return map of one case to a section; see `ReturnMap`, which is one.
+
+    parameters : the case
+    tol : relative tolerance of the residual of its fixed points
+    size : dimension n of the section
+    scale : (n,), units of its coordinates, which may depend on the case
+    diameters : nodal diameters of the coordinates that belong to modes, which come first
+    deflection : unit of distances
+    """
+
+    parameters: Parameters
+    tol: float
+    size: int
+    scale: Array
+    diameters: Indices
+    deflection: float
+
+    def evaluate(
+        self,
+        x: Array,
+        *,
+        releases: int = 1,
+        tangent: bool = True,
+        may_separate: bool = False,
+        coarse: bool = False,
+    ) -> Orbit:
+        """The motion from x to its return, with derivatives by x and the map's parameters;
+        `coarse` suffices for a direction."""
+        ...
+
+    def point(self, state: State) -> Array:
+        """The point of the section of a state on it."""
+        ...
+
+    def state(self, x: Array) -> State:
+        """The state of a point of the section."""
+        ...
+
+
+class MapFactory(Protocol):
+    """What makes the map of a case; `parameters` are those by which it is differentiated."""
+
+    def __call__(
+        self,
+        p: Parameters,
+        tol: float = 1e-12,
+        parameters: tuple[str, ...] = (),
+        *,
+        patient: bool = False,
+    ) -> SectionMap: ...
+
+
 class Passage(NamedTuple):
     """Where a motion comes to the section: exit code, `RETURNED` on success; time (s) and
     coordinates, (n,), which otherwise are those of its end."""
@@ -226,7 +275,7 @@ class ReturnMap:
         *,
         patient: bool = False,
     ) -> None:
-        raise_faults(case_faults(p, "the return map"))
+        raise_faults(foreign_case(p))
         self.tol = float(tol)  # kernels are compiled for the types of their arguments
         self.parameters = p
         self.patient = patient
@@ -309,8 +358,10 @@ class ReturnMap:
 
         start = np.array(x, dtype=float)
         changes = self._tangent
+        # the engine knows a start by its length, and reads as many numbers as the section has
+        given = start if self.size else np.zeros(1)
         code = integrate_in_pieces(
-            self.model, self._series, self._state, changes, limits, self._section, start
+            self.model, self._series, self._state, changes, limits, self._section, given
         )
 
         log = changes.log
@@ -399,7 +450,7 @@ def rounding(tol: float, factor: float) -> float:
 
 
 def newton(
-    map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool = False
+    map_: SectionMap, x: Array, *, releases: int = 1, may_separate: bool = False
 ) -> Orbit | None:
     """The orbit from a fixed point of the map, by Newton's method with a line search; None if it
     finds none.
@@ -465,7 +516,7 @@ def _search_along_step(
     return None
 
 
-def _is_fixed_point(map_: ReturnMap, orbit: Orbit) -> bool:
+def _is_fixed_point(map_: SectionMap, orbit: Orbit) -> bool:
     """Whether an orbit returns to its start, but for what rounding may leave, with derivatives."""
     largest = rounding(map_.tol, 1e4) * map_.deflection
     close = orbit.returned and orbit.residual <= largest

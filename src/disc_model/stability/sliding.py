@@ -1,34 +1,34 @@
 """Steady sliding, f = Omega: equilibrium of the equations of slip (docs/model.md, Slip), its
 eigenvalues and modes.
 
-With d = 2 xi omega the disc's response to the force P that rotates over it is
+With d = 2 xi omega the disc's response to the force that rotates over it at the rate g is
 
-    a_l = (gap psi_l V + lag t_l T) / (gap^2 + lag^2),  gap = l^2 Omega^2 - omega^2,
-    b_l = (lag psi_l V - gap t_l T) / (gap^2 + lag^2),  lag = d l Omega,
+    a_l = (gap psi_l V + lag t_l H) / (gap^2 + lag^2),  gap = l^2 g^2 - omega^2,
+    b_l = (lag psi_l V - gap t_l H) / (gap^2 + lag^2),  lag = d l g,
 
-with V for the vertical force, T = mu R for friction (mu = mu_k, unless it falls with the speed) and
-t_l for the tangential amplitude of a mode where friction acts.  With C for the contact's
-compliance, V = N + k (w - C V - u_0). R = V; under the normal force, with beta = B / r_0, V = R (1
-- mu beta) and r_0 F = (mu + beta) R.
+with V and H for the vertical and horizontal forces, t_l for the tangential amplitude of a mode where
+friction acts, and g = Omega - v_s / r_0, v_s = g sum l t_l a_l, which is Omega if the surface does not
+move.  With C for the contact's compliance, V = N + k (w - C V - u_0). R = V and H = mu R (mu = mu_k,
+unless it falls with the speed); under the normal force, with beta = B / r_0, V = R (1 - mu beta) and
+H = (mu + beta) R. The spring in the plane holds H = r_0 F.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from types import FunctionType, ModuleType, SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
 from disc_model.display import Drawn, Summarised, number_text
 from disc_model.engine import laws
 from disc_model.errors import StatusBase, raise_faults
-from disc_model.parameters import Parameters
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import engine_case
-from disc_model.stability.return_map import Array, ComplexArray, case_faults
 
 
 def _in_python(module: ModuleType) -> Any:
@@ -42,6 +42,8 @@ def _in_python(module: ModuleType) -> Any:
 
 
 _LAWS = _in_python(laws)
+_MOST_ITERATIONS = 30  # of Newton's method: a few suffice, where there is an equilibrium
+_SETTLED = 1e-14  # relative change at which it ends
 
 
 class SlidingStatus(StatusBase):
@@ -89,9 +91,7 @@ class SteadySliding(Summarised, Drawn):
     b: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     alpha: Array = field(default_factory=lambda: np.zeros(0), repr=False)
     beta: Array = field(default_factory=lambda: np.zeros(0), repr=False)
-    eigenvalues: NDArray[np.complex128] = field(
-        default_factory=lambda: np.zeros(0, complex), repr=False
-    )
+    eigenvalues: ComplexArray = field(default_factory=lambda: np.zeros(0, complex), repr=False)
     growth_rate: float = math.nan
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
 
@@ -155,17 +155,17 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     >>> print(sliding.message, f"{sliding.growth_rate:.4f} 1/s")
     steady sliding with P = 384.977 N, not stable 0.0339 1/s
     """
-    raise_faults(case_faults(p, "steady_sliding"))
+    raise_faults(foreign_case(p))
     if p.Omega == 0:
         return _absent(SlidingStatus.AT_REST)
     modes = mode_arrays(p)
     model = engine_case(p).model
     compliance = contact_compliance(p)
-    a, b, vertical = _equilibrium(p, modes, compliance)
+    a, b, vertical, rate = _equilibrium(p, modes, compliance)
     if not (math.isfinite(vertical) and vertical > 0) and p.contact != "bilateral":
         return _absent(SlidingStatus.NO_CONTACT)
-    alpha = -modes.diameters * p.Omega * b
-    beta = modes.diameters * p.Omega * a
+    alpha = -modes.diameters * rate * b
+    beta = modes.diameters * rate * a
     height: tuple[float, ...] = ()
     if compliance:
         height = (float(modes.psi @ a) - compliance * vertical, 0.0)
@@ -174,16 +174,18 @@ def steady_sliding(p: Parameters) -> SteadySliding:
         return join_rows(modes, (a, alpha, b, beta), (psi, p.Omega), height)
 
     i, _ = _slip(p, rows_at(0.0)[:, None])
-    friction = float(_LAWS.friction_coefficient(model, 1.0, p.Omega))
+    friction = float(_LAWS.friction_coefficient(model, 1.0, rate))
     if _LAWS.slip_denominator(model, p.m, friction, i.dw_dtheta[0]) <= 1e-6:
         return _absent(SlidingStatus.PARADOX)
-    # V and f' of a unit force, without F
-    share, slowing = (float(part[0]) for part in _LAWS.slip_rates(model, i, friction, np.ones(1)))
+    # V and H of a unit force
+    share, braking, _ = (
+        float(part[0]) for part in _LAWS.slip_rates(model, i, friction, np.ones(1))
+    )
     force = vertical / share
     if p.k_p > 0:
-        psi = -p.m * slowing * force / p.k_p
+        psi = braking * force / (p.r_0 * p.k_p)
         rows = rows_at(psi)
-    elif slowing == 0:  # no friction at this speed, and no slope: both are exactly zero then
+    elif braking == 0:  # no friction at this speed, and no slope: both are exactly zero then
         psi = math.nan
         rows = rows_at(0.0)
     else:
@@ -221,42 +223,69 @@ def _absent(status: SlidingStatus) -> SteadySliding:
     return SteadySliding(status, status.advice)
 
 
-def _equilibrium(p: Parameters, modes: Modes, compliance: float) -> tuple[Array, Array, float]:
-    """Modal coordinates a, b (n_modes,) and the vertical force at the equilibrium."""
-    turned = modes.diameters * p.Omega
+def _equilibrium(
+    p: Parameters, modes: Modes, compliance: float
+) -> tuple[Array, Array, float, float]:
+    """Modal coordinates a, b (n_modes,), the vertical force and the rate g at the equilibrium."""
+    static = float(np.sum(modes.psi**2 / modes.omega**2)) + compliance
+    load = p.N * (1 + p.k * static)  # N - k u_0
+    tangential = tangential_amplitudes(p)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        a, b = _response(p, modes, p.Omega, 1.0, 0.0)
+        force = load / (1 - p.k * (float(np.sum(modes.psi * a)) - compliance))
+        if not tangential.any():
+            return a * force, b * force, force, p.Omega
+        model = engine_case(p).model
+        leans = modes.diameters * modes.psi / p.r_0
+        if p.contact_force != "normal":
+            leans = np.zeros_like(modes.psi)
+
+        def residual(x: ComplexArray) -> ComplexArray:
+            """What the spring's load, the law of friction and the slip speed leave over."""
+            rate, V, H = x
+            a, b = _response(p, modes, rate, V, H)
+            mu = _LAWS.friction_coefficient(model, 1.0, rate)
+            beta = leans @ b
+            surface = rate * (modes.diameters * tangential) @ a
+            lifted = V + p.k * (compliance * V - modes.psi @ a) - load
+            return np.array(
+                [rate + surface / p.r_0 - p.Omega, lifted, H * (1 - mu * beta) - (mu + beta) * V]
+            )
+
+        rate, V, H = _zero(
+            residual,
+            np.array([p.Omega, force, _LAWS.friction_coefficient(model, 1.0, p.Omega) * force]),
+        )
+        a, b = _response(p, modes, rate, V, H)
+    return a, b, V, rate
+
+
+def _response(p: Parameters, modes: Modes, rate: Any, V: Any, H: Any) -> tuple[Any, Any]:
+    """Modal coordinates a, b (n_modes,) under forces V and H that rotate at a rate (rad/s)."""
+    turned = modes.diameters * rate
     gap = turned**2 - modes.omega**2
     lag = modal_damping(p) * turned
-    with np.errstate(divide="ignore", invalid="ignore"):
-        size = gap**2 + lag**2
-        along = modes.psi * gap / size  # a under V = 1 N
-        across = modes.psi * lag / size  # b
-        static = float(np.sum(modes.psi**2 / modes.omega**2)) + compliance
-        load = p.N * (1 + p.k * static)  # N - k u_0
-        force = load / (1 - p.k * (float(np.sum(modes.psi * along)) - compliance))
-        arm = tangential_amplitudes(p)
-        if not arm.any():
-            return along * force, across * force, force
-        twist_along = arm * lag / size  # a under T = 1 N
-        twist_across = -arm * gap / size  # b
-        slope = np.zeros_like(modes.psi)
-        if p.contact_force == "normal":
-            slope = modes.diameters * modes.psi / p.r_0
-        # V = start + rise R, and V = R (1 - mu beta) with mu beta = lean_by_V V + lean_by_R R
-        share = 1 - p.k * (float(modes.psi @ along) - compliance)
-        mu = float(_LAWS.friction_coefficient(engine_case(p).model, 1.0, p.Omega))
-        start = load / share
-        rise = p.k * mu * float(modes.psi @ twist_along) / share
-        lean_by_V = mu * float(slope @ across)
-        lean_by_R = mu**2 * float(slope @ twist_across)
-        # start + rise R = R (1 - lean_by_V (start + rise R) - lean_by_R R): the root that is
-        # start / (1 - rise) if it is flat
-        square = lean_by_V * rise + lean_by_R
-        linear = 1 - rise - lean_by_V * start
-        R = 2 * start / (linear + math.sqrt(max(linear**2 - 4 * square * start, 0.0)))
-        V = start + rise * R
-        a = along * V + twist_along * mu * R
-        b = across * V + twist_across * mu * R
-        return a, b, V
+    size = gap**2 + lag**2
+    tangential = tangential_amplitudes(p)
+    along = (modes.psi * gap * V + tangential * lag * H) / size
+    across = (modes.psi * lag * V - tangential * gap * H) / size
+    return along, across
+
+
+def _zero(residual: Callable[[ComplexArray], ComplexArray], x: Array) -> Array:
+    """A zero of a function near x (n,), by Newton's method with complex steps; nan if none is
+    found."""
+    steps = 1j * laws.TINY * np.eye(len(x))
+    for _ in range(_MOST_ITERATIONS):
+        slopes: Array = np.array([residual(x + step).imag for step in steps]).T / laws.TINY
+        if not np.isfinite(slopes).all():
+            break
+        left: Array = residual(np.asarray(x, dtype=complex)).real
+        change = np.linalg.solve(slopes, left)
+        x = x - change
+        if np.all(np.abs(change) <= _SETTLED * np.abs(x)):
+            return x
+    return np.full(len(x), np.nan)
 
 
 def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
@@ -267,26 +296,48 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     (a, alpha, b, beta), (psi, f), height = split_rows(modes, rows)
     l = modes.diameters[:, None]
     weight = modes.psi[:, None]
+    tangential = tangential_amplitudes(p)[:, None]
     w2 = modes.omega[:, None] ** 2
     d = modal_damping(p)[:, None]
-    rate_a = alpha + l * f * b
-    rate_b = beta - l * f * a
-    free_along = l * f * beta - d * alpha - w2 * a
-    free_across = -l * f * alpha - d * beta - w2 * b
+    surface = np.sum(tangential * beta, axis=0)
+    g = f - surface / p.r_0
+    rate_a = alpha + l * g * b
+    rate_b = beta - l * g * a
+    free_along = l * g * beta - d * alpha - w2 * a
+    free_across = -l * g * alpha - d * beta - w2 * b
     w = np.sum(weight * a, axis=0)
     velocity = np.sum(weight * rate_a, axis=0)
-    slope = np.sum(weight * (l * b), axis=0)
-    free = np.sum(weight * (free_along + l * f * rate_b), axis=0)
-    u, v = (w, velocity)
+    u = w
+    v = velocity
     if len(height):
         u, v = height
     i = laws.Instant(
-        p.N, p.k, p.c, p.m, p.k_p, p.c_p, p.Omega, contact_compliance(p), psi, f, w, velocity, slope, free, u, v
-    )  # fmt: skip
-    friction = _LAWS.friction_coefficient(model, 1.0, f)
-    force = _LAWS.slip_numerator(model, i) / _LAWS.slip_denominator(model, p.m, friction, slope)
-    V, rate_f = _LAWS.slip_rates(model, i, friction, force)
-    free_across = free_across + tangential_amplitudes(p)[:, None] * (friction * force)
+        N=p.N,
+        k=p.k,
+        c=p.c,
+        m=p.m,
+        k_p=p.k_p,
+        c_p=p.c_p,
+        Omega=p.Omega,
+        compliance=contact_compliance(p),
+        psi=psi,
+        g=g,
+        w=w,
+        w_velocity=velocity,
+        dw_dtheta=np.sum(weight * (l * b), axis=0),
+        free=np.sum(weight * (free_along + l * g * rate_b), axis=0),
+        surface_velocity=surface,
+        surface_free=np.sum(tangential * free_across, axis=0),
+        u=u,
+        u_velocity=v,
+    )
+    friction = _LAWS.friction_coefficient(model, 1.0, g)
+    denominator = _LAWS.slip_denominator(model, p.m, friction, i.dw_dtheta)
+    V, H, rate_g = _LAWS.slip_rates(
+        model, i, friction, _LAWS.slip_numerator(model, i) / denominator
+    )
+    free_across = free_across + tangential * H
+    rate_f = rate_g + np.sum(tangential * free_across, axis=0) / p.r_0
     disc = (rate_a, free_along - weight * V, rate_b, free_across)
     acceleration = (V - p.N - p.k * (u - model.u_0) - p.c * v) / p.m
     lift = (v, acceleration)[: len(height)]
@@ -304,6 +355,15 @@ def split_rows(modes: Modes, rows: Any) -> tuple[Any, Any, Any]:
     beta = np.zeros_like(a)
     b[pairs], beta[pairs] = b_pairs, beta_pairs
     return (a, alpha, b, beta), slider, height
+
+
+def height_of_slider(p: Parameters, sliding: SteadySliding) -> float:
+    """Height u of the slider on a compliant contact in steady sliding, m."""
+    # the contact's force is that of the slider's spring: (w - u) / compliance = N + k (u - u_0)
+    compliance = contact_compliance(p)
+    load = p.N - p.k * engine_case(p).model.u_0
+    w = float(mode_arrays(p).psi @ sliding.a)
+    return (w - compliance * load) / (1 + p.k * compliance)
 
 
 def join_rows(
@@ -334,7 +394,7 @@ class SlidingModes:
     frequency: Array
     growth_rate: Array
     damping_ratio: Array
-    diameters: NDArray[np.int64]
+    diameters: Indices
     forward: Array
     shapes: ComplexArray = field(repr=False)
 
@@ -392,7 +452,7 @@ class FollowedModes(NamedTuple):
 
     sliding: SteadySliding
     modes: SlidingModes
-    numbers: NDArray[np.int64]
+    numbers: Indices
     mac: Array
 
 
@@ -421,7 +481,7 @@ def _numbered(
     p: Parameters,
     modes: SlidingModes,
     halvings: int,
-) -> tuple[NDArray[np.int64], Array]:
+) -> tuple[Indices, Array]:
     """Numbers and likeness of the modes of a case; `shapes`, by number, become those of this
     case. Where the modes are in doubt, the case `before` is followed to this one by halves of the
     way, up to so many `halvings`."""

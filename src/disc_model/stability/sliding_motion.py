@@ -1,5 +1,6 @@
 """Motions near steady sliding: whether they approach it as its eigenvalues predict."""
 
+import math
 from functools import lru_cache
 
 import numpy as np
@@ -8,11 +9,17 @@ from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.states import State, engine_case
+from disc_model.simulation.states import State
 from disc_model.stability import thresholds
 from disc_model.stability.linear_motion import grows_at_rate, left_vector
 from disc_model.stability.return_map import Array
-from disc_model.stability.sliding import SteadySliding, energy_weights, join_rows, steady_sliding
+from disc_model.stability.sliding import (
+    SteadySliding,
+    energy_weights,
+    height_of_slider,
+    join_rows,
+    steady_sliding,
+)
 
 _sliding = lru_cache(maxsize=1)(steady_sliding)  # needed at the end of each leg of a motion
 
@@ -24,7 +31,7 @@ def approaches_sliding(p: Parameters, state: State) -> bool:
     It is followed with `TEST_TOL`, because errors of coarser simulations keep it away: at 1e-10, by
     7e-7 of the static deflection on a disc whose modes of 2 kHz decay at 0.4/s.
     """
-    if state.phase != "slip" or p.n_diameters < 0:
+    if state.phase != "slip":
         return False
     sliding = _sliding(p)
     if not sliding.stable:
@@ -35,6 +42,8 @@ def approaches_sliding(p: Parameters, state: State) -> bool:
     jacobian = scale[:, None] * sliding.jacobian / scale
     expected = scale * _from_sliding(p, sliding, state)
     static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
+    if static == 0:  # a rigid disc: the spring in the plane, bent up to the limit of friction
+        static = p.mu_s * p.N / math.sqrt(p.k_p)
     least = thresholds.ARRIVED * static
     if not np.linalg.norm(expected) <= thresholds.NEAR * static:
         return False
@@ -73,8 +82,6 @@ def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:
     )
     height = []
     if compliance:
-        # the contact's force is that of the slider's spring: (w - u) / compliance = N + k (u - u_0)
-        load = p.N - p.k * engine_case(p).model.u_0
-        rest = (modes.psi @ sliding.a - compliance * load) / (1 + p.k * compliance)
+        rest = height_of_slider(p, sliding)
         height = [float(state.u - rest), float(state.u_velocity)]
     return join_rows(modes, disc, (state.psi - sliding.psi, state.f - p.Omega), height)

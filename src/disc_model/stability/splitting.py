@@ -24,9 +24,9 @@ from numpy.typing import NDArray
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, mode_arrays
 from disc_model.display import Summarised, number_text
-from disc_model.errors import Fault, ParameterError, raise_faults, require
-from disc_model.parameters import Parameters
-from disc_model.stability.return_map import Array, case_faults
+from disc_model.errors import Fault, ParameterError, raise_faults, require, violations
+from disc_model.parameters import Parameters, foreign_case
+from disc_model.stability.return_map import Array
 from disc_model.stability.sliding import SlidingStatus, split_rows, steady_sliding
 from disc_model.units import is_number
 
@@ -121,11 +121,14 @@ def split_growth(p: Parameters, split: float | Iterable[float] | None = None) ->
     >>> pad = {"r_0": 0.1, "k": 1e6, "k_p": 1e6, "c_p": 50, "m": 0.5, "mu_s": 0.45, "mu_k": 0.35}
     >>> case = dm.Parameters(N=8000, Omega=80, disc=disc, friction_offset="surface", **pad)
     >>> dm.split_growth(case, 0.001)
-    SplitGrowth(together=3.316, growth_rate=3.249, apart=-3.672)
+    SplitGrowth(together=3.237, growth_rate=3.172, apart=-3.676)
     >>> dm.split_growth(case, 0.02).matters
     True
     """
-    raise_faults(case_faults(p, "the split of pairs"))
+    rule = "must be >= 0: the split of pairs needs modes of the disc"
+    raise_faults(
+        foreign_case(p) or violations((p.n_diameters >= 0, "n_diameters", p.n_diameters, rule))
+    )
     modes = mode_arrays(p)
     splits = _splits(p, split, modes)
     sliding = steady_sliding(p)

@@ -9,10 +9,11 @@ import pydantic
 from pydantic import Field
 
 from disc_model.data.variables import CHOICES, START
+from disc_model.hashing import canonical_json, content_key
 from disc_model.parameters import FORMAT, Disc
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import Value
-from disc_model.units import Strict, canonical_json, content_key
+from disc_model.units import Strict
 
 WORDS = (*CHOICES, "disc", START)  # what varies by words
 Values = tuple[Value, ...]

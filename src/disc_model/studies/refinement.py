@@ -13,9 +13,9 @@ from itertools import pairwise, product
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from disc_model.analysis.spectra import modes_at_rest
+from disc_model.arrays import Array
 from disc_model.data.variables import STABLE_CYCLES, Outcome
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.linear_motion import NearCycle, cycle_of_static_start
@@ -24,7 +24,6 @@ from disc_model.stability.return_map import newton
 from disc_model.stability.thresholds import SAME_POINT
 from disc_model.studies.quantity import NUMERICAL, Made, Row, failed
 
-Array = NDArray[np.float64]
 Index = tuple[int, int]
 
 # distances of cycles at neighbouring points, relative to the deflection

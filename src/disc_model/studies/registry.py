@@ -8,9 +8,11 @@ from disc_model.studies.quantities.campbell import Campbell
 from disc_model.studies.quantities.critical_speed import CriticalSpeed
 from disc_model.studies.quantities.floquet import Floquet
 from disc_model.studies.quantities.hysteresis import Hysteresis
+from disc_model.studies.quantities.locking import Locking
 from disc_model.studies.quantities.lyapunov import Lyapunov
 from disc_model.studies.quantities.outcome import HorizonOutcome
 from disc_model.studies.quantities.ramps import Ramps
+from disc_model.studies.quantities.range_law import RangeLaw
 from disc_model.studies.quantities.regions import Regions
 from disc_model.studies.quantities.sensitivity import Sensitivity
 from disc_model.studies.quantities.sliding import Sliding
@@ -25,9 +27,11 @@ QUANTITIES: dict[str, type[Quantity]] = {
     "critical_speed": CriticalSpeed,
     "floquet": Floquet,
     "hysteresis": Hysteresis,
+    "locking": Locking,
     "lyapunov": Lyapunov,
     "outcome": HorizonOutcome,
     "ramps": Ramps,
+    "range_law": RangeLaw,
     "regions": Regions,
     "sensitivity": Sensitivity,
     "sliding": Sliding,

@@ -26,9 +26,8 @@ from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, values_text
 from disc_model.disc.files.table import read_disc
 from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
-from disc_model.figures.kinds import KINDS, CasePlot, Kind, Plot, kind_of
-from disc_model.figures.selection import NORM
-from disc_model.mode_choice import CHOSEN_BY, TRUSTED, ModeRequest, read_asked
+from disc_model.figures.kinds import KINDS, NORM, CasePlot, Kind, Plot, kind_of
+from disc_model.mode_request import CHOSEN_BY, TRUSTED, ModeRequest, read_asked
 from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
 from disc_model.simulation.case import (
     CaseSpec,

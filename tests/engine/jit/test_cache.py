@@ -42,7 +42,8 @@ def ask_for_a_kernel(tmp_path: Path, code: str = KERNEL) -> subprocess.Completed
     """A process that asks for a kernel, and prints 42 and how often it was found in the cache."""
     script = tmp_path / "script.py"
     script.write_text(code)
-    return run(sys.executable, script, NUMBA_CACHE_DIR=str(tmp_path / "cache"))
+    path = tmp_path / "cache"
+    return run(sys.executable, script, NUMBA_CACHE_DIR=str(path))
 
 
 def the_file(tmp_path: Path, name: str) -> Path:
@@ -74,7 +75,8 @@ def test_a_comment_leaves_the_files_as_they_are(tmp_path: Path) -> None:
 
 
 def test_a_folder_that_cannot_be_written_costs_time_not_the_result(tmp_path: Path) -> None:
-    (tmp_path / "cache").write_text("no folder")
+    path = tmp_path / "cache"
+    path.write_text("no folder")
     done = ask_for_a_kernel(tmp_path)
     assert done.stdout == "42 0\n"
     assert done.stderr.count("compiled kernels cannot be kept there") == 1

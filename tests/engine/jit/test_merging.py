@@ -36,7 +36,8 @@ def answer(tmp_path: Path, code: str, **environment: str) -> subprocess.Complete
     """A process without kernels in its cache."""
     script = tmp_path / "script.py"
     script.write_text(code)
-    return run(sys.executable, script, NUMBA_CACHE_DIR=str(tmp_path / "cache"), **environment)
+    path = tmp_path / "cache"
+    return run(sys.executable, script, NUMBA_CACHE_DIR=str(path), **environment)
 
 
 def test_kernels_are_merged_unless_it_is_switched_off(tmp_path: Path) -> None:
@@ -58,7 +59,8 @@ def test_plain_numba_gives_the_same_motion(tmp_path: Path) -> None:
     if os.environ.get("NUMBA_DISABLE_JIT"):
         pytest.skip("nothing is compiled")
     merged = answer(tmp_path, MOTION).stdout.splitlines()
-    plain = answer(tmp_path / "..", MOTION, **{PLAIN: "1"}).stdout.splitlines()
+    path = tmp_path / ".."
+    plain = answer(path, MOTION, **{PLAIN: "1"}).stdout.splitlines()
     assert plain[0] == merged[0]
     times = [[float(time) for time in lines[1].split()] for lines in (merged, plain)]
     # rounding of a clock and of roots: the optimiser chooses what is rounded once

@@ -52,7 +52,8 @@ def test_a_branch_goes_both_ways_and_round_its_fold_to_its_bounds(branch):
     # grows
     leading = {bifurcation_type(complex(branch.multipliers[i, 0])) for i in (0, -1)}
     assert leading == {"fold", "neimark_sacker"}
-    assert (branch.diameters[0], branch.diameters[-1]) == (1, 0)
+    assert branch.diameters[0] == 1
+    assert branch.diameters[-1] == 0
 
 
 def test_the_fold_is_located_to_rounding(branch):
@@ -92,7 +93,9 @@ def test_a_closed_branch_ends_where_it_began(monkeypatch):
     np.testing.assert_array_equal(branch.points[0], branch.points[-1])
     assert branch.special_points["kind"].tolist() == ["fold", "fold"]
     # once round the circle, and no further
-    angle = np.unwrap(np.arctan2((branch.values[:, 0] - 12) / 4, branch.points[:, 0] - 2))
+    sine = (branch.values[:, 0] - 12) / 4
+    cosine = branch.points[:, 0] - 2
+    angle = np.unwrap(np.arctan2(sine, cosine))
     assert abs(angle[-1] - angle[0]) == pytest.approx(math.tau, abs=1e-6)
 
 
@@ -164,7 +167,10 @@ def test_two_folds_within_a_step_are_found(monkeypatch):
     use(monkeypatch, CubicMap)
     branch = continue_cycle(Parameters(N=300, Omega=13), "Omega", (11.0, 14.0))
     apart = 2 * (CubicMap.TINY / 3) ** 1.5
-    assert np.sort(branch.folds[:, 0]) == pytest.approx([12 - apart, 12 + apart], abs=1e-9)
+    low = 12 - apart
+    high = 12 + apart
+    folds = np.sort(branch.folds[:, 0])
+    assert folds == pytest.approx([low, high], abs=1e-9)
     assert apart == pytest.approx(2e-6)
 
 
@@ -193,7 +199,7 @@ def test_where_contact_is_lost_the_branch_ends(monkeypatch):
     monkeypatch.setattr(RoundMap, "step", FoldlessStep.step)
     branch = continue_cycle(P.replace(Omega=25), "Omega", (20.0, 40.0), direction=1)
     assert branch.values[-1, 0] == pytest.approx(30, abs=1e-5)
-    assert branch.ended.endswith("the motion does not return: lost_contact")
+    assert branch.ended.endswith("the motion does not return: it loses contact")
 
 
 class FoldlessStep:
@@ -209,13 +215,14 @@ def test_a_limit_of_the_parameter_ends_the_branch(monkeypatch):
     assert branch.values[-1, 0] == pytest.approx(0, abs=1e-5)
     assert "the case is not valid: mu_k=-" in branch.ended
     many = continue_cycle(P, "Omega", (3.0, 17.0), steps=StepControl(max_points=5), direction=-1)
-    assert (len(many), many.ended) == (5, "max_points=5 were computed")
+    assert len(many) == 5
+    assert many.ended == "max_points=5 were computed"
 
 
 @pytest.mark.parametrize(
     ("Omega", "why"),
     [
-        (31, "does not return: lost_contact"),
+        (31, "does not return: it loses contact"),
         (0, "vanishes"),
         (-1, "Omega=-1"),
         (17, "does not converge"),  # beyond the fold there is nothing to converge to

@@ -69,8 +69,8 @@ def test_points_are_the_cycles_of_floquet(branch: Branch) -> None:
             continue
         found = floquet(branch.case_at(i), guess=branch.state(i))
         assert found.status is CycleStatus.OK
-        # residuals of 1e-12 over the distance of a multiplier from 1
-        assert found.period == pytest.approx(branch.period[i], rel=1e-9)
+        # residuals of 1e-12 over the distance of a multiplier from 1, at least 1e-3, for both cycles
+        assert found.period == pytest.approx(branch.period[i], rel=2e-9)
         apart = np.abs(found.multipliers[:, None] - branch.multipliers[i][None, :]).min(axis=1)
         assert apart.max() < 1e-6
 

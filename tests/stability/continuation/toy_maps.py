@@ -47,7 +47,9 @@ def outside(Omega, N):
 def cycle_at(Omega, N, upper=True):
     """The cycle's point."""
     distance = math.sqrt((fold_at(N) - Omega) / 10)
-    return np.array([1 + (distance if upper else -distance), 0.0, 0.0])
+    if not upper:
+        distance = -distance
+    return np.array([1 + distance, 0.0, 0.0])
 
 
 def growth_at(Omega, N, upper=True):
@@ -97,8 +99,12 @@ class ToyMap:
             jacobian = step @ jacobian
         for i, name in enumerate(self._names):
             by[:, i] = changes.get(name, 0.0)
-        outcome = RETURNED if self.parameters.Omega <= 30 else LOST
-        singular = math.nan if self.parameters.Omega < 2 else 1.0
+        outcome = LOST
+        if self.parameters.Omega <= 30:
+            outcome = RETURNED
+        singular = 1.0
+        if self.parameters.Omega < 2:
+            singular = math.nan
         return Orbit(outcome, *known, end, jacobian, by * singular)
 
     @property
@@ -248,7 +254,9 @@ class CornerMap(ToyMap):
     static = np.zeros(1)
 
     def step(self, x):
-        more = 0.2 if x[0] > 1 else 0.0
+        more = 0.0
+        if x[0] > 1:
+            more = 0.2
         end = 0.5 * x + 0.125 * (self.parameters.Omega - 12) + more * (x - 1)
         return end, np.array([[0.5 + more]]), {"Omega": np.array([0.125])}
 

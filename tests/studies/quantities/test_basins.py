@@ -27,7 +27,8 @@ class Made:
     classes: ClassVar[dict[int, OutcomeResult]] = {}
 
     def __init__(self, p, horizon, **_) -> None:
-        self.p, self.known = p, [QUIET, APART]
+        self.p = p
+        self.known = [QUIET, APART]
 
     @staticmethod
     def least(p: Parameters, i: int) -> float:
@@ -37,7 +38,9 @@ class Made:
         energy, i = state
         if i in self.classes:
             return self.classes[i]
-        attractor = APART if energy > self.least(self.p, i) else QUIET
+        attractor = QUIET
+        if energy > self.least(self.p, i):
+            attractor = APART
         return OutcomeResult(attractor.kind, 50.0, attractor=attractor)
 
 
@@ -71,7 +74,8 @@ def test_shares_are_counted_with_wilsons_intervals(made: None) -> None:
 def test_the_least_kick_is_bisected_along_the_start_that_separates_first(made: None) -> None:
     table = found(energies=[0.05, 1.0], n_starts=3, n_bisection_directions=2, precision=0.01).arrays
     assert table["critical_energy_sampled"] == 0.05
-    low, high = table["critical_energy_lower"][0], table["critical_energy"][0]
+    low = table["critical_energy_lower"][0]
+    high = table["critical_energy"][0]
     assert low <= 0.02 < high <= low * 1.01
     assert np.isnan(found(energies=[0.01], n_starts=3).arrays["critical_energy"][0])
 

@@ -43,14 +43,21 @@ def test_a_transient_is_doubled_until_the_motion_has_settled(
 ) -> None:
     options = Bifurcation(section="event", transient=2, max_transient=600, samples=5)
     values, message = options.compute_point(Point(p))
-    assert (values["kind"], values["transient_time"], message) == (kind, transient, "")
-    assert len(values["psi"]) == (0 if kind in (Outcome.AT_REST, Outcome.STEADY_SLIDING) else 5)
+    assert values["kind"] == kind
+    assert values["transient_time"] == transient
+    assert message == ""
+    calm = (Outcome.AT_REST, Outcome.STEADY_SLIDING)
+    count = 5
+    if kind in calm:
+        count = 0
+    assert len(values["psi"]) == count
 
 
 def test_on_a_rigid_disc_the_slider_is_released_where_the_spring_has_friction_s_limit() -> None:
     p = Parameters(N=385, Omega=15.1, n_diameters=-1)
     values, _ = Bifurcation(section="event", transient=600, samples=5).compute_point(Point(p))
-    assert (values["period_events"], values["settled"]) == (1, "settled")
+    assert values["period_events"] == 1
+    assert values["settled"] == "settled"
     assert values["psi"] == pytest.approx(
         [p.mu_s * p.N / (p.r_0 * p.k_p)] * 5, rel=1e-9
     )  # at a tolerance of 1e-10
@@ -64,7 +71,9 @@ def test_a_motion_on_a_torus_has_no_period() -> None:
     is unstable."""
     options = Bifurcation(transient=600, section="event", max_transient=600, samples=50)
     values, _ = options.compute_point(Point(Parameters(N=516.666666667, Omega=12.734375)))
-    assert (values["separations"], values["period_events"], values["settled"]) == (0, 0, "settled")
+    assert values["separations"] == 0
+    assert values["period_events"] == 0
+    assert values["settled"] == "settled"
     assert values["kind"] is Outcome.QUASI_PERIODIC
 
 
@@ -79,7 +88,8 @@ def test_a_periodic_motion_has_as_many_points_as_its_period_has_switches(
     Omega: float, period: int, phase: str
 ) -> None:
     values = at_switches(Omega, transient=60, samples=100)
-    assert (values["settled"], values["period_events"]) == ("settled", period)
+    assert values["settled"] == "settled"
+    assert values["period_events"] == period
     assert len(np.unique(np.round(values["psi"], 5))) == period
     assert set(values["phase"]) == {phase}
 
@@ -94,7 +104,8 @@ def test_2000_seconds_more_change_nothing_where_the_motion_is_said_to_have_settl
 ) -> None:
     """Ten points of the diagram over preload: 74 of its 201 were transients, which two stretches of
     5 s hid."""
-    p, start = Parameters(N=N, Omega=15.1), Start(prerun=APART)
+    p = Parameters(N=N, Omega=15.1)
+    start = Start(prerun=APART)
     options = Bifurcation(section="event", transient=15, max_transient=1920, samples=200)
     values, _ = options.compute_point(Point(p, start))
     if values["settled"] != "settled":
@@ -107,4 +118,8 @@ def test_2000_seconds_more_change_nothing_where_the_motion_is_said_to_have_settl
     psi = events["psi"][events["kind"] == kind].to_numpy()[-200:]
     ends = [(angles.min(), angles.max()) for angles in (psi, values["psi"])]
     # settled: the width changes by less than 5 % in 1000 s, or is below a thousandth of the angle
-    assert ends[0] == pytest.approx(ends[1], abs=max(0.1 * np.ptp(values["psi"]), 1e-3 * psi.max()))
+    first, last = ends
+    span = np.ptp(values["psi"])
+    largest = psi.max()
+    tolerance = max(0.1 * span, 1e-3 * largest)
+    assert first == pytest.approx(last, abs=tolerance)

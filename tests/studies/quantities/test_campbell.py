@@ -36,11 +36,15 @@ def test_a_crossing_is_where_root_finding_says() -> None:
     assert count
     for i in range(count):
         one = found.isel(crossing=i)
-        mode, multiple = int(one["crossing_mode"]) - 1, float(one["crossing_multiple"])
+        mode = int(one["crossing_mode"]) - 1
+        multiple = float(one["crossing_multiple"])
 
         def detuning(speed: float, mode: int = mode, multiple: float = multiple) -> float:
             cycle, modes, (of_cycle, *_) = frequencies(Parameters(Omega=speed, **base))
-            own = of_cycle if np.isfinite(of_cycle[mode]) else modes.frequency
+            if np.isfinite(of_cycle[mode]):
+                own = of_cycle
+            else:
+                own = modes.frequency
             return multiple / cycle.period - float(own[mode])
 
         speed = float(one["crossing_Omega"])
@@ -87,7 +91,10 @@ def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not
     assert found["crossing_multiple"][0] == 1
     assert found["crossing_growth_rate"][0] == pytest.approx(-0.1)
     # at the window's ends, one step beyond it, the peak has fallen to 1 / (1 + 5.5^2)
-    assert found["crossing_rise"][0] == pytest.approx(0.1 - 0.1 / (1 + 5.5**2), rel=1e-3)
+    square = 5.5**2
+    beside = 0.1 / (1 + square)
+    rise = found["crossing_rise"][0]
+    assert rise == pytest.approx(0.1 - beside, rel=1e-3)
     assert effects(peak) == ["rises"]
     assert effects(peak, min_rise=0.2) == ["no_rise"]
     rate = peak["growth_rate"].values

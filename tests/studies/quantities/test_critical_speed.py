@@ -42,7 +42,10 @@ def test_a_speed_that_failed_hides_those_above_it(
     def motion(p: Parameters, horizon: float, **_: Any) -> OutcomeResult:
         if p.Omega == lost:
             return OutcomeResult(failed=SimpleNamespace(status=Status.NON_FINITE, message="lost"))
-        return OutcomeResult(first_separation=10.0 if p.Omega >= 14 else np.nan)
+        first = np.nan
+        if p.Omega >= 14:
+            first = 10.0
+        return OutcomeResult(first_separation=first)
 
     monkeypatch.setattr("disc_model.stability.outcome.find_outcome", motion)
     options = CriticalSpeed.model_validate({"horizons": [900], "scan": SCAN, "precision": 0.1})

@@ -12,7 +12,7 @@ from disc_model.engine.record import EVENT_ROW, LOSS_OF_CONTACT
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
-from disc_model.stability.outcome import Segment
+from disc_model.stability.segments import Segment
 from disc_model.studies.quantities.hysteresis import Hysteresis
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import Point
@@ -30,7 +30,10 @@ def test_a_stay_is_doubled_until_its_whole_record_has_settled(
         if len(legs) == 1:
             stays.append([ends[0] - 60])  # the begin, since a stay begins with `dwell`
         stays[-1] = [stays[-1][0], *ends]
-        return attractors.Arrival(Settling(Settled.SETTLED if p.Omega > 13 else Settled.UNDECIDED))
+        answer = Settled.UNDECIDED
+        if p.Omega > 13:
+            answer = Settled.SETTLED
+        return attractors.Arrival(Settling(answer))
 
     monkeypatch.setattr(attractors, "arrival", settles_above_13)
     options = Hysteresis.model_validate(
@@ -68,9 +71,12 @@ def test_the_offset_is_above_the_first_gap_on_the_way_down(
     speeds = [10.0, 11.0, 12.0, 13.0]
 
     def sweep(p, name, values, *times):
-        assert (name, values) == ("Omega", speeds)
+        assert name == "Omega"
+        assert values == speeds
         for step in [(0, i) for i in range(4)] + [(1, i) for i in (3, 2, 1, 0)]:
-            rate = falling[step[1]] if step[0] else 0
+            rate = 0
+            if step[0]:
+                rate = falling[step[1]]
             segment = Segment(0, 1, 0, 1, 0.5, 0.5, 0.0, rate)
             yield step, None, segment, attractors.Arrival(Settling(Settled.SETTLED))
 
@@ -107,7 +113,10 @@ def test_on_ramps_the_offset_is_that_of_the_last_separation_unless_it_goes_on(
 
     def simulated(p: Parameters, until: float, **how: Any) -> Any:
         before = how.get("initial_state")
-        begin = 0.0 if before is None else before.time
+        if before is None:
+            begin = 0.0
+        else:
+            begin = before.time
         times = np.arange(1.0, 131.0)
         times = times[(times > begin) & (times <= until)]
         rows = np.zeros((times.size, len(EVENT_ROW)))
@@ -136,7 +145,8 @@ def test_on_ramps_at_385_N_onset_comes_late_and_the_end_is_far_below() -> None:
     10."""
     options = {"low": 8, "high": 22, "dwell": 20, "rates": {"start": 0.05, "stop": 0.1, "count": 2}}
     found = compute(Ramps.model_validate(options), [Point(Parameters(N=385, Omega=1))]).arrays
-    onset, end = found["onset_speed"][0], found["offset_speed"][0]
+    onset = found["onset_speed"][0]
+    end = found["offset_speed"][0]
     assert ((onset > 16) & (onset < 20)).all()
     assert onset[0] < onset[1]
     assert ((end > 8.5) & (end < 10)).all()

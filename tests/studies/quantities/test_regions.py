@@ -43,7 +43,9 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
     asked: list[Parameters] = []
 
     def trend(tile: refinement.Tile, point: refinement.TilePoint) -> str:
-        return "" if separates(point.parameters) else Outcome.QUIET
+        if separates(point.parameters):
+            return ""
+        return Outcome.QUIET
 
     def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
         asked.append(p)
@@ -96,7 +98,10 @@ def test_only_separation_is_inferred(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
         lost = p.Omega == 29.0 or (p.Omega, p.N) == (12.0, 180.0)
-        return OutcomeResult(Outcome.SEPARATION if lost else Outcome.GROWING, 1.0)
+        kind = Outcome.GROWING
+        if lost:
+            kind = Outcome.SEPARATION
+        return OutcomeResult(kind, 1.0)
 
     nothing = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
     monkeypatch.setattr(refinement, "cycle_of_static_start", lambda p: nothing)
@@ -116,7 +121,10 @@ def test_a_point_on_the_edge_of_a_cell_that_does_not_separate_opens_it(
 
     def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
         quiet = p.Omega > 4 or (p.Omega, p.N) == (4.0, 10.0)
-        return OutcomeResult(Outcome.GROWING if quiet else Outcome.SEPARATION, 1.0)
+        kind = Outcome.SEPARATION
+        if quiet:
+            kind = Outcome.GROWING
+        return OutcomeResult(kind, 1.0)
 
     nothing = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
     monkeypatch.setattr(refinement, "cycle_of_static_start", lambda p: nothing)
@@ -164,9 +172,12 @@ def test_motions_without_a_cycle_and_points_that_fail_are_named() -> None:
         [[p.replace(Omega=0), p, ParameterError("N=-1: must be >= 0")]], []
     )
     (rest, _), (slides, _), (wrong, message) = rows
-    assert (rest["outcome"], rest["cycle"]) == ("at_rest", "at_rest")
-    assert (slides["outcome"], slides["cycle"]) == ("steady_sliding", "steady_sliding")
-    assert (wrong["status"], message) == ("failed", "ParameterError: N=-1: must be >= 0")
+    assert rest["outcome"] == "at_rest"
+    assert rest["cycle"] == "at_rest"
+    assert slides["outcome"] == "steady_sliding"
+    assert slides["cycle"] == "steady_sliding"
+    assert wrong["status"] == "failed"
+    assert message == "ParameterError: N=-1: must be >= 0"
 
 
 @pytest.mark.slow
@@ -181,13 +192,16 @@ def test_the_map_agrees_with_brute_force_beside_borders_and_inside_undivided_cel
     }
     options = {"horizon": horizon, "initial_cell_size": 4}
     study = computed(quantity="regions", options=options, axes=axes, batch={"over": PLANE})
-    separates, origin = flag_names(study["outcome"]) == "separation", flag_names(study["method"])
+    separates = flag_names(study["outcome"]) == "separation"
+    origin = flag_names(study["method"])
     beside = np.zeros_like(separates)
     for axis in (0, 1):
         differs = np.diff(separates, axis=axis)
         for end in (0, differs.shape[axis]):
             beside |= np.insert(differs, end, False, axis=axis)
-    rng, wrong, drawn = np.random.default_rng(0), [], 0
+    rng = np.random.default_rng(0)
+    wrong = []
+    drawn = 0
     for there in (beside, (origin == "inferred") & ~beside, (origin == "multipliers") & ~beside):
         for i, j in rng.permutation(np.argwhere(there))[:15]:
             p = Parameters(N=study["N"].values[i], Omega=study["Omega"].values[j])

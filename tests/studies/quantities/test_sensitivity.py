@@ -10,8 +10,9 @@ import xarray as xr
 from scipy import stats
 
 from disc_model.parameters import Parameters
+from disc_model.studies.distributions import quantile
 from disc_model.studies.quantities import sensitivity
-from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity, quantile
+from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity
 from disc_model.studies.quantity import Row
 from tests.studies.conftest import computed
 from tests.studies.refused import parse_grid
@@ -44,7 +45,10 @@ def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def function(p: Parameters) -> Row:
         word = SAMPLE_CYCLES[min(int(8 * p.c), 7)]
-        return cycle_row(word, p.c if word in ("stable", "unstable") else np.nan)
+        rate = np.nan
+        if word in ("stable", "unstable"):
+            rate = p.c
+        return cycle_row(word, rate)
 
     evaluating(monkeypatch, function)
     spread = {"distribution": "uniform", "low": 0, "high": 1}

@@ -29,8 +29,12 @@ def test_curves_may_leave_the_range_of_lines_by_the_margin(
     ((bounds, along, how),) = asked
     assert bounds == {"Omega": (3, 18), "N": pytest.approx(wanted)}
     assert along == [180, 300, 420]
-    assert (how["points"], how["longest"], how["max_points"], how["tol"]) == (9, 0.2, 200, 1e-12)
-    assert (values["n_curves"], values["n_continuation_failures"]) == (0, 0)
+    assert how["points"] == 9
+    assert how["longest"] == 0.2
+    assert how["max_points"] == 200
+    assert how["tol"] == 1e-12
+    assert values["n_curves"] == 0
+    assert values["n_continuation_failures"] == 0
 
 
 def test_the_longest_curve_comes_first(plane) -> None:

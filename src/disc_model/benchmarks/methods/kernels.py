@@ -11,14 +11,13 @@ from typing import Any, NamedTuple
 
 import numba
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import Array
 from disc_model.disc.plate import modal_damping, mode_arrays
 from disc_model.errors import Fault, as_text, raise_faults
 from disc_model.parameters import DEFAULTS, Parameters
 from disc_model.simulation.states import State
 
-Array = NDArray[np.float64]
 OTHER_LAWS = ("contact_compliance", "contact_force", "friction_decay", "friction_offset")
 """Parameters of laws of contact that only the engine has."""
 

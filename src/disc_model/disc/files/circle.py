@@ -68,7 +68,8 @@ class Frame:
     def components(self, places: Array, motion: Array) -> Array:
         """Radial, tangential and axial components of displacements (n, 3)."""
         angle = self.angles(places)[:, None]
-        radial = np.cos(angle) * self.across[0] + np.sin(angle) * self.across[1]
+        first, second = self.across
+        radial = np.cos(angle) * first + np.sin(angle) * second
         tangential = np.cross(self.axis, radial)
         in_plane = [np.sum(motion * direction, axis=1) for direction in (radial, tangential)]
         return np.stack([*in_plane, motion @ self.axis], axis=1)
@@ -229,11 +230,14 @@ def _of_triples(places: Array, r_0: float, frame: Frame) -> Iterator[Frame]:
     a, b, c = (plane[drawn[:, i]] for i in range(3))
     u = b - a
     v = c - a
-    area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    u_x, u_y = u.T
+    v_x, v_y = v.T
+    area = u_x * v_y - u_y * v_x
     with np.errstate(divide="ignore", invalid="ignore"):
-        lengths = np.stack([np.sum(u * u, axis=1), np.sum(v * v, axis=1)])
-        x = (v[:, 1] * lengths[0] - u[:, 1] * lengths[1]) / (2 * area)
-        y = (u[:, 0] * lengths[1] - v[:, 0] * lengths[0]) / (2 * area)
+        u_squared = np.sum(u * u, axis=1)
+        v_squared = np.sum(v * v, axis=1)
+        x = (v_y * u_squared - u_y * v_squared) / (2 * area)
+        y = (u_x * v_squared - v_x * u_squared) / (2 * area)
         fits = np.abs(np.hypot(x, y) - r_0) < SAME_RADIUS * r_0
     centres = a[fits] + np.stack([x[fits], y[fits]], axis=1)
     if len(centres) == 0:
@@ -272,7 +276,9 @@ def _faces(
 ) -> Iterator[NDArray[np.bool_]]:
     """Nodes on the circle at one height, from the uppermost face down."""
     levels = np.sort(heights[on_circle])[::-1]
-    starts = levels[np.concatenate([[True], levels[:-1] - levels[1:] > same])]
+    gaps = levels[:-1] - levels[1:]
+    begins = np.concatenate([[True], gaps > same])
+    starts = levels[begins]
     ends = np.append(starts[1:], -np.inf)
     for start, end in zip(starts, ends, strict=True):
         yield on_circle & (heights <= start) & (heights > end)
@@ -308,7 +314,8 @@ def _absence(places: Array, r_0: float, axis: Array | None, centre: Array | None
         flattest = min(spread) + SAME_RADIUS * r_0
         frames = [frame for frame, size in zip(frames, spread, strict=True) if size <= flattest]
     rings = [_rings(frame.radii(places)) for frame in frames]
-    most = max(range(len(frames)), key=lambda i: max(rings[i].values(), default=0))
+    fullest = [max(ring.values(), default=0) for ring in rings]
+    most = fullest.index(max(fullest))
     listed = sorted(rings[most])
     where = ", ".join(f"{radius:.4g}" for radius in listed[:MOST_LISTED])
     if len(listed) > MOST_LISTED:
@@ -329,4 +336,5 @@ def _rings(radii: Array) -> dict[float, int]:
 
 
 def _numbers_text(values: Iterable[float]) -> str:
-    return f"({', '.join(f'{value + 0.0:.4g}' for value in np.round([*values], 6))})"
+    rounded = np.round([*values], 6) + 0.0  # adding zero turns -0.0 into 0.0
+    return f"({', '.join(f'{value:.4g}' for value in rounded)})"

@@ -174,7 +174,9 @@ def _shape(
         ring = at_height & (np.abs(radii - radius) < same)
         if ring.sum() > 2 * l:
             found.append(float(radius))
-            values.append(float(wave[ring] @ normal[ring] / (wave[ring] @ wave[ring])))
+            of_wave = wave[ring]
+            projection = of_wave @ normal[ring] / (of_wave @ of_wave)
+            values.append(float(projection))
     return np.array(found), np.array(values)
 
 

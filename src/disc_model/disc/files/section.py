@@ -8,15 +8,15 @@ are mass-normalised over the whole solid.
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.disc.plate import Array
+from disc_model.arrays import Array
+from disc_model.disc.files.mesh import pieces_of
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import brought
 from disc_model.errors import Fault, ParameterError, require
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from skfem import MeshQuad
 
 SAME_PLACE = 1e-9  # m; the slider must run through a node of the mesh
-MOST_ELEMENTS = 100_000  # in the rectangle around a section; more indicate a mistake in units
 MOST_EQUAL = 64  # modes of equal nodal diameters; more indicate a mistake in units
 MOST_DIAMETERS = 60  # of the modes of a `Disc`
 UNMOVED = 1e-6  # share of the largest amplitude below which a mode moves in the disc's plane alone
@@ -73,48 +72,6 @@ class SectionMode(NamedTuple):
     shape: list[float]
 
 
-def section(rectangles: Iterable[tuple[float, float, float, float]], size: float) -> MeshQuad:
-    """Mesh a union of rectangles (r from, r to, z from, z to), m, with a line of nodes along every
-    edge of each; `size`: m, largest edge of an element."""
-    mesh_type = brought("skfem", "fe").MeshQuad
-    boxes = [tuple(map(float, rectangle)) for rectangle in rectangles]
-    for i, box in enumerate(boxes or [()]):
-        if not _is_rectangle(box):
-            rule = "must be (r from, r to, z from, z to) with 0 < r from < r to and z from < z to"
-            raise ParameterError(Fault.of(("rectangles", str(i)), box, rule))
-    require((is_number(size) and size > 0, "size", size, "must be > 0"))
-
-    inner, outer, low, high = zip(*boxes, strict=True)
-    count = (max(outer) - min(inner)) / size * ((max(high) - min(low)) / size)
-    rule = f"must give at most {MOST_ELEMENTS:,} elements, not {count:.2g}: "
-    rule += "size and rectangles are in m"
-    require((count <= MOST_ELEMENTS, "size", size, rule))
-
-    mesh = mesh_type.init_tensor(_divided({*inner, *outer}, size), _divided({*low, *high}, size))
-    r, z = mesh.p[:, mesh.t].mean(axis=1)
-    inside = np.zeros(r.shape, dtype=bool)
-    for r_from, r_to, z_from, z_to in boxes:
-        inside |= (r_from < r) & (r < r_to) & (z_from < z) & (z < z_to)
-    return mesh.remove_elements(np.flatnonzero(~inside))
-
-
-def _is_rectangle(box: tuple[float, ...]) -> bool:
-    """Whether these are the edges of a rectangle of finite size beside the axis."""
-    if len(box) != 4 or not all(map(math.isfinite, box)):
-        return False
-    r_from, r_to, z_from, z_to = box
-    return 0 < r_from < r_to and z_from < z_to
-
-
-def _divided(edges: set[float], size: float) -> Array:
-    """Coordinates with every edge among them, and no gap larger than `size`."""
-    ends = sorted(edges)
-    parts = [
-        np.linspace(a, b, math.ceil((b - a) / size) + 1)[:-1] for a, b in itertools.pairwise(ends)
-    ]
-    return np.concatenate([*parts, ends[-1:]])
-
-
 def disc_of_section(
     mesh: MeshQuad,
     material: Mapping[str, Any],
@@ -133,7 +90,7 @@ def disc_of_section(
     points = _points(basis, slider)
     held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()
     rule = "must hold nodes of the section: coordinates are in m"
-    pieces = _pieces(mesh)
+    pieces = pieces_of(mesh)
     require(
         (len(held) > 0, "clamped", len(held), rule),
         (pieces == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
@@ -203,17 +160,6 @@ def _is_below(mesh: Any, slider: tuple[float, float]) -> bool:
     return bool(np.all(low[1, touching] >= slider[1] - SAME_PLACE))
 
 
-def _pieces(mesh: Any) -> int:
-    """Number of parts of a mesh that have no node in common."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    size = mesh.p.shape[1]
-    links = coo_matrix((np.ones(mesh.facets.shape[1]), mesh.facets), shape=(size, size))
-    _, labels = connected_components(links, directed=False)
-    return len(np.unique(labels[mesh.t]))
-
-
 def _modes(
     basis: Any, material: Material, held: Any, points: Points, highest: float
 ) -> list[SectionMode]:
@@ -252,7 +198,9 @@ def _harmonic(
     # twice as many modes, until one is above the highest frequency
     count = 4
     while True:
-        squares, shapes = eigsh(K, min(count, len(free) - 1), M, sigma=0.0, v0=np.ones(len(free)))
+        sought = min(count, len(free) - 1)
+        start = np.ones(len(free))
+        squares, shapes = eigsh(K, sought, M, sigma=0.0, v0=start)
         if squares.max() > highest**2 or count >= len(free) - 1:
             break
         if count >= MOST_EQUAL:
@@ -267,7 +215,9 @@ def _harmonic(
     whole = np.zeros((basis.N, len(order)))
     whole[free] = shapes[:, order]
     moves = whole[measured].T
-    return np.sqrt(squares[order]).tolist(), np.where(moves[:, :1] < 0, -moves, moves)
+    omega = np.sqrt(squares[order])
+    upwards = np.where(moves[:, :1] < 0, -moves, moves)
+    return omega.tolist(), upwards
 
 
 def _matrices(basis: Any, l: int, material: Material) -> tuple[Any, Any]:
@@ -281,14 +231,19 @@ def _matrices(basis: Any, l: int, material: Material) -> tuple[Any, Any]:
     def strain(u: Any, w: Any, v: Any, r: Any) -> tuple[Any, ...]:
         """Three normal strains, then the doubled shear strains; u, w, v are u_r, u_z, u_theta."""
         normal = (u.grad[0], w.grad[1], (u + l * v) / r)
-        return (*normal, u.grad[1] + w.grad[0], v.grad[0] - (l * u + v) / r, v.grad[1] - l * w / r)
+        in_section = u.grad[1] + w.grad[0]
+        in_plane = v.grad[0] - (l * u + v) / r
+        across = v.grad[1] - l * w / r
+        return (*normal, in_section, in_plane, across)
 
     def energy(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, point: Any) -> Any:
         first = strain(u, w, v, point.x[0])
         second = strain(u_, w_, v_, point.x[0])
         factors = [2 * shear] * 3 + [shear] * 3
-        doubled = sum(c * a * b for c, a, b in zip(factors, first, second, strict=True))
-        return (lame * sum(first[:3]) * sum(second[:3]) + doubled) * point.x[0]
+        terms = zip(factors, first, second, strict=True)
+        of_shape = sum(c * a * b for c, a, b in terms)
+        of_volume = lame * sum(first[:3]) * sum(second[:3])
+        return (of_volume + of_shape) * point.x[0]
 
     def inertia(u: Any, w: Any, v: Any, u_: Any, w_: Any, v_: Any, point: Any) -> Any:
         return rho * (u * u_ + w * w_ + v * v_) * point.x[0]

@@ -2,30 +2,26 @@
 
 from __future__ import annotations
 
-import csv
-import difflib
 import itertools
 import math
-import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args
 
 import numpy as np
 
+from disc_model.disc.files.compliance import STATIC_COMPLIANCE, check_compliance, stated_compliance
 from disc_model.disc.files.heads import COLUMNS, Head, read_head
+from disc_model.disc.files.rows import begins_a_number, joined, number_in, rows_of
 from disc_model.disc.given import SAME_PAIR, DiscReport, ModeOrigin
-from disc_model.disc.plate import modes_of_table
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import Disc
-from disc_model.units import in_si
 
 if TYPE_CHECKING:
     import os
 
 Pairs = Literal["given", "mean"]
 
-STATIC_COMPLIANCE = "static_compliance_m_per_N"  # value that a comment line may give
 WRITTEN = (
     "diameters",
     "circles",
@@ -35,14 +31,9 @@ WRITTEN = (
     "tangential_per_sqrt_kg",
 )
 """Columns of `table_text`, in this order, before those of shapes."""
-ROUNDING = 1e-9  # relative: both may be the same sum with different rounding
+LABELS = ("mode", "mode_number", "mode_no", "mode_nr", "number", "no", "nr")
+"""Heads of a first column that only labels modes, in lower case with "_" between words."""
 POLES = ("pole", "pole_real", "pole_imag")  # quantities that stand for frequency and damping
-LIKE = 0.8  # likeness of names above which a typing error is suspected
-_COMPLIANCE_NAMES = (STATIC_COMPLIANCE.lower(), "static_compliance")
-_STATEMENT = re.compile(
-    r"\s*#\s*(?P<name>[^:=(\[]+?)\s*(?:[(\[](?P<unit>.*?)[)\]])?\s*[:=]\s*(?P<value>.*?)\s*"
-)
-_SEPARATOR = re.compile(r"sep=(.)\s*", re.IGNORECASE)
 
 
 class Column(NamedTuple):
@@ -54,7 +45,7 @@ class Column(NamedTuple):
     @property
     def numbers(self) -> list[float | str]:
         """The numbers in SI units; a cell without a number stays a text, which `Disc` refuses."""
-        return [_number(cell, self.head.factor) for cell in self.cells]
+        return [number_in(cell, self.head.factor) for cell in self.cells]
 
 
 def read_disc(path: str | os.PathLike[str], pairs: Pairs = "given") -> Disc:
@@ -95,8 +86,8 @@ def table_text(disc: Disc) -> str:
 
 def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
     """The disc of the lines of a table."""
-    static = _static_compliance(lines)
-    columns = _columns(_rows([line for line in lines if not line.lstrip().startswith("#")]))
+    static = stated_compliance(lines)
+    columns = _columns(rows_of([line for line in lines if not line.lstrip().startswith("#")]))
     values = _values(columns)
     values["static_compliance"] = static
     report = None
@@ -107,113 +98,8 @@ def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
         disc = Disc(**values)
     except ParameterError as error:
         raise ParameterError(*(_of_table(fault, columns) for fault in error.faults)) from None
-    _check_compliance(disc)
+    check_compliance(disc)
     return disc if report is None else disc.with_report(report)
-
-
-def _static_compliance(lines: list[str]) -> str | float | None:
-    """The static compliance that a comment states, m/N; a comment that seems to mean it and cannot
-    be read is refused."""
-    found = []
-    for line in lines:
-        statement = _STATEMENT.fullmatch(line)
-        if statement is None or not _is_on_compliance(statement["name"], statement["value"]):
-            continue
-        found.append(_compliance(*statement.group("name", "unit", "value")))
-    rule = f"must be given once, and not {len(found)} times"
-    require((len(found) <= 1, STATIC_COMPLIANCE, found, rule))
-    return found[0] if found else None
-
-
-def _is_on_compliance(name: str, value: str) -> bool:
-    """Whether a comment seems to state the static compliance, perhaps with a typing error."""
-    words = _joined(name)
-    likeness = max(
-        difflib.SequenceMatcher(None, words, known).ratio() for known in _COMPLIANCE_NAMES
-    )
-    return likeness >= LIKE or ("complian" in words and _begins_a_number(value))
-
-
-def _compliance(name: str, unit: str | None, value: str) -> str | float:
-    """The value of a comment in m/N; its unit stands beside it or beside the name."""
-    words = _joined(name)
-    rule = f"must be named {STATIC_COMPLIANCE}, or static_compliance with a unit of m/N"
-    require((words in _COMPLIANCE_NAMES, "comment", name, rule))
-    text = f"{value} {unit}" if unit else value
-    has_unit = words == STATIC_COMPLIANCE.lower() or isinstance(_number(text), str)
-    require((has_unit, name, value, "must have a unit, such as 42 nm/N"))
-    faults: list[Fault] = []
-    compliance = in_si(text, "m/N", faults, (STATIC_COMPLIANCE,))
-    raise_faults(faults)
-    rule = "must be a number in m/N, or with a unit of its kind"
-    require((isinstance(_number(str(compliance)), float), STATIC_COMPLIANCE, text, rule))
-    return compliance
-
-
-def _joined(name: str) -> str:
-    """The words of a name in lower case, with "_" between them."""
-    return re.sub(r"[\s_-]+", "_", name.strip().lower())
-
-
-def _check_compliance(disc: Disc) -> None:
-    """Refuse a static compliance that is less than that of the modes."""
-    static = disc.static_compliance
-    modal = modes_of_table(disc).flexibility
-    rule = f"must not be less than what the modes give at the slider, {modal:.6g} m/N"
-    is_enough = static is None or static >= modal * (1 - ROUNDING)
-    require((is_enough, STATIC_COMPLIANCE, static, rule))
-
-
-def _rows(lines: list[str]) -> list[list[str]]:
-    """The cells of a table, without empty rows and columns, which spreadsheets append."""
-    separator = ""
-    if lines and (stated := _SEPARATOR.fullmatch(lines[0])):
-        separator = stated[1]
-        lines = lines[1:]
-    if not separator:
-        separator = _separator_in(next((line for line in lines if line.strip()), ""))
-
-    rows = []
-    used: set[int] = set()
-    for row in csv.reader(lines, delimiter=separator, skipinitialspace=True):
-        cells = [cell.strip() for cell in row]
-        filled = [i for i, cell in enumerate(cells) if cell]
-        used.update(filled)
-        if filled:
-            rows.append(cells)
-    rows = [_chosen(row, used) for row in rows]
-    if separator != ",":
-        rows[1:] = _with_points(rows[1:])
-    return rows
-
-
-def _separator_in(head: str) -> str:
-    """What separates columns, by the line of their heads."""
-    for mark in ";\t":
-        if mark in head:
-            return mark
-    return ","
-
-
-def _chosen(row: list[str], used: set[int]) -> list[str]:
-    """The cells of a row in columns that are used."""
-    return [cell for i, cell in enumerate(row) if i in used]
-
-
-def _with_points(rows: list[list[str]]) -> list[list[str]]:
-    """Cells with decimal points in place of decimal commas; both in one table are refused, because
-    one of them may separate thousands."""
-    cells = [*itertools.chain.from_iterable(rows)]
-    with_comma = [cell for cell in cells if re.search(r",\d", cell)]
-    with_point = [cell for cell in cells if re.search(r"\.\d", cell)]
-    if with_comma and with_point:
-        rule = "all numbers must have commas, or all must have points, for decimals: not "
-        raise ParameterError(Fault((), "", f"{rule}{with_comma[0]} and {with_point[0]}"))
-    return [[*map(_with_point, row)] for row in rows]
-
-
-def _with_point(cell: str) -> str:
-    return cell.replace(",", ".")
 
 
 # ---- Columns
@@ -221,18 +107,31 @@ def _with_point(cell: str) -> str:
 
 def _columns(rows: list[list[str]]) -> list[Column]:
     """The columns of a table, checked as a whole."""
-    names, *body = rows or [[]]
-    if body and len(body[0]) == len(names) and not any(map(_begins_a_number, body[0])):
+    names, *body = _without_labels(rows) or [[]]
+    if body and _is_of_units(body[0], names):
         names = _with_units(names, body.pop(0))
     heads, faults = _heads(names)
     raise_faults(faults or _faults_together(heads))
     rule = f"values: must be as many as columns, {len(names)}"
-    uneven = [
-        f"mode {i} has {len(row)} {rule}" for i, row in enumerate(body, 1) if len(row) != len(names)
-    ]
+    uneven = []
+    for i, row in enumerate(body, 1):
+        if len(row) != len(names):
+            uneven.append(f"mode {i} has {len(row)} {rule}")
     raise_faults(uneven[:3])
     cells = zip(*body, strict=True) if body else [()] * len(heads)
     return [Column(head, column) for head, column in zip(heads, cells, strict=True)]
+
+
+def _is_of_units(row: list[str], names: list[str]) -> bool:
+    """Whether a row below the names has their units: as many cells, none of which is a number."""
+    return len(row) == len(names) and not any(map(begins_a_number, row))
+
+
+def _without_labels(rows: list[list[str]]) -> list[list[str]]:
+    """The rows without a first column that labels modes: what it counts, no other column needs."""
+    if rows and joined(rows[0][0]).rstrip(".") in LABELS:
+        return [row[1:] for row in rows]
+    return rows
 
 
 def _with_units(names: list[str], units: list[str]) -> list[str]:
@@ -375,8 +274,10 @@ def _groups(values: dict[str, Any]) -> list[list[int]]:
     omega = values["omega"]
     groups: list[list[int]] = []
     for i in sorted(range(len(omega)), key=omega.__getitem__):
-        halves = [group for group in groups if len(group) == 1 and kinds[group[0]] == kinds[i]]
-        close = [group for group in halves if omega[i] - omega[group[0]] < SAME_PAIR * omega[i]]
+        single = [group for group in groups if len(group) == 1]
+        halves = [group for group in single if kinds[group[0]] == kinds[i]]
+        widest = SAME_PAIR * omega[i]
+        close = [group for group in halves if omega[i] - omega[group[0]] < widest]
         if close and kinds[i][0] > 0:
             close[0].append(i)
         else:
@@ -385,19 +286,6 @@ def _groups(values: dict[str, Any]) -> list[list[int]]:
 
 
 # ---- Cells
-
-
-def _number(cell: str, factor: float = 1.0) -> float | str:
-    """The number in a cell; other text as it is."""
-    try:
-        return float(cell) * factor
-    except ValueError:
-        return cell
-
-
-def _begins_a_number(cell: str) -> bool:
-    """Whether a cell begins as a number does, so that its row is no row of units."""
-    return bool(re.match(r"[-+]?[.,]?\d(?!/)", cell)) or cell.lower().startswith(("nan", "inf"))
 
 
 def _all_numbers(values: Mapping[str, Any]) -> bool:
@@ -421,4 +309,5 @@ def _of_table(fault: Fault, columns: list[Column]) -> Fault:
     i = int(fault.path[1])
     converted = column.head.factor != 1.0
     unit = " rad/s" if converted and "within" in fault.rule else ""
-    return Fault.of((column.head.text,), column.cells[i], f"{fault.rule}{unit} (mode {i + 1})")
+    rule = f"{fault.rule}{unit} (mode {i + 1})"
+    return Fault.of((column.head.text,), column.cells[i], rule)

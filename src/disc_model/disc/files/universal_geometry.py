@@ -132,9 +132,10 @@ def _transformations(data: DataSet) -> dict[int, System]:
         if matrix.size != 12:
             raise data.fault(f"must have 12 numbers for coordinate system {label}")
         matrix = matrix.reshape(4, 3)
-        if not np.allclose(matrix[:3] @ matrix[:3].T, np.eye(3), atol=NOT_SQUARE):
+        axes = matrix[:3]
+        if not np.allclose(axes @ axes.T, np.eye(3), atol=NOT_SQUARE):
             raise data.fault(f"must have perpendicular unit axes for coordinate system {label}")
-        systems[label] = System(kind, matrix[:3], matrix[3])
+        systems[label] = System(kind, axes, matrix[3])
     return systems
 
 
@@ -226,10 +227,10 @@ def directions(nodes: Nodes, systems: dict[int, System], places: Array) -> Array
             cosine = np.cos(angle)[:, None]
             sine = np.sin(angle)[:, None]
             x, y, z = system.axes
-            rows[chosen] = np.stack(
-                [cosine * x + sine * y, cosine * y - sine * x, np.broadcast_to(z, (len(angle), 3))],
-                axis=1,
-            )
+            radial = cosine * x + sine * y
+            tangential = cosine * y - sine * x
+            axial = np.broadcast_to(z, (len(angle), 3))
+            rows[chosen] = np.stack([radial, tangential, axial], axis=1)
     return rows
 
 

@@ -4,7 +4,7 @@ from importlib import import_module
 from typing import Any
 
 from disc_model.errors import Fault, ParameterError, suggestion
-from disc_model.figures.kinds.base import CasePlot, Compared, Kind, Plot
+from disc_model.figures.kinds.base import NORM, CasePlot, Compared, Kind, Plot, si_unit
 from disc_model.figures.kinds.cases import (
     History,
     PoincareSections,
@@ -20,13 +20,17 @@ from disc_model.figures.kinds.motions import (
     Branches,
     Campbell,
     LateRange,
+    PhaseMap,
+    RangeLawPlot,
     RootLocus,
     Sensitivity,
     SlidingModes,
+    Staircase,
 )
 
 __all__ = [
     "KINDS",
+    "NORM",
     "CasePlot",
     "Compared",
     "General",
@@ -35,6 +39,8 @@ __all__ = [
     "RegionMap",
     "kind_of",
     "kinds_in",
+    "si_unit",
+    "table_of",
 ]
 
 KINDS: dict[str, type[Kind]] = {
@@ -47,9 +53,11 @@ KINDS: dict[str, type[Kind]] = {
     "heat_map": HeatMap,
     "history": History,
     "late_range": LateRange,
+    "phase_map": PhaseMap,
     "poincare": PoincareSections,
     "portrait": Portrait,
     "ramps": RampedSpeeds,
+    "range_law": RangeLawPlot,
     "region_map": RegionMap,
     "root_locus": RootLocus,
     "sensitivity": Sensitivity,
@@ -57,6 +65,7 @@ KINDS: dict[str, type[Kind]] = {
     "sliding_outcome": SlidingOutcome,
     "spectrogram": Spectrogram,
     "spectrum": Spectrum,
+    "staircase": Staircase,
 }
 """Kinds of this package."""
 

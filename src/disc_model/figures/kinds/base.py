@@ -14,12 +14,12 @@ from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from disc_model.data.variables import SERIES, SHOWN
 from disc_model.errors import Fault, raise_faults, require, suggestion
-from disc_model.figures.selection import NORM
 from disc_model.figures.sizes import WIDTHS
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Window
 from disc_model.units import Strict, in_si
 
+NORM = "normalization"  # the dimension that a study may have beside those that a figure requires
 Width = Literal["column", "page"]
 Values = Mapping[str, Sequence[Any]]
 """Values along each dimension of a grid; tuples where it varies several parameters."""

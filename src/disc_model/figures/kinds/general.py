@@ -8,8 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field
 
 from disc_model.errors import Fault, as_text, suggestion
-from disc_model.figures.kinds.base import Plot, Values, unknown
-from disc_model.figures.selection import NORM
+from disc_model.figures.kinds.base import NORM, Plot, Values, unknown
 from disc_model.units import UNITS, Finite, Unit
 
 Dims = Mapping[str, Sequence[Any]]

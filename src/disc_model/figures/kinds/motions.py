@@ -8,8 +8,7 @@ from pydantic import Field
 
 from disc_model.data.variables import SAMPLE
 from disc_model.errors import Fault, suggestion
-from disc_model.figures.kinds.base import Compared, Plot, Role, Roles, Values, unknown
-from disc_model.figures.selection import NORM
+from disc_model.figures.kinds.base import NORM, Compared, Plot, Role, Roles, Values, unknown
 from disc_model.units import Finite, Positive, Unit
 
 MOST_POINTS = 4  # greatest number of points that a figure of sensitivity shows
@@ -44,7 +43,6 @@ class LateRange(Plot):
 
     by : dimension with a panel for each value
     thickness : of the disc, m; that of the paper unless given
-    not_valid : points at which the law of friction does not hold
     names : words for values of `by`
     """
 
@@ -52,7 +50,6 @@ class LateRange(Plot):
     kind: Literal["late_range"] = "late_range"
     by: str = "disc"
     thickness: Positive = 0.002
-    not_valid: tuple[dict[str, tuple[Finite | str, ...]], ...] = ()
     names: dict[str, str] = Field({})
 
     @property
@@ -62,10 +59,6 @@ class LateRange(Plot):
     def faults(self, values: Values) -> Iterator[Fault]:
         yield from super().faults(values)
         yield from unknown("names", self.names, self.by, values.get(self.by, ()))
-        for part in self.not_valid:
-            for dim, words in part.items():
-                along = values.get(dim, ()) if dim in self.dims else ()
-                yield from unknown("not_valid", words, dim, along)
 
 
 class BasinShares(Plot):
@@ -74,6 +67,58 @@ class BasinShares(Plot):
 
     kind: Literal["basins"] = "basins"
     x: str
+
+
+class Staircase(Plot):
+    """Number of separations per release of stick against a parameter, a step for each period.
+
+    zooms : ends of parts of the axis that are shown enlarged, each within the one before
+    """
+
+    roles: ClassVar[Roles] = {"fine": Role("locking"), "slipping": Role("locking")}
+    quantities = ("locking",)
+    kind: Literal["staircase"] = "staircase"
+    x: str
+    zooms: Annotated[tuple[tuple[Finite, Finite], ...], Field(max_length=3)] = ()
+
+    def wrong_axes(self, values: Values, shown: str) -> Iterator[Fault]:
+        yield from super().wrong_axes(values, shown)
+        for low, high in self.zooms:
+            if not low < high:
+                yield Fault.of(("zooms",), (low, high), "must be two ascending values of x")
+
+
+class PhaseMap(Plot):
+    """The map from the phase of a release to that of the next one, at a single point."""
+
+    quantities = ("locking",)
+    kind: Literal["phase_map"] = "phase_map"
+
+    def wrong_dims(self, values: Values) -> Iterator[Fault]:
+        if math.prod(len(along) for along in values.values()) > 1:
+            yield Fault.of(("kind",), self.kind, "can show a study of one point only")
+
+
+class RangeLawPlot(Plot):
+    """Range of all motions of a study that separate, against the range at which their vibration
+    loses contact.
+
+    share : least share of height and contact force at one frequency of a motion with a filled mark
+    set_apart : values of a parameter, by the name of its motions, which have marks of their own
+    """
+
+    several = True
+    kind: Literal["range_law"] = "range_law"
+    share: Annotated[Positive, Field(le=1)] = 0.95
+    set_apart: dict[str, dict[str, Finite]] = Field({})
+
+    def wrong_dims(self, values: Values) -> Iterator[Fault]:
+        """Names that do not vary; whatever does, motions are drawn."""
+        for group in self.set_apart.values():
+            for name in group:
+                # the name of a zip has those of all its parameters
+                if not any(f"_{name}_" in f"_{dim}_" for dim in values):
+                    yield Fault.of(("set_apart",), name, "does not vary in this study")
 
 
 class Sensitivity(Plot):

@@ -4,27 +4,28 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
-from disc_model.figures import drawing
 from disc_model.figures.drawing import (
     BLACK,
     DISC,
     FORCE,
+    PAGE,
     PHASE_COLOURS,
     SEPARATED,
     SLIDER,
     large,
+    letters,
+    panels,
+    say,
     wide,
 )
 from disc_model.figures.legends import legend_above
-from disc_model.figures.phases import spans_between
+from disc_model.figures.runs import envelope, show_thickness, spans_between
 from disc_model.figures.selection import history
-from disc_model.figures.sizes import PAGE
+from disc_model.figures.types import Axes, Figure
 from disc_model.paper.figures.kinds import STRETCH, Composite
 from disc_model.paper.figures.strokes import DARK, SPRING, arrow, join, slider, wall
 
@@ -40,14 +41,14 @@ def draw(plot: Composite, case: xr.DataTree, bilateral: xr.DataTree) -> Figure:
     """Draw the three panels."""
     width = plot.inches
     if width == PAGE:
-        figure, axes = drawing.panels(width, 2.35, 1, 3, width_ratios=(1, 1.15, 1.3))
+        figure, axes = panels(width, 2.35, 1, 3, width_ratios=(1, 1.15, 1.3))
     else:
-        figure, axes = drawing.panels(width, 6.6, 3)
+        figure, axes = panels(width, 6.6, 3)
     model, growth, force = axes
     _draw_model(model)
     _draw_growth(growth, plot, case, bilateral)
     _draw_force(force, plot, case)
-    drawing.letters(axes)
+    letters(axes)
     return figure
 
 
@@ -55,8 +56,8 @@ def _draw_growth(ax: Axes, plot: Composite, case: xr.DataTree, bilateral: xr.Dat
     """Draw the range of the disc with separation over that without."""
     followed = history(case, plot.history, plot.until)
     ignored = history(bilateral, plot.history, plot.until)
-    drawing.envelope(ax, ignored, "w_point", color=PALE)
-    drawing.envelope(ax, followed, "w_point")
+    envelope(ax, ignored, "w_point", color=PALE)
+    envelope(ax, followed, "w_point")
     top = 1e3 * float(ignored["w_point_max"].max()) or 1.0
     right = 0.98 * ax.get_xlim()[1]
     bold: dict[str, Any] = {"ha": "right", "fontsize": large(7), "fontweight": "bold"}
@@ -69,8 +70,8 @@ def _draw_growth(ax: Axes, plot: Composite, case: xr.DataTree, bilateral: xr.Dat
     if lost <= ax.get_xlim()[1]:
         ax.axvline(lost, ymax=0.88, color=SEPARATED, linewidth=wide(0.9), linestyle=(0, (4, 2)))
         place = (lost, -1.2 * top)
-        drawing.say(ax, "contact\nis lost", place, (-3, 1), fontsize=large(7), color=SEPARATED)
-    drawing.show_thickness(ax, case, "y")
+        say(ax, "contact\nis lost", place, (-3, 1), fontsize=large(7), color=SEPARATED)
+    show_thickness(ax, case, "y")
 
 
 def _draw_force(ax: Axes, plot: Composite, case: xr.DataTree) -> None:

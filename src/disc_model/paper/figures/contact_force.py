@@ -2,14 +2,14 @@
 
 import numpy as np
 import xarray as xr
-from matplotlib.figure import Figure
 
 from disc_model.data import dataset
 from disc_model.data.variables import axis_of
-from disc_model.figures import drawing
+from disc_model.figures.drawing import FORCE, PAGE, letters, panels
 from disc_model.figures.legends import legend_above
+from disc_model.figures.runs import show
 from disc_model.figures.selection import history
-from disc_model.figures.sizes import PAGE
+from disc_model.figures.types import Figure
 from disc_model.paper.figures.kinds import ContactForce
 from disc_model.paper.figures.separations import after, separations, shade
 
@@ -19,20 +19,20 @@ def draw(plot: ContactForce, case: xr.DataTree) -> Figure:
     width = plot.inches
     columns = 2 if width == PAGE else 1
     rows = 2 // columns
-    figure, axes = drawing.panels(width, 2.3 * rows, rows, columns)
+    figure, axes = panels(width, 2.3 * rows, rows, columns)
     whole, close = axes
-    drawing.show(whole, case, history(case, plot.history), "P")
+    show(whole, case, history(case, plot.history), "P")
     window = dataset.samples(case, plot.zoom)
     start = float(window["time"][0])
     window = after(window, start)
     spans = separations(window)
     shade(close, spans)
-    close.plot(window["time"], window["P"], color=drawing.FORCE)
+    close.plot(window["time"], window["P"], color=FORCE)
     close.set_xlabel(f"Time after {start:.5f} s (ms)")
     close.set_ylabel(axis_of("P")[0])
     if spans:
         legend_above(close)
-    drawing.letters(axes)
+    letters(axes)
     if np.isfinite(float(case["first_separation"])):
         # with zero if contact is lost; a force that hardly changes is shown in detail
         for ax in axes:

@@ -2,8 +2,7 @@
 
 from collections.abc import Callable, Mapping
 
-from matplotlib.figure import Figure
-
+from disc_model.figures.types import Figure
 from disc_model.paper.figures import (
     composite,
     contact_force,

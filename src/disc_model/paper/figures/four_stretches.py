@@ -5,16 +5,15 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from disc_model.analysis.spectra import TimeFrequency
-from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, SKY, large
+from disc_model.figures.drawing import BLACK, SKY, headroom, large, letters, new_figure
 from disc_model.figures.kinds.base import HIGHEST
+from disc_model.figures.runs import show, show_thickness
 from disc_model.figures.selection import history
 from disc_model.figures.spectrogram import draw_power, draw_scale, span_of, spectrum_of
+from disc_model.figures.types import Axes, Figure
 from disc_model.paper.figures.kinds import WINDOWS, FourStretches
 
 CLOSE = 300.0  # highest frequency of the closer view, Hz
@@ -34,7 +33,7 @@ Grid = Any  # of axes, three rows and a column for each window
 def draw(plot: FourStretches, *cases: xr.DataTree) -> Figure:
     """Draw the whole run above its stretches."""
     width = plot.inches
-    figure = drawing.new_figure(width, 6.2)
+    figure = new_figure(width, 6.2)
     top, below = np.asarray(figure.subfigures(2, 1, height_ratios=(1.1, 3)))
     whole = top.subplots()
     axes: Grid = below.subplots(
@@ -62,10 +61,10 @@ def draw(plot: FourStretches, *cases: xr.DataTree) -> Figure:
             va="top",
             transform=whole.get_xaxis_transform(),
         )
-    drawing.show(whole, cases[0], history(cases[0], plot.history, plot.until), "w_point")
-    drawing.headroom(whole, 0.15)
-    drawing.show_thickness(whole, cases[0], "y")
-    drawing.letters([whole, *axes[0], *axes[2, 1:]])
+    show(whole, cases[0], history(cases[0], plot.history, plot.until), "w_point")
+    headroom(whole, 0.15)
+    show_thickness(whole, cases[0], "y")
+    letters([whole, *axes[0], *axes[2, 1:]])
     return figure
 
 

@@ -4,13 +4,11 @@ import json
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from disc_model.figures import drawing
-from disc_model.figures.drawing import large
+from disc_model.figures.drawing import PAGE, large, letters, mark_printed, panels
+from disc_model.figures.runs import envelope, show, show_thickness
 from disc_model.figures.selection import history
-from disc_model.figures.sizes import PAGE
+from disc_model.figures.types import Axes, Figure
 from disc_model.paper.figures.kinds import Histories
 
 SMALL = 0.05  # share of the axis below which a range of the force is drawn once more
@@ -23,28 +21,28 @@ def draw(plot: Histories, *cases: xr.DataTree) -> Figure:
     width = plot.inches
     count = len(cases)
     if width == PAGE:
-        figure, axes = drawing.panels(width, 3.2, 2, count, sharex=True, sharey="row")
+        figure, axes = panels(width, 3.2, 2, count, sharex=True, sharey="row")
         forces = axes[:count]
         discs = axes[count:]
     else:  # all below each other
-        figure, axes = drawing.panels(width, 2.6 * count, 2 * count, sharex=True)
+        figure, axes = panels(width, 2.6 * count, 2 * count, sharex=True)
         forces = axes[::2]
         discs = axes[1::2]
     windows = [history(case, plot.history, plot.until) for case in cases]
     for force, disc, case, window in zip(forces, discs, cases, windows, strict=True):
         p = json.loads(case.attrs["parameters"])
         for ax, name in ((force, "P"), (disc, "w_point")):
-            drawing.show(ax, case, window, name, named=name == "P")
+            show(ax, case, window, name, named=name == "P")
             ax.label_outer()
         above = None if width == PAGE else SECOND_LINE  # of the time of the first separation
         force.set_title(f"{p['N']:g} N, {p['Omega']:g} rad/s", loc="right", pad=above)
     # now the axes are known
     for force, disc, case, window in zip(forces, discs, cases, windows, strict=True):
         _draw_inset(force, window)
-        drawing.show_thickness(disc, case, "y")
+        show_thickness(disc, case, "y")
     if plot.printed is not None:
-        drawing.mark_printed(forces[-1], plot.printed)
-    drawing.letters(axes)
+        mark_printed(forces[-1], plot.printed)
+    letters(axes)
     figure.align_ylabels()
     return figure
 
@@ -56,7 +54,7 @@ def _draw_inset(ax: Axes, window: xr.Dataset) -> None:
     if high - low >= SMALL * np.ptp(ax.get_ylim()):
         return
     inset = ax.inset_axes(INSET)
-    drawing.envelope(inset, window, "P")
+    envelope(inset, window, "P")
     inset.set_ylim(low - 1, high + 1)
     inset.tick_params(labelsize=large(6))
     inset.xaxis.set_major_formatter("{x:g} s")

@@ -5,23 +5,17 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from disc_model.data import dataset
-from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
 from disc_model.disc.plate import mode_arrays
-from disc_model.figures import drawing
-from disc_model.figures.arrays import Array, Indices
 from disc_model.figures.disc import Motion, draw_circle, draw_disc, scale_of
-from disc_model.figures.drawing import BLACK, SEPARATED, SLIDER
+from disc_model.figures.drawing import BLACK, PAGE, SEPARATED, SLIDER, new_figure, sample
 from disc_model.figures.legends import figure_legend
+from disc_model.figures.runs import parameters_of, show_thickness
 from disc_model.figures.selection import stretches
-from disc_model.figures.sizes import PAGE
+from disc_model.figures.types import Array, Axes, ComplexArray, Figure, Indices
 from disc_model.paper.figures.kinds import Instants
-from disc_model.parameters import Parameters
 from disc_model.simulation.case import Ramp, angle_of_drive, pieces
 
 LEVELS = (-0.75, -0.5, -0.25, -0.1, 0.0, 0.1, 0.25, 0.5, 0.75)
@@ -33,7 +27,7 @@ def draw(plot: Instants, case: xr.DataTree) -> Figure:
     """Draw the disc from above, and along the slider's circle."""
     motion = motion_of(case)
     width = plot.inches
-    figure = drawing.new_figure(width, 4.2 if width == PAGE else 6.4)
+    figure = new_figure(width, 4.2 if width == PAGE else 6.4)
     above, around = np.asarray(figure.subfigures(2, 1, height_ratios=(1.15, 1)))
     discs = list(np.ravel(above.subplots(1, 4) if width == PAGE else above.subplots(2, 2)))
     circle = around.subplots()
@@ -44,11 +38,11 @@ def draw(plot: Instants, case: xr.DataTree) -> Figure:
     bar.outline.set_visible(False)
     look: dict[str, Any] = {"marker": "s", "ls": "", "ms": 5, "mec": BLACK, "mew": 0.6}
     circle.margins(y=0.08)
-    drawing.show_thickness(circle, case, "y")
+    show_thickness(circle, case, "y")
     circle.set_title("(e)", loc="left", x=-0.06)
     handles = [*circle.get_legend_handles_labels()[0]]
-    handles.append(drawing.sample(mfc=SLIDER, label="slider", **look))
-    handles.append(drawing.sample(mfc=SEPARATED, label="slider, separated", **look))
+    handles.append(sample(mfc=SLIDER, label="slider", **look))
+    handles.append(sample(mfc=SEPARATED, label="slider, separated", **look))
     figure_legend(around, handles, loc="outside upper right", handlelength=1.8)
     return figure
 
@@ -75,15 +69,17 @@ def motion_of(case: xr.DataTree) -> Motion:
     """The motion of disc and slider from windows `around0`, ... of the disc at r_0 and as many
     angles as determine the harmonics that modes without nodal circles are; raises `Missing` if they
     do not."""
-    p = Parameters.model_validate_json(case.attrs["parameters"])
+    p = parameters_of(case)
     harmonics = np.arange(p.n_diameters + 1)
     count = 2 * len(harmonics) - 1
     windows = [dataset.samples(case, f"around{j}", at_least=1) for j in range(count)]
     if p.n_circles:
-        raise Missing("has modes with nodal circles, which a circle of points does not tell apart")
+        raise dataset.Missing(
+            "has modes with nodal circles, which a circle of points does not tell apart"
+        )
     time, psi, u = (windows[0][name].values for name in ("time", "psi", "u"))
     if any(not np.array_equal(window["time"].values, time) for window in windows):
-        raise Missing("recorded the disc at other times at other angles")
+        raise dataset.Missing("recorded the disc at other times at other angles")
 
     # harmonics at each instant, by least squares
     angles = np.array([window.attrs["theta"] for window in windows])
@@ -97,7 +93,7 @@ def motion_of(case: xr.DataTree) -> Motion:
     return Motion(p, time, amplitudes, slider, u, flag_names(windows[0]["phase"]))
 
 
-def _harmonics(angles: Array, orders: Indices, values: Array) -> NDArray[np.complex128]:
+def _harmonics(angles: Array, orders: Indices, values: Array) -> ComplexArray:
     """Cosine + i sine of the harmonics of some orders in values at angles, shape (angles, n):
     (orders, n)."""
     turns = orders * angles[:, None]

@@ -1,12 +1,12 @@
 """Separations of a light slider: displacements, and where contact is lost."""
 
 import xarray as xr
-from matplotlib.figure import Figure
 
 from disc_model.data import dataset
-from disc_model.figures import drawing
-from disc_model.figures.drawing import SEPARATED, mark
+from disc_model.figures.drawing import SEPARATED, mark, panels
 from disc_model.figures.legends import legend_above
+from disc_model.figures.runs import show_thickness
+from disc_model.figures.types import Figure
 from disc_model.paper.figures.kinds import LightSlider
 from disc_model.paper.figures.separations import (
     after,
@@ -22,7 +22,7 @@ BEFORE = 0.1  # part of it before the first separation
 
 def draw(plot: LightSlider, case: xr.DataTree) -> Figure:
     """Draw a stretch of the window."""
-    figure, [ax] = drawing.panels(plot.inches, 2.5)
+    figure, [ax] = panels(plot.inches, 2.5)
     window = dataset.samples(case, plot.zoom)
     rest = float(case["u_0"])
     complete = first_complete(window)
@@ -37,7 +37,7 @@ def draw(plot: LightSlider, case: xr.DataTree) -> Figure:
         ax.plot(
             losses["time"], height, "o", color=SEPARATED, markersize=mark(3.5), label="contact lost"
         )
-    drawing.show_thickness(ax, case, "y")
+    show_thickness(ax, case, "y")
     ax.set_xlabel(f"Time after {start:.4f} s (ms)")
     legend_above(ax)
     return figure

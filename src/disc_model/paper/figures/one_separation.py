@@ -1,13 +1,13 @@
 """One separation: displacements of disc and slider, and the gap."""
 
 import xarray as xr
-from matplotlib.figure import Figure
 
 from disc_model.data import dataset
 from disc_model.data.dataset import Missing
-from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK
+from disc_model.figures.drawing import BLACK, letters, panels
 from disc_model.figures.legends import legend_above
+from disc_model.figures.runs import show_thickness
+from disc_model.figures.types import Figure
 from disc_model.paper.figures.kinds import OneSeparation
 from disc_model.paper.figures.separations import after, displacements, first_complete, shade
 
@@ -15,7 +15,7 @@ from disc_model.paper.figures.separations import after, displacements, first_com
 def draw(plot: OneSeparation, case: xr.DataTree) -> Figure:
     """Draw both panels, with half the separation's length before and after it."""
     width = plot.inches
-    figure, axes = drawing.panels(width, 3.2, 2, sharex=True, height_ratios=(2, 1))
+    figure, axes = panels(width, 3.2, 2, sharex=True, height_ratios=(2, 1))
     both, gap = axes
     window = dataset.samples(case, plot.zoom)
     complete = first_complete(window)
@@ -27,11 +27,11 @@ def draw(plot: OneSeparation, case: xr.DataTree) -> Figure:
     for ax in axes:
         shade(ax, [(0.0, (stop - start) * 1e3)])
     displacements(both, part, float(case["u_0"]))
-    drawing.show_thickness(both, case, "y")
+    show_thickness(both, case, "y")
     gap.plot(part["time"], (part["u"] - part["w"]) * 1e6, color=BLACK)
     gap.set_xlabel(f"Time after {start:.5f} s (ms)")
     gap.set_ylabel("Gap (μm)")
-    drawing.letters(axes)
+    letters(axes)
     legend_above(both)
     figure.align_ylabels()
     return figure

@@ -5,21 +5,17 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.analysis.spectra import TimeFrequency
 from disc_model.data import dataset
-from disc_model.data.dataset import Missing
 from disc_model.disc.plate import plate_modes
-from disc_model.figures import drawing
-from disc_model.figures.drawing import BLACK, SKY, wide
+from disc_model.figures.drawing import BLACK, PAGE, SKY, letter, mark_printed, new_figure, say, wide
 from disc_model.figures.kinds.base import HIGHEST
+from disc_model.figures.runs import parameters_of, sampled, show, show_thickness
 from disc_model.figures.selection import history
-from disc_model.figures.sizes import PAGE
 from disc_model.figures.spectrogram import draw_power, draw_scale, span_of, spectrum_of
+from disc_model.figures.types import Axes, Figure
 from disc_model.paper.figures.kinds import LOOK, Response
-from disc_model.parameters import Parameters
 
 NARROW = 0.02  # part of the run from which the window of the spectrum is marked by a line
 TITLES = (("b", "with separation"), ("e", "separation ignored"))
@@ -30,10 +26,10 @@ def draw(plot: Response, *cases: xr.DataTree) -> Figure:
     width = plot.inches
     extra = 1.3 * (len(cases) - 1)
     if width == PAGE:
-        figure = drawing.new_figure(width, 2.7 + extra)
+        figure = new_figure(width, 2.7 + extra)
         left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1, 1.08)))
     else:
-        figure = drawing.new_figure(width, 5.0 + extra)
+        figure = new_figure(width, 5.0 + extra)
         left, right = np.asarray(figure.subfigures(2, 1))
     letters = "cd"[: len(plot.zooms)]
     rows = ["a" * max(len(plot.zooms), 1), letters]
@@ -45,9 +41,9 @@ def draw(plot: Response, *cases: xr.DataTree) -> Figure:
     if plot.highest:
         _mark_highest(shown[0], cases[0])
     _draw_run(axes["a"], plot, cases[0], spectra[0])
-    for letter, (name, start) in zip(letters, plot.zooms, strict=True):
-        _draw_look(axes[letter], cases[0], name, start, plot.variable)
-        drawing.letter(axes[letter], letter)
+    for panel, (name, start) in zip(letters, plot.zooms, strict=True):
+        _draw_look(axes[panel], cases[0], name, start, plot.variable)
+        letter(axes[panel], panel)
     if "d" in letters:
         axes["d"].sharey(axes["c"])
         axes["d"].tick_params(labelleft=False)
@@ -62,7 +58,7 @@ def _draw_spectra(
     titles = TITLES if len(cases) > 1 else (("b", ""),)
     for ax, case, spectrum, title in zip(axes, cases, spectra, titles, strict=True):
         mesh = draw_power(ax, case, spectrum, float(spectra[0].power.max()), HIGHEST)
-        drawing.letter(ax, *title)
+        letter(ax, *title)
         ax.set_xlabel("Time (s)")
         ax.set_ylabel("Frequency (Hz)")
         ax.label_outer()
@@ -71,25 +67,25 @@ def _draw_spectra(
 
 def _mark_highest(ax: Axes, case: xr.DataTree) -> None:
     """Mark the disc's highest natural frequency."""
-    p = Parameters.model_validate_json(case.attrs["parameters"])
+    p = parameters_of(case)
     natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
     ax.axhline(natural, color="white", linewidth=wide(0.9), linestyle=(0, (1, 2)))
 
 
 def _draw_run(ax: Axes, plot: Response, case: xr.DataTree, spectrum: TimeFrequency) -> None:
     """Draw the range of the variable over the run, and mark the time of the spectrum."""
-    drawing.show(ax, case, history(case, plot.history, plot.until), plot.variable)
+    show(ax, case, history(case, plot.history, plot.until), plot.variable)
     if plot.printed is not None:
-        drawing.mark_printed(ax, plot.printed)
+        mark_printed(ax, plot.printed)
     if plot.variable == "w_point":
-        drawing.show_thickness(ax, case, "y")
+        show_thickness(ax, case, "y")
     start, stop = span_of(spectrum)
     ax.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0, zorder=0)
     if stop - start < NARROW * ax.get_xlim()[1]:
         middle = (start + stop) / 2
         ax.axvline(middle, color=BLACK, linewidth=wide(0.8), zorder=0)
-        drawing.say(ax, "(b)", (middle, 1), (0, 2), xycoords=("data", "axes fraction"))
-    drawing.letter(ax, "a")
+        say(ax, "(b)", (middle, 1), (0, 2), xycoords=("data", "axes fraction"))
+    letter(ax, "a")
 
 
 def _draw_look(ax: Axes, case: xr.DataTree, name: str, start: float, variable: str) -> None:
@@ -97,8 +93,8 @@ def _draw_look(ax: Axes, case: xr.DataTree, name: str, start: float, variable: s
     window = dataset.samples(case, name)
     part = window.sel(time=slice(start, start + LOOK))
     if part.sizes["time"] < 2:
-        raise Missing(f"has no samples from {start:g} to {start + LOOK:g} s")
-    label, factor, colour = drawing.sampled(variable, window)
+        raise dataset.Missing(f"has no samples from {start:g} to {start + LOOK:g} s")
+    label, factor, colour = sampled(variable, window)
     milliseconds = (part["time"].values - start) * 1e3
     ax.plot(milliseconds, part[variable].values * factor, color=colour, linewidth=wide(0.6))
     ax.set_xlabel(f"Time after {start:g} s (ms)")

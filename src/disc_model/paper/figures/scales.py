@@ -7,21 +7,29 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import plate_modes
-from disc_model.figures import drawing
 from disc_model.figures.cells import edges_of, paint, patches
 from disc_model.figures.classes import Look
-from disc_model.figures.drawing import BLACK, BLUE, GREY, SEPARATED, large, mark
+from disc_model.figures.drawing import (
+    BLACK,
+    BLUE,
+    GREY,
+    PAGE,
+    SEPARATED,
+    halo,
+    large,
+    letters,
+    mark,
+    panels,
+    say,
+)
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.sizes import PAGE
+from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import LOAD, SPEED
 from disc_model.paper import section2
 from disc_model.paper.figures.kinds import Scales
-from disc_model.parameters import Parameters
 
 SCALES = ("as_published", "orthonormal")
 LOOKS: tuple[dict[str, Any], ...] = (
@@ -49,16 +57,16 @@ def draw(plot: Scales, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) ->
     """Draw amplitudes, regions and times."""
     width = plot.inches
     if width == PAGE:
-        figure, axes = drawing.panels(width, 2.9, 1, 3, width_ratios=(0.8, 1.25, 1.2))
+        figure, axes = panels(width, 2.9, 1, 3, width_ratios=(0.8, 1.25, 1.2))
     else:
-        figure, axes = drawing.panels(width, 8.0, 3)
+        figure, axes = panels(width, 8.0, 3)
     amplitudes, regions, times = axes
     points = section2.separating_points({"map_N": study, **overlays})
     on_map = {name: point for name, point in points.items() if _map_of(name) == "map_N"}
-    _draw_amplitudes(amplitudes, section2.BASE)
+    _draw_amplitudes(amplitudes)
     _draw_regions(regions, study, on_map)
     _draw_times(times, points, section2.first_separations(points))
-    drawing.letters(axes)
+    letters(axes)
     title = "(b) The static start separates"
     handles = patches(CELLS.values())
     figure_legend(figure, handles, loc="outside lower center", title=title)
@@ -70,18 +78,19 @@ def _map_of(figure: str) -> str:
     return section2.SEPARATING[figure][0]
 
 
-def _draw_amplitudes(ax: Axes, p: Parameters) -> None:
+def _draw_amplitudes(ax: Axes) -> None:
     """Draw the squared amplitudes of the modes with both normalizations."""
-    squares = [
-        plate_modes(p.replace(normalization=scale))["psi"].to_numpy() ** 2 for scale in SCALES
-    ]
+    squares = []
+    for scale in SCALES:
+        modes = plate_modes(section2.BASE.replace(normalization=scale))
+        squares.append(modes["psi"].to_numpy() ** 2)
     for values, look in zip(squares, LOOKS, strict=True):
         ax.plot(range(len(values)), values, markersize=mark(5), **look)
     published, orthonormal = (float(values[1]) for values in squares)
     arrow = {"arrowstyle": "-|>", "color": GREY, "linewidth": 1.0, "shrinkA": 4, "shrinkB": 4}
     ax.annotate("", (1, published), (1, orthonormal), arrowprops=arrow)
     middle = float(np.sqrt(published * orthonormal))
-    drawing.say(ax, f"× {published / orthonormal:.0f}", (1, middle), (5, 0))
+    say(ax, f"× {published / orthonormal:.0f}", (1, middle), (5, 0))
     label = r"Amplitude under the slider $\Psi_l^2$ (1/kg)"
     ax.set_yscale("log")
     ax.set_xlabel("Nodal diameters l")
@@ -113,7 +122,7 @@ def _draw_regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset])
             clip_on=False,
         )
         side = (5 if name in RIGHT_OF else -5, 0)
-        drawing.say(ax, name, place, side, fontsize=large(7), path_effects=drawing.halo())
+        say(ax, name, place, side, fontsize=large(7), path_effects=halo())
     ax.set_xlabel(SPEED)
     ax.set_ylabel(LOAD)
 
@@ -137,7 +146,7 @@ def _draw_times(ax: Axes, points: Mapping[str, xr.Dataset], firsts: pd.DataFrame
         ax.annotate("", (end, height), (was, height), arrowprops=arrow)
         for time, look in zip((was, now), LOOKS, strict=True):
             ax.plot([time], [height], markersize=mark(5), **look)
-        drawing.say(
+        say(
             ax,
             str(name),
             (0, height),

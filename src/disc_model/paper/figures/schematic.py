@@ -3,11 +3,10 @@ paper."""
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.patches import Annulus, Arc, Circle
 
 from disc_model.figures.drawing import BLACK, DISC, FORCE, SLIDER
+from disc_model.figures.types import Axes, Figure
 from disc_model.paper.figures.kinds import Schematic
 from disc_model.paper.figures.strokes import (
     BODY,

@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 
 import xarray as xr
-from matplotlib.axes import Axes
 
 from disc_model.data.variables import flag_names
 from disc_model.figures.drawing import DISC, SEPARATED, SLIDER
 from disc_model.figures.selection import stretches
+from disc_model.figures.types import Axes
 
 Span = tuple[float, float]
 

@@ -3,12 +3,11 @@
 from typing import Any, NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 from numpy.typing import ArrayLike
 
-from disc_model.figures.arrays import Array
 from disc_model.figures.drawing import BLACK, SLIDER
+from disc_model.figures.types import Array, Axes
 
 Point = tuple[float, float] | Array
 

@@ -1,16 +1,16 @@
 """Continuation of a cycle in one parameter, and of its stability borders in two, by
 pseudo-arclength.
 
-A cycle is a zero of F(x, q) = R(x, q) - x.  R is the return map, x the point of the section and q
+A cycle is a zero of F(x, q) = R(x, q) - x.  R is a return map, x the point of the section and q
 the free parameters; the Jacobian of F by both comes from the variational equations.  A fold, where
 two cycles meet, is a regular point of the curve F = 0.  Distances mix x, over the norm of the
 static deflection, with q, over the parameters' scales.
 
 `curve` predicts and corrects points of any curve, and tests whether a step stays on it; `problem`
-is F; `spectrum` follows multipliers from point to point.  In one parameter `tracing` takes a step,
-`course` both ways from a cycle, `special` locates special points, `ends` finds the reason for which
-a branch ends, and `cycles` returns all of it as a `Branch`.  `borders` follows borders of
-stability.
+is F, and `first_cycle` a zero of it; `spectrum` follows multipliers from point to point.  In one
+parameter `tracing` takes a step, `course` both ways from a cycle, `special` locates special points,
+`ends` finds the reason for which a branch ends, and `cycles` returns all of it as a `Branch`.
+`borders` follows borders of stability.
 """
 
 from disc_model.stability.continuation.borders import BORDER, Kind, continue_border

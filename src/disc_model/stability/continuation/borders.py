@@ -299,6 +299,4 @@ def _one_way(
         return points, watch.end
     if rejected is not None:
         return points, ends.End(ends.LOST, str(rejected))
-    return points, ends.End(
-        ends.MOST_POINTS, f"max_points={problem.steps.max_points} were computed"
-    )
+    return points, ends.at_most_points(problem.steps.max_points)

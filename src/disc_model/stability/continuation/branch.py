@@ -3,36 +3,33 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
+from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.data.variables import Variable
 from disc_model.display import counted, draw
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.continuation.problem import MapFactory
-from disc_model.stability.return_map import Array, ReturnMap
+from disc_model.stability.return_map import MapFactory, ReturnMap
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.axes import Axes
 
-LABELS: Mapping[str, str] = {
+LABELS: dict[str, str] = {
     "fold": "LP",
     "period_doubling": "PD",
     "neimark_sacker": "TR",
     "branch_point": "BP",
     "grazing": "GR",
+    "hopf": "HB",
     "end": "EP",
 }
 """Kinds of special points, and their labels in AUTO and COCO."""
-VARIABLES: Mapping[str, Variable] = {
+VARIABLES: dict[str, Variable] = {
     "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle"),
     "period": Variable("s", "period of the cycle"),
     "stick_fraction": Variable("1", "share of the period spent sticking"),
@@ -47,8 +44,8 @@ class SpecialPoint:
     Attributes
     ----------
     kind : "fold", two cycles meet; "period_doubling", a multiplier is -1; "neimark_sacker", a complex pair of
-        multipliers has modulus one; "grazing", a switch is touched, and an event appears or vanishes; "branch_point",
-        another branch crosses; "end", of the branch
+        multipliers has modulus one; "grazing", a switch is touched, and an event appears or vanishes; "hopf", the
+        cycle shrinks to steady sliding; "branch_point", another branch crosses; "end", of the branch
     values : shape (n_parameters,), SI units
     period : s; stick_fraction; growth_rate : 1/s
     multiplier : the one that is critical; at a grazing and at an end, the leading one
@@ -71,7 +68,7 @@ class SpecialPoint:
 
     @property
     def label(self) -> str:
-        """Label of the kind in AUTO and COCO: LP, PD, TR, BP, GR or EP."""
+        """Label of the kind in AUTO and COCO: LP, PD, TR, BP, HB, EP; GR."""
         return LABELS[self.kind]
 
     @cached_property
@@ -81,7 +78,8 @@ class SpecialPoint:
 
     @cached_property
     def state(self) -> State:
-        """The cycle's state on the section, at the end of stick, at time 0."""
+        """The cycle's state on the section, at the end of stick or, without stick, where the spring
+        is longest, at time 0."""
         return self.make_map(self.case).state(self.point)
 
     def __repr__(self) -> str:
@@ -101,7 +99,7 @@ class Branch:
     multipliers : complex, (n_points, n), largest modulus first
     diameters : int, (n_points,), nodal diameters of the modes with most energy in the leading multiplier's eigenvector
     separations : int, (n_points,), number of separations in a period
-    points : (n_points, n), on the section, in the coordinates of `ReturnMap` for the case followed
+    points : (n_points, n), on the section, in the coordinates of the return map for the case followed
     folds : (n_folds, n_parameters), values at which the first parameter turns, located to rounding; only on a branch
         in one parameter
     ended : reason for which the branch ends; of both ends if they differ, that of the first point first
@@ -114,9 +112,9 @@ class Branch:
     period: Array = field(repr=False)
     stick_fraction: Array = field(repr=False)
     growth_rate: Array = field(repr=False)
-    multipliers: NDArray[np.complex128] = field(repr=False)
-    diameters: NDArray[np.int64] = field(repr=False)
-    separations: NDArray[np.int64] = field(repr=False)
+    multipliers: ComplexArray = field(repr=False)
+    diameters: Indices = field(repr=False)
+    separations: Indices = field(repr=False)
     points: Array = field(repr=False)
     folds: Array
     ended: str
@@ -139,7 +137,7 @@ class Branch:
     def special_points(self) -> pd.DataFrame:
         """The special points as a table, in their order along the branch.
 
-        Columns: `kind` and `label` (AUTO's LP, PD, TR, BP and EP; GR for a grazing), the parameters
+        Columns: `kind` and `label` (AUTO's LP, PD, TR, BP, HB and EP; GR for a grazing), the parameters
         by their names (SI units), `growth_rate` (1/s), `period` (s), `stick_fraction`,
         `multiplier`, `after` (number of the branch's point before it) and `state`, a `State` of the
         cycle to simulate and draw.
@@ -176,8 +174,8 @@ class Branch:
         return self.case.replace(**dict(zip(self.parameters, values, strict=True)))
 
     def state(self, i: int) -> State:
-        """The state of the i-th cycle on the section, at the end of stick and at time 0, to
-        simulate and draw; the cycle may be unstable.
+        """The state of the i-th cycle on the section, at the end of stick or, without stick, where
+        the spring is longest, and at time 0, to simulate and draw; the cycle may be unstable.
 
         Simulated for a period, the modal coordinates return to those of this state within 1e-7 of
         the largest, times the leading multiplier. Raises `ParameterError` if there is no such

@@ -98,8 +98,7 @@ class Search:
         elif rejected is not None:
             end = ends.reason_of_loss(self.problem, points[-1], rejected)
         else:
-            text = f"max_points={self.steps.max_points} were computed"
-            end = End(ends.MOST_POINTS, text)
+            end = ends.at_most_points(self.steps.max_points)
         return self._located(special.reveal_folds(self.tracer, points), end)
 
     def _located(self, points: list[CurvePoint], end: End) -> Course:

@@ -13,9 +13,9 @@ from disc_model.stability.continuation import ends, special
 from disc_model.stability.continuation.branch import Branch, SpecialPoint
 from disc_model.stability.continuation.course import SAME_VALUE, Course, Search
 from disc_model.stability.continuation.curve import CurvePoint, StepControl
+from disc_model.stability.continuation.first_cycle import first_cycle
 from disc_model.stability.continuation.problem import CycleProblem, growth_rate, parameter_scale
-from disc_model.stability.cycle import find_cycle, guess_faults, multipliers
-from disc_model.stability.return_map import Counts
+from disc_model.stability.cycle import STICK_SLIP, guess_faults, multipliers
 from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, limits_faults
 
 CYCLE = StepControl()
@@ -58,6 +58,7 @@ def continue_cycle(  # noqa: PLR0913
     steps: StepControl = CYCLE,
     values: Sequence[Quantity] = (),
     stop_at: str | None = None,
+    kind: str = STICK_SLIP,
 ) -> Branch:
     """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
 
@@ -76,6 +77,8 @@ def continue_cycle(  # noqa: PLR0913
     steps : length and number of the steps
     values : of the parameter; the branch has a cycle at exactly each of them, as often as it passes
     stop_at : "fold", "period_doubling" or "neimark_sacker" to end at the first such point, in each direction
+    kind : "stick_slip"; or "slipping" for the cycle of `floquet(p, kind="slipping")`, which slips all the time, from
+        the Hopf point of steady sliding to where it touches zero slip speed
 
     Returns
     -------
@@ -113,7 +116,7 @@ def continue_cycle(  # noqa: PLR0913
         (wanted == [] or is_finite_array(wanted), "values", values, "must be finite numbers"),
         (stops, "stop_at", stop_at, f"must be None or one of {', '.join(STOPS)}"),
     )
-    wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases)
+    wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
     raise_faults(foreign_case(p) or wrong + free_faults(p, [name]))
     tol = float(tol)
     start = p.numbers[name]
@@ -122,12 +125,8 @@ def continue_cycle(  # noqa: PLR0913
     rule = f"must lie within the bounds, {span[0]:g} to {span[1]:g}, to start from there"
     require((within, name, start, rule))
 
-    cycle = find_cycle(p, tol, guess, releases)
-    order = None
-    if guess is not None:
-        order = Counts(*(getattr(cycle, event) for event in Counts._fields))
     scale = steps.scale or parameter_scale(p, name, max(map(abs, span)))
-    problem = CycleProblem(p, (name,), scale, tol, order)
+    problem, cycle = first_cycle(p, (name,), scale, tol, guess, releases, kind)
     rising = np.zeros(problem.n + 1)
     rising[-1] = 1.0
     search = Search(problem, steps, span, stop_at)
@@ -202,6 +201,7 @@ def _special_points(problem: CycleProblem, course: Course) -> tuple[SpecialPoint
 
 def _end_of(end: ends.End | None, point: CurvePoint, number: int) -> special.Located:
     """The end of a branch as a special point; without a reason it is the start."""
-    grazed = end is not None and end.kind == ends.GRAZED
-    kind = special.GRAZING if grazed else "end"
+    kind = "end"
+    if end is not None and end.kind in (ends.GRAZED, ends.HOPF):
+        kind = end.kind
     return special.Located(kind, point, special.leading(point), number)

@@ -15,13 +15,14 @@ import numpy as np
 from disc_model.errors import DiscModelError, ParameterError
 from disc_model.simulation.api import simulate
 from disc_model.stability.continuation.curve import CurvePoint, Rejected
-from disc_model.stability.continuation.problem import CycleProblem
+from disc_model.stability.continuation.problem import WITHOUT_RETURN, CycleProblem
 
 BOUND = "bound"
 CLOSED = "closed"
 MOST_POINTS = "max_points"
 STOPPED = "stopped"
 GRAZED = "grazing"
+HOPF = "hopf"
 LIMIT = "limit"
 LOST = "lost"
 # Arclengths beyond the last cycle, which is within the shortest step of a discontinuity; events of
@@ -54,6 +55,11 @@ class End(NamedTuple):
     text: str
 
 
+def at_most_points(most: int) -> End:
+    """The end of a curve that has as many points as are allowed."""
+    return End(MOST_POINTS, f"max_points={most} were computed")
+
+
 class Event(NamedTuple):
     """An event of a motion: its kind and its time, over the period of the cycle."""
 
@@ -64,6 +70,8 @@ class Event(NamedTuple):
 def reason_of_loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) -> End:
     """Why a curve cannot be followed beyond a point at which even the shortest step was
     rejected."""
+    if str(rejected) == WITHOUT_RETURN["vanished"]:
+        return End(HOPF, f"a Hopf point: {rejected}")
     for distance in BEYOND:
         z = last.z + distance * last.tangent
         try:

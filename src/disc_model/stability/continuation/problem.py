@@ -1,22 +1,19 @@
 """F(x, q) = R(x, q) - x of a return map R: its zeros are cycles, as a curve or surface over the
 free parameters q.
 
-Unknowns are z = (x / size, q / scales). The map is a `SectionMap`; that of the stick-slip cycle is
-`disc_model.stability.return_map.ReturnMap`, and another section needs another map only.
+Unknowns are z = (x / size, q / scales). The map is a `SectionMap`: that of stick-slip cycles is
+`disc_model.stability.return_map.ReturnMap`, that of cycles that slip all the time
+`disc_model.stability.slipping_map.SlippingMap`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from disc_model.errors import ModeError, ParameterError
 from disc_model.parameters import DEFAULTS, Parameters
-from disc_model.simulation.states import State
 from disc_model.stability.continuation.compliance import CompliantPlate
 from disc_model.stability.continuation.curve import CurvePoint, Evaluation, Rejected, curve_point
 from disc_model.stability.cycle import FloquetResult
@@ -25,8 +22,10 @@ from disc_model.stability.return_map import (
     PARAMETERS,
     Array,
     Counts,
+    MapFactory,
     Orbit,
     ReturnMap,
+    SectionMap,
     newton_step,
 )
 
@@ -44,47 +43,17 @@ SMALLEST = 0.2  # of a parameter's scale, over its typical value
 SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value of interest
 DIFFERENCE = 1e-5  # over a parameter's scale: orbits are accurate to 1e-13, their second derivatives of order one
 
-
-class SectionMap(Protocol):
-    """The return map of one case to a section; see `ReturnMap`, which is one.
-
-    size : dimension n of the section
-    scale : (n,), units of its coordinates, which may depend on the case
-    diameters : nodal diameters of the coordinates that belong to modes, which come first
-    deflection : unit of distances
-    """
-
-    size: int
-    scale: Array
-    diameters: NDArray[np.int64]
-    deflection: float
-
-    def evaluate(
-        self, x: Array, *, releases: int = 1, tangent: bool = True, may_separate: bool = False
-    ) -> Orbit:
-        """The motion from x to its return, with derivatives by x and the map's parameters."""
-        ...
-
-    def point(self, state: State) -> Array:
-        """The point of the section of a state on it."""
-        ...
-
-    def state(self, x: Array) -> State:
-        """The state of a point of the section."""
-        ...
-
-
-class MapFactory(Protocol):
-    """What makes the map of a case; `parameters` are those by which it is differentiated."""
-
-    def __call__(
-        self,
-        p: Parameters,
-        tol: float = 1e-12,
-        parameters: tuple[str, ...] = (),
-        *,
-        patient: bool = False,
-    ) -> SectionMap: ...
+WITHOUT_RETURN = {
+    "time_over": "the slider slips on without sticking",
+    "lost_contact": "the motion does not return: it loses contact",
+    "off_section": "the motion does not return: it is not released, or not in contact, where it starts",
+    "paradox": "the motion does not return: it runs into Painleve's paradox",
+    "stalled": "the motion does not return: switches follow each other without the clock moving",
+    "non_finite": "the motion does not return: it overflows",
+    "stops": "the motion does not return: the slider stops",
+    "vanished": "the cycle shrinks to steady sliding",
+}
+"""Words for the end of a motion that does not return to the section."""
 
 
 def parameter_scale(p: Parameters, name: str, farthest: float = 0.0) -> float:
@@ -189,7 +158,7 @@ class CycleProblem:
         """The motion from a point to its return, and F."""
         orbit = self.follow(z, tangent=tangent)
         if not orbit.returned:
-            raise Rejected(f"the motion does not return: {ENDS[orbit.outcome]}")
+            raise Rejected(WITHOUT_RETURN[ENDS[orbit.outcome]])
         residual = (orbit.end - orbit.start) * self._turn(self.map_at(z)) / self.size
         return orbit, residual
 
@@ -256,10 +225,13 @@ class CycleProblem:
         return curve_point(z - newton_step(np.vstack([found.by, rows]), left), found, along)
 
     def leading_diameters(self, point: CurvePoint) -> int:
-        """Nodal diameters of the modes with most energy in the leading multiplier's eigenvector."""
+        """Nodal diameters of the modes with most energy in the leading multiplier's eigenvector; -1
+        on a rigid disc."""
         spectrum = point.spectrum
-        leading = int(np.argmax(np.abs(spectrum.values)))
         diameters = self.reference.diameters
+        if not len(diameters):
+            return -1
+        leading = int(np.argmax(np.abs(spectrum.values)))
         energy = np.abs(spectrum.right[: len(diameters), leading]) ** 2
         return int(np.argmax(np.bincount(diameters, energy)))
 
@@ -267,8 +239,3 @@ class CycleProblem:
 def growth_rate(multiplier: complex, period: float) -> float:
     """Growth rate of a multiplier, 1/s."""
     return math.log(abs(multiplier)) / period if multiplier else -math.inf
-
-
-def values_of(problem: CycleProblem, points: Sequence[CurvePoint]) -> Array:
-    """Values of the free parameters at points, (n_points, n_parameters), SI units."""
-    return np.array([point.z[problem.n :] * problem.scales for point in points])

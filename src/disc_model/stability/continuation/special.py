@@ -134,8 +134,10 @@ def nearest(point: CurvePoint, value: complex) -> complex:
 
 
 def leading(point: CurvePoint) -> complex:
-    """The multiplier of largest modulus."""
+    """The multiplier of largest modulus; 0 on a section of a single point."""
     values = point.spectrum.values
+    if not values.size:
+        return 0j
     return complex(values[np.argmax(np.abs(values))])
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from disc_model.stability.return_map import Array, ComplexArray
+from disc_model.arrays import Array, ComplexArray
 
 STRONGLY_DAMPED = 0.5  # modulus below which a multiplier causes neither a resonance nor a loss
 
@@ -72,10 +72,13 @@ class Turns(NamedTuple):
 
 def turns_between(before: Spectrum, after: Spectrum) -> Turns:
     """How multipliers turn between two points."""
-    successors = after.values[follow_multipliers(before, after)]
-    slow = np.minimum(np.abs(before.values), np.abs(successors)) > STRONGLY_DAMPED
-    followed = slow & (before.values.imag > 0)
-    values = before.values[followed]
+    return turns_of(before.values, after.values[follow_multipliers(before, after)])
+
+
+def turns_of(multipliers: ComplexArray, successors: ComplexArray) -> Turns:
+    """How multipliers turn, each beside the one that it becomes."""
+    followed = are_slow(multipliers, successors) & (multipliers.imag > 0)
+    values = multipliers[followed]
     later = successors[followed]
     return Turns(
         angles=np.angle(values),
@@ -83,6 +86,12 @@ def turns_between(before: Spectrum, after: Spectrum) -> Turns:
         damping=np.abs(1 - np.abs(values)),
         later_damping=np.abs(1 - np.abs(later)),
     )
+
+
+def are_slow(multipliers: ComplexArray, successors: ComplexArray) -> NDArray[np.bool_]:
+    """Whether multipliers, and those that they become, are damped so little that they may cause a
+    loss of stability."""
+    return np.asarray(np.minimum(np.abs(multipliers), np.abs(successors)) > STRONGLY_DAMPED)
 
 
 def passings(between: Turns) -> list[Passing]:

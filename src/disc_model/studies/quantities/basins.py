@@ -5,7 +5,6 @@ The first starts of all energies come first, then all second ones: further start
 ones unchanged.
 """
 
-import math
 from collections import Counter
 from collections.abc import Callable, Sequence
 from itertools import chain
@@ -16,10 +15,19 @@ from pydantic import Field
 
 from disc_model.analysis.classify import share
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
+from disc_model.errors import require
 from disc_model.simulation.case import Start
-from disc_model.studies import quantity
-from disc_model.studies.costs import UnitCosts
-from disc_model.studies.quantity import STATUS, Coordinate, OutcomeResult, Point, Quantity, listed
+from disc_model.studies.quantity import (
+    MOST,
+    STATUS,
+    Coordinate,
+    OutcomeResult,
+    Point,
+    Quantity,
+    UnitCosts,
+    listed,
+    with_ends,
+)
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
@@ -42,7 +50,7 @@ _KNOWN = ("attractor",)
 
 def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Variable]:
     ends = ("", ", lower end of its confidence interval", ", upper end of it")
-    return quantity.with_ends(
+    return with_ends(
         what, (Variable("1", f"share of the starts{that}{end}", dims=dims) for end in ends)
     )
 
@@ -54,7 +62,7 @@ class AttractorBasins(Start, Quantity):
     """tolerance of simulations: error of event times after a second of motion"""
     energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,)
     """energies of the perturbations, ascending; 0 adds nothing"""
-    n_starts: Annotated[Count, Field(ge=1, le=quantity.MOST)] = 1
+    n_starts: Annotated[Count, Field(ge=1, le=MOST)] = 1
     """number of starts at each energy, in random directions"""
     seed: Annotated[Count, Field(ge=0)] = 1
     """whole number that determines the directions"""
@@ -138,6 +146,9 @@ class AttractorBasins(Start, Quantity):
         from disc_model.stability.attractors import Basins, random_perturbation
 
         p = point.parameters
+        modes_or_none = p.n_diameters >= 0 or not any(self.energies)
+        rule = "must be 0 on a rigid disc, which has no modes to perturb; perturb f of the start"
+        require((modes_or_none, "energies", self.energies, rule))
         start = make_initial_state(p, point.start, self.tol) or static_start(p)
         basins = Basins(p, self.horizon, near=self.attractor_tol, tol=self.tol)
 
@@ -178,7 +189,7 @@ class AttractorBasins(Start, Quantity):
             values[name] = fractions
         separating = sum(reached.separates for reached in every)
         shown = share(separating, len(every), confidence=self.confidence)
-        values.update(quantity.with_ends("separating_fraction", shown))
+        values.update(with_ends("separating_fraction", shown))
         return values
 
     def _critical_energy(
@@ -214,9 +225,9 @@ class AttractorBasins(Start, Quantity):
             high = low
             low = low / 4
             if low < SMALLEST * first:
-                return math.nan, high
+                return np.nan, high
         while high > low * (1 + self.precision):
-            middle = math.sqrt(low * high)
+            middle = float(np.sqrt(low * high))
             if follow(middle, i, j).separates:
                 high = middle
             else:
@@ -238,7 +249,7 @@ def _columns_of_starts(
         "lost_contact": [],
     }
     for row in results:
-        kept = [math.isnan(reached.first_separation) for reached in row]
+        kept = [np.isnan(reached.first_separation) for reached in row]
         columns["kind"].append([reached.word for reached in row])
         columns["attractor_index"].append([numbers[reached.attractor] for reached in row])
         columns["simulated_time"].append([reached.simulated for reached in row])
@@ -264,4 +275,4 @@ def _shares(
     for row in results:
         counts = Counter(reached.word for reached in row)
         shares.append([share(counts[word], len(row), confidence=confidence) for word in CLASSES])
-    return quantity.with_ends(name, np.moveaxis(np.array(shares), -1, 0))
+    return with_ends(name, np.moveaxis(np.array(shares), -1, 0))

@@ -1,6 +1,5 @@
 """Samples of the settled motion, once a turn of the drive or at events."""
 
-import math
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -11,7 +10,7 @@ from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIE
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Start
-from disc_model.studies.costs import UnitCosts
+from disc_model.stability.thresholds import FIRST_LEG
 from disc_model.studies.quantity import (
     MOST,
     STATUS,
@@ -21,6 +20,7 @@ from disc_model.studies.quantity import (
     Quantity,
     Result,
     State,
+    UnitCosts,
 )
 from disc_model.units import Count, Finite, Seconds, Tolerance, Unit
 
@@ -112,8 +112,8 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
 
     p = point.parameters
     require((p.Omega > 0, "Omega", p.Omega, "must be > 0, because samples are taken once a turn"))
-    turn = 2 * math.pi / p.Omega
-    first = math.ceil(options.transient / turn)
+    turn = 2 * np.pi / p.Omega
+    first = int(np.ceil(options.transient / turn))
     # both ends lie between samples, so that rounding neither adds one nor leaves one out
     end = (first + options.samples - 0.5) * turn
     turns = Poincare(start=max(first - 0.25, 0.0) * turn, stop=end, theta=options.theta)
@@ -134,7 +134,7 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
         "first_separation": run.first_separation,
         "separations": int(run.statistics["separations"]),
         "transient_time": options.transient,
-        "stick_fraction": run.statistics["time_stick"] / time if time else math.nan,
+        "stick_fraction": run.statistics["time_stick"] / time if time else np.nan,
     }
     message = "" if run.status.complete else f"the simulation ended early: {run.status}"
     return values, message
@@ -144,18 +144,17 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     from disc_model.simulation.api import simulate
     from disc_model.simulation.starts import make_initial_state
     from disc_model.stability.attractors import arrival
-    from disc_model.stability.outcome import shares
-    from disc_model.stability.thresholds import FIRST_LEG
+    from disc_model.stability.segments import shares
 
     p = point.parameters
     state = make_initial_state(p, point.start, options.tol)
     transient = options.transient
-    first = math.nan
+    first = np.nan
     separations = 0
     legs: list[Result] = []
     while True:
         run = simulate(p, transient, tol=options.tol, initial_state=state)
-        if math.isnan(first):
+        if np.isnan(first):
             first = run.first_separation
         separations += int(run.statistics["separations"])
         if not run.status.complete:
@@ -211,7 +210,6 @@ def _motion_reached(p: Parameters, reached: Arrival, run: Result, tol: float) ->
     """What a motion has come to at the end of a run: by the proof of its arrival, or else by its
     regularity if the record shows that it has settled."""
     from disc_model.stability.attractors import regularity
-    from disc_model.stability.thresholds import FIRST_LEG
 
     if reached.calm is not None:
         return Motion(reached.calm)
@@ -228,7 +226,7 @@ def _motion_reached(p: Parameters, reached: Arrival, run: Result, tol: float) ->
     times = run.events["time"][run.events["kind"] == kind]
     intervals = np.diff(times[times > run.final_state.time - FIRST_LEG])
     if n >= len(intervals):
-        return Motion(reached.near.kind, n, math.nan)
+        return Motion(reached.near.kind, n, np.nan)
     return Motion(reached.near.kind, n, closure(intervals, n))
 
 

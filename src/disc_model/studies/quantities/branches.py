@@ -12,17 +12,20 @@ from pydantic import Field
 from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
-from disc_model.studies import quantity
-from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
+    DIRECTION,
+    NUMERICAL,
     STATUS,
     Coordinate,
+    FloquetResult,
     Free,
     Point,
     Quantity,
     Range,
     State,
+    UnitCosts,
     along,
+    listed,
 )
 from disc_model.units import Count, Finite, Positive, Seconds, Tolerance, Unit
 
@@ -91,7 +94,7 @@ class Branches(Quantity):
         ),
     }
     COORDINATES: ClassVar = {
-        "direction": quantity.DIRECTION,
+        "direction": DIRECTION,
         "sweep_value": Coordinate(
             "", "{0.parameter} in the sweep, SI units", lambda o: o.scan.values
         ),
@@ -142,7 +145,7 @@ class Branches(Quantity):
             steady_sliding(point.parameters.replace(**{self.parameter: v})).growth_rate
             for v in values
         ]
-        columns: dict[str, Any] = quantity.listed(found.rows)
+        columns: dict[str, Any] = listed(found.rows)
         columns.update(swept)
         columns["n_branches"] = len(found.rows)
         columns["n_continuation_failures"] = found.failures
@@ -165,7 +168,7 @@ class _Found:
         self.rows: list[dict[str, Any]] = []
         self.failures = 0
 
-    def follow(self, cycle: quantity.FloquetResult, *, reached: bool) -> None:
+    def follow(self, cycle: FloquetResult, *, reached: bool) -> None:
         """Continue a cycle in both directions, unless a known branch passes there: the one near the
         static start, or one that a motion reached."""
         assert cycle.state is not None
@@ -176,15 +179,13 @@ class _Found:
             return
         try:
             rows = _branch(cycle, reached, self.options)
-        except quantity.NUMERICAL:
+        except NUMERICAL:
             self.failures += 1
             return
         self.rows += rows[: self.options.max_branches - len(self.rows)]
 
 
-def _branch(
-    cycle: quantity.FloquetResult, reached: bool, options: Branches
-) -> list[dict[str, Any]]:
+def _branch(cycle: FloquetResult, reached: bool, options: Branches) -> list[dict[str, Any]]:
     """The branch of a cycle, by continuation in both directions, with its folds among its points: a
     row for each stretch with one number of separations in a period."""
     from disc_model.stability.continuation import StepControl, continue_cycle
@@ -260,7 +261,7 @@ def _row(stretch: list[_BranchPoint], releases: int) -> dict[str, Any]:
 
 def _range(p: Parameters, state: State, period: float) -> float:
     """Range of the slider's height over a period, m; nan if it cannot be simulated."""
-    from disc_model.stability.outcome import final_segment
+    from disc_model.stability.segments import final_segment
 
     _, stretch = final_segment(p, state, period, period, 1e-10)
     if stretch is None:

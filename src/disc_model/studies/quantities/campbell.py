@@ -12,17 +12,17 @@ from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
+from disc_model.arrays import Array
 from disc_model.data.variables import EXCLUDED, CycleStatus, Variable, flag_names
-from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     CYCLE_STATUSES,
     Coordinate,
     Dataset,
     Point,
     Quantity,
+    UnitCosts,
     along,
     listed,
 )
@@ -31,7 +31,6 @@ from disc_model.units import Count, CycleTolerance, Positive, Unit
 KINDS = ("none", "disc", "slider")
 _each = along("mode")
 _crossing = along("crossing")
-Array = NDArray[np.float64]
 LINES = ("none", "stick_slip", "rotation")
 EFFECTS = ("none", "no_rise", "mode_rises", "rises", "destabilises", "no_cycle", "unresolved")
 """At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable

@@ -11,8 +11,6 @@ from typing import Annotated, Any, ClassVar
 from pydantic import AfterValidator, Field
 
 from disc_model.data.variables import SCALARS, Variable
-from disc_model.studies import quantity
-from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     STATUS,
     Coordinate,
@@ -20,7 +18,9 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     Range,
+    UnitCosts,
     along,
+    listed,
 )
 from disc_model.units import Count, Seconds, Speed, Tolerance, Unit
 
@@ -129,7 +129,7 @@ class CriticalSpeed(Quantity):
             "simulated_time": sum(result.simulated for result in motions.values()),
         }
         crossings = [_crossings(known, horizon, self._speed) for horizon in self.horizons]
-        values.update(quantity.listed(crossings))
+        values.update(listed(crossings))
         remarks = [f"Omega={self._speed(i):g}: {each.message}" for i, each in failed.items()]
         return values, "; ".join(remarks)
 

@@ -5,8 +5,7 @@ import math
 from typing import Any, ClassVar
 
 from disc_model.data.variables import CycleStatus, Variable
-from disc_model.studies.costs import UnitCosts
-from disc_model.studies.quantity import CYCLE_STATUSES, Point, Quantity, State
+from disc_model.studies.quantity import CYCLE_STATUSES, Point, Quantity, State, UnitCosts
 from disc_model.units import CycleTolerance
 
 
@@ -32,7 +31,7 @@ class Floquet(Quantity):
         return unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.cycle import floquet
+        from disc_model.stability.floquet import floquet
 
         cycle = floquet(point.parameters, tol=self.tol)
         leading = (
@@ -48,7 +47,7 @@ class Floquet(Quantity):
         return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 
     def state_at(self, point: Point) -> State:
-        from disc_model.stability.cycle import floquet
+        from disc_model.stability.floquet import floquet
 
         state = floquet(point.parameters, tol=self.tol).raise_for_status().state
         assert state is not None

@@ -9,7 +9,6 @@ import numpy as np
 
 from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
-from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     DIRECTION,
     STATUS,
@@ -18,6 +17,7 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     Range,
+    UnitCosts,
 )
 from disc_model.units import Seconds, Tolerance, Unit
 

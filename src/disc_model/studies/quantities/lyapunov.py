@@ -8,8 +8,7 @@ from pydantic import Field
 from disc_model.data.variables import Variable
 from disc_model.errors import SimulationError
 from disc_model.simulation.case import Start
-from disc_model.studies.costs import UnitCosts
-from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity, State, along
+from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity, State, UnitCosts, along
 from disc_model.units import Count, Seconds, Tolerance
 
 CONVERGED = ("unknown", "no", "yes")

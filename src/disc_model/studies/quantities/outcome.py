@@ -8,9 +8,8 @@ import numpy as np
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Outcome, Variable
 from disc_model.simulation.case import Start
-from disc_model.studies import quantity
-from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
+    COME_TO,
     STATUS,
     OutcomeResult,
     Point,
@@ -18,6 +17,7 @@ from disc_model.studies.quantity import (
     Result,
     Segment,
     State,
+    UnitCosts,
 )
 from disc_model.units import Seconds, Tolerance
 
@@ -41,7 +41,7 @@ class HorizonOutcome(Start, Quantity):
 
     _rules = ((lambda o: o.evaluation_time <= min(o.after_separation, o.horizon), _TIMES),)
     motions: ClassVar = 4
-    motion: ClassVar = quantity.COME_TO
+    motion: ClassVar = COME_TO
     COLUMNS: ClassVar = {
         "status": STATUS,
         "outcome": Variable(
@@ -120,7 +120,8 @@ def _late(
 ) -> tuple[OutcomeResult, Result | None, Segment | None]:
     """The outcome, the run beyond it, if any, and the late stretch."""
     from disc_model.simulation.starts import make_initial_state
-    from disc_model.stability.outcome import final_segment, find_outcome
+    from disc_model.stability.outcome import find_outcome
+    from disc_model.stability.segments import final_segment
 
     p = point.parameters
     length = options.evaluation_time

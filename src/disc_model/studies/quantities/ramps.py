@@ -6,8 +6,6 @@ from typing import Annotated, Any, ClassVar
 
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Ramp
-from disc_model.studies import quantity
-from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     STATUS,
     Coordinate,
@@ -16,7 +14,9 @@ from disc_model.studies.quantity import (
     Range,
     Result,
     State,
+    UnitCosts,
     along,
+    listed,
 )
 from disc_model.units import Seconds, Speed, Tolerance, Unit
 
@@ -78,7 +78,7 @@ class Ramps(Quantity):
                 message = f"rate={rate:g}: {failed.message}"
                 row["rate_status"] = status
             rows.append(row)
-        return {**quantity.listed(rows), "status": status}, message
+        return {**listed(rows), "status": status}, message
 
 
 def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], Result | None]:

@@ -7,8 +7,7 @@ from typing import Annotated, Any, ClassVar
 from pydantic import Field
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Variable
-from disc_model.studies.costs import UnitCosts
-from disc_model.studies.quantity import COME_TO, STATUS, Made, Point, Quantity, State
+from disc_model.studies.quantity import COME_TO, STATUS, Made, Point, Quantity, State, UnitCosts
 from disc_model.units import Count, Seconds, Tolerance
 
 METHODS = ("none", "multipliers", "simulation", "inferred")

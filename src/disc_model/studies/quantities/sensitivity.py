@@ -6,21 +6,26 @@ unstable at the upper.
 """
 
 from collections.abc import Iterator, Mapping
-from functools import lru_cache
 from itertools import pairwise, product
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
 from disc_model.analysis.classify import share
-from disc_model.data import variables
-from disc_model.data.variables import EXCLUDED, SAMPLE, SCALARS, STABLE_CYCLES, Variable, flag_names
+from disc_model.arrays import Words
+from disc_model.data.variables import (
+    EXCLUDED,
+    OUTCOMES_TO_HORIZON,
+    SAMPLE,
+    SCALARS,
+    STABLE_CYCLES,
+    Variable,
+    flag_names,
+)
 from disc_model.errors import Fault, ParameterError, as_text, suggestion
 from disc_model.parameters import DEFAULTS, RATIOS, RELATED, Disc, Parameters, case_of
-from disc_model.studies import quantity
-from disc_model.studies.costs import UnitCosts
+from disc_model.studies.distributions import BLOCK, Distribution, quantile, unit_draws
 from disc_model.studies.quantity import (
     NUMBERS,
     STATUS,
@@ -30,67 +35,23 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     Row,
-    Ruled,
+    UnitCosts,
     tried,
+    with_ends,
 )
-from disc_model.units import (
-    Count,
-    CycleTolerance,
-    Finite,
-    Positive,
-    Seconds,
-    Tolerance,
-    Units,
-    is_number,
-)
+from disc_model.units import Count, CycleTolerance, Seconds, Tolerance, Units, is_number
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
 FAILED = "failed"
 SAMPLE_CYCLES = (FAILED, *STABLE_CYCLES, *UNSTABLE)
-SAMPLE_OUTCOMES = ("not_simulated", *variables.OUTCOMES_TO_HORIZON)
-Array = NDArray[np.float64]
+SAMPLE_OUTCOMES = ("not_simulated", *OUTCOMES_TO_HORIZON)
 
-# ---- Distributions of uncertain parameters
-FARTHEST = 6.47  # standard deviations beyond which a normal distribution has 1e-10 of its values
-_FAR = f"low and high must be within {FARTHEST:g} deviations of mean={{0.mean:g}}"
-
-
-class Uniform(Ruled):
-    """A uniform distribution: all values from `low` to `high` are equally likely."""
-
-    distribution: Literal["uniform"]
-    relative: bool = (
-        False  # whether the numbers are multiples of the parameter's own value at the point
-    )
-    low: Finite
-    high: Finite
-
-    _rules: ClassVar[quantity.Rules] = (
-        (lambda d: d.low < d.high, "low={0.low:g} must be < high={0.high:g}"),
-    )
-
-
-class TruncatedNormal(Uniform):
-    """A normal distribution, restricted to values from `low` to `high`; mean and deviation are
-    those of the whole."""
-
-    distribution: Literal["truncated_normal"]  # type: ignore[assignment]
-    mean: Finite
-    deviation: Positive
-
-    _rules = (
-        *Uniform._rules,
-        (lambda d: max(d.low - d.mean, d.mean - d.high) <= FARTHEST * d.deviation, _FAR),
-    )
-
-
-Distribution = Annotated[Uniform | TruncatedNormal, Field(discriminator="distribution")]
 
 # ---- The quantity
 
 
 def _with_interval(name: str, words: str) -> dict[str, Variable]:
-    return quantity.with_ends(
+    return with_ends(
         name, (Variable("1", words + end) for end in ("", ", lower end", ", upper end"))
     )
 
@@ -252,14 +213,12 @@ class Sensitivity(Quantity):
         return {
             "n_known_cycles": int((cycles != FAILED).sum()),
             "n_known_outcomes": int((simulated != FAILED).sum()),
-            **quantity.with_ends("probability_unstable", _probability(cycles, UNSTABLE)),
-            **quantity.with_ends(
-                "probability_separation", _probability(simulated, ("separation",))
-            ),
+            **with_ends("probability_unstable", _probability(cycles, UNSTABLE)),
+            **with_ends("probability_separation", _probability(simulated, ("separation",))),
         }
 
 
-def _probability(words: NDArray[Any], hits: tuple[str, ...]) -> tuple[float, float, float]:
+def _probability(words: Words, hits: tuple[str, ...]) -> tuple[float, float, float]:
     """Share of samples with certain words, and its confidence interval, in which failed ones count
     as either."""
     known = words[words != FAILED]
@@ -273,43 +232,11 @@ def _own_values(values: Mapping[str, Any]) -> dict[str, Any]:
     return {**DEFAULTS, **values, **numbers}
 
 
-# ---- Samples
-BLOCK = 64  # number of samples that are drawn at once
-
-
-@lru_cache(maxsize=8)
-def unit_draws(seed: int, count: int, block: int) -> Array:
-    """Points of a block of samples in the unit cube, shape (BLOCK, count)."""
-    from scipy.stats import qmc
-
-    sequence = qmc.Sobol(count, scramble=True, rng=np.random.default_rng(seed))
-    if block:  # scipy rejects 0
-        sequence.fast_forward(block * BLOCK)
-    return np.asarray(sequence.random(BLOCK), dtype=float)
-
-
-def quantile(distribution: Distribution, nominal: float, share: float) -> float:
-    """Quantile of a parameter's distribution, which may be relative to the point's own value."""
-    from scipy.special import ndtr, ndtri
-
-    scale = nominal if distribution.relative else 1.0
-    low = distribution.low
-    high = distribution.high
-    if not isinstance(distribution, TruncatedNormal):
-        return float(scale * (low + share * (high - low)))
-    first = ndtr((low - distribution.mean) / distribution.deviation)
-    last = ndtr((high - distribution.mean) / distribution.deviation)
-    deviations = float(ndtri(first + share * (last - first)))
-    value = distribution.mean + distribution.deviation * deviations
-    # rounding must not exceed the ends
-    return float(scale * min(max(value, low), high))
-
-
 # ---- Results of one sample
 
 
 def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
-    from disc_model.stability.cycle import floquet
+    from disc_model.stability.floquet import floquet
 
     cycle = floquet(p, tol=tol)
     row: dict[str, Any] = {"cycle": cycle.motion, "growth_rate": cycle.growth_rate}

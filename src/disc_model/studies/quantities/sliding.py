@@ -7,8 +7,16 @@ from pydantic import Field
 
 from disc_model.data.variables import Variable
 from disc_model.parameters import Parameters
-from disc_model.studies.costs import UnitCosts
-from disc_model.studies.quantity import STATUS, Coordinate, Free, Point, Quantity, Range, listed
+from disc_model.studies.quantity import (
+    STATUS,
+    Coordinate,
+    Free,
+    Point,
+    Quantity,
+    Range,
+    UnitCosts,
+    listed,
+)
 from disc_model.units import Count, Unit
 
 _ONE = ("value",)

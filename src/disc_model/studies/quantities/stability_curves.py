@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 from pydantic import Field
 
 from disc_model.data.variables import Variable
-from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import (
     STATUS,
     Coordinate,
@@ -16,6 +15,7 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     Range,
+    UnitCosts,
     along,
     listed,
 )

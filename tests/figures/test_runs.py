@@ -6,7 +6,7 @@ import xarray as xr
 
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
-from disc_model.figures.phases import spans_between, spans_in
+from disc_model.figures.runs import spans_between, spans_in
 
 TIMES = [0.0, 1.0, 2.0, 2.5, 4.0]  # s
 WORDS = ["slip", "stick", "slip", "slip", "separation"]
@@ -34,7 +34,8 @@ def test_borders_are_events_and_the_first_phase_is_that_before() -> None:
     assert spans["separation"] == [(4.0, 4.5)]
     inside = spans_between(run(), 1.2, 1.8)
     assert inside["stick"] == [(1.2, 1.8)]
-    assert inside["slip"] == inside["separation"] == []
+    assert inside["slip"] == inside["separation"]
+    assert inside["separation"] == []
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,202 @@
+"""Datasets of sweeps, studies and of anyone's own in files that other programs read: netCDF, and
+the format of MATLAB."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data import dataset
+from disc_model.data.files import regular_file
+from disc_model.data.matlab import load_mat, save_mat
+from disc_model.data.tables import check_suffix
+from disc_model.errors import Fault, ParameterError, raise_faults, require
+
+PARTS = ("real", "imag")
+"""Ends of the names of variables that are parts of a complex one in netCDF, which has no complex
+numbers."""
+COMPLEX_PART = "complex_part"
+"""Attribute of such a variable: which part it is."""
+
+
+def save(data: xr.Dataset | xr.DataTree, path: str | Path) -> None:
+    """Write a dataset, such as `sweep` and `run_study` return, to a file, which `disc_model.load` reads back.
+
+    Parameters
+    ----------
+    data : of numbers and words
+    path : its suffix says how. ".nc": netCDF 4; of a complex variable `x` it has the real part `x_real` and the
+        imaginary part `x_imag`. ".mat": an array for each variable, complex ones too, with its dimensions in their
+        order, a structure for each group, and `units`, `dimensions` and `meanings`, the words of the numbers 0, 1, ...
+        Both hold a checksum, by which `load` notices any damage
+
+    Returns
+    -------
+    None
+
+    Raises
+    ------
+    ParameterError
+        If the file has another suffix, or the dataset holds what such a file cannot.
+    disc_model.data.dataset.WriteError
+        If the folder does not exist, or the disk is full.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> cycles = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=[12, 14])
+    >>> dm.save(cycles, "cycles.mat")
+    >>> dm.load("cycles.mat").identical(cycles)
+    True
+    """
+    rule = "must be an xarray.Dataset or xarray.DataTree"
+    require((isinstance(data, xr.Dataset | xr.DataTree), "data", data, rule))
+    file = check_suffix(regular_file(path))
+    tree = xr.DataTree(data) if isinstance(data, xr.Dataset) else data
+    groups = {node.path: node.to_dataset(inherit=False) for node in tree.subtree}
+    raise_faults(list(_faults(groups)))
+    if file.suffix == ".nc":
+        parts = {path: _with_parts(group) for path, group in groups.items()}
+        dataset.save(xr.DataTree.from_dict(parts), file)
+    else:
+        save_mat(groups, file)
+
+
+def load(path: str | Path) -> xr.Dataset | xr.DataTree:
+    """Read a dataset of a study, or a file of `disc_model.save` or `Result.save`, into memory.
+
+    Parameters
+    ----------
+    path : of a netCDF file, or of a .mat file of `disc_model.save`
+
+    Returns
+    -------
+    xarray.Dataset
+        A DataTree if the file has groups: of a run single numbers at its root, and a group for the events and for each
+        window.
+
+    Raises
+    ------
+    ParameterError
+        If the name is not allowed for a file.
+    disc_model.data.dataset.UnreadableFile
+        If the file is damaged, or is neither.
+    disc_model.data.dataset.MissingFile
+        If there is no such file.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=15.1)
+    >>> dm.simulate(case, 1, {"late": dm.Window(last=0.5, rate=1e4)}).save("run.nc")
+    >>> sorted(dm.load("run.nc").children)
+    ['events', 'final_state', 'late']
+    """
+    file = regular_file(path)
+    groups = load_mat(file) if file.suffix == ".mat" else _load_netcdf(file)
+    if len(groups) == 1:
+        return next(iter(groups.values()))
+    return xr.DataTree.from_dict(groups)
+
+
+# ---- What can be written
+
+
+def _faults(groups: Mapping[str, xr.Dataset]) -> Iterator[str]:
+    """Yield what no file can hold of groups by their paths."""
+    for path, group in groups.items():
+        place = tuple(part for part in path.split("/") if part)
+        yield from _attribute_faults(place, group.attrs)
+        for key, variable in group.variables.items():
+            name = str(key)
+            yield from _attribute_faults((*place, name), variable.attrs)
+            if not _is_plain(variable):
+                kind = type(variable.values.flat[0]).__name__ if variable.size else variable.dtype
+                rule = f"must hold numbers or words to be saved, and holds {kind}"
+                yield Fault((*place, name), "", rule)
+
+
+def _is_plain(variable: xr.Variable) -> bool:
+    """Whether a variable holds numbers or words."""
+    if variable.dtype.kind == "O":
+        return all(isinstance(value, str) for value in variable.values.flat)
+    return variable.dtype.kind in "biufcU"
+
+
+def _attribute_faults(place: tuple[str, ...], attrs: Mapping[Any, Any]) -> Iterator[str]:
+    """Yield a fault for each attribute that is neither text nor numbers."""
+    for name, value in attrs.items():
+        kind = np.asarray(value).dtype.kind
+        if not isinstance(value, str) and kind not in "iuf":
+            yield Fault.of((*place, str(name)), value, "must be text or numbers, as an attribute")
+
+
+# ---- netCDF
+
+
+def _with_parts(group: xr.Dataset) -> xr.Dataset:
+    """A dataset with the real and the imaginary part in place of each complex variable."""
+    variables: dict[str, xr.Variable] = {}
+    coordinates: list[str] = []
+    for key, variable in group.variables.items():
+        parts = {str(key): variable}
+        if variable.dtype.kind == "c":
+            parts = _parts_of(str(key), variable)
+        for name in parts.keys() & group.variables.keys() - {key}:
+            rule = f"must have another name, because it is a part of {key} in the file"
+            raise ParameterError(Fault((name,), "", rule))
+        variables.update(parts)
+        if key in group.coords:
+            coordinates += parts
+    return xr.Dataset(variables, attrs=group.attrs).set_coords(coordinates)
+
+
+def _parts_of(name: str, variable: xr.Variable) -> dict[str, xr.Variable]:
+    """The parts of a complex variable by their names."""
+    parts = {}
+    for part in PARTS:
+        attrs = {**variable.attrs, COMPLEX_PART: part}
+        values = getattr(variable.values, part)
+        parts[f"{name}_{part}"] = xr.Variable(variable.dims, values, attrs)
+    return parts
+
+
+def _load_netcdf(file: Path) -> dict[str, xr.Dataset]:
+    """The groups of a netCDF file by their paths."""
+    tree = dataset.read_tree(file)
+    return {node.path: _joined(node.to_dataset(inherit=False)) for node in tree.subtree}
+
+
+def _joined(group: xr.Dataset) -> xr.Dataset:
+    """A dataset with a complex variable in place of two that are its parts, and words as text of
+    numpy's own."""
+    variables: dict[str, xr.Variable] = {}
+    coordinates = []
+    for key, variable in group.variables.items():
+        name = str(key)
+        read = variable
+        if COMPLEX_PART in variable.attrs:
+            whole, _, _ = name.rpartition("_")
+            names = [f"{whole}_{part}" for part in PARTS]
+            if group.variables.keys() >= {*names}:
+                name = whole
+                read = _whole(*(group.variables[part] for part in names))
+        elif variable.dtype.kind == "O":
+            read = variable.astype(str)
+        variables[name] = read
+        if key in group.coords:
+            coordinates.append(name)
+    return xr.Dataset(variables, attrs=group.attrs).set_coords(coordinates)
+
+
+def _whole(real: xr.Variable, imaginary: xr.Variable) -> xr.Variable:
+    """The complex variable of two parts."""
+    values = np.empty(real.shape, complex)
+    values.real = real.values
+    values.imag = imaginary.values
+    attrs = {name: value for name, value in real.attrs.items() if name != COMPLEX_PART}
+    return xr.Variable(real.dims, values, attrs)

@@ -1,0 +1,206 @@
+"""Contents of studies for the explorer's page: numbers packed for JSON, words as they are."""
+
+import base64
+import json
+import zlib
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from disc_model.data.variables import attributes
+from disc_model.figures.classes import Look, looks_of
+from disc_model.figures.words import plain_name
+
+TRACES = ("P", "u", "psi")
+LEVELS = 65535  # steps between the least and the greatest value of a stored history
+MANTISSA = 23  # bits of the mantissa of a 32-bit float,
+BITS = 17  # and those that are kept: five digits, as many as are shown
+
+
+def study_contents(
+    name: str, study: xr.Dataset, motions: xr.Dataset | None = None, text: str = ""
+) -> dict[str, Any]:
+    """Contents of a merged study: fixed parameters, dimensions, variables, messages; motions, and a
+    text on these."""
+    numbers = {str(name): x for name, x in study.coords.items() if x.dtype.kind == "f"}
+    endless = [name for name, x in numbers.items() if np.isinf(x.values).any()]
+    study = _as_texts(study.transpose(*study.sizes), endless)
+    shown_motions = None
+    if motions is not None:
+        shown_motions = motion_contents(_as_texts(motions, endless), text)
+    base = json.loads(study.attrs.get("base", "{}"))
+    drawn = [x for x in study.data_vars.values() if x.ndim and x.dtype.kind in "biuf"]
+    return {
+        "name": name,
+        "title": str(study.attrs.get("title", "")) or name,
+        "fixed": [_fixed(parameter, value) for parameter, value in base.items()],
+        "dims": [_dimension(study, str(dim)) for dim in study.sizes],
+        "variables": [_variable(variable) for variable in drawn],
+        "messages": _messages(study),
+        "motions": shown_motions,
+    }
+
+
+def _fixed(name: str, value: Any) -> dict[str, Any]:
+    """A parameter that a study does not vary."""
+    return {**_named(name, attributes(name)), "value": value}
+
+
+def _messages(study: xr.Dataset) -> dict[str, Any] | None:
+    """Messages of a study's points, as indices into the distinct ones; most points share theirs."""
+    if "message" not in study:
+        return None
+    messages = study["message"]
+    words, indices = np.unique(messages.values.astype(str), return_inverse=True)
+    return {"dims": [*messages.dims], "words": words.tolist(), "data": packed(indices, "<u4")}
+
+
+def _as_texts(dataset: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
+    """A dataset with some of its coordinates as texts, because JSON has no infinity."""
+    texts = {}
+    for name in names:
+        coordinate = dataset[name]
+        words = [f"{value:.12g}" for value in coordinate.values]
+        texts[name] = (coordinate.dims, words, coordinate.attrs)
+    return dataset.assign_coords(texts)
+
+
+def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:
+    """Histories along `point` and `sample` with 16 bits per sample, phases as runs; failed ones are
+    left out."""
+    good = motions.isel(point=np.flatnonzero(motions["status"].values == 0))
+    names = [str(name) for name in good.coords if good[name].dims == ("point",)]
+    return {
+        "text": text,
+        "names": names,
+        "samples": good.sizes["sample"],
+        "phases": good["phase"].attrs["flag_meanings"].split(),
+        "traces": [_trace(good[name]) for name in TRACES],
+        "points": [_motion(good.isel(point=i), names) for i in range(good.sizes["point"])],
+    }
+
+
+def _trace(histories: xr.DataArray) -> dict[str, Any]:
+    """The histories of one variable."""
+    name = str(histories.name)
+    return {"name": name, "unit": histories.attrs["units"], **traces(histories.values)}
+
+
+def _motion(motion: xr.Dataset, names: Sequence[str]) -> dict[str, Any]:
+    """Where a motion lies, its length in s, and its phases."""
+    return {
+        "at": [motion[name].item() for name in names],
+        "length": motion["length"].item(),
+        "phase": runs(motion["phase"].values),
+    }
+
+
+def traces(values: NDArray[np.floating[Any]]) -> dict[str, Any]:
+    """Packed histories, shape (points, samples); ``least + step * n`` errs by half a step, 8e-6 of
+    each range."""
+    least = values.min(axis=1, keepdims=True, initial=np.inf).astype(float)
+    greatest = values.max(axis=1, keepdims=True, initial=-np.inf).astype(float)
+    step = (greatest - least) / LEVELS
+    steps = np.zeros(values.shape)
+    np.divide(values - least, step, out=steps, where=step > 0)
+    numbers = np.rint(steps)
+    return {
+        "least": least.ravel().tolist(),
+        "step": step.ravel().tolist(),
+        "data": packed(numbers, "<u2"),
+    }
+
+
+def runs(values: NDArray[np.integer[Any]]) -> list[list[int]]:
+    """Runs of equal values: the index where each begins, and its value."""
+    begins = np.flatnonzero(np.diff(values, prepend=values[0] + 1))
+    return [[int(i), int(values[i])] for i in begins]
+
+
+def packed(values: NDArray[Any], kind: str) -> str:
+    """An array, last dimension fastest, as base64: first bytes of all numbers, then second ones and
+    so on, deflated."""
+    numbers = np.ascontiguousarray(values, dtype=kind).reshape(-1)
+    planes = numbers.view(np.uint8).reshape(-1, numbers.itemsize).T
+    return base64.b64encode(zlib.compress(planes.tobytes(), 9)).decode("ascii")
+
+
+def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
+    """Numbers rounded to `BITS` bits of their mantissa; the other bits are zero, which compresses
+    well."""
+    whole = np.array(values, dtype=np.float32)
+    bits = whole.view(np.uint32)
+    shift = np.uint32(MANTISSA - BITS)
+    half = np.uint32(1 << (shift - 1))
+    rounded = (bits + half) >> shift << shift
+    return np.where(np.isfinite(whole), rounded.view(np.float32), whole)
+
+
+def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:
+    """Names of a parameter or variable, that of the axes of figures among them, and its unit."""
+    return {
+        "name": name,
+        "label": plain_name(xr.DataArray(0.0, name=name, attrs=attrs)),
+        "title": str(attrs.get("long_name", name)),
+        "unit": str(attrs.get("units", "")),
+    }
+
+
+def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
+    """Values along a dimension; for a zip, which has no coordinate of its own, its parameters as
+    text."""
+    if dim in study.coords:
+        values = study[dim].values.tolist()
+        return {**_named(dim, study[dim].attrs), "values": values, "parts": {dim: values}}
+    columns = {
+        str(name): values.values.tolist()
+        for name, values in study.coords.items()
+        if values.dims == (dim,)
+    }
+    if not columns:
+        columns = {dim: list(range(study.sizes[dim]))}
+    rows = zip(*columns.values(), strict=True)
+    words = [_place(columns, row) for row in rows]
+    title = ", ".join(columns)
+    return {
+        "name": dim,
+        "label": title,
+        "title": title,
+        "unit": "",
+        "values": words,
+        "parts": columns,
+    }
+
+
+def _place(names: Iterable[str], values: Sequence[Any]) -> str:
+    """A value along each dimension of a zip, in words."""
+    texts = []
+    for name, value in zip(names, values, strict=True):
+        text = value
+        if not isinstance(value, str):
+            text = f"{value:g}"
+        texts.append(f"{name} = {text}")
+    return ", ".join(texts)
+
+
+def _variable(variable: xr.DataArray) -> dict[str, Any]:
+    """Numbers as 32-bit floats of `BITS`; flags as bytes with words and their looks, those of the
+    figures."""
+    described = _named(str(variable.name), variable.attrs)
+    described["dims"] = list(variable.dims)
+    meanings = variable.attrs.get("flag_meanings")
+    if meanings is None:
+        return {**described, "data": packed(shortened(variable.values), "<f4")}
+    words = str(meanings).split()
+    codes = np.atleast_1d(variable.attrs.get("flag_values", range(len(words))))
+    looks = [_look(look) for look in looks_of(words).values()]
+    data = packed(np.searchsorted(codes, variable.values), "u1")
+    return {**described, "flags": words, "looks": looks, "data": data}
+
+
+def _look(look: Look) -> dict[str, str]:
+    """The look of a class: its name, colour and pattern, and the colour of the pattern."""
+    return {**look._asdict(), "ink": look.ink}

@@ -1,0 +1,85 @@
+"""The explorer's page: contents of studies with pictures, style and script in one file."""
+
+import base64
+import io
+import json
+from collections.abc import Mapping, Sequence
+from importlib.resources import files
+from itertools import groupby
+from operator import attrgetter
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import jinja2
+from cmcrameri import cm
+from matplotlib.colors import Colormap, to_hex
+from PIL import Image, ImageOps
+
+from disc_model.figures.drawing import PHASE_COLOURS
+from disc_model.parameters import RATIOS, Parameters
+
+PICTURE_WIDTH = 1100  # width of a page-wide figure, pixels; narrower ones are scaled alike
+PAGE_WIDTH = 2055  # width of such a figure as drawn, pixels
+QUALITY = 80
+SCRIPTS = (
+    "contents",
+    "view",
+    "drawing",
+    "map",
+    "point",
+    "motion",
+    "start",
+)  # in the order of their dependence
+
+
+class Picture(NamedTuple):
+    heading: str
+    title: str
+    caption: str
+    file: Path
+
+
+def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Picture]) -> str:
+    """The whole page, for studies as from `study_contents`, and pictures grouped by heading."""
+    contents = {
+        "studies": studies,
+        "maps": {"sequential": _colours(cm.batlow), "diverging": _colours(cm.vik)},
+        "phases": PHASE_COLOURS,
+        "parameters": [*Parameters.model_fields, *RATIOS],
+    }
+    texts = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    template = jinja2.Template(
+        _part("page.html"), autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True
+    )
+    return template.render(
+        title=title,
+        embedded=embedded,
+        style=_part("page.css"),
+        figures=[
+            (heading, [*group]) for heading, group in groupby(pictures, key=attrgetter("heading"))
+        ],
+        contents=texts.replace(
+            "<", "\\u003c"
+        ),  # so that none of them ends the enclosing HTML element
+        script="\n".join(['"use strict";', *(_part(f"{name}.js") for name in SCRIPTS)]),
+    )
+
+
+def _colours(scale: Colormap) -> list[str]:
+    """Return the colours of a scale as texts, in equal steps."""
+    return [to_hex(colour) for colour in scale(range(256))]
+
+
+def embedded(file: Path) -> str:
+    """A picture, reduced in size, as a data URL."""
+    with Image.open(file) as picture:
+        small = ImageOps.scale(
+            picture.convert("RGB"), PICTURE_WIDTH / PAGE_WIDTH, Image.Resampling.LANCZOS
+        )
+    buffer = io.BytesIO()
+    small.save(buffer, "WEBP", quality=QUALITY, method=6)
+    return f"data:image/webp;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"
+
+
+def _part(name: str) -> str:
+    return files(__package__).joinpath("static", name).read_text(encoding="utf-8")

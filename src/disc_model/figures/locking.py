@@ -1,0 +1,241 @@
+"""Locking of motions with stick and separation: the staircase of periods, and the map of release
+phases."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from disc_model.data.variables import axis_of, flag_names
+from disc_model.figures import drawing
+from disc_model.figures.drawing import BLACK, BLUE, GREY, VERMILION, large, mark, wide
+from disc_model.figures.kinds.motions import PhaseMap, Staircase
+from disc_model.figures.selection import failed
+from disc_model.figures.types import Array, Figure
+
+ROOM = 0.055  # of a panel's width, least distance of two labels
+HEIGHT = 0.1  # of a panel's height, room that a label needs
+TOP = 0.9  # height of the marks of motions that never stick, as a share of the panel
+APART = "Separations per release"
+
+
+# ---- The staircase
+
+
+class _Step(NamedTuple):
+    """Neighbouring values of the parameter at which the motion has one period: their ends, in the
+    axis's unit, separations per release, and releases in a period."""
+
+    low: float
+    high: float
+    height: float
+    releases: int
+
+
+def draw_staircase(
+    plot: Staircase, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]
+) -> Figure:
+    """Draw separations per release over a parameter, a step for each period with its number of
+    releases; below, zooms of the file."""
+    parts = [study.squeeze(drop=True)]
+    if "fine" in overlays:
+        parts.append(overlays["fine"].squeeze(drop=True))
+    label, factor = axis_of(plot.x)
+
+    figure = drawing.new_figure(plot.inches, 2.3 + 2.2 * bool(plot.zooms))
+    layout: list[Any] = [["whole"] * max(len(plot.zooms), 1)]
+    if plot.zooms:
+        layout.append([f"zoom {i}" for i in range(len(plot.zooms))])
+    panels = list(figure.subplot_mosaic(layout).values())
+    whole, *zooms = panels
+
+    steps = _steps(parts, plot.x, factor)
+    _draw_steps(whole, steps, study[plot.x].values[[0, -1]] * factor)
+    _draw_undecided(whole, parts, plot.x, factor)
+    if "slipping" in overlays:
+        _draw_slipping(whole, overlays["slipping"], plot.x, factor)
+    for ax, (low, high) in zip(zooms, plot.zooms, strict=True):
+        _draw_steps(ax, steps, np.array([low, high]) * factor)
+        _draw_undecided(ax, parts, plot.x, factor)
+    for outer, inner in zip(panels, zooms, strict=False):
+        outer.axvspan(*inner.get_xlim(), color="0.9", zorder=0, linewidth=0)
+    for ax in panels:
+        ax.set_xlabel(label)
+        ax.set_ylabel(APART)
+        ax.xaxis.set_major_formatter("{x:.6g}")
+    drawing.letters(panels)
+    return figure
+
+
+def _steps(parts: Sequence[xr.Dataset], name: str, factor: float) -> list[_Step]:
+    """Steps of the points of all parts together, along the parameter."""
+    points: dict[float, tuple[int, int]] = {}
+    for part in parts:
+        locked = (flag_names(part["motion"]) == "locked") & ~failed(part).values
+        releases = np.where(locked, part["period_releases"].values, 0)
+        separations = part["period_separations"].values
+        for x, n, m in zip(part[name].values.tolist(), releases, separations, strict=True):
+            points[round(x, 9)] = (int(n), int(m))
+
+    steps: list[_Step] = []
+    before = (0, 0)
+    for x in sorted(points):
+        n, m = points[x]
+        if n and (n, m) == before:
+            steps[-1] = steps[-1]._replace(high=x * factor)
+        elif n:
+            steps.append(_Step(x * factor, x * factor, m / n, n))
+        before = (n, m)
+    return steps
+
+
+def _draw_steps(ax: Axes, steps: Sequence[_Step], ends: Array) -> None:
+    """Draw the steps between two ends of the axis, and name those that have room."""
+    low, high = ends.tolist()
+    shown = [step for step in steps if step.high >= low and step.low <= high]
+    for step in shown:
+        ax.plot(
+            [step.low, step.high],
+            [step.height] * 2,
+            "o-",
+            color=BLACK,
+            linewidth=wide(1.4),
+            markersize=mark(1.8),
+        )
+    margin = 0.02 * (high - low)
+    ax.set_xlim(low - margin, high + margin)
+    if shown:
+        heights = [step.height for step in shown]
+        spread = max(max(heights) - min(heights), 1e-3)
+        ax.set_ylim(min(heights) - 0.15 * spread, max(heights) + 0.3 * spread)
+    _name_steps(ax, shown, low, high)
+
+
+def _name_steps(ax: Axes, steps: Sequence[_Step], low: float, high: float) -> None:
+    """Write the number of releases over the steps, the widest first, as long as there is room."""
+    taken: list[float] = []
+    room = ROOM * (high - low)
+    bottom, top = ax.get_ylim()
+    for step in sorted(steps, key=lambda each: each.low - each.high):
+        middle = (max(step.low, low) + min(step.high, high)) / 2
+        ceiling = step.height + HEIGHT * (top - bottom)
+        above = [other for other in steps if step.height < other.height < ceiling]
+        is_covered = any(
+            other.low < middle + room / 2 and other.high > middle - room / 2 for other in above
+        )
+        is_close = any(abs(middle - other) < room for other in taken)
+        if is_covered or is_close:
+            continue
+        taken.append(middle)
+        text = f"{step.releases} releases" if len(taken) == 1 else f"{step.releases}"
+        drawing.say(ax, text, (middle, step.height), (0, 3), fontsize=large(7))
+
+
+def _draw_undecided(ax: Axes, parts: Sequence[xr.Dataset], name: str, factor: float) -> None:
+    """Draw rings at the mean of motions that are not shown to repeat."""
+    for part in parts:
+        open_ = (flag_names(part["motion"]) == "undecided") & ~failed(part).values
+        if open_.any():
+            ax.plot(
+                part[name].values[open_] * factor,
+                part["separations_per_release"].values[open_],
+                "o",
+                color=GREY,
+                markerfacecolor="none",
+                markersize=mark(3),
+            )
+            drawing.mark_failed(ax, part[name].values[failed(part).values] * factor)
+
+
+def _draw_slipping(ax: Axes, slipping: xr.Dataset, name: str, factor: float) -> None:
+    """Mark, above the steps, where a motion without stick exists beside."""
+    part = slipping.squeeze(drop=True)
+    never = flag_names(part["motion"]) == "without_stick"
+    places = part[name].values[never] * factor
+    if not places.size:
+        return
+    edge = ax.get_xaxis_transform()
+    heights = np.full(places.size, TOP)
+    ax.plot(places, heights, "-", color=BLUE, linewidth=wide(1.4), transform=edge)
+    drawing.say(
+        ax,
+        "beside it, a motion that never sticks",
+        (float(places[0]), TOP),
+        (3, 2),
+        xycoords=edge,
+        color=BLUE,
+        fontsize=large(7),
+    )
+
+
+# ---- The map of release phases
+
+
+def draw_map(plot: PhaseMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+    """Draw the next phase over the phase: (a) of all releases for which the slider was held, (b) near
+    those of the motion itself, with the number of separations between them."""
+    point = study.squeeze(drop=True)
+    phase = point["map_phase"].values
+    following = point["map_next_phase"].values
+    separations = point["map_separations"].values
+    slopes = point["map_slope"].values
+    own = point["release_phase"].values
+    own = own[np.isfinite(own)]
+
+    figure, axes = drawing.row_of_panels(plot.inches, 2, 3.0, 2.8)
+    margin = 0.15 * float(np.ptp(own))
+    near = (float(own.min()) - margin, float(own.max()) + margin)
+    whole = (float(np.nanmin(phase)), 1.0)
+    for ax, (low, high) in zip(axes, (whole, near), strict=True):
+        for index, number in enumerate(np.unique(separations[np.isfinite(separations)])):
+            branch = separations == number
+            colour = (BLACK, VERMILION)[index % 2]
+            ax.plot(phase[branch], following[branch], ".", color=colour, markersize=mark(2))
+            inside = (
+                branch & (phase > low) & (phase < high) & (following > low) & (following < high)
+            )
+            if inside.sum() > 2 and ax is axes[1]:
+                _name_branch(ax, phase[inside], following[inside], slopes[inside], int(number))
+        ax.plot([low, high], [low, high], color=GREY, linewidth=wide(0.6), zorder=1)
+        ax.set(xlim=(low, high), ylim=(low, high), aspect="equal")
+        ax.set_xlabel("Phase of a release")
+        ax.set_ylabel("Phase of the next one")
+    axes[1].plot(
+        own[:-1],
+        own[1:],
+        "o",
+        color=BLUE,
+        markerfacecolor="none",
+        markersize=mark(3.5),
+        markeredgewidth=wide(0.8),
+        zorder=4,
+    )
+    _mark_window(axes[0], near)
+    drawing.letters(axes)
+    return figure
+
+
+def _name_branch(ax: Axes, phase: Array, following: Array, slopes: Array, number: int) -> None:
+    """Write after how many separations the next release comes, and the mean slope."""
+    last = phase.size - 1
+    drawing.say(
+        ax,
+        f"{number} separations,\nslope {np.nanmean(slopes):.2f}",
+        (float(phase[last]), float(following[last])),
+        (6, 0),
+        fontsize=large(7),
+    )
+
+
+def _mark_window(ax: Axes, ends: tuple[float, float]) -> None:
+    """Draw the window of the next panel."""
+    low, high = ends
+    ax.plot(
+        [low, high, high, low, low],
+        [low, low, high, high, low],
+        color=BLUE,
+        linewidth=wide(0.8),
+        zorder=3,
+    )

@@ -1,0 +1,216 @@
+"""Whether a motion that sticks now and then repeats after a whole number of releases, and the map
+from the phase of one release of stick, in the vibration, to that of the next.
+
+docs/model.md, Why separated motions lock, has the argument.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from disc_model.analysis.classify import closure, shortest_period
+from disc_model.arrays import Array, ComplexArray, Indices
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Window
+from disc_model.simulation.result import Result
+from disc_model.simulation.states import State
+from disc_model.stability.cycle import multipliers
+from disc_model.stability.return_map import ReturnMap, newton
+
+FEWEST_SEPARATIONS = 3  # in a record, whose mean interval is that of vibrations
+
+
+class Releases(NamedTuple):
+    """The releases of stick in a record of a motion that separates once per vibration.
+
+    Attributes
+    ----------
+    times : s, shape (n,)
+    phases : shape (n,), time since the last separation over the mean interval of separations
+    vibrations : shape (n - 1,), number of separations between a release and the next
+    vibration : s, mean interval of separations
+    force : N, shape (n,), contact force when stick ends
+    """
+
+    times: Array
+    phases: Array
+    vibrations: Indices
+    vibration: float
+    force: Array
+
+
+class Lock(NamedTuple):
+    """A motion that repeats: number of releases and of separations in a period, its duration (s),
+    and the largest difference (s) of an interval between releases from that one period later."""
+
+    releases: int
+    vibrations: int
+    period: float
+    closure: float
+
+
+def releases_of(run: Result, since: tuple[float, float] | None = None) -> Releases | None:
+    """The releases of a run that was recorded with its events; None with fewer than two of them.
+    Those before the first separation do not count.
+
+    Parameters
+    ----------
+    run : with its events
+    since : time (s) of a separation before the run, and the interval of separations (s); the run's
+        own unless given
+    """
+    events = run.events
+    kinds = events["kind"].to_numpy()
+    times = events["time"].to_numpy(dtype=float)
+    separations = times[kinds == "separation"]
+    if since is not None:
+        separations = np.concatenate([[since[0]], separations])
+    released = kinds == "stick_to_slip"
+    if separations.size:
+        released &= times > separations[0]
+    if separations.size < FEWEST_SEPARATIONS or released.sum() < 2:
+        return None
+    instants = times[released]
+    vibration = float(np.mean(np.diff(separations)))
+    if since is not None:
+        vibration = since[1]
+    before = np.searchsorted(separations, instants)
+    phases = (instants - separations[before - 1]) / vibration
+    force = events["P"].to_numpy(dtype=float)[released]
+    return Releases(instants, phases, np.diff(before), vibration, force)
+
+
+def lock_of(releases: Releases) -> Lock | None:
+    """The period of a motion; None unless intervals between releases repeat, to a hundredth of a
+    microsecond, throughout a record of two periods or more, with the same numbers of vibrations."""
+    intervals = np.diff(releases.times)
+    n = shortest_period(intervals)
+    if not n or not np.array_equal(releases.vibrations[n:], releases.vibrations[:-n]):
+        return None
+    vibrations = int(releases.vibrations[:n].sum())
+    period = float(releases.times[n] - releases.times[0])
+    return Lock(n, vibrations, period, closure(intervals, n))
+
+
+def multipliers_of(p: Parameters, state: State, lock: Lock) -> ComplexArray | None:
+    """Multipliers of the cycle that a locked motion is on, by descending size, from the derivative
+    of its return map; None if Newton's method finds no cycle of this period at the motion."""
+    map_ = ReturnMap(p, patient=True)
+    release = map_.next_release(state)
+    if not release.reached:
+        return None
+    orbit = newton(map_, release.x, releases=lock.releases, may_separate=True)
+    if orbit is None or orbit.counts.separations != lock.vibrations:
+        return None
+    return multipliers(orbit.jacobian)
+
+
+def swing_multiplier(p: Parameters, run: Result, lock: Lock) -> float:
+    """The multiplier of a locked motion that belongs to its release phases, by the swings of the
+    slider: the product over a period of cos(w t) - kappa sin(w t), where t is the time that a slip
+    lasts, w = sqrt(k_p / m), and
+
+        kappa = (mu_s - mu_k) P / (r_0 m w rho),  rho = Omega - mu_s P' / (r_0 k_p)
+
+    with the force P and its rate P' when stick ends. This is that of a given vibration, and without
+    damper in the plane; nan if the run has no whole period.
+
+    run : with its events, and the samples `FORCE` of the contact force
+    """
+    events = run.events
+    kinds = events["kind"].to_numpy()
+    times = events["time"].to_numpy(dtype=float)
+    stops = times[kinds == "slip_to_stick"]
+    releases = times[kinds == "stick_to_slip"][: lock.releases]
+    ends = np.searchsorted(stops, releases)
+    if len(releases) < lock.releases or ends.max() >= len(stops):
+        return math.nan
+
+    # the force when stick ends, and its rate, from the last three samples of stick
+    sampled = run["force"]
+    instants = sampled["time"].values
+    force = sampled["P"].values
+    last = np.searchsorted(instants, releases) - 1
+    step = instants[1] - instants[0]
+    rate = (3 * force[last] - 4 * force[last - 1] + force[last - 2]) / (2 * step)
+    at_end = force[last] + rate * (releases - instants[last])
+
+    swing = math.sqrt(p.k_p / p.m)
+    rho = p.Omega - p.mu_s * rate / (p.r_0 * p.k_p)
+    kappa = (p.mu_s - p.mu_k) * at_end / (p.r_0 * p.m * swing * rho)
+    angle = swing * (stops[ends] - releases)
+    return float(np.prod(np.cos(angle) - kappa * np.sin(angle)))
+
+
+class PhaseMap(NamedTuple):
+    """The map of release phases at n places: phases (n,), that of the next release (n,), the number
+    of vibrations between both (n,), and the derivative of the second by the first (n,), nan next to
+    a jump."""
+
+    phases: Array
+    following: Array
+    vibrations: Indices
+    slopes: Array
+
+
+HELD = 0.5
+"""Vibrations after a loss of contact at which the slider is held: about where the force is largest."""
+NUDGE = 1e-6  # change of the spring's stretch, over the largest, from which slopes follow
+LONGEST_WAY = 100  # vibrations within which the release after that has to come
+
+
+def phase_map(p: Parameters, run: Result, count: int, tol: float) -> PhaseMap:
+    """The map of release phases of the vibration at the end of a run, from sticks that are begun
+    anew.
+
+    The slider is held half a vibration after a loss of contact, with the in-plane spring stretched
+    by `count` different amounts that friction can hold. It is released as the contact force falls,
+    the later the less the spring is stretched, and then moves freely to its next release.
+    """
+    empty = np.empty(0)
+    nothing = PhaseMap(empty, empty, np.empty(0, dtype=np.int64), empty)
+    found = releases_of(run)
+    if found is None:
+        return nothing
+    vibration = found.vibration
+
+    # the instant at which the slider is held, and the largest stretch
+    start = run.final_state
+    ahead = simulate(p, start.time + 2 * vibration, tol=tol, initial_state=start).events
+    lost = float(ahead["time"][ahead["kind"] == "separation"].iloc[0])
+    begin = lost + HELD * vibration
+    windows = {"force": Window(start=start.time, stop=begin, rate=100 / (begin - start.time))}
+    before = simulate(p, begin, windows, tol=tol, initial_state=start)
+    force = float(before["force"]["P"].values[-1])
+    largest = p.mu_s * force / (p.r_0 * p.k_p)
+    held = before.final_state.replace(f=0.0, direction=0, phase="stick")
+    stretches = largest * np.linspace(-1, 1, count + 2)[1:-1]
+
+    def follow(stretch: float) -> Releases | None:
+        """The releases after the slider has been held with the spring stretched by an angle; None
+        if the first one is backward."""
+        state = held.replace(psi=stretch)
+        end = begin + LONGEST_WAY * vibration
+        after = simulate(p, end, tol=tol, initial_state=state)
+        is_release = after.events["kind"] == "stick_to_slip"
+        if not (after.events["psi"][is_release].iloc[:1] > 0).all():
+            return None
+        return releases_of(after, since=(lost, vibration))
+
+    rows = []
+    for stretch in stretches.tolist():
+        first = follow(stretch)
+        second = follow(stretch + NUDGE * largest)
+        if first is None or second is None:
+            continue
+        slope = math.nan
+        if first.vibrations[0] == second.vibrations[0]:
+            change = second.phases[:2] - first.phases[:2]
+            slope = float(change[1] / change[0])
+        rows.append((first.phases[0], first.phases[1], first.vibrations[0], slope))
+    if not rows:
+        return nothing
+    phases, following, vibrations, slopes = np.array(sorted(rows), dtype=float).T
+    return PhaseMap(phases, following, vibrations.astype(np.int64), slopes)

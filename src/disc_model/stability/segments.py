@@ -1,0 +1,111 @@
+"""Segments of motions: stretches that are simulated, and described by ranges and shares of time."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from disc_model.arrays import Array
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Window
+from disc_model.simulation.result import Result
+from disc_model.simulation.states import State
+from disc_model.stability import thresholds
+
+
+@dataclass(frozen=True)
+class Segment:
+    """Ranges of contact force (N) and height over static equilibrium (m); shares of time;
+    separations per s."""
+
+    P_min: float
+    P_max: float
+    u_min: float
+    u_max: float
+    stick_fraction: float
+    slip_fraction: float
+    separation_fraction: float
+    separation_rate: float
+
+    @property
+    def range(self) -> float:
+        """Range of the height, m."""
+        return self.u_max - self.u_min
+
+
+def simulate_leg(
+    p: Parameters, stop: float, start: State | None, tol: float, described_from: float | None = None
+) -> Result:
+    """Simulate from a state (None: the static start) to a time (s) or the first separation, if that
+    comes first.
+
+    described_from : s, begin of the segment that `segment_of` is to describe; None for none
+    """
+    windows = {}
+    if described_from is not None:
+        windows = {"late": Window(start=described_from, stop=stop, rate=thresholds.SAMPLING_RATE)}
+    return simulate(p, stop, windows, tol=tol, initial_state=start, stop_at="first_separation")
+
+
+def final_segment(
+    p: Parameters, state: State | None, duration: float, late: float, tol: float
+) -> tuple[Result, Segment | None]:
+    """Simulate from a state (None: the static start) for a duration (s); its last segment, if it is
+    complete."""
+    begin = 0.0
+    if state is not None:
+        begin = state.time
+    stop = begin + duration
+    if stop - late > begin:
+        result = simulate(p, stop - late, tol=tol, initial_state=state, events=False)
+        if not result.status.complete:
+            return result, None
+        state = result.final_state
+    window = Window(start=stop - late, stop=stop, rate=thresholds.SAMPLING_RATE)
+    result = simulate(p, stop, {"late": window}, tol=tol, initial_state=state)
+    if not result.status.complete:
+        return result, None
+    return result, segment_of(result)
+
+
+def segment_of(result: Result) -> Segment:
+    """The segment of a result: ranges over its window "late", and shares of its whole time."""
+    P = result.samples["late"]["P"]
+    u = result.samples["late"]["u"] - result.u_0
+    share = shares(result)
+    return Segment(
+        P_min=float(P.min()),
+        P_max=float(P.max()),
+        u_min=float(u.min()),
+        u_max=float(u.max()),
+        stick_fraction=share.stick,
+        slip_fraction=share.slip,
+        separation_fraction=share.separation,
+        separation_rate=share.separation_rate,
+    )
+
+
+class Shares(NamedTuple):
+    """Shares of a motion's time in stick, slip and separation, and separations per second."""
+
+    stick: float
+    slip: float
+    separation: float
+    separation_rate: float
+
+
+def shares(result: Result) -> Shares:
+    """Shares of a result's time."""
+    statistics = result.statistics
+    stick = statistics["time_stick"]
+    slip = statistics["time_slip"]
+    separation = statistics["time_separation"]
+    total = stick + slip + separation
+    rate = statistics["separations"] / total
+    return Shares(stick / total, slip / total, separation / total, rate)
+
+
+def switch_angles(leg: Result) -> Array:
+    """Times of releases and losses of contact of a leg, s, and the slider's angles, rad: shape (2,
+    n)."""
+    switches = leg.events[leg.events["kind"].isin(["stick_to_slip", "separation"])]
+    return switches[["time", "psi"]].to_numpy(dtype=float).T

@@ -1,0 +1,159 @@
+"""Results of any function as variables with units, and many of them along the dimensions of a
+sweep."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import fields, is_dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from disc_model.data.variables import SCALARS, Variable
+from disc_model.parameters import RATIOS, Parameters
+from disc_model.simulation.result import Result
+from disc_model.studies.registry import quantity_names, quantity_of
+from disc_model.studies.run import describe
+
+
+@cache
+def _common() -> dict[str, dict[str, Any]]:
+    """Units and names that all quantities and simulations give a variable of this name; what they
+    disagree about is left out, since such a name says nothing of another result's variable."""
+    tables = [quantity_of(name).COLUMNS for name in quantity_names()]
+    found: dict[str, list[dict[str, Any]]] = {}
+    for table in (*tables, SCALARS):
+        for name, column in table.items():
+            if column.units and not column.flags:
+                found.setdefault(name, []).append(column.attributes)
+    common = {}
+    for name, several in found.items():
+        first = several[0]
+        common[name] = {
+            key: first[key] for key in first if all(each[key] == first[key] for each in several)
+        }
+    return common
+
+
+@cache
+def _of_class(name: str) -> dict[str, dict[str, Any]]:
+    """Units and names of the variables of a result of a class, which has names of its own: a cycle
+    and steady sliding both have a growth rate."""
+    of_cycle = quantity_of("floquet").COLUMNS
+    columns: Mapping[str, Variable] = {}
+    if name == "FloquetResult":
+        others = {
+            "tol": Variable("1", "relative error with which the cycle returns to its start"),
+            "releases": Variable("1", "number of stick releases in its period"),
+            "separations": Variable("1", "number of separations in its period"),
+        }
+        columns = {**of_cycle, **others}
+    elif name == "SteadySliding":
+        columns = {
+            "growth_rate": of_cycle["sliding_growth_rate"],
+            "psi": Variable("rad", "angle of the drive point ahead of the slider"),
+        }
+    elif name == "Lyapunov":
+        columns = {
+            "exponents": Variable("s-1", "Lyapunov exponent"),
+            "errors": Variable("s-1", "uncertainty of the Lyapunov exponent"),
+            "duration": Variable("s", "time over which exponents are taken"),
+            "separations": Variable("1", "number of separations in that time"),
+        }
+    return {
+        name: column.attributes
+        for name, column in columns.items()
+        if column.units and not column.flags
+    }
+
+
+def _attributes_of(result: Any, name: str) -> dict[str, Any]:
+    """Unit and name of a variable of a result; empty if they are not known."""
+    kind = type(result).__name__
+    if (
+        kind == "Critical"
+        and name == "value"
+        and result.name in (*Parameters.model_fields, *RATIOS)
+    ):
+        parameter = describe(result.name)
+        return {**parameter, "long_name": f"critical value of {parameter['long_name']}"}
+    return _of_class(kind).get(name) or _common().get(name, {})
+
+
+def variables_of_result(result: Any) -> dict[str, xr.Variable]:
+    """Numbers, words and one-dimensional arrays of a result."""
+    if isinstance(result, xr.Dataset):
+        return {str(name): variable for name, variable in result.variables.items()}
+    variables = {}
+    for name, value in _named_values(result).items():
+        array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
+        if array.ndim <= 1 and array.dtype.kind in "biufcU":
+            variables[name] = xr.Variable(
+                (f"{name}_index",)[: array.ndim], array, _attributes_of(result, name)
+            )
+    return variables
+
+
+def _named_values(result: Any) -> Mapping[str, Any]:
+    """The values of a result by name."""
+    if isinstance(result, Result):
+        return result.scalars()
+    if is_dataclass(result):
+        values = {field.name: getattr(result, field.name) for field in fields(result)}
+        if hasattr(result, "stable"):
+            values["stable"] = result.stable
+        if hasattr(result, "sliding"):
+            values["sliding_growth_rate"] = result.sliding.growth_rate
+        return values
+    return result if isinstance(result, Mapping) else {"value": result}
+
+
+def stacked(
+    rows: Sequence[dict[str, xr.Variable]], sizes: Mapping[str, int]
+) -> tuple[dict[str, xr.Variable], dict[str, xr.Variable]]:
+    """Variables along the dimensions of a sweep, and the function's own coordinates; nan or ""
+    where one is missing."""
+    first: dict[str, xr.Variable] = {}
+    for row in reversed(rows):
+        first.update(row)
+    fixed = {}
+    stacked = {}
+    for name, variable in first.items():
+        if variable.dims == (name,):
+            fixed[name] = variable
+            continue
+        values = [row[name].values if name in row else None for row in rows]
+        array = _padded(values)
+        whole = array.reshape((*sizes.values(), *array.shape[1:]))
+        stacked[name] = xr.Variable((*sizes, *variable.dims), whole, variable.attrs)
+    return stacked, fixed
+
+
+def _padded(rows: Sequence[NDArray[Any] | None]) -> NDArray[Any]:
+    """Arrays of one number of dimensions as the rows of one array, shape (len(rows), ...); what is
+    missing is nan, or "" among words."""
+    present = [row for row in rows if row is not None]
+    shapes = [row.shape for row in present]
+    shape = tuple(max(sizes) for sizes in zip(*shapes, strict=True))
+    complete = all(row is not None and row.shape == shape for row in rows)
+    kinds = {row.dtype.kind for row in present}
+    missing: Any = math.nan
+    dtype: Any = float
+    if kinds <= {"U"}:
+        missing = ""
+        dtype = object
+    elif "c" in kinds:
+        dtype = complex
+    elif kinds <= {"b"} and complete:
+        missing = False
+        dtype = bool
+    array = np.full((len(rows), *shape), missing, dtype)
+    for i, row in enumerate(rows):
+        if row is not None:
+            place: Any = (i, *map(slice, row.shape))
+            array[place] = row
+    return array.astype(str) if dtype is object else array

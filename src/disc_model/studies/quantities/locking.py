@@ -1,0 +1,180 @@
+"""Whether a motion with stick and separation repeats after a whole number of releases, and how
+strongly it is held there."""
+
+import math
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+from pydantic import Field
+
+from disc_model.data.variables import Variable
+from disc_model.simulation.case import Start, Window
+from disc_model.studies.costs import UnitCosts
+from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity, Result, along
+from disc_model.units import Count, Seconds, Tolerance
+
+MOTIONS = ("undecided", "locked", "without_stick", "in_contact")
+RATE = 1e5  # Hz, of the contact force at releases: a stick lasts half a millisecond
+_release = along("release")
+_probe = along("probe")
+
+
+class Locking(Start, Quantity):
+    """Number of releases of stick after which a motion that separates repeats, mean number of
+    separations between them, and multipliers of the repeating motion."""
+
+    tol: Tolerance = 1e-10
+    """tolerance of simulations: error of event times after a second of motion"""
+    transient: Seconds = 60.0
+    """time left out at the beginning"""
+    record: Seconds = 20.0
+    """time recorded; doubled until the motion repeats in it"""
+    max_record: Seconds = 160.0
+    """longest time recorded"""
+    multipliers: bool = True
+    """whether the motion counts as locked only if Newton's method finds a stable cycle at it"""
+    releases: Annotated[Count, Field(ge=1, le=10_000)] = 50
+    """number of releases whose phases are stored"""
+    probes: Annotated[Count, Field(ge=0, le=10_000)] = 0
+    """number of places at which the map of release phases is computed"""
+
+    _rules = ((lambda o: o.record <= o.max_record, "record must be <= max_record"),)
+    COLUMNS: ClassVar = {
+        "status": STATUS,
+        "motion": Variable("1", "what the record shows", MOTIONS),
+        "separations_per_release": Variable(
+            "1", "number of separations per release of stick: of a period, or of the whole record"
+        ),
+        "period_releases": Variable(
+            "1", "number of releases after which the motion repeats, 0 if not shown", whole=True
+        ),
+        "period_separations": Variable("1", "number of separations in that time", whole=True),
+        "period": Variable("s", "time after which the motion repeats"),
+        "period_residual": Variable(
+            "s", "largest difference of an interval between releases from that a period later"
+        ),
+        "record_time": Variable("s", "length of the record"),
+        "separation_interval": Variable("s", "mean interval between separations"),
+        "leading_multiplier": Variable("1", "largest absolute value of the multipliers"),
+        "growth_rate": Variable("s-1", "growth rate of disturbances of the repeating motion"),
+        "real_multiplier": Variable("1", "largest real multiplier"),
+        "swing_multiplier": Variable(
+            "1", "multiplier of the release phases by the slider's swings, for a given vibration"
+        ),
+        "release_phase": _release(
+            "1", "phase of a release: time since a separation over their mean interval"
+        ),
+        "release_separations": _release("1", "number of separations to the next release"),
+        "map_phase": _probe("1", "phase of a release that the slider was held for"),
+        "map_next_phase": _probe("1", "phase of the release after it"),
+        "map_separations": _probe("1", "number of separations between them"),
+        "map_slope": _probe("1", "derivative of the next phase by the phase"),
+    }
+    COORDINATES: ClassVar = {
+        "release": Coordinate("1", "number of the release", lambda o: range(o.releases)),
+        "probe": Coordinate("1", "number of the place", lambda o: range(o.probes)),
+    }
+
+    def cost(self, unit: UnitCosts) -> float:
+        """The motion, whose record is doubled once on average, and the search for a cycle."""
+        cycles = 200 * unit.cycle if self.multipliers else 0.0
+        held = 2 * self.probes * unit.second
+        return unit.second * (self.transient + 3 * self.record) + cycles + held
+
+    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        from disc_model.simulation.api import simulate
+        from disc_model.simulation.starts import state_after
+
+        p = point.parameters
+        state = state_after(p, point.start, self.transient, self.tol)
+        record = self.record
+        while True:
+            run = simulate(p, duration=record, tol=self.tol, initial_state=state)
+            if not run.status.complete:
+                return {"status": run.status.value}, run.message
+            values = self._read(run)
+            if values["motion"] != "undecided" or 2 * record > self.max_record:
+                break
+            record *= 2
+        message = ""
+        if values["motion"] == "locked" and self.multipliers:
+            message = self._prove(run, values)
+        if self.probes:
+            values |= self._map(run)
+        return {"status": "ok", "record_time": record, **values}, message
+
+    def _read(self, run: Result) -> dict[str, Any]:
+        """What the record of a motion shows."""
+        from disc_model.stability.locking import lock_of, releases_of
+
+        kinds = run.events["kind"].to_numpy()
+        found = releases_of(run)
+        if found is None:
+            motion = "undecided"
+            if not (kinds == "separation").any():
+                motion = "in_contact"
+            elif not (kinds == "stick_to_slip").any():
+                motion = "without_stick"
+            return {"motion": motion}
+        values: dict[str, Any] = {
+            "motion": "undecided",
+            "separations_per_release": float(np.mean(found.vibrations)),
+            "separation_interval": found.vibration,
+            "release_phase": found.phases,
+            "release_separations": found.vibrations.astype(float),
+        }
+        lock = lock_of(found)
+        if lock is not None:
+            values |= {
+                "motion": "locked",
+                "separations_per_release": lock.vibrations / lock.releases,
+                "period_releases": lock.releases,
+                "period_separations": lock.vibrations,
+                "period": lock.period,
+                "period_residual": lock.closure,
+            }
+        return values
+
+    def _prove(self, run: Result, values: dict[str, Any]) -> str:
+        """Add the multipliers of the cycle that a motion is on; without a stable one it is undecided.
+        Returns a message."""
+        from disc_model.simulation.api import simulate
+        from disc_model.stability.locking import (
+            lock_of,
+            multipliers_of,
+            releases_of,
+            swing_multiplier,
+        )
+
+        p = run.parameters
+        found = releases_of(run)
+        lock = None if found is None else lock_of(found)
+        if lock is None:
+            return ""
+        state = run.final_state
+        known = multipliers_of(p, state, lock)
+        if known is None or not abs(known[0]) < 1:
+            values["motion"] = "undecided"
+            return f"no stable cycle of {lock.releases} releases was found at the motion"
+        windows = {"force": Window(last=1.1 * lock.period, rate=RATE)}
+        period = simulate(
+            p, windows=windows, duration=1.1 * lock.period, tol=self.tol, initial_state=state
+        )
+        real = known[np.abs(known.imag) <= 1e-9 * np.abs(known)].real
+        values["leading_multiplier"] = float(abs(known[0]))
+        values["growth_rate"] = math.log(abs(known[0])) / lock.period
+        values["real_multiplier"] = float(real.max(initial=-math.inf))
+        values["swing_multiplier"] = swing_multiplier(p, period, lock)
+        return ""
+
+    def _map(self, run: Result) -> dict[str, Any]:
+        """Columns of the map of release phases."""
+        from disc_model.stability.locking import phase_map
+
+        found = phase_map(run.parameters, run, self.probes, self.tol)
+        return {
+            "map_phase": found.phases,
+            "map_next_phase": found.following,
+            "map_separations": found.vibrations.astype(float),
+            "map_slope": found.slopes,
+        }

@@ -1,0 +1,127 @@
+"""Sweeps: any function of a case, called for many cases, with its results in one dataset."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
+
+import xarray as xr
+
+from disc_model.hashing import canonical_json
+from disc_model.parameters import RATIOS, Parameters
+from disc_model.studies.calls import checked_call
+from disc_model.studies.gathering import stacked, variables_of_result
+from disc_model.studies.quantity import NUMERICAL
+from disc_model.studies.run import describe
+from disc_model.studies.workers import checked_workers
+
+
+def sweep(
+    function: Callable[..., Any],
+    case: Parameters,
+    *,
+    zip: Mapping[str, Any] | None = None,
+    workers: int = 1,
+    processes: bool = False,
+    executor: Any = None,
+    progress: bool = False,
+    **named: Any,
+) -> xr.Dataset:
+    """Call a function for each combination of values of parameters, and gather the results.
+
+    `disc_model.save` writes the results to a file.
+
+    Parameters
+    ----------
+    function : one that takes a case first, such as `floquet`, `simulate`, `outcome` or a function of your own
+    case : values of all parameters that do not vary
+    zip : columns of values that vary together, by the names of numbers of the case, such as paired samples or a
+        pandas.DataFrame of cases. They are one dimension, whose name joins theirs
+    workers : number of calls at a time; compiled code runs beside other threads
+    processes : whether they are processes instead of threads: the function must then be importable
+    executor : who makes the calls instead: any object with the method `submit` of `concurrent.futures.Executor`, such
+        as an executor of mpi4py or a client of dask.distributed, or with `map`
+    progress : whether a bar on standard error shows how many calls are done
+    **named : values of numbers of the case, each of which becomes a dimension; other names are passed to the function
+
+    Returns
+    -------
+    xarray.Dataset
+        Numbers, words and arrays of the results along the dimensions in their order, that of `zip` last. `status` is
+        "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic;
+        `message` then says which
+
+    Raises
+    ------
+    ParameterError
+        If `case` is no case, a name is neither a number of it nor an argument of the function, or a value breaks a rule
+        by itself; and if an argument of the function is missing, or refused at the first point. Where values of the
+        case break a rule together, the point has failed.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=15)
+    >>> growth = dm.sweep(dm.floquet, case, Omega=[10, 12, 14], mu_k_over_mu_s=[0.5, 0.6], workers=2)
+    >>> growth["growth_rate"].dims, growth["growth_rate"].attrs["units"]
+    (('Omega', 'mu_k_over_mu_s'), 's-1')
+    >>> growth["status"].sel(Omega=10).values.tolist()
+    ['ok', 'ok']
+    >>> pairs = dm.sweep(dm.floquet, case, zip={"N": [385, 300], "Omega": [10, 12]})
+    >>> pairs["growth_rate"].sizes, pairs["N"].values
+    (Frozen({'N_Omega': 2}), array([385., 300.]))
+    """
+    call = checked_call(function, case, zip, named)
+    calls = checked_workers(workers, processes, executor, progress)
+    row = partial(_row, partial(function, **call.options), case, call.arguments)
+    rows = calls.results(row, [*enumerate(call.points())], call.title)
+
+    coordinates: dict[str, Any] = {}
+    for dimension in call.dimensions:
+        for name, values in dimension.columns.items():
+            coordinates[name] = (dimension.name, _plain(values), _described(name))
+    sizes = {dimension.name: len(dimension) for dimension in call.dimensions}
+    variables, fixed = stacked(rows, sizes)
+    base = canonical_json({**case.stated, "disc": case.canonical.get("disc")})
+    attrs = {"function": call.title, "parameters": case.canonical_json, "base": base}
+    return xr.Dataset(variables, {**fixed, **coordinates}, attrs)
+
+
+def _plain(values: list[Any]) -> list[Any]:
+    """The values of a coordinate, whole numbers as floats."""
+    return [float(value) if isinstance(value, int) else value for value in values]
+
+
+def _described(name: str) -> dict[str, Any]:
+    """Attributes of a coordinate; numbers of a disc's modes have none."""
+    if name in (*Parameters.model_fields, *RATIOS):
+        return describe(name)
+    return {}
+
+
+def _row(
+    function: Any, case: Parameters, names: frozenset[str], numbered: tuple[int, Any]
+) -> dict[str, xr.Variable]:
+    """The variables of one call; a fault of the function's own arguments at the first point is that
+    of all."""
+    number, point = numbered
+    try:
+        result = function(case.replace(**point))
+    except NUMERICAL as error:
+        refused = {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}
+        if number == 0 and names & refused:
+            raise
+        return {
+            "status": xr.Variable((), "failed"),
+            "message": xr.Variable((), f"{type(error).__name__}: {error}"),
+        }
+    if isinstance(result, xr.Dataset):  # whose attributes are also those of the object
+        status = "ok"
+        message = result.attrs.get("message", "")
+    else:
+        status = str(getattr(result, "status", "ok"))
+        message = getattr(result, "message", "")
+    words = {"status": xr.Variable((), status), "message": xr.Variable((), message)}
+    return {**words, **variables_of_result(result)}

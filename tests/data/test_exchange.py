@@ -1,0 +1,221 @@
+"""Datasets in files of other programs: what comes back, and what they find there."""
+
+import csv
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+import scipy.io
+import xarray as xr
+
+import disc_model as dm
+from disc_model.data.tables import save_csv
+
+P = dm.Parameters(N=200, Omega=50, n_diameters=1)
+RUN = dm.simulate(P, 0.02, {"all": dm.Window(rate=2000)})
+SUFFIXES = pytest.mark.parametrize("suffix", ["nc", "mat"])
+
+
+def every_kind() -> xr.Dataset:
+    """A dataset of two dimensions with variables of every kind."""
+    words = np.array([["ok", "", "two words "], ["Ωµ", "line\nline", "|"]])
+    roots = np.arange(6).reshape(2, 3) * (1 + 2j)
+    roots[1, 2] = complex(np.nan, -0.0)
+    flags = {"flag_values": np.arange(2, dtype=np.int8), "flag_meanings": "stick slip"}
+    variables: dict[str, Any] = {
+        "growth": (("N", "Omega"), np.array([[1.5, np.nan, -np.inf], [0.0, 1e-300, 3.0]])),
+        "roots": (("N", "Omega"), roots, {"units": "s-1", "long_name": "roots"}),
+        "status": (("N", "Omega"), words),
+        "stable": ("N", [True, False]),
+        "count": ("Omega", np.array([1, 2, 2**53 + 1])),
+        "phase": ("Omega", np.array([0, 1, 0], np.int8), flags),
+        "short": ("Omega", np.array([0.1, 0.2, 0.3], np.float32)),
+        "one": ((), 2.5, {"units": "m", "scale": 3, "weights": np.array([0.5, 0.25])}),
+        "root": ((), 1j),
+        "word": ((), "quiet"),
+        "nothing": ((), ""),
+        "certain": ((), True),
+        "none": ("empty", np.zeros(0)),
+        "no_words": ("empty", np.array([], dtype=str)),
+        "single": ("one_value", ["alone"]),
+    }
+    coordinates = {
+        "N": ("N", [100.0, 200.0], {"units": "N"}),
+        "Omega": ("Omega", [1.0, 2.0, 3.0], {"units": "rad s-1"}),
+        "pole": ("N", [1 + 1j, 2 - 1j]),
+        "mu_s": ((), 0.4),
+    }
+    return xr.Dataset(variables, coordinates, {"function": "floquet", "number": 2.0})
+
+
+# ---- What comes back
+
+
+@SUFFIXES
+def test_a_dataset_comes_back_as_it_was(suffix: str, tmp_path: Path) -> None:
+    data = every_kind()
+    path = tmp_path / f"data.{suffix}"
+    dm.save(data, path)
+    found = dm.load(path)
+    xr.testing.assert_identical(found, data)
+    assert list(found.variables) == list(data.variables)
+    for name, variable in data.variables.items():
+        assert found[name].dtype.kind == variable.dtype.kind, name
+        if variable.dtype.kind not in "U":
+            assert found[name].values.tobytes() == variable.values.tobytes(), name
+
+
+@SUFFIXES
+def test_a_sweep_comes_back_as_it_was(suffix: str, tmp_path: Path) -> None:
+    """Its multipliers are complex, which netCDF cannot hold."""
+    swept = dm.sweep(dm.floquet, P, zip={"N": [150, 200], "mu_k": [0.2, 0.41]})
+    assert swept["multipliers"].dtype == complex
+    assert swept["status"].values.tolist() == ["ok", "failed"]
+    dm.save(swept, tmp_path / f"sweep.{suffix}")
+    xr.testing.assert_identical(dm.load(tmp_path / f"sweep.{suffix}"), swept)
+
+
+@SUFFIXES
+def test_groups_come_back_as_a_tree(suffix: str, tmp_path: Path) -> None:
+    scalars = RUN.to_tree().to_dataset()
+    tree = xr.DataTree.from_dict({"/": scalars, "grid": every_kind(), "grid/all": RUN["all"]})
+    dm.save(tree, tmp_path / f"tree.{suffix}")
+    found = dm.load(tmp_path / f"tree.{suffix}")
+    assert isinstance(found, xr.DataTree)
+    xr.testing.assert_identical(found, tree)
+
+
+def test_a_part_without_the_other_stays_what_it_is(tmp_path: Path) -> None:
+    data_path = tmp_path / "data.nc"
+    dm.save(every_kind(), data_path)
+    other_path = tmp_path / "other.nc"
+    with xr.open_dataset(data_path) as opened:
+        opened.drop_vars("roots_imag").to_netcdf(other_path)
+    found = dm.load(other_path)
+    np.testing.assert_array_equal(found["roots_real"], every_kind()["roots"].values.real)
+
+
+# ---- What other programs find
+
+
+def test_netcdf_has_real_and_imaginary_parts(tmp_path: Path) -> None:
+    data = every_kind()
+    path = tmp_path / "data.nc"
+    dm.save(data, path)
+    with xr.open_dataset(path) as opened:
+        np.testing.assert_array_equal(opened["roots_real"], data["roots"].values.real)
+        np.testing.assert_array_equal(opened["roots_imag"], data["roots"].values.imag)
+        assert opened["roots_real"].attrs["units"] == "s-1"
+        assert "roots" not in opened
+
+
+def test_a_mat_file_has_arrays_along_the_dimensions_in_their_order(tmp_path: Path) -> None:
+    data = every_kind()
+    path = tmp_path / "data.mat"
+    dm.save(data, path)
+    content = scipy.io.loadmat(path, simplify_cells=True)
+    np.testing.assert_array_equal(content["roots"], data["roots"])
+    np.testing.assert_array_equal(content["Omega"], [1.0, 2.0, 3.0])
+    assert content["dimensions"]["growth"].tolist() == ["N", "Omega"]
+    assert content["units"] == {"roots": "s-1", "one": "m", "N": "N", "Omega": "rad s-1"}
+    assert content["meanings"]["phase"].tolist() == ["stick", "slip"]
+    assert content["word"] == "quiet"
+    plain = scipy.io.loadmat(path)
+    assert plain["N"].shape == (2, 1), "a column, as MATLAB's users expect"
+    assert plain["status"][0, 0][0] == "ok"
+
+
+def test_a_merged_grid_is_written_for_matlab(tmp_path: Path) -> None:
+    axes = {"N": [150, 200], "mu_k": [0.1, 0.2, 0.3]}
+    base = {"Omega": 50, "n_diameters": 1}
+    study = {"study": "s", "quantity": "outcome", "base": base, "axes": axes}
+    grid = dm.run_study({**study, "options": {"horizon": 1}})
+    path = tmp_path / "grid.mat"
+    dm.save(grid, path)
+    content = scipy.io.loadmat(path, simplify_cells=True)
+    assert content["dimensions"]["outcome"].tolist() == ["N", "mu_k"]
+    words = content["meanings"]["outcome"][content["outcome"]]
+    known = grid["outcome"].attrs["flag_meanings"].split()
+    assert words.tolist() == np.array(known)[grid["outcome"].values].tolist()
+
+
+def test_names_that_matlab_does_not_allow_are_changed_in_the_file_alone(tmp_path: Path) -> None:
+    data = xr.Dataset({"growth rate": ("a-b", [1.0]), "_x": ((), 2.0)})
+    path = tmp_path / "data.mat"
+    dm.save(data, path)
+    content = scipy.io.loadmat(path, simplify_cells=True)
+    assert {"growth_rate", "x_x"} <= content.keys()
+    xr.testing.assert_identical(dm.load(path), data)
+
+
+# ---- What cannot be written or read
+
+TWO_LEVELS = pd.MultiIndex.from_product([["a", "b"], [1, 2]], names=["word", "number"])
+BY_DISC = xr.Dataset(
+    coords={"disc": ("disc", [dm.Disc(diameters=[0], omega=[1.0], amplitude=[1])])}
+)
+
+
+@pytest.mark.parametrize(
+    ("data", "name", "message"),
+    [
+        (BY_DISC, "x.nc", "^disc: must hold numbers or words to be saved, and holds Disc$"),
+        (xr.Dataset({"t": ("t", [np.datetime64("2026-01-01")])}), "x.mat", "^t: must hold numbers"),
+        (xr.Dataset({"x": ("i", [1])}, attrs={"a": None}), "x.nc", "^a=None: must be text or num"),
+        (xr.Dataset({"x": ("i", [1], {"a": True})}), "x.mat", "^x.a=True: must be text or numbers"),
+        (xr.Dataset({"x": ((), 1j), "x_real": ((), 1.0)}), "x.nc", "^x_real: must have another"),
+        (xr.Dataset({"units": ((), 1.0)}), "x.mat", "^units: must be a name of at most 63 char"),
+        (xr.Dataset({"x" * 64: ((), 1.0)}), "x.mat", "^x{64}: must be a name of at most 63"),
+        (xr.Dataset({"a b": ((), 1.0), "a-b": ((), 1.0)}), "x.mat", "^a-b: must differ from a b"),
+        (xr.DataTree.from_dict({"dataset": BY_DISC[[]]}), "x.mat", "^dataset: must be a name"),
+        (every_kind(), "x.csv", "must end in .nc or .mat"),
+    ],
+)
+def test_what_a_file_cannot_hold_is_refused(
+    data: Any, name: str, message: str, tmp_path: Path
+) -> None:
+    with pytest.raises(dm.ParameterError, match=message):
+        dm.save(data, tmp_path / name)
+    assert not [*tmp_path.iterdir()]
+
+
+def test_an_index_of_two_levels_is_refused(tmp_path: Path) -> None:
+    data = xr.Dataset(
+        {"x": ("i", range(4))}, xr.Coordinates.from_pandas_multiindex(TWO_LEVELS, "i")
+    )
+    for name in ("x.nc", "x.mat"):
+        with pytest.raises(dm.ParameterError, match=r"^i: must hold numbers or words"):
+            dm.save(data, tmp_path / name)
+
+
+def test_a_mat_file_of_a_result_is_said_to_be_one(tmp_path: Path) -> None:
+    path = tmp_path / "run.mat"
+    RUN.save(path)
+    with pytest.raises(dm.DiscModelError, match=r"run\.mat: .*Result\.load and State\.load read"):
+        dm.load(path)
+
+
+# ---- Tables of text
+
+
+def test_events_and_samples_are_written_as_text_with_units_and_words(tmp_path: Path) -> None:
+    RUN.to_csv(tmp_path / "new" / "run")
+    folder = tmp_path / "new" / "run"
+    assert sorted(path.name for path in folder.iterdir()) == ["all.csv", "events.csv"]
+    events = pd.read_csv(folder / "events.csv")
+    assert events.columns[:4].tolist() == ["time (s)", "kind", "phase", "psi (rad)"]
+    assert events["kind"].tolist() == RUN.events["kind"].tolist()
+    with open(folder / "all.csv", encoding="utf-8", newline="") as file:
+        samples = [*csv.DictReader(file)]
+    np.testing.assert_array_equal([float(row["P (N)"]) for row in samples], RUN["all"]["P"])
+    assert {row["phase"] for row in samples} == {"stick", "slip"}
+
+
+def test_a_folder_that_cannot_be_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "file"
+    path.write_text("")
+    for name in ("file", "file/below", "a\0b"):
+        with pytest.raises(dm.ParameterError, match=r"^path=.*: must be the name of a folder"):
+            save_csv({"all": RUN["all"]}, f"{tmp_path}/{name}")

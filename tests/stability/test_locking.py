@@ -1,0 +1,200 @@
+"""Periods of motions with stick and separation, with a test that can fail, and their multipliers."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from disc_model.disc.plate import mode_arrays
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Window
+from disc_model.simulation.result import Result
+from disc_model.simulation.states import engine_case
+from disc_model.stability import locking
+from disc_model.stability.locking import Releases, lock_of, releases_of
+from tests.references import fixed_step
+from tests.references.taylor import Problem
+
+CASE = Parameters(N=200, Omega=20, normalization="as_published")
+GOLDEN = (math.sqrt(5) - 1) / 2
+
+
+def record(intervals: np.ndarray, vibrations: np.ndarray) -> Releases:
+    """A record of releases with given intervals, s, and numbers of vibrations between them."""
+    times = np.concatenate([[0.0], np.cumsum(intervals)])
+    blank = np.zeros(len(times))
+    return Releases(times, blank, np.asarray(vibrations), 7.4e-3, blank)
+
+
+def test_a_record_that_repeats_has_its_period() -> None:
+    vibrations = np.tile([2, 17, 2, 19, 19], 4)
+    intervals = 7.4e-3 * vibrations + np.tile([1e-4, 0, 0, 2e-4, 3e-4], 4)
+    found = lock_of(record(intervals, vibrations))
+    assert found is not None
+    assert found.releases == 5
+    assert found.vibrations == 59
+    assert found.period == pytest.approx(intervals[:5].sum())
+
+
+def test_a_record_shorter_than_two_periods_shows_none() -> None:
+    vibrations = np.tile([2, 17, 2, 19, 19], 2)[:9]
+    intervals = 7.4e-3 * vibrations + np.tile([1e-4, 0, 0, 2e-4, 3e-4], 2)[:9]
+    assert lock_of(record(intervals, vibrations)) is None
+
+
+def test_a_quasi_periodic_record_shows_none() -> None:
+    """A rotation by the golden mean comes near to its start again and again, and never repeats."""
+    turns = (GOLDEN * np.arange(2000)) % 1
+    vibrations = np.where(turns < GOLDEN, 2, 17)
+    assert lock_of(record(7.4e-3 * vibrations + 1e-4 * turns, vibrations)) is None
+
+
+def test_equal_intervals_with_other_numbers_of_vibrations_are_no_period() -> None:
+    vibrations = np.array([2, 3, 2, 2, 3, 2, 2, 2])
+    assert lock_of(record(np.full(8, 0.1), vibrations)) is None
+
+
+# ---- The motion at 200 N
+
+
+def settled(Omega: float, tol: float = 1e-10) -> Result:
+    """Twelve seconds of the motion with separation, as long as two periods or more, after it has
+    settled."""
+    p = CASE.replace(Omega=Omega)
+    begun = simulate(CASE, 560, tol=tol, events=False)
+    state = simulate(p, duration=60, tol=tol, initial_state=begun.final_state, events=False)
+    return simulate(p, duration=12, tol=tol, initial_state=state.final_state)
+
+
+def locked(run: Result) -> tuple[int, int]:
+    """Releases and separations in a period."""
+    found = releases_of(run)
+    if found is None:
+        lock = None
+    else:
+        lock = lock_of(found)
+    assert lock is not None
+    return lock.releases, lock.vibrations
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    ("Omega", "tol", "period"),
+    [
+        (19.83, 1e-10, (34, 371)),
+        (19.97, 1e-10, (34, 371)),
+        (19.99, 1e-10, (35, 371)),
+        (20.18, 1e-10, (41, 449)),
+        (19.9, 1e-8, (34, 371)),
+        (19.9, 1e-12, (34, 371)),
+        (20.1, 1e-8, (41, 449)),
+        (20.1, 1e-12, (41, 449)),
+    ],
+)
+def test_periods_stay_over_steps_of_the_speed_and_at_all_tolerances(
+    Omega: float, tol: float, period: tuple[int, int]
+) -> None:
+    assert locked(settled(Omega, tol)) == period
+
+
+@pytest.fixture(scope="module")
+def run() -> Result:
+    return settled(19.9)
+
+
+@pytest.mark.compiled
+def test_multipliers_are_those_of_the_disc_and_one_of_the_slider(run: Result) -> None:
+    """The disc's damping, half of 2 xi omega, holds for its weakly coupled modes; the real
+    multiplier is that of the slider's swings, but for what these do to the vibration."""
+    p = run.parameters
+    found = releases_of(run)
+    assert found is not None
+    lock = lock_of(found)
+    assert lock is not None
+    known = locking.multipliers_of(p, run.final_state, lock)
+    assert known is not None
+    assert (abs(known) < 1).all()
+    rate = math.log(abs(known[0])) / lock.period
+    model = engine_case(p).model
+    assert -rate == pytest.approx(float(model.damping0.min()) / 2, rel=0.01)
+
+    real = known[abs(known.imag) < 1e-9].real.max()
+    windows = {"force": Window(last=1.1 * lock.period, rate=1e5)}
+    period = simulate(p, windows=windows, duration=1.1 * lock.period, initial_state=run.final_state)
+    assert locking.swing_multiplier(p, period, lock) == pytest.approx(real, rel=0.05)
+
+
+@pytest.mark.compiled
+def test_the_map_of_phases_contracts_where_the_motion_is(run: Result) -> None:
+    found = releases_of(run)
+    assert found is not None
+    places = locking.phase_map(run.parameters, run, 200, 1e-10)
+    inside = (places.phases > found.phases.min()) & (places.phases < found.phases.max())
+    assert set(places.vibrations[inside]) == {2, 17, 19} == set(found.vibrations)
+    slopes = places.slopes[inside]
+    assert np.nanmax(abs(slopes)) < 1
+
+    # the slope of a piece is also that between its places
+    piece = inside & (places.vibrations == 2)
+    secant = np.diff(places.following[piece]) / np.diff(places.phases[piece])
+    middle = (places.slopes[piece][1:] + places.slopes[piece][:-1]) / 2
+    np.testing.assert_allclose(secant, middle, rtol=1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.compiled
+def test_a_method_of_fixed_steps_finds_the_same_numbers_of_vibrations(run: Result) -> None:
+    """It shares no code with the engine; its errors leave each number of a period as it is."""
+    found = releases_of(run)
+    assert found is not None
+    expected = found.vibrations[:68].tolist()
+    assert vibrations_by_fixed_steps(run, 6.0)[: len(expected)] == expected
+
+
+def vibrations_by_fixed_steps(run: Result, duration: float) -> list[int]:
+    """Numbers of separations between releases, from the state in which a run begins."""
+    state = run.initial_state
+    assert state is not None
+    p = run.parameters
+    disc = mode_arrays(p)
+    problem = Problem(dict(p), disc.omega, disc.psi, disc.diameters)
+    names = ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0", "u_0")
+    q = np.array([float(getattr(problem, name)) for name in names])
+    modes = np.array([problem.w2, problem.s, problem.l, problem.d, problem.t], dtype=float)
+    moved = [state.a, state.b, state.alpha, state.beta]
+    y = np.concatenate([*moved, [state.psi, state.f, state.u, state.u_velocity]])
+    sides: dict[str, Any] = {"stick": 0.0, "slip": float(state.direction), "separation": 2.0}
+    side = sides[state.phase]
+    counts: list[int] = []
+    count = 0
+    is_known = False
+    time = 0.0
+    while time < duration:
+        h = fixed_step.STEP
+        new, margin = fixed_step.advance(q, modes, y, side, False, False, h)
+        step = h
+        if margin < 0:
+            left = 0.0
+            right = h
+            while right - left > 1e-13:
+                middle = (left + right) / 2
+                _, margin = fixed_step.advance(q, modes, y, side, False, False, middle)
+                left, right = (left, middle) if margin < 0 else (middle, right)
+            new, _ = fixed_step.advance(q, modes, y, side, False, False, right)
+            after = fixed_step.change(q, modes, new, side, False, False)
+            if side == 0 and is_known:
+                counts.append(count)
+            if side == 0:
+                is_known = True
+                count = 0
+            count += after == 2 and side != 2
+            side = after
+            step = right
+            if right < 1e-9:  # leads away from an event at the start of a phase
+                new, _ = fixed_step.advance(q, modes, new, side, False, False, 1e-9)
+                step = right + 1e-9
+        y = new
+        time += step
+    return counts

@@ -1,0 +1,271 @@
+"""Sweeps: what is called, by whom, and what is gathered."""
+
+import re
+import threading
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from functools import partial
+from multiprocessing.pool import ThreadPool
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+import disc_model as dm
+from disc_model.studies.sweeps import sweep
+from disc_model.studies.whole_study import run_study
+
+P = dm.Parameters(N=385, Omega=14)
+
+
+# ---- What is called, and what is gathered
+
+
+def test_a_sweep_has_a_status_for_each_point_and_the_same_numbers_with_any_workers() -> None:
+    axes = {"Omega": [10.0, 14.0], "mu_k_over_mu_s": [0.6, 1.2]}
+    swept = sweep(dm.floquet, P, **axes)
+    assert swept["status"].values.tolist() == [["ok", "failed"]] * 2
+    assert "mu_k=0.48: must be <= mu_s=0.4" in swept["message"].values[0, 1]
+    assert np.isnan(swept["growth_rate"].values[:, 1]).all()
+    for i, Omega in enumerate(axes["Omega"]):
+        cycle = dm.floquet(P.replace(Omega=Omega, mu_k_over_mu_s=0.6))
+        assert swept["growth_rate"].values[i, 0] == cycle.growth_rate
+        np.testing.assert_array_equal(swept["multipliers"].values[i, 0], cycle.multipliers)
+    xr.testing.assert_identical(sweep(dm.floquet, P, workers=2, **axes), swept)
+    xr.testing.assert_identical(sweep(dm.floquet, P, workers=2, processes=True, **axes), swept)
+
+
+def test_a_sweep_takes_any_function_and_passes_its_arguments() -> None:
+    swept = sweep(
+        lambda case, factor: {"load": factor * case.N, "word": "x"}, P, N=[1, 2], factor=3
+    )
+    assert swept["load"].values.tolist() == [3, 6]
+    assert swept["word"].values.tolist() == ["x", "x"]
+    assert sweep(dm.simulate, P, t_end=0.1, N=[200])["n_separations"].values.tolist() == [0]
+    with pytest.raises(
+        dm.ParameterError, match=r"Omga=.*: is no number of the case.*did you mean Omega"
+    ):
+        sweep(dm.floquet, P, Omga=[1])
+    assert sweep(partial(dm.floquet, tol=1e-10), P, N=[200]).attrs["function"] == "partial"
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_wrong_argument_of_the_function_ends_a_sweep_at_once(workers: int) -> None:
+    called = []
+
+    def function(case: dm.Parameters, factor: float, tol: float = 1e-12) -> float:
+        called.append(case.N)
+        return factor * dm.floquet(case, tol=tol).growth_rate
+
+    for options, message in (
+        ({"factor": 1, "tol": -1}, r"^tol=-1: must be within 1e-14 and 1e-06$"),
+        ({"tol": -1}, r"^factor: is required by function$"),
+    ):
+        with pytest.raises(dm.ParameterError, match=message):
+            sweep(function, P, N=np.linspace(200, 300, 50), workers=workers, **options)
+    assert len(called) <= 2 * workers  # those that other workers had begun
+    with pytest.raises(dm.ParameterError, match=r"^t_end: is required"):
+        sweep(dm.simulate, P, N=[200], workers=workers)
+
+
+def test_an_argument_that_is_refused_later_on_fails_its_own_point() -> None:
+    def function(case: dm.Parameters, length: float) -> float:
+        if case.N > 150:
+            raise dm.ParameterError(f"length={length}: must be short at such a load")
+        return case.N * length
+
+    swept = sweep(function, P, N=[100, 200], length=2.0)
+    assert swept["status"].values.tolist() == ["ok", "failed"]
+    assert swept["message"].values[1].startswith("ParameterError: length=2.0: must be short")
+    np.testing.assert_array_equal(swept["value"], [200.0, np.nan])
+    with pytest.raises(dm.ParameterError, match="must be short"):
+        sweep(function, P, N=[200, 100], length=2.0)
+
+
+def test_an_argument_of_the_function_is_no_axis_though_a_parameter_has_its_name() -> None:
+    swept = sweep(lambda case, k: k + case.k, P, N=[1, 2], k=3.0)
+    assert swept["value"].dims == ("N",)
+    assert swept["value"].values.tolist() == [3.0 + P.k] * 2
+
+
+def test_what_a_sweep_gathers_keeps_its_kind() -> None:
+    def function(case: dm.Parameters) -> xr.Dataset:
+        values = {"light": case.N < 150, "heavy": case.N > 150}
+        if case.N > 150:
+            del values["light"]
+        return xr.Dataset(values, attrs={"message": f"of {case.N:g} N"})
+
+    swept = sweep(function, P, N=[100, 200])
+    assert swept["heavy"].dtype == bool
+    assert swept["heavy"].values.tolist() == [False, True]
+    np.testing.assert_array_equal(swept["light"], [1.0, np.nan])
+    assert swept["message"].values.tolist() == ["of 100 N", "of 200 N"]
+
+
+# ---- Values that vary together
+
+PAIRS = {"N": [385, 300, 385], "mu_k": [0.2, 0.25, 0.3]}
+
+
+def products(case: dm.Parameters) -> dict[str, float]:
+    """A quick function of a case, with other values wherever the case is another one."""
+    return {"load": case.N * case.mu_k, "speed": case.Omega}
+
+
+def test_paired_samples_are_one_dimension_with_a_point_for_each_pair() -> None:
+    swept = sweep(dm.floquet, P, zip=PAIRS)
+    assert swept["growth_rate"].dims == ("N_mu_k",)
+    assert swept["N"].dims == swept["mu_k"].dims
+    assert swept["mu_k"].dims == ("N_mu_k",)
+    assert swept["N"].attrs["units"] == "N"
+    for i, (N, mu_k) in enumerate(zip(PAIRS["N"], PAIRS["mu_k"], strict=True)):
+        cycle = dm.floquet(P.replace(N=N, mu_k=mu_k))
+        assert swept["growth_rate"].values[i] == cycle.growth_rate
+    np.testing.assert_array_equal(swept["N"], PAIRS["N"])
+
+
+def test_pairs_are_called_as_those_of_a_study() -> None:
+    raw = {"study": "s", "quantity": "floquet", "base": {"Omega": 14}, "zip": PAIRS}
+    study = run_study(raw)
+    swept = sweep(dm.floquet, P, zip=PAIRS)
+    assert study["growth_rate"].dims == swept["growth_rate"].dims
+
+
+def test_pairs_go_with_axes() -> None:
+    swept = sweep(products, P, zip=PAIRS, Omega=[10, 12])
+    assert swept["load"].dims == ("Omega", "N_mu_k")
+    np.testing.assert_allclose(swept["load"].values, [[77.0, 75.0, 115.5]] * 2)
+    np.testing.assert_array_equal(swept["speed"], [[10.0] * 3, [12.0] * 3])
+
+
+def test_a_picture_of_pairs_names_what_draws_them() -> None:
+    with pytest.raises(dm.ParameterError, match=r"paired values: study.plot.scatter"):
+        dm.plot_sweep(sweep(products, P, zip=PAIRS), "load")
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        pd.DataFrame(PAIRS, index=[7, 8, 9]),
+        {"N": ["385 N", "0.3 kN", 385.0], "mu_k": np.array(PAIRS["mu_k"])},
+        xr.Dataset({name: ("sample", values) for name, values in PAIRS.items()}),
+    ],
+    ids=["pandas", "units", "xarray"],
+)
+def test_pairs_are_read_from_tables(table: Any) -> None:
+    xr.testing.assert_identical(sweep(products, P, zip=table), sweep(products, P, zip=PAIRS))
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        (
+            {"N": [1, 2], "mu_k": [0.1]},
+            r"^zip={'N': 2, 'mu_k': 1}: must have columns of one length",
+        ),
+        ({"N": [1, 2], "mu_q": [0.1, 0.2]}, r"^zip.mu_q: is no number .*did you mean"),
+        ({"N": [1, float("nan")]}, r"^zip.N=nan: "),
+        ({"N": ["1 s"]}, r"^zip.N='1 s': must be a number in N"),
+        ({"N": []}, r"^zip.N=\[\]: must have one value or more"),
+        ({"Omega": [1, 2]}, r"^zip.Omega: must not be an axis as well"),
+        ({}, r"^zip={}: must have columns"),
+        ([1, 2], r"^zip=\[1, 2\]: must have columns"),
+    ],
+)
+def test_pairs_that_do_not_fit_are_refused(table: Any, message: str) -> None:
+    with pytest.raises(dm.ParameterError, match=message):
+        sweep(products, P, zip=table, Omega=[10.0])
+
+
+# ---- Who makes the calls
+
+
+class Backwards:
+    """An executor whose calls end in another order than they were asked for."""
+
+    def __init__(self) -> None:
+        self.submitted = 0
+
+    def submit(self, function: Callable[[Any], Any], argument: Any) -> "Future[Any]":
+        self.submitted += 1
+        future: Future[Any] = Future()
+        work = partial(self._finish, future, function, argument)
+        # later ones sooner
+        threading.Timer(0.05 / self.submitted, work).start()
+        return future
+
+    def _finish(self, future: "Future[Any]", function: Callable[[Any], Any], argument: Any) -> None:
+        future.set_result(function(argument))
+
+
+def test_an_executor_of_the_user_makes_the_calls() -> None:
+    expected = sweep(products, P, zip=PAIRS)
+    backwards = Backwards()
+    xr.testing.assert_identical(sweep(products, P, zip=PAIRS, executor=backwards), expected)
+    assert backwards.submitted == 3
+    with ThreadPoolExecutor(2) as pool:
+        xr.testing.assert_identical(sweep(products, P, zip=PAIRS, executor=pool), expected)
+    with ThreadPool(2) as others:  # has `map` but not `submit`
+        xr.testing.assert_identical(sweep(products, P, zip=PAIRS, executor=others), expected)
+
+
+def test_an_executor_computes_the_batches_of_a_study() -> None:
+    raw = {
+        "study": "s",
+        "quantity": "floquet",
+        "base": {"Omega": 14},
+        "axes": {"N": [300, 385]},
+        "batch": {"size": 1},
+    }
+    backwards = Backwards()
+    xr.testing.assert_identical(run_study(raw, executor=backwards), run_study(raw))
+    assert backwards.submitted == 2
+
+
+def test_an_error_leaves_out_the_calls_that_have_not_begun() -> None:
+    called = []
+
+    def function(case: dm.Parameters) -> float:
+        called.append(case.N)
+        raise RuntimeError("a fault of the user's own function")
+
+    with ThreadPoolExecutor(1) as pool, pytest.raises(RuntimeError, match="user's own"):
+        sweep(function, P, N=range(1, 100), executor=pool)
+    assert len(called) < 99
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"executor": 3}, r"^executor=3: must have the method submit"),
+        ({"executor": ThreadPool}, r"^executor=.*: must have the method submit"),
+        ({"executor": Backwards(), "workers": 2}, r"^executor=.*: takes the place of workers"),
+        ({"workers": 2, "processes": True}, r"^processes=True: needs a function that other"),
+        ({"progress": "yes"}, r"^progress='yes': must be True or False"),
+    ],
+)
+def test_workers_that_cannot_be_are_refused(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(dm.ParameterError, match=message):
+        sweep(lambda case: case.N, P, N=[1, 2], **options)
+
+
+def test_a_bar_counts_the_calls_that_are_done(capsys: pytest.CaptureFixture[str]) -> None:
+    sweep(products, P, zip=PAIRS, workers=2)
+    assert capsys.readouterr() == ("", "")
+    sweep(products, P, zip=PAIRS, workers=2, progress=True)
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert re.search(r"products .*3/3", printed.err)
+
+
+def test_a_bar_stays_where_a_call_ended_the_sweep(capsys: pytest.CaptureFixture[str]) -> None:
+    def function(case: dm.Parameters) -> float:
+        if case.N > 1:
+            raise RuntimeError("a fault of the user's own function")
+        return case.N
+
+    with pytest.raises(RuntimeError):
+        sweep(function, P, N=[1, 2, 3], progress=True)
+    assert "1/3" in capsys.readouterr().err
