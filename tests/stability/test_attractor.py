@@ -213,6 +213,7 @@ def basins_without_motions(*known: Attractor, near: float = 0.1) -> Basins:
     found.smallest = 1e-6
     found.near = near
     found.known = [*known]
+    found.static = 0.01
     found.map = SimpleNamespace(deflection=0.01)
     return found
 
