@@ -478,7 +478,10 @@ def of_example(kind: str) -> Figure:
     example = every_kind.EXAMPLES[kind]()
     inputs = {}
     for name, given in example.inputs.items():
-        inputs[name] = given if isinstance(given, xr.DataTree) else xr.DataTree(given)
+        if isinstance(given, xr.DataTree):
+            inputs[name] = given
+        else:
+            inputs[name] = xr.DataTree(given)
     plot = kind_of(kind).model_validate({"kind": kind, **example.phrase})
     return render(plot, inputs)
 

@@ -227,7 +227,10 @@ def test_fuzz_goes_where_it_goes_in_the_slider_s_motion(
             shares: dict[float, float] = shares,
             late: tuple[float, float] = (late_disc, late_slider),
         ) -> Any:
-            value = late[name == "psi"] if start == 100.0 else shares[start]
+            if start == 100.0:
+                value = late[name == "psi"]
+            else:
+                value = shares[start]
             return SimpleNamespace(filled=value)
 
         pair.append(known({"first_separation": 54.0}, signal=signal))
@@ -250,7 +253,9 @@ def test_the_vibration_grows_slowly_then_sharply_then_slowly(
             return 0.001
         if start == 57.0:
             return last
-        return sharp if start == 45.0 else 0.1
+        if start == 45.0:
+            return sharp
+        return 0.1
 
     case = known({"first_separation": 60.0, "time_reached": 100.0}, slope=slope)
     found = growth_stages(case, factor=2, least=0.05)
@@ -267,7 +272,8 @@ def test_friction_is_the_cause_where_sliding_without_it_is_stable(
     separates: bool, rate: float, verdict: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def sliding_growth(p: Parameters) -> float:
-        assert (p.mu_s, p.mu_k) == (0, 0)
+        assert p.mu_s == 0
+        assert p.mu_k == 0
         return rate
 
     monkeypatch.setattr(section44, "sliding_growth", sliding_growth)
