@@ -210,7 +210,6 @@ def basins_without_motions(*known: Attractor, near: float = 0.1) -> Basins:
     """Basins that know some attractors, and have followed no motion; ranges below 1e-6 m count as
     equal."""
     found = object.__new__(Basins)
-    found.static = 1e-3
     found.smallest = 1e-6
     found.near = near
     found.known = [*known]
