@@ -318,6 +318,10 @@ def test_an_attractor_is_approached_from_leg_to_leg_and_ever_more_slowly(
     known: list[Attractor], ranges: list[float], approached: Attractor | None
 ) -> None:
     assert basins_without_motions(*known)._approached_by_range(ranges) is approached
+    # on a rigid disc the height never changes
+    rigid = basins_without_motions(*known)
+    rigid.static = 0.0
+    assert rigid._approached_by_range(ranges) is None
 
 
 def test_periodic_attractors_are_the_same_by_points_and_others_by_segments() -> None:
