@@ -28,7 +28,17 @@ FALLING = {
 }
 FALLING["compliant_normal_falling"] |= COUPLE
 FALLING["vertical_coupled_falling"] = FALLING["vertical_falling"] | COUPLE
-"""Each law with friction that falls with the speed, two of them with the couple."""
+EXPONENTIAL: dict[str, Any] = {"friction_decay": 2.0, "friction_law": "exponential"}
+VISCOUS: dict[str, Any] = {"viscous_friction": 0.005}
+FALLING |= {
+    "vertical_viscous": VISCOUS,
+    "vertical_falling_viscous": FALLING["vertical_falling"] | VISCOUS,
+    "vertical_exponential": EXPONENTIAL | VISCOUS,
+    "normal_exponential": LAWS["normal"] | EXPONENTIAL,
+    "compliant_normal_exponential": LAWS["compliant_normal"] | EXPONENTIAL | VISCOUS | COUPLE,
+    "vertical_coupled_exponential": EXPONENTIAL | VISCOUS | COUPLE,
+}
+"""Each law with friction that depends on the speed, some of them with the couple."""
 ALL_LAWS = LAWS | COUPLED | FALLING
 
 if numba.config.DISABLE_JIT:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from disc_model import Parameters, choose_modes, mode_choice
+from disc_model import Parameters, choose_modes, mode_choice, steady_sliding
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import RICH, choose_when_run, frequency_error
 from disc_model.simulation.case import CaseSpec
@@ -70,6 +70,27 @@ def test_a_case_is_run_with_the_modes_that_its_quantity_needs(measured: Measured
     measured(lambda d, c: float(d))
     failed = run_case(one_case(truncation_quantity="growth"), choose=choose_when_run)
     assert "n_diameters: undecided" in failed.attrs["message"]
+
+
+STEEL = Parameters(
+    N=5000, Omega=60, E=210e9, rho=7850, nu=0.3, h=6e-3, m=0.3, k=5e5, k_p=2e5, mu_s=0.45, mu_k=0.35,
+    damping_ratio=5e-4, normalization="orthonormal", friction_offset="surface",
+)  # fmt: skip
+
+
+def test_growth_of_steady_sliding_converges_under_a_pad_and_not_at_a_point(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Under a pad to 3.48/s, with up to 14 diameters and 20 circles."""
+    choice = choose_modes(STEEL.replace(contact_arc=0.4), quantity="sliding_growth")
+    assert choice.quantity == "sliding_growth"
+    found = steady_sliding(choice.parameters).growth_rate
+    assert found == pytest.approx(3.479, rel=2e-2)
+    assert choice.error < 1e-2
+    # at a point from 1.5/s with four diameters to 134/s with 40; the largest models take half a minute
+    monkeypatch.setattr(mode_choice, "LARGER", ())
+    with pytest.raises(DiscModelError, match=r"sliding_growth still changes .* give contact_arc"):
+        choose_modes(STEEL, quantity="sliding_growth")
 
 
 @pytest.mark.compiled

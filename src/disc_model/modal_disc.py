@@ -46,8 +46,8 @@ class Disc(DiscFiles, Strict):
     tangential : displacement of the friction surface along the slider's path, under the slider, of the half of each
         pair that has its node there (kg^-1/2); in a plate, at the height z, -(z/r_0) diameters amplitude. Needed for
         ``friction_offset="surface"`` alone
-    static_compliance : of the whole disc at the slider (m/N, > 0), from which the compliance of the modes that are left
-        out follows; None if it is not known
+    static_compliance : of the whole disc under a point load at the slider (m/N, > 0), from which the compliance of
+        the modes that are left out follows; None if it is not known
     radii : where shapes are known (m, ascending, two or more); none if they are not
     shapes : of each mode, its displacement at these radii, in sign and scale that of the amplitude (kg^-1/2)
 

@@ -16,15 +16,19 @@ from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
 from disc_model.display import Summarised, counted
 from disc_model.errors import DiscModelError, require
-from disc_model.mode_request import FREQUENCIES, ModeRequest
+from disc_model.mode_request import FREQUENCIES, SLIDING_GROWTH, ModeRequest
 from disc_model.parameters import Disc, Parameters
 from disc_model.simulation.api import simulate
 from disc_model.stability.floquet import floquet
+from disc_model.stability.sliding import steady_sliding
 
 RICH = (20, 6)  # diameters and circles of the reference model for frequencies
 # diameters and circles of the candidates by a quantity of the motion: the last is compared with 99
 # modes
 CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
+# further ones by the growth rate of steady sliding, which takes no simulation; the last is compared
+# with 285 modes
+LARGER = ((10, 1), (10, 2), (14, 2), (10, 3), (14, 3))
 GIVEN_UP = (4, 0)  # the search ends here if no model so far, of up to 34 modes, has the quantity
 HORIZON = 600.0  # s, simulated at most until the first separation
 BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
@@ -180,7 +184,8 @@ def choose_modes(
         separation
     quantity : "frequencies", the coupled frequencies of disc and slider at rest up to twice the lowest one of the disc,
         compared with those of 20 diameters and 6 circles; "growth", the growth rate of the stick-slip cycle;
-        "first_separation", its time within 600 s.  All but the first need simulations
+        "sliding_growth", that of steady sliding; "first_separation", its time within 600 s.  "growth" and
+        "first_separation" need simulations
 
     Returns
     -------
@@ -192,7 +197,9 @@ def choose_modes(
     ParameterError
         If a value of the case breaks a rule, the quantity is unknown, or the tolerance is below 1e-4.
     DiscModelError
-        If no model meets the tolerance or agrees with two larger ones, or there is no cycle or separation to choose by.
+        If no model meets the tolerance or agrees with two larger ones, or there is no cycle, separation or steady
+        sliding to choose by. Where friction acts on the surface at a point, motions do not converge: the message
+        then asks for the arc of a pad.
 
     Examples
     --------
@@ -224,7 +231,7 @@ def chosen_modes(p: Parameters, request: ModeRequest) -> ModeChoice:
     if request.quantity == FREQUENCIES:
         return by_frequencies(p, request.tolerance)
     values: dict[tuple[int, ...], float] = {}
-    for group in _compared(p):
+    for group in _compared(p, request.quantity):
         size, *others = group
         values |= {
             each: MEASURES[request.quantity](resized(p, each))
@@ -243,15 +250,29 @@ def chosen_modes(p: Parameters, request: ModeRequest) -> ModeChoice:
                 chosen, request.tolerance, change, count, group[-1], request.quantity, values
             )
     changes = f"changes by {change:.2g} of itself among {_listed(p, group)}, more than {request.tolerance:g}"
-    advice = "give the number of modes, a larger tolerance, or contact_compliance='residual'"
-    raise DiscModelError(f"n_diameters: undecided: {request.quantity} still {changes}; {advice}")
+    raise DiscModelError(
+        f"n_diameters: undecided: {request.quantity} still {changes}; {_advice(p)}"
+    )
 
 
-def _compared(p: Parameters) -> Iterator[tuple[tuple[int, ...], ...]]:
+def _advice(p: Parameters) -> str:
+    """What to do where a quantity changes with the number of modes."""
+    if p.friction_offset != 0 and p.contact_arc == 0:
+        return (
+            "friction on the surface at a point excites modes of any number of nodal diameters, "
+            "and the motion does not converge: give contact_arc, the arc of the pad"
+        )
+    return "give the number of modes, a larger tolerance, or contact_compliance='residual'"
+
+
+def _compared(p: Parameters, quantity: str) -> Iterator[tuple[tuple[int, ...], ...]]:
     """Candidates, each with the larger models for comparison: of a table, twice as many modes, and
     all of them."""
     if p.disc is None:
-        yield from (((l, c), (2 * l, c), (2 * l, c + 1)) for l, c in CANDIDATES)
+        candidates = [*CANDIDATES]
+        if quantity == SLIDING_GROWTH:
+            candidates += LARGER
+        yield from (((l, c), (2 * l, c), (2 * l, c + 1)) for l, c in candidates)
         return
     most = counts(p.disc)[-1]
     count = counts(p.disc)[0]
@@ -283,6 +304,11 @@ def growth(p: Parameters) -> float:
     return float(floquet(p).growth_rate)
 
 
+def sliding_growth(p: Parameters) -> float:
+    """Growth rate of steady sliding, 1/s; nan if there is none."""
+    return steady_sliding(p).growth_rate
+
+
 def first_separation(p: Parameters) -> float:
     """Time of the first separation, s; nan if there is none within `HORIZON`."""
     result = simulate(p, HORIZON, stop_at="first_separation", events=False)
@@ -291,5 +317,6 @@ def first_separation(p: Parameters) -> float:
 
 MEASURES: dict[str, Callable[[Parameters], float]] = {
     "growth": growth,
+    SLIDING_GROWTH: sliding_growth,
     "first_separation": first_separation,
 }

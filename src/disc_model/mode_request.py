@@ -14,8 +14,9 @@ from disc_model.parameters import AUTO, CHOOSING, Parameters
 from disc_model.units import Finite, Strict
 
 FREQUENCIES = "frequencies"  # the quantity by which modes are chosen by default
+SLIDING_GROWTH = "sliding_growth"  # the growth rate of steady sliding
 # quantities by which modes may be chosen, and their default relative tolerances
-CHOSEN_BY = {FREQUENCIES: 1e-3, "growth": 1e-2, "first_separation": 1e-2}
+CHOSEN_BY = {FREQUENCIES: 1e-3, "growth": 1e-2, SLIDING_GROWTH: 1e-2, "first_separation": 1e-2}
 # Least tolerance, relative: the coupled frequencies of `mode_choice.RICH` change as much with more modes (5e-5
 # as published, 2e-4 orthonormal, against 30 diameters and 8 circles), and growth rates and times
 # depend on the frequencies.

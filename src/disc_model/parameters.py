@@ -48,7 +48,13 @@ _ORDER: tuple[tuple[str, str, Callable[[Any, Any], bool], str], ...] = (
 )
 _ORDER_BESIDE_DISC = _ORDER[:1]  # a disc that is given by its modes has other radii than the plate
 # values of parameters at which the model is without the law that they belong to
-_WITHOUT_LAW = {"contact_compliance": 0, "friction_offset": 0, "friction_decay": math.inf}
+_WITHOUT_LAW = {
+    "contact_compliance": 0,
+    "contact_arc": 0,
+    "friction_offset": 0,
+    "friction_decay": math.inf,
+    "viscous_friction": 0,
+}
 _Distance = Annotated[
     Real, AfterValidator(must(lambda value: 0 <= value < math.inf, "must be a finite number >= 0"))
 ]
@@ -137,6 +143,13 @@ class Parameters(Strict):
         "m/N",
         "compliance of the contact, 0 if it is rigid; residual: that of the modes left out",
     )
+    contact_arc: Finite = _field(
+        0.0,
+        "rad",
+        "arc at r_0 over which the slider presses evenly, as a pad; 0: at a point",
+        ge=0,
+        lt=math.tau,
+    )
     contact_force: Literal["vertical", "normal"] = _field(
         "vertical",
         "",
@@ -150,8 +163,16 @@ class Parameters(Strict):
     friction_decay: Annotated[Real, AfterValidator(_DECAY)] = _field(
         math.inf,
         "s/m",
-        "d of friction mu_k + (mu_s - mu_k)/(1 + d v) at slip speed v; inf: mu_k at any speed",
+        "d, by which friction falls from mu_s to mu_k with the slip speed; inf: mu_k at any speed",
         ge=0,
+    )
+    friction_law: Literal["hyperbolic", "exponential"] = _field(
+        "hyperbolic",
+        "",
+        "how friction falls with the slip speed v: as 1/(1 + d v), or as exp(-d v)",
+    )
+    viscous_friction: Finite = _field(
+        0.0, "s/m", "increase of the coefficient of friction with the slip speed", ge=0
     )
     damping_ratio: Annotated[Real, Field(ge=0, lt=1, allow_inf_nan=False)] | None = _field(
         None, "1", "damping ratio of every mode of the plate, from 0 to below 1, instead of D_star"
@@ -167,9 +188,11 @@ class Parameters(Strict):
             k: Quantity = ..., k_p: Quantity = ..., E: Quantity = ..., m: Quantity = ..., mu_s: Quantity = ...,
             mu_k: Quantity = ..., a: Quantity = ..., b: Quantity = ..., r_0: Quantity = ..., h: Quantity = ...,
             nu: Quantity = ..., rho: Quantity = ..., n_diameters: Quantity = ..., n_circles: Quantity = ...,
-            normalization: str = ..., contact: str = ..., contact_compliance: Quantity = ..., contact_force: str = ...,
-            friction_offset: Quantity = ..., friction_decay: Quantity = ..., damping_ratio: Quantity | None = ...,
-            disc: Disc | None = ..., mu_k_over_mu_s: float = ..., k_p_over_k: float = ..., c_p_over_c: float = ...,
+            normalization: str = ..., contact: str = ..., contact_compliance: Quantity = ...,
+            contact_arc: Quantity = ..., contact_force: str = ..., friction_offset: Quantity = ...,
+            friction_decay: Quantity = ..., friction_law: str = ..., viscous_friction: Quantity = ...,
+            damping_ratio: Quantity | None = ..., disc: Disc | None = ...,
+            mu_k_over_mu_s: float = ..., k_p_over_k: float = ..., c_p_over_c: float = ...,
             a_over_b: float = ..., r_0_over_b: float = ..., h_over_b: float = ...,
         ) -> None: ...  # fmt: skip
 
@@ -205,7 +228,7 @@ class Parameters(Strict):
     def _consistent(self) -> Self:
         """Check the rules between parameters, what a disc excludes, and that the plate has one
         damping. A rule on a parameter that is absent, as in `SomeParameters`, does not count."""
-        raise_faults([*self._surface_faults()])
+        raise_faults([*self._surface_faults(), *self._pad_faults()])
         raise_faults([*self._unused_faults(), *self._order_faults(), *self._rigidity_faults()])
         return self
 
@@ -215,6 +238,14 @@ class Parameters(Strict):
         if on_surface and self.disc is not None and not self.disc.tangential:
             need = "must be a number for a disc whose table has no column tangential_per_sqrt_kg"
             yield Fault.of(("friction_offset",), SURFACE, need)
+
+    def _pad_faults(self) -> Iterator[Fault]:
+        """Yield the fault of residual flexibility under a pad on a disc given by its modes, of
+        which only that under a point is known."""
+        if self.disc is not None and self.contact_arc and self.contact_compliance == RESIDUAL:
+            need = "must be a number beside contact_arc for a disc given by its modes: "
+            need += "its static_compliance is that at a point"
+            yield Fault.of(("contact_compliance",), RESIDUAL, need)
 
     def _unused_faults(self) -> Iterator[Fault]:
         """Yield faults of given parameters that a disc or a damping ratio replaces."""

@@ -8,6 +8,7 @@ from numpy.polynomial import chebyshev
 from disc_model import Disc, Parameters, plate_modes
 from disc_model.disc import flexibility as module
 from disc_model.disc.flexibility import harmonic_flexibility, residual_flexibility
+from tests.references.growth import pad_means
 
 P = Parameters(N=385, Omega=15.1, normalization="orthonormal")
 
@@ -140,13 +141,50 @@ def test_functions_and_their_derivatives(i: int, r: float) -> None:
     np.testing.assert_allclose(own(r), [wanted.deriv(k)(r) for k in range(4)], rtol=1e-5, atol=1e-5)
 
 
+@pytest.mark.parametrize("arc", [1e-4, 0.03, 0.4, 5.0])
+def test_the_remainder_bounds_what_more_harmonics_change_under_a_pad(
+    arc: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The harmonics that are not summed count by the mean of the pad's factor over them."""
+    monkeypatch.setattr(module, "_deflection", module._deflection.__wrapped__)  # not from the cache
+    values = {}
+    for last in (256, 8192):
+        monkeypatch.setattr(module, "HIGHEST_HARMONIC", last)
+        values[last] = residual_flexibility(P.replace(contact_arc=arc))
+    assert abs(values[256].total - values[8192].total) <= values[256].remainder
+    assert values[8192].remainder < 1e-9 * values[8192].total
+
+
+@pytest.mark.parametrize("arc", [0.1, 0.4, 2.0])
+def test_a_pad_deflects_the_plate_by_the_mean_over_its_arc(arc: float) -> None:
+    """Of the deflection under a load that is spread over the arc: a double integral of that at a
+    distance x from a point load, or, with the other half of the square, 2 int (1 - x/arc) w dx/arc."""
+    l = np.arange(module.HIGHEST_HARMONIC + 1)
+    harmonics = harmonic_flexibility(l, P.a / P.b, P.r_0 / P.b, P.nu)
+    harmonics[0] /= 2
+    nodes, weights = np.polynomial.legendre.leggauss(3000)
+    x = arc * (nodes + 1) / 2
+    mean = 0.0
+    for place, weight in zip(x, weights, strict=True):
+        mean += weight * (1 - place / arc) * float(np.cos(l * place) @ harmonics) / np.pi
+    wanted = mean * P.b**2 / P.D
+    flexibility = residual_flexibility(P.replace(contact_arc=arc))
+    assert flexibility.total == pytest.approx(wanted, rel=1e-10)
+    kept = plate_modes(P)
+    means = pad_means(kept["diameters"], arc)
+    assert flexibility.kept == pytest.approx(
+        float(((means * kept.psi / kept.omega) ** 2).sum()), rel=1e-13
+    )
+    assert 0 < flexibility.residual < residual_flexibility(P).residual
+
+
 @pytest.mark.parametrize("r_0", [0.0441, 0.1, 0.119, 0.12])
 def test_the_remainder_bounds_what_more_harmonics_change(
     r_0: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """On the very edge higher harmonics differ from the unbounded plate's by a factor: the hardest
     place."""
-    monkeypatch.setattr(module, "_point_load", module._point_load.__wrapped__)  # not from the cache
+    monkeypatch.setattr(module, "_deflection", module._deflection.__wrapped__)  # not from the cache
     values = {}
     for last in (256, 8192):
         monkeypatch.setattr(module, "HIGHEST_HARMONIC", last)

@@ -238,9 +238,8 @@ def late_range() -> Figure:
     }
     axes = over(Omega=[8.0, 11.0, 14.5, 17.0], N=[120.0, 310.0])
     axes |= {"contact": ["unilateral", "bilateral"], "disc": ["thin", "thick"]}
-    not_valid = [{"disc": ["thick"], "Omega": [14.5]}]
     study = xr.Dataset(data, axes, stated())
-    return drawn("late_range", study, by="disc", thickness=0.004, not_valid=not_valid)
+    return drawn("late_range", study, by="disc", thickness=0.004)
 
 
 # ---- Steady sliding
@@ -471,14 +470,17 @@ def curve(variable: str = "period", **phrase: Any) -> Figure:
     return drawn("curve", study, variable=variable, x="c_p", by="k_p", **phrase)
 
 
-# ---- A named case
+# ---- Examples of kinds
 
 
-def of_case(kind: str) -> Figure:
-    """Return the example of a kind that shows a named case."""
+def of_example(kind: str) -> Figure:
+    """Return the example of a kind."""
     example = every_kind.EXAMPLES[kind]()
+    inputs = {}
+    for name, given in example.inputs.items():
+        inputs[name] = given if isinstance(given, xr.DataTree) else xr.DataTree(given)
     plot = kind_of(kind).model_validate({"kind": kind, **example.phrase})
-    return render(plot, example.inputs)
+    return render(plot, inputs)
 
 
 # ---- All
@@ -510,11 +512,14 @@ DESCRIBED: dict[str, Callable[[], Figure]] = {
     "sensitivity": sensitivity,
     "sliding modes": sliding_modes,
     "sliding outcome": sliding_outcome,
-    "history": lambda: of_case("history"),
-    "poincare": lambda: of_case("poincare"),
-    "portrait": lambda: of_case("portrait"),
-    "spectrum": lambda: of_case("spectrum"),
-    "spectrogram": lambda: of_case("spectrogram"),
+    "history": lambda: of_example("history"),
+    "poincare": lambda: of_example("poincare"),
+    "portrait": lambda: of_example("portrait"),
+    "spectrum": lambda: of_example("spectrum"),
+    "spectrogram": lambda: of_example("spectrogram"),
+    "staircase": lambda: of_example("staircase"),
+    "phase map": lambda: of_example("phase_map"),
+    "range law": lambda: of_example("range_law"),
 }
 """Figures by name."""
 

@@ -124,7 +124,10 @@ def of_mesh(mesh: QuadMesh) -> Iterator[str]:
     extent = points([corners[0, 0], corners[-1, -1]])
     shades = np.asarray(mesh.get_facecolor())
     cells = [to_hex(shade, keep_alpha=True) for shade in shades]
-    words = " ".join(cells) if len(cells) <= MANY else f"of {len(cells)} cells"
+    if len(cells) <= MANY:
+        words = " ".join(cells)
+    else:
+        words = f"of {len(cells)} cells"
     yield f"cells over {extent}{values_of(mesh)}, colours {words}"
 
 
@@ -133,7 +136,9 @@ def of_outlines(shape: Collection) -> Iterator[str]:
     if not shape.get_paths():
         return
     corners = np.concatenate([path.vertices for path in shape.get_paths()])
-    kind = "lines" if isinstance(shape, LineCollection) else "areas"
+    kind = "areas"
+    if isinstance(shape, LineCollection):
+        kind = "lines"
     width = numbers(np.unique(shape.get_linewidth()))
     yield f"{kind} {colours(shape)} of {width}{named(shape)}: {points(corners)}{values_of(shape)}"
 
@@ -189,13 +194,17 @@ def quoted(text: str) -> str:
 def named(artist: Artist) -> str:
     """Return what a legend would call something, if it has a name."""
     label = str(artist.get_label())
-    return "" if label.startswith("_") or not label else f" {quoted(label)}"
+    if label.startswith("_") or not label:
+        return ""
+    return f" {quoted(label)}"
 
 
 def colour(value: Any) -> str:
     if isinstance(value, str) and value == "none":
         return "none"
-    return to_hex(value, keep_alpha=True).removesuffix("ff") if len(value) == 4 else to_hex(value)
+    if len(value) == 4:
+        return to_hex(value, keep_alpha=True).removesuffix("ff")
+    return to_hex(value)
 
 
 def colours(shape: Collection) -> str:
@@ -262,8 +271,12 @@ def differences(found: list[str], expected: list[str]) -> list[str]:
     """Return lines that differ, by words or by numbers that do not agree."""
     apart = []
     for i in range(max(len(found), len(expected))):
-        ours = found[i] if i < len(found) else "(nothing)"
-        theirs = expected[i] if i < len(expected) else "(nothing)"
+        ours = "(nothing)"
+        if i < len(found):
+            ours = found[i]
+        theirs = "(nothing)"
+        if i < len(expected):
+            theirs = expected[i]
         if not agree(ours, theirs):
             apart.append(f"drawn: {ours}\nkept:  {theirs}")
     return apart

@@ -45,10 +45,21 @@ def undamped_stick_slip(p: Parameters) -> StickSlip:
     return StickSlip(slip, stick, force / p.k_p)
 
 
+def friction_coefficient(p: Parameters, speed: float) -> float:
+    """The coefficient of friction at a slip speed > 0, m/s, where it falls gradually."""
+    share = 1 / (1 + p.friction_decay * speed)
+    if p.friction_law == "exponential":
+        share = np.exp(-p.friction_decay * speed)
+    return p.mu_k + (p.mu_s - p.mu_k) * share + p.viscous_friction * speed
+
+
 def friction_slope(p: Parameters, speed: float) -> float:
-    """Slope of the falling coefficient of friction over the slip speed, s/m."""
+    """Slope of the coefficient of friction over the slip speed, s/m."""
     d = p.friction_decay
-    return -(p.mu_s - p.mu_k) * d / (1 + d * speed) ** 2
+    steepness = d / (1 + d * speed) ** 2
+    if p.friction_law == "exponential":
+        steepness = d * np.exp(-d * speed)
+    return -(p.mu_s - p.mu_k) * steepness + p.viscous_friction
 
 
 def sliding_eigenvalues(p: Parameters) -> np.ndarray:
@@ -62,7 +73,10 @@ def sliding_eigenvalues(p: Parameters) -> np.ndarray:
 def hopf_speed(p: Parameters) -> float:
     """The speed V at which the damping c_p + N mu'(V) of steady sliding vanishes, m/s."""
     drop = (p.mu_s - p.mu_k) * p.N
-    return (math.sqrt(drop * p.friction_decay / p.c_p) - 1) / p.friction_decay
+    ratio = drop * p.friction_decay / (p.c_p + p.N * p.viscous_friction)
+    if p.friction_law == "exponential":
+        return math.log(ratio) / p.friction_decay
+    return (math.sqrt(ratio) - 1) / p.friction_decay
 
 
 def next_extreme_pull(p: Parameters, stretch: float) -> tuple[float, float]:
@@ -72,8 +86,7 @@ def next_extreme_pull(p: Parameters, stretch: float) -> tuple[float, float]:
 
     def rates(_, state):
         stretch, slip_speed = state
-        share = 1 / (1 + p.friction_decay * slip_speed)
-        mu = p.mu_k + (p.mu_s - p.mu_k) * share
+        mu = friction_coefficient(p, slip_speed)
         growth = speed - slip_speed
         return [growth, (p.k_p * stretch + p.c_p * growth - mu * p.N) / p.m]
 

@@ -151,6 +151,13 @@ def steady_eigenvalues(values, omega, psi, l, damping, tangential):
     return SteadySliding(values, omega, psi, l, damping, tangential).eigenvalues()
 
 
+def pad_means(l, arc):
+    """Mean of cos(l x) over an arc (rad) about x = 0, by Gauss-Legendre quadrature: the share of an
+    amplitude that is left under a pad."""
+    nodes, weights = np.polynomial.legendre.leggauss(200)
+    return np.cos(np.outer(l, nodes * arc / 2)) @ weights / 2
+
+
 def couple(offset, psi, l, r_0):
     """Tangential amplitudes of modes at a surface ``offset`` (m) from the middle plane."""
     return -offset / r_0 * np.asarray(l) * np.asarray(psi)

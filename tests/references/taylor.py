@@ -308,6 +308,19 @@ class Step:
                 size = abs(x[k]).max(initial=0)
                 if size > 0:
                     h = min(h, (LONG(truncation) * scale / size) ** (LONG(1) / k))
+        if self.phase == "slip" and q.falls and q.exponential:
+            h = self._before_friction_rises(h)
+        return h
+
+    def _before_friction_rises(self, h):
+        """A step, up to h, in which the slip speed does not fall by more than half where friction has
+        fallen: terms of an exponential that rises from almost nothing are all but zero."""
+        if self.q.decay * self.q.r_0 * abs(self.g[0]) < 10:
+            return h
+        changes = abs(self.g[1:])
+        orders = np.arange(1, len(self.g))
+        while (changes * h**orders).sum() > abs(self.g[0]) / 2:
+            h = LONG(0.75) * h
         return h
 
     def at(self, h):

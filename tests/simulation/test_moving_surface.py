@@ -52,6 +52,7 @@ def backwards(p: Parameters) -> dm.State:
 COMPLIANT = {"contact_compliance": taylor.COMPLIANCE}
 NORMAL = {"contact_force": "normal"}
 FALLING = {"friction_decay": 2.0}
+STRIBECK = {"friction_decay": 2.0, "friction_law": "exponential", "viscous_friction": 0.005}
 DAMPED = {"c": 0.5, "c_p": 0.5, "normalization": "orthonormal", "friction_offset": 0.05}
 #: A case, its start (None: static) and its duration in s. Compliant contact after a violent start is
 #: irregular: two runs part by a factor e in 8 ms.
@@ -68,6 +69,13 @@ SCENES = {
         0.05,
     ),
     "separations, falling": (thick(385, 15.1, **FALLING), violent, 0.2),
+    "separations, exponential, viscous": (thick(385, 15.1, **STRIBECK), violent, 0.2),
+    "separations, compliant, normal, exponential": (
+        thick(385, 15.1, **COMPLIANT, **NORMAL, **STRIBECK),
+        violent,
+        0.05,
+    ),
+    "rigid, exponential, viscous": (brake(8000, 20, **STRIBECK), None, 0.12),
     "bilateral": (thick(385, 3, contact="bilateral"), violent, 0.2),
     "bilateral, normal, falling": (
         brake(16000, 10, contact="bilateral", friction_decay=1.0, **NORMAL),
@@ -77,7 +85,13 @@ SCENES = {
     "backwards on a surface faster than the drive": (thick(200, 1, **DAMPED), backwards, 0.2),
 }
 #: What compiles kernels of its own is left to the long tests.
-QUICK = ("rigid", "separations", "bilateral", "backwards on a surface faster than the drive")
+QUICK = (
+    "rigid",
+    "separations",
+    "separations, exponential, viscous",
+    "bilateral",
+    "backwards on a surface faster than the drive",
+)
 EACH = [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in SCENES]
 
 

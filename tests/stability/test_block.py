@@ -20,6 +20,7 @@ JUMP = dm.Parameters(n_diameters=-1, N=30, Omega=0.5, m=0.2, k=0, k_p=2e3, mu_s=
 RIG = dm.Parameters(
     n_diameters=-1, m=0.538, k=0, k_p=6957, c_p=5.946, N=10, mu_s=0.6, mu_k=0.2, friction_decay=10, r_0=0.1, Omega=2
 )  # fmt: skip
+STRIBECK = RIG.replace(friction_law="exponential", viscous_friction=0.1)
 END_OF_STICK_SLIP = 2.305984645  # rad/s, by an integration of the rig's block with scipy
 
 
@@ -58,7 +59,7 @@ def test_the_cycle_near_a_simulated_state_is_the_same() -> None:
     assert dm.floquet(RIG, guess=late).period == pytest.approx(cycle.period, rel=1e-11)
 
 
-@pytest.mark.parametrize("p", [LEINE, RIG, RIG.replace(Omega=1.0)])
+@pytest.mark.parametrize("p", [LEINE, RIG, RIG.replace(Omega=1.0), STRIBECK])
 def test_steady_sliding_has_the_eigenvalues_of_its_quadratic(p) -> None:
     sliding = dm.steady_sliding(p)
     expected = block.sliding_eigenvalues(p)
@@ -67,11 +68,14 @@ def test_steady_sliding_has_the_eigenvalues_of_its_quadratic(p) -> None:
     np.testing.assert_allclose(ours, expected[np.argsort(expected.imag)], atol=1e-13 * scale)
 
 
-def test_steady_sliding_loses_stability_at_the_hopf_speed() -> None:
-    hopf = block.hopf_speed(RIG) / RIG.r_0
+@pytest.mark.parametrize("law", ["hyperbolic", "exponential"])
+@pytest.mark.parametrize("viscous", [0.0, 0.3])
+def test_steady_sliding_loses_stability_at_the_hopf_speed(law: str, viscous: float) -> None:
+    p = RIG.replace(friction_law=law, viscous_friction=viscous)
+    hopf = block.hopf_speed(p) / p.r_0
     rates = []
     for share in (-1e-10, 1e-10):
-        rates.append(dm.steady_sliding(RIG.replace(Omega=hopf * (1 + share))).growth_rate)
+        rates.append(dm.steady_sliding(p.replace(Omega=hopf * (1 + share))).growth_rate)
     assert rates[0] > 0 > rates[1]
 
 

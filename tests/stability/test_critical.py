@@ -271,15 +271,18 @@ def test_intervals_of_instability_lie_between_crossings(
 
 def test_multipliers_meet_where_their_angles_come_to_a_whole_turn() -> None:
     """Two of the upper half, at 0.2 and 0.3 turns: with a conjugate at 0.5, itself at 0 or 0.5."""
-    turn = 2 * np.pi
-    angle = turn * np.array([0.2, 0.45])
+
+    def shares(first: float, second: float) -> list[float]:
+        angles = [0.2 * math.tau, 0.45 * math.tau]
+        return shares_of_meetings(angles, [first * math.tau, second * math.tau])
+
     # the second comes to the real axis halfway, and with the first to half a turn never
-    assert critical._meetings(angle, turn * np.array([0.0, 0.1])) == pytest.approx([0.5])
+    assert shares(0.0, 0.1) == pytest.approx([0.5])
     # the first comes to the second after 0.25 of 0.29 turns
-    assert critical._meetings(angle, turn * np.array([0.29, 0.0])) == pytest.approx([0.25 / 0.29])
+    assert shares(0.29, 0.0) == pytest.approx([0.25 / 0.29])
     # both go down: the first comes to the axis at two thirds
-    assert critical._meetings(angle, turn * np.array([-0.3, -0.1])) == pytest.approx([2 / 3])
-    assert critical._meetings(angle, turn * np.array([0.01, 0.01])) == []
+    assert shares(-0.3, -0.1) == pytest.approx([2 / 3])
+    assert shares(0.01, 0.01) == []
 
 
 def test_a_pair_may_have_met_the_axis_if_its_way_there_and_back_is_no_longer_than_others() -> None:

@@ -14,7 +14,7 @@ from disc_model.engine import section, transitions
 from disc_model.stability import return_map
 from disc_model.stability.cycle import bifurcation_type, cycle_of
 from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Orbit, ReturnMap, newton
-from tests.contact_laws import ALL_LAWS, COMPILES, COUPLE, LAWS
+from tests.contact_laws import ALL_LAWS, COMPILES, COUPLE, FALLING, LAWS
 from tests.engine.test_saltation import differences
 from tests.references.printed import Printed
 
@@ -349,6 +349,7 @@ MOVING = {
     "normal": {**COUPLE, **LAWS["normal"]},
     "compliant": {**COUPLE, **LAWS["compliant"]},
     "falling": {**COUPLE, "friction_decay": 2.0},
+    "exponential": FALLING["vertical_coupled_exponential"],
 }
 
 

@@ -19,6 +19,7 @@ from disc_model.stability.sliding import (
 from tests.contact_laws import ALL_LAWS, COMPILES
 from tests.engine.full_system import Full
 from tests.references import taylor
+from tests.references.block import friction_coefficient
 
 P = Parameters(N=200, Omega=20, n_diameters=1)
 
@@ -32,8 +33,7 @@ def state_of(p: Parameters, sliding: SteadySliding) -> State:
         weights = modes["diameters"] * modes["psi"]
         slope = float(weights @ sliding.b)
         surface_speed = float(tangential_amplitudes(p) @ sliding.beta)
-        falls = 1 + p.friction_decay * (p.r_0 * p.Omega - surface_speed)
-        mu = p.mu_k + (p.mu_s - p.mu_k) / falls
+        mu = friction_coefficient(p, p.r_0 * p.Omega - surface_speed)
         share = 1 - mu * slope / p.r_0
     height = w - p.contact_compliance * share * sliding.contact_force
     return State(
@@ -190,6 +190,8 @@ LOOSE = {"k_p": 0, "mu_k": 0}
         # friction that falls with the speed has not fallen to mu_k = 0 at any
         ({**LOOSE, "friction_decay": 5.0}, SlidingStatus.NO_SPRING),
         ({**LOOSE, "friction_decay": 5.0, "mu_s": 0.0}, SlidingStatus.OK),
+        # nor has friction that grows with it
+        ({**LOOSE, "mu_s": 0.0, "viscous_friction": 0.1}, SlidingStatus.NO_SPRING),
     ],
 )
 def test_steady_sliding_says_why_there_is_none(changes, status):

@@ -2,7 +2,7 @@
 form."""
 
 import re
-from math import acos, atan, cos, exp, pi, sin, sqrt
+from math import acos, atan, cos, exp, log, pi, sin, sqrt
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from disc_model import Disc, Parameters, plate_modes, simulate, steady_sliding
+from disc_model import Disc, Parameters, continue_cycle, plate_modes, simulate, steady_sliding
 from disc_model.simulation.states import State, static_start
 
 pytestmark = [
@@ -321,9 +321,100 @@ def falling_friction(p):
     return {name: pair for name, *pair in zip(names, exact, own, strict=True)}
 
 
+def friction(p, speed):
+    """Coefficient of exponential friction at a slip speed, m/s."""
+    falling = (p.mu_s - p.mu_k) * exp(-p.friction_decay * speed)
+    return p.mu_k + falling + p.viscous_friction * speed
+
+
+def hopf(p):
+    """Speed, m/s, at which steady sliding becomes stable: where the growth rate vanishes."""
+    exact = log((p.mu_s - p.mu_k) * p.N * p.friction_decay / (p.c_p + p.viscous_friction * p.N))
+    exact /= p.friction_decay
+
+    def growth(speed):
+        return steady_sliding(p.replace(Omega=speed / p.r_0)).growth_rate
+
+    return exact, brentq(growth, 0.9 * exact, 1.1 * exact, xtol=1e-15, rtol=1e-14)
+
+
+def least_speed(p, stretch):
+    """The first minimum of the slip speed (m/s) after a release at a stretch (m), by a method of
+    Runge and Kutta."""
+    speed = p.r_0 * p.Omega
+
+    def rates(_, y):
+        x, v = y
+        growth = speed - v
+        return [growth, (p.k_p * x + p.c_p * growth - p.N * friction(p, v)) / p.m]
+
+    def slowest(_, y):
+        return rates(0, y)[1]
+
+    slowest.terminal = True
+    slowest.direction = 1
+    swing = 2 * pi * sqrt(p.m / p.k_p)
+    # from a small speed: at rest the release is an equilibrium of the force
+    slip = solve_ivp(
+        rates,
+        (0, 3 * swing),
+        [stretch, 1e-9 * speed],
+        method="DOP853",
+        rtol=1e-13,
+        atol=1e-16,
+        events=slowest,
+    )
+    return float(slip.y_events[0][0][1])
+
+
+def stribeck(p):
+    """Hopf speed, displacement in steady sliding, and the speed at which stick-slip ends: there the
+    least slip speed after a release is zero."""
+    speed = 0.22
+    fast = p.replace(Omega=speed / p.r_0)
+    displacement = p.N * friction(p, speed) / p.k_p
+    own = p.r_0 * steady_sliding(fast).psi
+
+    def stops(Omega):
+        case = p.replace(Omega=Omega)
+        release = (p.mu_s * p.N - p.c_p * p.r_0 * Omega) / p.k_p
+        return least_speed(case, release) < 0
+
+    end = p.r_0 * edge(stops, p.Omega, 2 * p.Omega)
+    branch = continue_cycle(p, "Omega", (p.Omega, 2 * p.Omega))
+    return {
+        "Hopf speed, m/s": hopf(p),
+        "displacement at 0.22 m/s, m": (displacement, own),
+        "end of stick-slip, m/s": (end, p.r_0 * branch.values.max()),
+    }
+
+
+def basin(p):
+    """Hopf speed, and shares of starts from -2 to 2 m and 0 to 2 m/s that come to steady sliding."""
+    shares = {}
+    for speed in (1.25, 1.4, 1.55, 1.7):
+        share = share_of_sliding(p.replace(Omega=speed / p.r_0))
+        shares[f"share that slides on, {speed:g} m/s"] = (None, share)
+    return {"Hopf speed, m/s": hopf(p)} | shares
+
+
+def share_of_sliding(p, columns=24, rows=23, t_end=150.0):
+    """Share of starts on a grid after which the slider has not stuck in the last fifth."""
+    rest = static_start(p)
+    sliding = 0
+    for stretch in -2 + 4 * (np.arange(columns) + 0.5) / columns:
+        for velocity in 2 * (np.arange(rows) + 0.5) / rows:
+            f = p.Omega - velocity / p.r_0
+            start = rest.replace(psi=stretch / p.r_0, f=f, phase="slip", direction=int(np.sign(f)))
+            found = simulate(p, t_end, initial_state=start).events["time"]
+            sliding += len(found) == 0 or found.iloc[-1] < 0.8 * t_end
+    return sliding / (columns * rows)
+
+
 COMPUTED = {
     "E1": annulus, "E1b": centre, "E2": shoe, "E3": belt, "E4": damped_belt, "E5": divergence, "E6": dashpot,
     "E7": impact, "E8": bounce, "E9": falling_friction,
+    "E9b": stribeck, "E9c": basin,
 }  # fmt: skip
 
 
@@ -347,6 +438,7 @@ OTHERS = {
         {"Omega": 1, "friction_decay": 2}, {"m": 0.5, "k_p": 2, "friction_decay": 5},
         {"N": 2, "mu_s": 0.8, "mu_k": 0.3, "Omega": 3},
     ],
+    "E9b": [{"viscous_friction": 0.0}, {"k_p": 6000, "N": 9.5}, {"mu_s": 0.58, "m": 0.6}],
 }  # fmt: skip
 """Other parameters than the page's, where exact numbers are known; any plate is compared in ``tests/disc``."""
 

@@ -21,9 +21,9 @@ from tests.stability.test_return_map import central_differences
 from tests.validation.test_friction_couple import compare_sliding
 
 P = Parameters(N=385, Omega=15.1, n_diameters=1)
+FALLING_QUICK = ("vertical_falling", "vertical_exponential")
 EACH_LAW = [
-    pytest.param(name, marks=() if name == "vertical_falling" else pytest.mark.slow)
-    for name in FALLING
+    pytest.param(name, marks=() if name in FALLING_QUICK else pytest.mark.slow) for name in FALLING
 ]
 BONDED = {"bilateral_coupled": COUPLE | {"contact": "bilateral"}}
 QUICK = (
@@ -65,10 +65,20 @@ def test_growth_rates_of_steady_sliding(law, decay):
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("decay", [0.3, 30.0, 1e6])
-def test_multipliers_are_those_of_differences_of_motions(decay):
+@pytest.mark.parametrize(
+    "law",
+    [
+        {"friction_decay": 0.3},
+        {"friction_decay": 30.0},
+        {"friction_decay": 1e6},
+        {"viscous_friction": 0.01},
+        {"friction_decay": 0.3, "friction_law": "exponential"},
+        {"friction_decay": 30.0, "friction_law": "exponential", "viscous_friction": 0.01},
+    ],
+)
+def test_multipliers_are_those_of_differences_of_motions(law):
     """To 1e-6; differences of fourth order over 1e-3 of the deflection are known to some 1e-10."""
-    map_ = ReturnMap(P.replace(Omega=10, c=5, friction_decay=decay))
+    map_ = ReturnMap(P.replace(Omega=10, c=5, **law))
     own = map_.evaluate(map_.static).jacobian
     jacobian = central_differences(map_, map_.static)
     assert np.abs(own - jacobian).max() < 1e-7
@@ -94,6 +104,33 @@ def test_fast_decay_comes_to_the_paper_s_law():
     assert simulate(flat.replace(friction_decay=1.0), 0.05).events.equals(
         simulate(flat, 0.05).events
     )
+
+
+def test_fast_exponential_decay_comes_to_the_paper_s_law():
+    """Event times, as ln(d)/d; steady sliding, at exp(-d v), without a difference."""
+    paper = simulate(P, 0.05, tol=1e-13).events["time"].to_numpy()
+    differences = []
+    for decay in (1e3, 1e4, 1e5):
+        p = P.replace(friction_decay=decay, friction_law="exponential")
+        late = np.abs(simulate(p, 0.05, tol=1e-13).events["time"].to_numpy() - paper).max()
+        differences.append(late * decay / np.log(decay))
+        rate = steady_sliding(p).growth_rate
+        assert rate == pytest.approx(steady_sliding(P).growth_rate, abs=1e-10)
+    assert np.ptp(differences) < 0.1 * differences[0]
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("law", ["hyperbolic", "exponential"])
+def test_energy_closes_over_long_runs_with_viscous_friction(law):
+    """With separations, impacts, backward slips and stick."""
+    p = Parameters(N=385, Omega=8, friction_decay=2, friction_law=law, viscous_friction=0.02)
+    start = stored.engine_state(taylor.violent_start(1.3), p)
+    audited = Execution(audit_every_step=True)
+    statistics = simulate(p, 10, initial_state=start, tol=1e-14, execution=audited).statistics
+    assert statistics["separations"] > 100
+    assert statistics["audited_steps"] == statistics["steps"]
+    assert statistics["energy_residual_transverse"] < 1e-12
+    assert statistics["energy_residual_inplane"] < 1e-12
 
 
 @pytest.mark.compiled
@@ -131,10 +168,11 @@ def test_the_fold_of_the_quiet_cycle_comes_to_the_paper_s():
 
 
 @pytest.mark.compiled
+@pytest.mark.parametrize("law", ["hyperbolic", "exponential"])
 @pytest.mark.parametrize("decay", [3.0, 1e3, 1e9])
-def test_event_times_are_as_exact_as_the_tolerance_says(decay):
+def test_event_times_are_as_exact_as_the_tolerance_says(decay, law):
     """Up to three times `tol` after a second and a half; they were up to 3000 times as far off."""
-    p = Parameters(N=385, Omega=15.1, friction_decay=decay)
+    p = Parameters(N=385, Omega=15.1, friction_decay=decay, friction_law=law)
     right = simulate(p, 1.5, tol=1e-15).events["time"]
     for tol in (1e-8, 1e-10, 1e-12):
         assert np.abs(simulate(p, 1.5, tol=tol).events["time"] - right).max() < 3 * tol

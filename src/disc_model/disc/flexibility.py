@@ -1,10 +1,10 @@
 """Static flexibility of the disc under the slider: of the whole plate, of the modes kept, and of
 those left out.
 
-Under a unit point load at r_0 the clamped-free plate deflects by the sum of psi^2 / omega^2 over
-all its modes.  That is a static problem: for each harmonic D L^2 R = delta(r - r_0)/r_0 with L =
-d^2/dr^2 + 1/r d/dr - l^2/r^2, solved in closed form.  The difference from the sum over the modes
-kept is the residual flexibility.
+Under a unit load at r_0, in a point or spread over the arc of a pad, the clamped-free plate deflects
+there by the sum of psi^2 / omega^2 over all its modes; under a pad, in the mean.  That is a static
+problem: for each harmonic D L^2 R = delta(r - r_0)/r_0 with L = d^2/dr^2 + 1/r d/dr - l^2/r^2, solved
+in closed form.  The difference from the sum over the modes kept is the residual flexibility.
 
 For l >= 2 a harmonic is that of the unbounded plate, r_0^2 / (4 D l (l^2 - 1)), plus the effect of
 the two edges: four functions r^l, r^(l+2), r^-l, r^(2-l), each scaled to 1 at the edge where it is
@@ -17,7 +17,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.disc.plate import Array, mode_arrays
+from disc_model.disc.plate import Array, mode_arrays, pad_factors
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 
@@ -25,6 +25,8 @@ HIGHEST_HARMONIC = (
     4096  # beyond it the plate is as if unbounded, unless the slider runs on its very edge
 )
 ROUNDING = 1e-13  # relative accuracy of the harmonics' closed forms: their functions become nearly equal at large l
+_TAIL_POINTS = 1000  # midpoints of the integral over harmonics beyond the highest
+_TAIL_ERROR = 0.01  # of that integral, relative: at most 0.3 % for any arc
 MODAL_SUM = (
     60,
     20,
@@ -109,7 +111,7 @@ def _flexibility(p: Parameters) -> Flexibility:
         diameters, circles = MODAL_SUM
         whole = p.replace(n_diameters=diameters, n_circles=circles)
         return Flexibility(_modal_sum(whole), kept, np.nan)
-    value, bound = _point_load(p.a / p.b, p.r_0 / p.b, p.nu)
+    value, bound = _deflection(p.a / p.b, p.r_0 / p.b, p.nu, p.contact_arc)
     total = value * p.b**2 / p.D
     remainder = bound * p.b**2 / p.D
     return Flexibility(total, kept, remainder)
@@ -148,19 +150,33 @@ def harmonic_flexibility(l: NDArray[np.int64], inner: float, x: float, nu: float
 
 
 @lru_cache(maxsize=256)
-def _point_load(inner: float, x: float, nu: float) -> tuple[float, float]:
-    """Deflection under a point load in units of b^2 / D, and a bound on its error."""
+def _deflection(inner: float, x: float, nu: float, arc: float) -> tuple[float, float]:
+    """Mean deflection under a load that is spread evenly over an arc (rad), or in a point, in units
+    of b^2 / D, and a bound on its error."""
     last = HIGHEST_HARMONIC
-    harmonics = harmonic_flexibility(np.arange(last + 1), inner, x, nu)
+    l = np.arange(last + 1)
+    harmonics = harmonic_flexibility(l, inner, x, nu)
     # sum of 1/(l (l^2 - 1)) over l > L is 1/(2 L (L + 1))
     tail = x**2 / (8 * last * (last + 1))
     # the edge acts on the last harmonic by this factor, and on higher ones by less
     factor = harmonics[-1] / (x**2 / (4 * last * (last**2 - 1.0)))
+    # both the load and the mean have the pad's factor
+    harmonics = pad_factors(l, arc) ** 2 * harmonics
+    tail *= _mean_of_tail(arc)
     summed = np.sum(harmonics[:0:-1])  # the smallest first
     total = harmonics[0] / 2 + summed + factor * tail
-    truncation = abs(factor - 1) * tail / np.pi
-    bound = truncation + ROUNDING * total
+    truncation = abs(factor - 1) * tail
+    if arc:
+        truncation += _TAIL_ERROR * tail
+    bound = truncation / np.pi + ROUNDING * total
     return float(total / np.pi), float(bound)
+
+
+def _mean_of_tail(arc: float) -> float:
+    """Mean of the pad's squared factor over the harmonics beyond `HIGHEST_HARMONIC` L, with their
+    weights l^-3: with v = (L/l)^2 the integral over v from 0 to 1, by midpoints."""
+    midpoints = (np.arange(_TAIL_POINTS) + 0.5) / _TAIL_POINTS
+    return float(np.mean(pad_factors(HIGHEST_HARMONIC / np.sqrt(midpoints), arc) ** 2))
 
 
 def _free(l: NDArray[np.int64] | int, nu: float, w: Array) -> tuple[Array, Array]:

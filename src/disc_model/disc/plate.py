@@ -13,8 +13,9 @@ exactly c nodal circles.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
@@ -47,7 +48,8 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
 
         - circles, diameters : int, number of nodal circles and nodal diameters
         - omega : rad/s, natural frequency
-        - psi : kg^-1/2, Psi = R(r_0)/sqrt(rho h b^2), times sqrt(2) if diameters >= 1 (for a pair of modes)
+        - psi : kg^-1/2, Psi = R(r_0)/sqrt(rho h b^2), times sqrt(2) if diameters >= 1 (for a pair of modes);
+          under a pad, the mean over its arc
 
     Notes
     -----
@@ -102,17 +104,31 @@ class Modes:
 def mode_arrays(p: Parameters, normalization: str = "") -> Modes:
     """The modes of `plate_modes` as read-only arrays, the same at every call; `normalization`
     replaces the case's."""
+    at_point = modes_at_point(p, normalization)
+    if p.contact_arc == 0:
+        return at_point
+    return _under_pad(at_point, p.contact_arc)
+
+
+def modes_at_point(p: Parameters, normalization: str = "") -> Modes:
+    """As `mode_arrays`, with the amplitudes of a single point at r_0, whatever the slider's arc."""
     if p.disc is not None:
         return modes_of_table(p.disc)
     return _modes(_PLATE(p), (normalization or p.normalization) == "orthonormal")
 
 
+def pad_factors(diameters: Indices | Array, arc: float) -> Array:
+    """Mean displacement under a pad over that at its middle, of modes with these numbers of nodal
+    diameters (n,): sin(l d)/(l d), 2 d being the pad's arc (rad)."""
+    return np.asarray(np.sinc(diameters * (arc / math.tau)))
+
+
 def tangential_amplitudes(p: Parameters) -> Array:
     """Amplitudes of the modes along the slider's path where friction acts, kg^-1/2, shape
-    (n_modes,). At a height z of ``friction_offset`` above the middle plane they are -(z/r_0) l psi;
-    0 in that plane."""
+    (n_modes,); under a pad, their means over its arc. At a height z of ``friction_offset`` above the
+    middle plane they are -(z/r_0) l psi; 0 in that plane."""
     if p.disc is not None and p.friction_offset == SURFACE:
-        return np.array(p.disc.tangential)
+        return np.array(p.disc.tangential) * pad_factors(mode_arrays(p).diameters, p.contact_arc)
     modes = mode_arrays(p)
     height = p.h / 2 if p.friction_offset == SURFACE else float(p.friction_offset)
     return -height / p.r_0 * modes.diameters * modes.psi
@@ -120,7 +136,7 @@ def tangential_amplitudes(p: Parameters) -> Array:
 
 def mode_shapes(p: Parameters, r: Array) -> Array:
     """Amplitudes of the modes at radii r (m, shape (k,)), in kg^-1/2, (n_modes, k); at r_0 those of
-    `plate_modes`. For a table they are splines through its shapes and amplitudes. Raises
+    `modes_at_point`. For a table they are splines through its shapes and amplitudes. Raises
     ParameterError if it has no shapes."""
     if p.disc is not None:
         from scipy.interpolate import make_interp_spline  # few callers need it
@@ -277,6 +293,12 @@ def modes_of_table(disc: Disc) -> Modes:
     """The modes of a disc that is given by a table."""
     circles, diameters = (np.array(column, np.int64) for column in (disc.circles, disc.diameters))
     return Modes(circles, diameters, np.array(disc.omega), np.array(disc.amplitude))
+
+
+@lru_cache(maxsize=256)
+def _under_pad(at_point: Modes, arc: float) -> Modes:
+    """Modes with the amplitudes under a pad, the same at every call for the same modes."""
+    return replace(at_point, psi=at_point.psi * pad_factors(at_point.diameters, arc))
 
 
 _PLATE = attrgetter("a", "b", "r_0", "h", "E", "nu", "rho", "n_diameters", "n_circles")

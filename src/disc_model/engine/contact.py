@@ -23,7 +23,13 @@ are numbers, and changes of coefficients, which are lanes (`tangent`).
 from typing import NamedTuple
 
 from .jit import inlined
-from .laws import friction_coefficient, slip_denominator, slip_shares, surface_mobility
+from .laws import (
+    friction_coefficient,
+    remaining_fall,
+    slip_denominator,
+    slip_shares,
+    surface_mobility,
+)
 from .modes import slope
 
 
@@ -74,18 +80,18 @@ def slip_law(model, direction, f, dw_dtheta):
 @inlined
 def known_forces(model, series, law, k, direction):
     """Return what lower orders determine of the forces of order k in slip. Enters the coefficient
-    of falling friction of order k, for which f is needed up to this order."""
+    of friction of order k where it depends on the speed, for which f is needed up to this order."""
     T = 0.0
     leaning_R = 0.0
     leaning_T = 0.0
-    if model.has_falling_friction:
+    if model.has_varying_friction:
         put_coefficient(model, series, k, direction)
         T = leverage(series.coefficient, series.P, k)
     if model.has_normal_force:
         series.slope[k] = slope(model, series, k) / model.r_0
         leaning_R = leverage(series.slope, series.P, k)
         leaning_T = law.friction * leaning_R
-        if model.has_falling_friction:
+        if model.has_varying_friction:
             leaning_T = leverage(series.slope, series.friction, k)
     return known_of(model, law, T, leaning_R, leaning_T)
 
@@ -112,31 +118,53 @@ def known_numerator(model, law, known):
 
 @inlined
 def put_coefficient(model, series, k, direction):
-    """Enter order k of the coefficient q of falling friction: with s = ``direction`` and the
-    model's ``decay`` d, (1 + d s f) (q - s mu_k) = s (mu_s - mu_k)."""
+    """Enter order k of the coefficient q of friction that depends on the speed, of the share phi of
+    ``remaining_fall`` and of its lever: with s = ``direction`` and the model's ``decay`` d
+
+        q = s mu_k + s (mu_s - mu_k) phi + mu_v r_0 f
+        hyperbolic: (1 + d s f) phi = 1,    exponential: phi' = -d s f' phi
+
+    Both are products of phi and its lever, which is f or the series of k f_k.
+    """
+    fall = direction * model.decay
     if k == 0:
+        series.share[0] = remaining_fall(model, direction, series.f[0])
+        series.lever[0] = 0.0
         series.coefficient[0] = friction_coefficient(model, direction, series.f[0])
+        return
+    if model.has_exponential_friction:
+        series.lever[k] = k * series.f[k]
+        factor = -fall / k
     else:
-        change = leverage(series.f, series.coefficient, k)
-        change -= series.f[k] * direction * model.mu_k
-        fall = direction * model.decay
-        series.coefficient[k] = -fall / (1.0 + fall * series.f[0]) * change
+        series.lever[k] = series.f[k]
+        factor = -fall / (1.0 + fall * series.f[0])
+    series.share[k] = factor * leverage(series.lever, series.share, k)
+    excess = direction * model.fall_of_friction * series.share[k]
+    series.coefficient[k] = excess + model.viscous * series.f[k]
 
 
 @inlined
-def put_weakening(model, series, k, direction):
-    """Enter order k of R dq/df, the change of T with f at the same R where friction falls with the
-    speed: (1 + d s f) dq/df = -d s (q - s mu_k), in the letters of `put_coefficient`."""
+def put_sensitivity(model, series, k, direction):
+    """Enter order k of R dq/df, the change of T with f at the same R, in the letters of
+    `put_coefficient`, and of its part w by which friction falls. With e = s (mu_s - mu_k) phi R
+
+        hyperbolic: (1 + d s f) w = -d s e,    exponential: w = -d s e,    R dq/df = w + mu_v r_0 R
+    """
     fall = direction * model.decay
-    excess = series.friction[k] - direction * model.mu_k * series.P[k]
-    excess += leverage(series.f, series.weakening, k)
-    series.weakening[k] = -fall * excess / (1.0 + fall * series.f[0])
+    excess = series.share[0] * series.P[k] + leverage(series.share, series.P, k)
+    excess = direction * model.fall_of_friction * excess
+    if model.has_exponential_friction:
+        series.weakening[k] = -fall * excess
+    else:
+        excess += leverage(series.f, series.weakening, k)
+        series.weakening[k] = -fall * excess / (1.0 + fall * series.f[0])
+    series.sensitivity[k] = series.weakening[k] + model.viscous * series.P[k]
 
 
 @inlined
 def slip_growth(model, series, direction):
-    """Return the rate at which a change of g grows at the start of a step of slip where friction
-    falls with the speed, 1/s."""
-    put_weakening(model, series, 0, direction)
-    growth = abs(series.weakening[0]) / (model.m * model.r_0)
+    """Return the rate at which a change of g grows or decays at the start of a step of slip where
+    friction depends on the speed, 1/s."""
+    put_sensitivity(model, series, 0, direction)
+    growth = abs(series.sensitivity[0]) / (model.m * model.r_0)
     return growth * surface_mobility(model, model.m)

@@ -11,6 +11,8 @@ the plane divided by r_0, B the slope of the disc under the slider and beta = B 
 
 from typing import NamedTuple
 
+import numpy as np
+
 from .jit import inlined
 
 TINY = 1e-100  # the complex step: its square is far below rounding, but not zero
@@ -98,11 +100,21 @@ def free_force(model, i):
 
 
 @inlined
+def remaining_fall(model, direction, f):
+    """The share of mu_s - mu_k by which friction in slip has not fallen yet: phi, 1 where slip
+    begins."""
+    fallen = direction * model.decay * f
+    if model.has_exponential_friction:
+        return np.exp(-fallen)
+    return 1.0 / (1.0 + fallen)
+
+
+@inlined
 def friction_coefficient(model, direction, f):
     """The coefficient of friction in slip, with the sign of ``direction``."""
-    if model.has_falling_friction:
-        excess = (model.mu_s - model.mu_k) / (1.0 + direction * model.decay * f)
-        return direction * (model.mu_k + excess)
+    if model.has_varying_friction:
+        excess = model.fall_of_friction * remaining_fall(model, direction, f)
+        return direction * (model.mu_k + excess) + model.viscous * f
     return direction * model.mu_k
 
 

@@ -95,19 +95,25 @@ class Model(NamedTuple):
     slider_scale: float  # m/s: what u' is compared with where it is not the disc's
     bonded: bool  # whether contact is bilateral
     compliance: float  # of the contact, m/N; 0 if it is rigid
+    point_amplitude: np.ndarray  # of a single point at r_0, in lanes of a: a pad has the mean
+    point_amplitude0: np.ndarray
     tangential: (
         np.ndarray
     )  # t_l of the surface on which friction acts in lanes of b, 0 in lanes of a
     surface_inverse_mass: float  # S_t = sum t_l^2, 1/kg
     damped_surface_inverse_mass: float  # sum 2 xi_l omega_l t_l^2, 1/(kg s)
     surface_swing: float  # sum l psi_l t_l, 1/kg
-    decay: float  # of friction, r_0 times ``friction_decay``, s/rad
+    decay: float  # of friction, r_0 times ``friction_decay``, s/rad; 0 if it does not fall
+    fall_of_friction: float  # mu_s - mu_k where friction falls with the speed, else 0
+    onset_friction: float  # coefficient of friction where slip begins
+    viscous: float  # r_0 times ``viscous_friction``, s/rad
     modes: StickModes  # closed form of stick
     has_more_blocks: tuple[bool, ...]  # whether there is more than one block of lanes
     has_compliance: tuple[bool, ...]  # whether the contact is compliant
     has_normal_force: tuple[bool, ...]  # whether the contact force is normal to the bent disc
     has_moving_surface: tuple[bool, ...]  # whether the surface on which friction acts moves
-    has_falling_friction: tuple[bool, ...]  # whether friction in slip falls with the speed
+    has_varying_friction: tuple[bool, ...]  # whether friction in slip depends on the speed
+    has_exponential_friction: tuple[bool, ...]  # whether it falls exponentially, not as a hyperbola
     has_ramp: tuple[bool, ...] = ()  # whether Omega and N may change with time
     ramp_begin: float = 0.0  # s
     ramp_angle: float = 0.0  # rad, of the drive point at the ramp's begin
@@ -121,6 +127,7 @@ class DiscModes(NamedTuple):
     diameters: np.ndarray  # l
     omega: np.ndarray  # rad/s
     psi: np.ndarray  # amplitude under the slider, kg^-1/2
+    psi_at_point: np.ndarray  # of a single point at r_0: a pad has the mean over its arc
     damping: np.ndarray  # 2 xi omega, 1/s
     tangential: np.ndarray  # amplitude at the surface on which friction acts, kg^-1/2
 
@@ -132,6 +139,8 @@ class Contact(NamedTuple):
     compliance: float = 0.0  # m/N; 0 if it is rigid
     normal: bool = False  # whether the contact force is normal to the bent disc, not vertical
     friction_decay: float = np.inf  # s/m; inf for the coefficient mu_k at any speed
+    exponential: bool = False  # whether friction falls exponentially, not as a hyperbola
+    viscous_friction: float = 0.0  # s/m
 
 
 def _flag(yes) -> tuple[bool, ...]:
@@ -178,18 +187,24 @@ def build_model(modes: DiscModes, slider: Mapping[str, Any], contact: Contact) -
         slider_scale=N * (float(np.sum(psi**2 / omega)) + compliance / unit),
         bonded=contact.bonded,
         compliance=compliance,
+        point_amplitude=_point_amplitudes(modes),
+        point_amplitude0=modes.psi_at_point[single],
         tangential=rows[TANGENTIAL],
         surface_inverse_mass=float(np.sum(rows[TANGENTIAL] ** 2)),
         damped_surface_inverse_mass=-float(np.sum(rows[TANGENTIAL] * rows[TANGENTIAL_DAMPING])),
         surface_swing=float(np.sum(rows[SLOPE] * rows[TANGENTIAL])),
         decay=slider["r_0"] * float(contact.friction_decay) if falls else 0.0,
+        fall_of_friction=slider["mu_s"] - slider["mu_k"] if falls else 0.0,
+        onset_friction=slider["mu_s"] if falls else slider["mu_k"],
+        viscous=slider["r_0"] * float(contact.viscous_friction),
         # under the normal force friction in stick is no linear function of the state
         modes=no_modes() if contact.normal else _stick_modes(modes, slider, compliance, unit),
         has_more_blocks=_flag(rows.shape[1] > WIDTH),
         has_compliance=_flag(compliance),
         has_normal_force=_flag(contact.normal),
         has_moving_surface=_flag(np.any(rows[TANGENTIAL])),
-        has_falling_friction=_flag(falls),
+        has_varying_friction=_flag(falls or contact.viscous_friction > 0.0),
+        has_exponential_friction=_flag(falls and contact.exponential),
     )
 
 
@@ -229,6 +244,14 @@ def _lanes(modes: DiscModes, unit: float) -> np.ndarray:
     rows[FORCES] = rows[AMPLITUDE] + rows[TANGENTIAL]
     rows[SLOPE_RATE:, of_b] = l * psi
     rows[SLOPE_RATE:, of_a] = np.outer(np.arange(1.0, ROWS + 1.0) / unit, l * psi)
+    return lanes
+
+
+def _point_amplitudes(modes: DiscModes) -> np.ndarray:
+    """Return ``Model.point_amplitude``."""
+    pairs = np.flatnonzero(modes.diameters > 0)
+    lanes = np.zeros(lanes_for(len(pairs)))
+    lanes[pair_lanes(len(pairs))] = modes.psi_at_point[pairs]
     return lanes
 
 

@@ -174,13 +174,13 @@ def point_motion(model, state, angle):
     for j in range(len(model.shift)):
         if j % WIDTH < HALF:
             turn = model.shift[j] * angle
-            along = model.mode_amplitude[j] * math.cos(turn)
-            across = model.mode_amplitude[j] * math.sin(turn)
+            along = model.point_amplitude[j] * math.cos(turn)
+            across = model.point_amplitude[j] * math.sin(turn)
             w += along * state.z[j] + across * state.z[j + HALF]
             velocity += along * state.e[j] + across * state.e[j + HALF]
-    for j in range(len(model.mode_amplitude0)):
-        w += model.mode_amplitude0[j] * state.y[j]
-        velocity += model.mode_amplitude0[j] * state.g[j]
+    for j in range(len(model.point_amplitude0)):
+        w += model.point_amplitude0[j] * state.y[j]
+        velocity += model.point_amplitude0[j] * state.g[j]
     return w, velocity
 
 

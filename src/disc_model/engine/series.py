@@ -30,7 +30,8 @@ from .stick_modes import padded
 
 _QUANTITIES = (
     "psi", "f", "u", "v", "P", "switch", "switch2", "powers", "up", "down",
-    "slope", "drive", "preload", "friction", "coefficient", "weakening", "V", "surface", "turn", "hold",
+    "slope", "drive", "preload", "friction", "coefficient", "share", "lever", "weakening", "sensitivity",
+    "V", "surface", "turn", "hold",
 )  # fmt: skip
 _PLACES = {name: Part("quantities", ROWS * i, ROWS) for i, name in enumerate(_QUANTITIES)}
 _ROOT_ROWS = 7 * WIDTH
@@ -61,9 +62,12 @@ class Series(NamedTuple):
     slope: np.ndarray  # B / r_0 under the normal force
     drive: np.ndarray  # Omega, in which only orders 0 and 1 are not zero
     preload: np.ndarray  # N - k u_0, likewise
-    friction: np.ndarray  # T where friction falls with the speed
+    friction: np.ndarray  # T where friction depends on the speed
     coefficient: np.ndarray  # of that friction
-    weakening: np.ndarray  # change of that friction with f
+    share: np.ndarray  # phi, by which it has not fallen yet
+    lever: np.ndarray  # of phi in its recurrence
+    weakening: np.ndarray  # change of T with f by phi
+    sensitivity: np.ndarray  # change of T with f
     V: np.ndarray  # vertical force of a compliant contact
     surface: np.ndarray  # v_s of the surface on which friction acts; 0 if it does not move
     turn: np.ndarray  # integral of v_s / r_0, likewise

@@ -109,14 +109,14 @@ def slip_series(model, series, order, direction):
             rest = factors.inverse * series.preload[k] + factors.by_u * u + factors.by_v * v
             rest += factors.by_pull * pull
             R = factors.by_acceleration * acceleration + rest
-            if model.has_normal_force or model.has_falling_friction:
+            if model.has_normal_force or model.has_varying_friction:
                 R += factors.inverse * known_numerator(model, law, known)
         series.P[k] = R
         V = law.share_V * R
         H = law.share_H * R
         rate_f = pull - factors.brake * R
         rate_v = acceleration + B * pull - factors.recoil * R
-        if model.has_normal_force or model.has_falling_friction:
+        if model.has_normal_force or model.has_varying_friction:
             V -= known.V
             H += known.H
             braked = factors.lever * known.H

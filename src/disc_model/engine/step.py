@@ -106,8 +106,9 @@ def series_step(model, series, state, order, tolerance, longest, left):
     length = step_size(model, series, order, tolerance, phase)
     if not length > 0.0:
         return Step(NON_FINITE, order, 0.0, NOTHING)
-    if model.has_falling_friction and phase == SLIP:
-        # where friction falls steeply, a change of g grows faster than the fastest motion
+    if model.has_varying_friction and phase == SLIP:
+        # where friction falls or rises steeply, a change of g grows or decays faster than the fastest
+        # motion
         growth = slip_growth(model, series, state.x[DIRECTION])
         longest /= max(growth * model.unit, 1.0)
     longest = min(min(length, longest), left)

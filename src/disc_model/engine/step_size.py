@@ -13,6 +13,9 @@ from .state import SEPARATION, SLIP, STICK
 # digits than they add.
 LONGEST_STEP = 8.0
 TYPICAL_STEP = 3.0
+# Slip speed, over that by which exponential friction falls to a part e, from which it counts as
+# fallen.
+FALLEN = 10.0
 
 
 @inlined
@@ -42,7 +45,7 @@ def step_size(model, series, order, tolerance, phase):
     )
     speed = _scale(series.drive[0], abs(series.f[0]), abs(series.f[1]))
     weight = 1.0
-    if model.has_falling_friction and phase == SLIP and model.decay > 0.0:
+    if model.has_varying_friction and phase == SLIP and model.decay > 0.0:
         # slow slip grows by itself, and where friction falls the series converges like that of a
         # fraction
         slow = abs(series.f[0]) + 1.0 / model.decay
@@ -59,9 +62,40 @@ def step_size(model, series, order, tolerance, phase):
         error += _force_error(model, series, order, phase)
     if not error < math.inf or not velocity + speed < math.inf:
         return math.nan
-    if error * longest**order <= tolerance:
-        return longest
-    return _root(tolerance / error, order)
+    length = longest
+    if error * longest**order > tolerance:
+        length = _root(tolerance / error, order)
+    if model.has_exponential_friction and phase == SLIP:
+        return _before_friction_rises(model, series, order, length)
+    return length
+
+
+@inlined
+def _before_friction_rises(model, series, order, length):
+    """Return the longest step, up to ``length``, in which the slip speed certainly does not fall by
+    more than half, if exponential friction has fallen.
+
+    It then rises again from almost nothing as slip slows down, and a series of this order, whose
+    terms are almost zero, does not show how far.
+    """
+    speed = abs(series.f[0])
+    if model.decay * speed < FALLEN:
+        return length
+    sense = 1.0 if series.f[0] > 0.0 else -1.0
+    while _greatest_loss(series.f, order, sense, length) > 0.5 * speed:
+        length *= 0.75
+    return length
+
+
+@inlined
+def _greatest_loss(c, order, sense, x):
+    """Return a bound on how far a series falls below its start within x, times ``sense``."""
+    loss = 0.0
+    power = 1.0
+    for k in range(1, order + 1):
+        power *= x
+        loss += max(0.0, -sense * c[k] * power)
+    return loss
 
 
 @inlined

@@ -29,7 +29,7 @@ from .columns import (
     order_at,
     put_entry,
 )
-from .contact import known_numerator, known_of, put_weakening, slip_law
+from .contact import known_numerator, known_of, put_sensitivity, slip_law
 from .dense_output import state_at
 from .jit import helper, inlined
 from .jit.simd import WIDTH, load, splat, spread, store
@@ -97,9 +97,9 @@ def tangent_series(model, series, tangent, order, phase, direction):
         tangent.motion_slope[k] = slope(model, series, k)
     B = tangent.motion_slope[0]
     law = slip_law(model, direction, series.f[0], B)
-    if model.has_falling_friction and phase == SLIP:
+    if model.has_varying_friction and phase == SLIP:
         for k in range(order):
-            put_weakening(model, series, k, direction)
+            put_sensitivity(model, series, k, direction)
     for block in range(tangent.columns // WIDTH):
         now = now_at(tangent, block)
         start = order_at(tangent, block, 0)
@@ -445,10 +445,10 @@ def _leaning_change(model, tangent, block, k, force, changes):
 
 @inlined
 def _friction_change(model, series, tangent, block, k):
-    """Change of T of order k without q_0 dR_k (lanes), where friction falls with the speed."""
+    """Change of T of order k without q_0 dR_k (lanes), where friction depends on the speed."""
     chain = chain_at(tangent, block, 0)
     df = order_at(tangent, block, 0) + slider_place(model, PHI_RATE) * WIDTH
-    by_speed = _sum(series.weakening, tangent.series, df, tangent.rows * WIDTH, k, 0)
+    by_speed = _sum(series.sensitivity, tangent.series, df, tangent.rows * WIDTH, k, 0)
     return by_speed + _sum(series.coefficient, tangent.force, chain, WIDTH, k, 1)
 
 
@@ -476,23 +476,23 @@ def _forces_in_slip(model, series, tangent, block, k, law, free, slider):
     T = splat(0.0)
     leaning_R = splat(0.0)
     leaning_T = splat(0.0)
-    if model.has_falling_friction:
+    if model.has_varying_friction:
         T = _friction_change(model, series, tangent, block, k)
     if model.has_normal_force:
         leaning_R = _leaning_change(model, tangent, block, k, series.P, tangent.force)
         leaning_T = law.friction * leaning_R
-        if model.has_falling_friction:
+        if model.has_varying_friction:
             leaning_T = _leaning_change(model, tangent, block, k, series.friction, tangent.friction)
     known = known_of(model, law, T, leaning_R, leaning_T)
     if model.has_compliance:
         numerator = _compression_change(model, series, tangent, block, k) + known.V
     else:
         numerator = slider.vertical + model.m * free + tangent.motion_slope[0] * slider.pull
-        if model.has_normal_force or model.has_falling_friction:
+        if model.has_normal_force or model.has_varying_friction:
             numerator = numerator + known_numerator(model, law, known)
     R = numerator * (1.0 / law.denominator)
     store(tangent.force, chain_at(tangent, block, k), R)
-    if model.has_falling_friction:
+    if model.has_varying_friction:
         store(tangent.friction, chain_at(tangent, block, k), law.friction * R + known.T)
     return law.share_V * R - known.V, law.share_H * R + known.H
 

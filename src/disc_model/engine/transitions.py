@@ -316,7 +316,7 @@ def slip_error(model, state, tolerance):
     P, _, noise = slip_force(model, state, state.x[DIRECTION])
     i, sizes = instant(model, state)
     _, pull_size = _free_pull(model, i, sizes)
-    resistance = model.mu_s if model.has_falling_friction else model.mu_k
+    resistance = model.onset_friction
     if model.has_normal_force:
         resistance += abs(i.dw_dtheta) / model.r_0
     resistance *= laws.surface_mobility(model, i.m)
@@ -362,7 +362,7 @@ def _known_at_rest(model, state, direction, P, noise):
     It is two where g', which points into the direction of slip or vanishes, is rounding: (1 + m S +
     s mu B / r_0) g' m = (1 + m S) (|F| - mu P_stick / r_0), if the surface does not move.
     """
-    resistance = model.mu_s if model.has_falling_friction else model.mu_k
+    resistance = model.onset_friction
     bound = resistance
     i, sizes = instant(model, state)
     if model.has_normal_force:
@@ -392,7 +392,7 @@ def enter_slip(model, state, direction):
 @inlined
 def friction_drops(model):
     """Return whether friction falls at once where slip begins."""
-    return model.mu_s > model.mu_k and len(model.has_falling_friction) == 0
+    return model.mu_s > model.onset_friction
 
 
 @helper

@@ -9,7 +9,7 @@ from matplotlib.colors import Normalize
 from matplotlib.patches import Circle
 
 from disc_model.data.dataset import Missing
-from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
+from disc_model.disc.plate import mode_arrays, mode_shapes, modes_at_point, radial_range
 from disc_model.figures.drawing import BLACK, DISC, GREY, SEPARATED, SLIDER, wide
 from disc_model.figures.types import Array, Axes, ComplexArray, Words
 from disc_model.parameters import Parameters
@@ -51,7 +51,7 @@ class Motion(NamedTuple):
     def deflection(self, i: int, r: Array | None, theta: Array) -> Array:
         """Displacement at sample i, m, at radii (k,) and angles (m,): (k, m); without radii on the
         slider's circle."""
-        modes = mode_arrays(self.parameters)
+        modes = modes_at_point(self.parameters)
         shapes = modes.psi[:, None] if r is None else mode_shapes(self.parameters, r)
         turns = modes.diameters[:, None] * theta
         around = self.amplitudes[:, i, None].conj() * np.exp(1j * turns)

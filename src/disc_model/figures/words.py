@@ -19,16 +19,27 @@ MODES = {
     "orthonormal": "orthonormal modes",
     "given": "modes of a table",
 }
-WORDS = {**MODES, "vertical": "vertical contact force", "normal": "normal contact force"}
+WORDS = {
+    **MODES,
+    "vertical": "vertical contact force",
+    "normal": "normal contact force",
+    "hyperbolic": "hyperbolic friction",
+    "exponential": "exponential friction",
+}
 """Names of words along a dimension, in the order in which they are drawn: those of the paper first."""
 MODELS = {
     "normal": WORDS["normal"],
+    "exponential": WORDS["exponential"],
     "residual": "residual flexibility",
     "surface": "friction on the surface",
     "bilateral": "bilateral contact",
     "bonded": "bilateral contact",  # its name in older files of results
 }
-AT_ZERO = {"contact_compliance": "rigid contact", "friction_offset": "friction in the middle plane"}
+AT_ZERO = {
+    "contact_compliance": "rigid contact",
+    "contact_arc": "contact at a point",
+    "friction_offset": "friction in the middle plane",
+}
 """What parameters mean that are zero: they name themselves."""
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
 """Units of the reader and the factors from SI to them, by parameter or sampled variable, while a
@@ -128,6 +139,8 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
         return AT_ZERO[by]
     if by == "contact_compliance":
         return f"compliance {value * SHOWN[by].factor:.3g} µm/N"
+    if by == "contact_arc":
+        return f"a pad over {value:g} rad"
     if by == "friction_offset":
         return f"friction {value * SHOWN[by].factor:g} mm above the middle plane"
     label, factor = label_of(data[by])

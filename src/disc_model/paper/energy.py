@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from disc_model.disc.plate import modal_damping, mode_arrays
+from disc_model.disc.plate import modal_damping, mode_arrays, modes_at_point
 from disc_model.paper.measures import Absent, Array
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -63,7 +63,7 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[An
         np.asarray(first[name]) for name in ("time", "P", "psi", "u", "u_velocity")
     )
     omega = _by_mode(p, mode_arrays(p).omega)
-    psi = _by_mode(p, mode_arrays(p).psi)
+    psi = _by_mode(p, modes_at_point(p).psi)
     damping = _by_mode(p, modal_damping(p))
 
     # coefficients of 1, cosines and sines of the angle, and their rates

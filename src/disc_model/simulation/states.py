@@ -24,6 +24,7 @@ from disc_model.disc.plate import (
     modal_damping,
     mode_arrays,
     mode_shapes,
+    modes_at_point,
     radial_range,
     tangential_amplitudes,
 )
@@ -429,6 +430,7 @@ def engine_case(p: Parameters) -> EngineCase:
             diameters=modes.diameters,
             omega=modes.omega,
             psi=modes.psi,
+            psi_at_point=modes_at_point(p).psi,
             damping=modal_damping(p),
             tangential=tangential,
         ),
@@ -438,6 +440,8 @@ def engine_case(p: Parameters) -> EngineCase:
             compliance=contact_compliance(p),
             normal=p.contact_force == "normal",
             friction_decay=p.friction_decay,
+            exponential=p.friction_law == "exponential",
+            viscous_friction=p.viscous_friction,
         ),
     )
     pairs = np.flatnonzero(modes.diameters > 0)

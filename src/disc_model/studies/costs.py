@@ -56,7 +56,7 @@ def unit_costs(p: Parameters) -> UnitCosts:
         laws.append(COMPLIANT)
     if p.contact_force == "normal":
         laws.append(NORMAL)
-    if p.friction_decay < math.inf:
+    if p.friction_decay < math.inf or p.viscous_friction > 0:
         laws.append(FALLING)
     for law in laws:
         second *= law.second

@@ -176,7 +176,10 @@ def test_columns_are_those_of_the_cycle_and_of_the_modes(monkeypatch: pytest.Mon
         )
         values, message = Campbell().compute_point(Point(Parameters(N=200, Omega=11)))
         assert message == ("" if word == "ok" else CycleStatus.NO_CYCLE.advice)
-        rate = 2 / 0.03 if word == "ok" else np.nan
+        if word == "ok":
+            rate = 2 / 0.03
+        else:
+            rate = np.nan
         assert values["stick_slip_frequency"] == pytest.approx(rate, nan_ok=True)
     assert values["rotation_frequency"] == pytest.approx(11 / (2 * np.pi))
     assert values["diameters"].tolist() == [0, 0, 2]

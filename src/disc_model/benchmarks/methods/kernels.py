@@ -18,7 +18,14 @@ from disc_model.errors import Fault, as_text, raise_faults
 from disc_model.parameters import DEFAULTS, Parameters
 from disc_model.simulation.states import State
 
-OTHER_LAWS = ("contact_compliance", "contact_force", "friction_decay", "friction_offset")
+OTHER_LAWS = (
+    "contact_compliance",
+    "contact_arc",
+    "contact_force",
+    "friction_decay",
+    "friction_offset",
+    "viscous_friction",
+)
 """Parameters of laws of contact that only the engine has."""
 
 

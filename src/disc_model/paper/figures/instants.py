@@ -8,7 +8,7 @@ import xarray as xr
 
 from disc_model.data import dataset
 from disc_model.data.variables import flag_names
-from disc_model.disc.plate import mode_arrays
+from disc_model.disc.plate import modes_at_point
 from disc_model.figures.disc import Motion, draw_circle, draw_disc, scale_of
 from disc_model.figures.drawing import BLACK, PAGE, SEPARATED, SLIDER, new_figure, sample
 from disc_model.figures.legends import figure_legend
@@ -85,7 +85,7 @@ def motion_of(case: xr.DataTree) -> Motion:
     angles = np.array([window.attrs["theta"] for window in windows])
     values = np.array([window["w_point"].values for window in windows])
     solution = _harmonics(angles, harmonics, values)
-    amplitudes = solution / mode_arrays(p).psi[:, None]
+    amplitudes = solution / modes_at_point(p).psi[:, None]
     ramps = [Ramp(**ramp) for ramp in json.loads(case.attrs.get("ramps", "[]"))]
     intervals = pieces(p, ramps)
     drive = np.array([angle_of_drive(intervals, t) for t in time])

@@ -36,8 +36,10 @@ USUAL = {
     "c": 0.5,
     "c_p": 0.5,
     "contact_compliance": 1e-8,
+    "contact_arc": 0.4,
     "damping_ratio": 1e-3,
     "friction_decay": 1.0,
+    "viscous_friction": 0.01,
 }
 SMALLEST = 0.2  # of a parameter's scale, over its typical value
 SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value of interest

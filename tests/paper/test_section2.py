@@ -1,0 +1,177 @@
+"""Statements of Section 2 and of the precursor judged by made-up cases."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from disc_model.disc.plate import plate_modes
+from disc_model.paper import measures, section2
+from disc_model.paper.measures import Range
+from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE
+from disc_model.paper.section2 import (
+    BASE,
+    SPEEDS,
+    additional,
+    different,
+    moving_load_speed,
+    reduced,
+    slip_condition,
+    truncation,
+)
+from tests.paper.known import known
+
+
+def test_a_moving_load_is_critical_where_a_mode_stands_for_it() -> None:
+    modes = plate_modes(BASE)
+    speeds = [mode.omega / mode.diameters for mode in modes.itertuples() if mode.diameters > 0]
+    assert moving_load_speed(BASE) == min(speeds)
+
+
+def stopping(psi: list[float], P: list[float], **scalars: float) -> Any:
+    """Return a case with these angles and contact forces where slip ends."""
+    stops = xr.Dataset({"psi": ("event", psi), "P": ("event", P)})
+    usual = {"c_p": 0.0, "r_0": 0.1, "mu_s": 0.4, **scalars}
+    return known(usual, switches=lambda kind: stops)
+
+
+@pytest.mark.parametrize(
+    ("psi", "P", "held", "verdict"),
+    [
+        ([0.07], [400.0], 1, FALSE),  # 140 N below 160 N
+        ([-0.07], [400.0], 1, FALSE),
+        ([0.09], [400.0], 0, TRUE),
+        ([-0.09], [400.0], 0, TRUE),
+        ([0.07, 0.07], [400.0, 300.0], 1, FALSE),
+    ],
+)
+def test_the_spring_pulls_less_than_friction_holds_where_the_slider_stops(
+    psi: list[float], P: list[float], held: int, verdict: str
+) -> None:
+    found = slip_condition(stopping(psi, P))
+    assert found.verdict == verdict
+    assert (found.values["held"], found.values["ends"]) == (held, len(psi))
+
+
+def modes_case(first: float, rate: float, stick: float = 0.25) -> Any:
+    return known(
+        {"first_separation": first},
+        rate_of=lambda kind: rate,
+        phase_share=lambda phase: 0.13,
+        stick=stick,
+    )
+
+
+@pytest.mark.parametrize(
+    ("first", "rates", "verdict"),
+    [
+        ([54.0, 54.1, 54.1, 54.2, 54.3, 54.3], [135, 134, 134], TRUE),
+        ([54.0, 54.1, 54.1, 54.2, 55.0, 54.3], [135, 134, 134], PART),
+        ([54.0, 54.1, 54.1, 54.2, 54.3, 54.3], [135, 134, 120], PART),
+        ([54.0, 54.1, 54.1, 54.2, 54.3, 54.3], [135, 120, 134], PART),
+        ([54.0, 54.1, 54.1, 54.2, 54.3, 54.3], [120, 134, 134], FALSE),
+        ([54.0, 54.1, 55.1, 54.2, 54.3, 54.3], [135, 134, 134], FALSE),
+        ([54.0, np.nan, 54.1, 54.2, 54.3, 54.3], [135, 134, 134], FALSE),
+    ],
+)
+def test_more_modes_change_nothing_by_times_rates_and_shares(
+    first: list[float], rates: list[float], verdict: str
+) -> None:
+    """Rates of those with eight diameters, and with one and two circles, beside 135/s."""
+    each = [135.0, 0.0, 0.0, *rates]
+    cases = [modes_case(*pair) for pair in zip(first, each, strict=True)]
+    assert truncation(*cases, seconds=0.5, share=0.02).verdict == verdict
+
+
+def test_stick_is_compared_as_well() -> None:
+    cases = [modes_case(54.0, 135.0) for _ in range(6)]
+    cases[3] = modes_case(54.0, 135.0, stick=0.3)
+    found = truncation(*cases, seconds=0.5, share=0.02)
+    assert found.verdict == FALSE
+    assert found.values["change"] == ["change", "hardly change"]
+
+
+@pytest.mark.parametrize(
+    ("width", "stick", "both", "verdict"),
+    [
+        (0.005, 0.2, False, TRUE),  # half of the range without separation
+        (0.006, 0.2, False, FALSE),
+        (0.02, 0.2, False, FALSE),  # it may only be smaller
+        (0.006, 0.1, False, TRUE),  # half of the stick, or twice
+        (0.006, 0.4, False, TRUE),
+        (0.005, 0.2, True, FALSE),
+        (0.005, 0.4, True, TRUE),
+    ],
+)
+def test_separation_changes_the_range_or_the_stick_by_a_factor(
+    width: float, stick: float, both: bool, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = known(disc=Range(0.0, width), stick=stick)
+    other = known(disc=Range(0.0, 0.01), stick=0.2)
+    monkeypatch.setattr(measures, "pairs", lambda cases: [(case, other)])
+    found = different(case, other, factor=2, both=both)
+    assert found.verdict == verdict
+    assert found.values["rows"] == [("here", pytest.approx(width / 0.01), stick, 0.2, width, 0.01)]
+
+
+@pytest.mark.parametrize(("share", "verdict"), [(0.0, TRUE), (0.5, TRUE), (0.6, FALSE)])
+def test_one_pair_of_two_differs(
+    share: float, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    small = known(disc=Range(0.0, 0.001), stick=0.2)
+    other = known(disc=Range(0.0, 0.01), stick=0.2)
+    monkeypatch.setattr(measures, "pairs", lambda cases: [(small, other), (other, other)])
+    assert different(small, other, factor=2, share=share).verdict == verdict
+
+
+def rates(*stretches: tuple[float, float]) -> np.ndarray:
+    """Return growth rates at one load, of values from speeds on."""
+    found = np.full((1, SPEEDS.size), -1.0)
+    for start, value in stretches:
+        found[0, start <= SPEEDS] = value
+    return found
+
+
+@pytest.mark.parametrize(
+    ("damped", "verdict", "raised"),
+    [
+        ([(100, 0.3), (1000, 0.6)], TRUE, 180),
+        ([(100, 0.3), (500, 0.1), (1000, 0.6)], NOT_COMPUTED, 80),
+        ([(100, 0.1), (1000, 0.6)], FALSE, 0),
+    ],
+)
+def test_friction_makes_speeds_unstable_and_the_damper_raises_growth_there(
+    damped: list[tuple[float, float]], verdict: str, raised: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Growth at 0.2/s from 100 rad/s on with friction, and from 1000 rad/s on without it."""
+    three = (rates((1000, 0.5)), rates((100, 0.2), (1000, 0.5)), rates(*damped))
+    monkeypatch.setattr(section2, "growths", lambda *_, **__: three)
+    found = additional(loads=[385.0], c=0.1)
+    assert found.verdict == verdict
+    critical = moving_load_speed(BASE)
+    below = int(np.sum((SPEEDS >= 100) & (min(critical, 1000) > SPEEDS)))
+    assert found.values["counts"] == (180, raised, below)
+    assert found.values["slowest"] == (100 if raised else np.inf)
+
+
+@pytest.mark.parametrize(
+    ("both", "verdict", "counts"),
+    [
+        ([(1000, -0.1), (1250, 0.4)], TRUE, (101, 50, 101)),
+        ([(1000, 0.4)], NOT_COMPUTED, (101, 0, 101)),
+        ([(1000, 0.4), (1250, 0.6)], NOT_COMPUTED, (101, 0, 50)),
+        ([(1000, 0.6)], FALSE, (101, 0, 0)),
+    ],
+)
+def test_friction_lowers_growth_where_sliding_is_unstable_without_it(
+    both: list[tuple[float, float]],
+    verdict: str,
+    counts: tuple[int, int, int],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    three = (rates((1000, 0.5)), rates(*both), rates())
+    monkeypatch.setattr(section2, "growths", lambda *_, **__: three)
+    found = reduced(loads=[385.0], c=0.1)
+    assert found.verdict == verdict
+    assert found.values["counts"] == counts

@@ -1,0 +1,276 @@
+"""Statements of Section 4.4 judged by made-up cases."""
+
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from disc_model.analysis.spectra import Line
+from disc_model.paper import paper_tables, section44
+from disc_model.paper.model import FALSE, PART, TRUE
+from disc_model.paper.section44 import (
+    caused_by_friction,
+    close_to_natural,
+    constant_by_separation,
+    explained_by_slider,
+    fuzz_goes,
+    fuzz_stays,
+    growth_stages,
+    higher,
+    inplane_contribution,
+    inplane_frequency,
+    rest_late,
+    when_it_separates,
+)
+from disc_model.parameters import Parameters
+from tests.paper.known import Known, known
+
+
+@pytest.mark.parametrize(
+    ("first", "verdict"),
+    [(54.0, TRUE), (53.5, TRUE), (54.5, TRUE), (53.4, FALSE), (54.6, FALSE), (np.nan, FALSE)],
+)
+def test_a_printed_time_is_right_within_some_seconds(first: float, verdict: str) -> None:
+    case = known({"first_separation": first}, contact="lost")
+    found = when_it_separates(case, printed=54.0, within=0.5)
+    assert found.verdict == verdict
+    assert found.values["contact"] == "Lost"
+
+
+# ---- Lines
+
+
+def with_lines(frequencies: Callable[[str, float], list[float]]) -> Known:
+    """Return a case with lines of these frequencies, Hz, by window and start of a stretch."""
+
+    def signal(window: str, start: float, stop: float) -> Any:
+        found = [Line(frequency, 1.0) for frequency in frequencies(window, start)]
+        return SimpleNamespace(lines=lambda **_: found)
+
+    return known({"first_separation": 54.0}, signal=signal)
+
+
+def drifting(early: float, late: float) -> Known:
+    """Return a case with a line at rest and one that moves by so many Hz between the halves of the
+    first ten seconds, and of those from 100 s on."""
+    moved = {5.0: early, 105.0: late}
+    return with_lines(lambda window, start: [60.0, 130.0 - moved.get(start, 0.0)])
+
+
+@pytest.mark.parametrize(
+    ("early", "late", "verdict"), [(0.5, 0.4, TRUE), (0.5, 0.1, PART), (0.1, 0.1, FALSE)]
+)
+def test_lines_move_between_the_halves_of_a_stretch(
+    early: float, late: float, verdict: str
+) -> None:
+    found = rest_late(drifting(early, late), within=0.3)
+    assert found.verdict == verdict
+    np.testing.assert_allclose(found.values["drifts"], [(0, early), (0, late)], atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("with_it", "without", "verdict"),
+    [(0.1, 0.5, TRUE), (0.1, 0.1, PART), (0.5, 0.5, FALSE), (0.5, 0.1, FALSE)],
+)
+def test_lines_come_to_rest_by_separation_if_they_do_not_without(
+    with_it: float, without: float, verdict: str
+) -> None:
+    pair = (drifting(0, with_it), drifting(0, without))
+    found = constant_by_separation(*pair, within=0.3)
+    assert found.verdict == verdict
+    assert (found.values["drift"], found.values["other"]) == pytest.approx((with_it, without))
+
+
+def tabled(monkeypatch: pytest.MonkeyPatch, computed: list[float], names: list[str]) -> None:
+    """Let Table 2 have these frequencies in Hz and names, and f_s be 67 Hz."""
+    table = pd.DataFrame({"ours_Hz": computed, "ours_is": names})
+    monkeypatch.setattr(paper_tables, "table_2", lambda case: table)
+    monkeypatch.setattr(paper_tables, "stick_slip_rate", lambda case: 67.0)
+
+
+@pytest.mark.parametrize(
+    ("second", "printed", "verdict"),
+    [
+        ("f_s − f_Ω", 67.2, TRUE),
+        ("f_s − f_Ω", 67.4, PART),
+        ("f_s", 67.2, PART),
+        ("f_s", 67.4, FALSE),
+    ],
+)
+def test_the_drive_splits_the_rate_of_stick_and_slip(
+    second: str, printed: float, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    names = ["f_Ω", second, "f_s + f_Ω", "2 f_s"]
+    tabled(monkeypatch, [2.4, 64.6, 69.4, 134.0], names)
+    found = inplane_frequency(known(drive=2.4), printed=printed, within=0.3)
+    assert found.verdict == verdict
+    assert found.values["lines"] == [64.6, 69.4]
+    if printed == 67.4:
+        # that of the slider on its spring
+        assert found.values["free"] == pytest.approx(np.sqrt(2e4 / 0.1) / (2 * np.pi))
+    else:
+        assert found.values["free"] == ""
+
+
+@pytest.mark.parametrize(
+    ("off", "far", "verdict"),
+    [
+        ([0.0, 0.4, -0.4, 0.1, 0.2, 0.3], 0, TRUE),
+        ([0.0, 0.6, -0.6, 0.6, 0.2, 0.3], 3, PART),
+        ([0.0, 0.6, -0.6, 0.6, 0.7, 0.3], 4, FALSE),
+    ],
+)
+def test_half_of_the_higher_lines_may_be_far_from_natural_frequencies(
+    off: list[float], far: int, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    natural = np.array([130.0, 200.0, 270.0, 340.0])
+    monkeypatch.setattr(section44, "natural_frequencies", lambda case: natural)
+    near = np.array([130.0, 130, 200, 200, 270, 340]) + off
+    tabled(monkeypatch, [2.4, 65.0, 70.0, *near], [""] * 9)
+    found = close_to_natural(known(), within=0.5)
+    assert found.verdict == verdict
+    assert found.values["far"] == (far, 6)
+    assert found.values["rows"][0] == "130.0 Hz (130.0 Hz)"
+
+
+def test_power_is_that_of_squares_of_amplitudes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Lines of amplitude 3 at 2 f_s, and of 1 beside combinations: nine tenths of the power."""
+    tabled(monkeypatch, [], [])
+    found_lines = [Line(134.2, 3.0), Line(100.0, 1.0)]
+    signal = SimpleNamespace(lines=lambda **_: found_lines)
+    case = known(drive=2.4, signal=lambda *_: signal)
+    found = inplane_contribution(case, share=0.89)
+    assert found.verdict == TRUE
+    assert found.values["part"] == pytest.approx(0.9)
+    assert found.values["counts"] == (1, 2)
+    assert inplane_contribution(case, share=0.91).verdict == FALSE
+
+
+# ---- Power and fuzz
+
+
+def with_shares(shares: dict[float, float], member: str = "power_above") -> Known:
+    """Return a case that separates at 54 s, with shares of power, or filled shares, by the start of
+    the stretch."""
+
+    def signal(window: str, start: float, stop: float, name: str = "w_point") -> Any:
+        value = shares[start]
+        if member == "power_above":
+            return SimpleNamespace(power_above=lambda frequency: value)
+        return SimpleNamespace(filled=value)
+
+    return known({"first_separation": 54.0}, signal=signal)
+
+
+@pytest.mark.parametrize(
+    ("after", "control", "verdict"),
+    [
+        (2.1e-3, 1e-3, TRUE),
+        (1.9e-3, 1e-3, FALSE),  # it has not doubled
+        (2.1e-3, 3e-3, PART),  # without separation as well
+    ],
+)
+def test_power_at_high_frequencies_comes_with_separation(
+    after: float, control: float, verdict: str
+) -> None:
+    case = with_shares({50.0: 1e-3, 54.0: after})
+    bilateral = with_shares({50.0: 1e-3, 54.0: control})
+    options = {"windows": "zoom", "spans": [50.0, 58.0]}
+    found = higher(case, bilateral, factor=2, floor=1e-4, **options)
+    assert found.verdict == verdict
+    assert found.values["rows"] == [("here", 1e-3, after, control, 50.0, 54.0, 58.0)]
+    assert higher(case, bilateral, factor=2, floor=5e-3, **options).verdict == FALSE
+
+
+@pytest.mark.parametrize(("late", "goes"), [(0.19, True), (0.21, False)])
+def test_fuzz_goes_below_half_of_what_it_was(late: float, goes: bool) -> None:
+    case = with_shares({38.0: 0.4, 100.0: late}, "filled")
+    bilateral = with_shares({38.0: 0.4, 100.0: 0.01}, "filled")
+    found = fuzz_goes(case, bilateral, share=0.5)
+    assert found.verdict == (TRUE if goes else FALSE)
+    assert found.values["filled"] == [0.4, late, 0.4, 0.01]
+
+
+@pytest.mark.parametrize(("after", "stays"), [(0.31, True), (0.29, False)])
+def test_fuzz_stays_for_four_seconds_after_separation(after: float, stays: bool) -> None:
+    case = with_shares({50.0: 0.4, 54.0: after}, "filled")
+    found = fuzz_stays(case, case, share=0.75)
+    assert found.verdict == (TRUE if stays else FALSE)
+
+
+@pytest.mark.parametrize(
+    ("disc", "slider", "verdict"),
+    [
+        ((0.1, 0.4), (0.1, 0.4), PART),
+        ((0.1, 0.4), (0.4, 0.4), FALSE),  # the slider's stays
+        ((0.1, 0.1), (0.1, 0.1), PART),
+        ((0.1, 0.4), (0.1, 0.1), FALSE),
+        ((0.4, 0.4), (0.4, 0.4), FALSE),
+    ],
+)
+def test_fuzz_goes_where_it_goes_in_the_slider_s_motion(
+    disc: tuple[float, float], slider: tuple[float, float], verdict: str
+) -> None:
+    """In late stretches, with separation and without it."""
+    pair = []
+    for late_disc, late_slider in zip(disc, slider, strict=True):
+        shares = {38.0: 0.4, 50.0: 0.4, 54.0: 0.4}
+
+        def signal(
+            window: str,
+            start: float,
+            stop: float,
+            name: str,
+            shares: dict[float, float] = shares,
+            late: tuple[float, float] = (late_disc, late_slider),
+        ) -> Any:
+            value = late[name == "psi"] if start == 100.0 else shares[start]
+            return SimpleNamespace(filled=value)
+
+        pair.append(known({"first_separation": 54.0}, signal=signal))
+    assert explained_by_slider(*pair, share=0.5).verdict == verdict
+
+
+# ---- Stages
+
+
+@pytest.mark.parametrize(
+    ("sharp", "last", "verdict"), [(0.21, 0.1, TRUE), (0.19, 0.1, FALSE), (0.21, 0.22, FALSE)]
+)
+def test_the_vibration_grows_slowly_then_sharply_then_slowly(
+    sharp: float, last: float, verdict: str
+) -> None:
+    """At 0.1/s up to the half of 60 s, sharply from 45 s on."""
+
+    def slope(name: str, start: float, stop: float) -> float:
+        if stop == np.inf:
+            return 0.001
+        if start == 57.0:
+            return last
+        return sharp if start == 45.0 else 0.1
+
+    case = known({"first_separation": 60.0, "time_reached": 100.0}, slope=slope)
+    found = growth_stages(case, factor=2, least=0.05)
+    assert found.verdict == verdict
+    assert found.values["rates"] == pytest.approx((0.1, sharp, last, 0.001))
+    assert found.values["when"] == 47.5
+    assert growth_stages(case, factor=2, least=0.3).verdict == FALSE
+
+
+@pytest.mark.parametrize(
+    ("separates", "rate", "verdict"), [(True, -0.1, TRUE), (False, -0.1, FALSE), (True, 0.1, FALSE)]
+)
+def test_friction_is_the_cause_where_sliding_without_it_is_stable(
+    separates: bool, rate: float, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def sliding_growth(p: Parameters) -> float:
+        assert (p.mu_s, p.mu_k) == (0, 0)
+        return rate
+
+    monkeypatch.setattr(section44, "sliding_growth", sliding_growth)
+    found = caused_by_friction(known(separates=separates), growth=0.0)
+    assert found.verdict == verdict
+    assert found.values["most"] == rate
