@@ -1,12 +1,27 @@
 """The figures of the benchmark say what its datasets hold."""
 
+from itertools import combinations
+
 import numpy as np
+import pytest
 import xarray as xr
 
 from disc_model.benchmarks import figures
+from disc_model.benchmarks.figures.looks import TEXTS
 from disc_model.benchmarks.methods import METHODS
 from disc_model.benchmarks.scenes import Verdict
+from disc_model.figures.classes import lightness
 from tests.figures.reading import labels
+
+GREY_APART = 0.12  # difference of lightness that a grey print shows
+
+
+@pytest.mark.parametrize("table", ["verdicts", "answered"])
+def test_shades_of_verdicts_differ_in_grey_print(table: str) -> None:
+    """What is right had the lightness of what is wrong without a warning."""
+    shades = {name: lightness(shade) for name, (_, shade) in TEXTS[table].items()}
+    for (one, light), (other, dark) in combinations(shades.items(), 2):
+        assert abs(light - dark) > GREY_APART, (one, other)
 
 
 def test_cost_against_accuracy_names_the_methods_that_have_points(dataset: xr.Dataset) -> None:

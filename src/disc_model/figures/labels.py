@@ -16,6 +16,9 @@ from disc_model.figures.words import UNITS
 
 BEYOND = 1.15  # length of a label over that of its axis, at most
 MARKUP = re.compile(r"\\\w+|[${}_^]")  # of mathematical text; a symbol for a command
+UNIT = re.compile(r" = | \([^() ]{1,4}( [^() ]{1,6})?\)")
+"""What stays on its line: a sign of equality with both sides, and the blanks of a unit."""
+HARD = "\u00a0"  # blank at which no line ends
 
 
 class Breakable(NamedTuple):
@@ -38,8 +41,20 @@ def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
     figure.draw_without_rendering()  # sets the sizes
     for each, said in zip(found, words, strict=True):
         each.text.set_text(said)
-        room = each.beyond * getattr(each.ax.get_window_extent(), each.direction)
-        _break(each.text, each.direction, room)
+        _break(each.text, each.direction, _room(figure, each))
+
+
+def _room(figure: Figure, label: Breakable) -> float:
+    """Length in pixels that a text may have along its axes, of which it stands in the middle: not
+    much beyond them, and not beyond the page."""
+    box = label.ax.get_window_extent()
+    room = label.beyond * getattr(box, label.direction)
+    if label.beyond == 1.0:
+        return room
+    page: Any = figure.get_figure(root=True)
+    i = ("width", "height").index(label.direction)
+    middle = 0.5 * (box.min[i] + box.max[i])
+    return min(room, 2 * min(middle, page.bbox.max[i] - middle))
 
 
 def _texts_of(ax: Axes) -> Iterator[Breakable]:
@@ -63,7 +78,8 @@ def titles_of(ax: Axes) -> list[Text]:
 
 def _break(label: Any, direction: str, room: float) -> None:
     """Break a label into as few lines as fit a room in pixels, or as its longest word leaves."""
-    text = label.get_text()
+    text = UNIT.sub(lambda found: found[0].replace(" ", HARD), label.get_text())
+    text = text.replace(f"{HARD}(", " (")
     length = getattr(label.get_window_extent(), direction)
     if length <= room or "\n" in text:
         return
@@ -71,7 +87,7 @@ def _break(label: Any, direction: str, room: float) -> None:
     longest_word = max(map(seen, words))
     for count in range(math.ceil(length / room), len(words) + 1):
         lines = in_lines(text, count)
-        label.set_text(lines)
+        label.set_text(lines.replace(HARD, " "))
         no_shorter = max(map(seen, lines.split("\n"))) <= longest_word
         if no_shorter or getattr(label.get_window_extent(), direction) <= room:
             return
