@@ -43,3 +43,34 @@ def test_labels_that_fit_stay_as_they_are() -> None:
     figure.draw_without_rendering()
     assert ax.yaxis.label.get_window_extent().height <= 1.15 * ax.get_window_extent().height
     pyplot.close(figure)
+
+
+@pytest.mark.parametrize(
+    ("text", "whole"),
+    [
+        ("In-plane damper c (N s/m)", "(N s/m)"),
+        ("sliding with P = 384.976 N, stable", "P = 384.976 N,"),
+    ],
+)
+def test_units_and_values_are_never_broken(text: str, whole: str) -> None:
+    """A unit was broken within its brackets, and a value stood below its name."""
+    figure, ax = pyplot.subplots(figsize=(1.6, 2), layout="constrained")
+    ax.set_xlabel(text)
+    break_labels(figure)
+    said = ax.get_xlabel()
+    assert "\n" in said
+    assert said.replace("\n", " ") == text
+    assert whole in said
+    pyplot.close(figure)
+
+
+def test_labels_end_within_the_page() -> None:
+    """On axes that fill their figure, the unit of a label was cut off."""
+    figure, ax = pyplot.subplots(figsize=(84 / 25.4, 2.4), layout="constrained")
+    ax.set_ylabel("Growth rate of the cycle (1/s)")
+    break_labels(figure)
+    figure.draw_without_rendering()
+    box = ax.yaxis.label.get_window_extent()
+    assert box.y0 >= 0
+    assert box.y1 <= figure.bbox.y1
+    pyplot.close(figure)

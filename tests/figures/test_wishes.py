@@ -176,3 +176,25 @@ def test_pictures_of_several_panels_take_as_many_axes() -> None:
     dm.plot_modes(CASE, ax=axes.flat[:modes], title="not over a mode's own name")
     assert "Hz" in axes.flat[0].get_title()
     assert one(dm.plot_modes(CASE, title="Shapes")).figure.get_suptitle() == "Shapes"
+
+
+LEGENDS = [(name, width) for name in WITH_LEGEND for width in (COLUMN, PAGE)]
+
+
+@pytest.mark.parametrize(("name", "width"), LEGENDS)
+def test_a_legend_on_own_axes_covers_no_data_and_no_words(name: str, width: float) -> None:
+    """A legend covered ticks and marks of narrow axes, and the label below them."""
+    figure, ax = pyplot.subplots(figsize=(width, 2.6), layout="constrained")
+    DRAWN[name](ax=ax)
+    figure.draw_without_rendering()
+    box = ax.get_legend().get_window_extent()
+    labels = [axis.label.get_window_extent() for axis in (ax.xaxis, ax.yaxis)]
+    ticks = [text.get_window_extent() for text in (*ax.get_xticklabels(), *ax.get_yticklabels())]
+    texts = [text.get_window_extent() for text in ax.texts]
+    assert box.count_overlaps([*labels, *ticks, *texts]) == 0
+    for line in ax.lines:
+        if line.get_marker() not in ("", "None", None):
+            places = line.get_transform().transform(line.get_xydata())
+            assert not box.count_contains(places), line.get_label()
+    assert box.x0 >= 0
+    assert box.x1 <= figure.bbox.x1

@@ -68,7 +68,7 @@ class Page:
     axes : one for each panel, row by row
     own : whether the figure is a new one
     handles : entries of the legend; none if there is none
-    beside : where the legend stands on a reader's axes
+    beside : where the legend stands on a reader's axes; below them if it would cover something
     heading : title of the legend
     note : what stands above the first panel, unless the reader asks for another title
     """
@@ -118,9 +118,12 @@ def page_for(
         figure: Any = page.ax.get_figure(root=True)
         before = set(figure.axes)
         yield page
-        _finish(page, wishes)
+        _restate(page, wishes)
+        _write_legend(page, wishes)
         bars = [ax for ax in figure.axes if ax not in before]
         break_labels(figure, [*page.axes, *bars])
+        if page.beside == "below":  # also below labels that have more lines now
+            _write_legend(page, wishes)
         return
     with readers_style():
         figure = pyplot.figure(figsize=(width, height), layout="constrained")
@@ -130,7 +133,8 @@ def page_for(
             usual = head_text(width, "", title) if wishes.title is None else wishes.title
             if usual:
                 figure.suptitle(usual, fontsize=large(8))
-            _finish(page, wishes)
+            _restate(page, wishes)
+            _write_legend(page, wishes)
             break_labels(figure)
         except BaseException:
             pyplot.close(figure)  # a notebook would show it, half drawn
@@ -145,16 +149,14 @@ def _given(ax: Any, count: int) -> list[Axes]:
     return given
 
 
-def _finish(page: Page, wishes: Wishes) -> None:
-    """Write the title, labels and legend that a reader asks for."""
+def _restate(page: Page, wishes: Wishes) -> None:
+    """Write the title and labels that a reader asks for."""
     if wishes.title is None:
         if page.note:
             page.ax.set_title(page.note, loc="left")
     elif not page.own:
         page.ax.set_title(wishes.title)
     _relabel(page, wishes.labels or {})
-    if page.handles and wishes.legend is not False:
-        _write_legend(page, wishes.legend)
 
 
 def _relabel(page: Page, labels: Mapping[str, str]) -> None:
@@ -169,9 +171,12 @@ def _relabel(page: Page, labels: Mapping[str, str]) -> None:
         handle.set_label(labels.get(usual, usual))
 
 
-def _write_legend(page: Page, legend: bool | Mapping[str, Any]) -> None:
-    """Write the legend: in the place that the reader's options give, below a new figure, or inside
-    a reader's axes or below them."""
+def _write_legend(page: Page, wishes: Wishes) -> None:
+    """Write the legend, if there is one: in the place that the reader's options give, below a new
+    figure, or inside a reader's axes or below them."""
+    legend = wishes.legend
+    if not page.handles or legend is False:
+        return
     if isinstance(legend, Mapping):
         try:
             page.ax.legend(**{"handles": list(page.handles), "title": page.heading, **legend})
@@ -180,6 +185,7 @@ def _write_legend(page: Page, legend: bool | Mapping[str, Any]) -> None:
     elif page.own:
         figure_legend(page.figure, page.handles, title=page.heading)
     elif page.beside == "below":
-        legend_below(page.ax, page.handles, title=page.heading)
-    else:
-        legend_inside(page.ax, page.handles, title=page.heading)
+        legend_below(page.axes[-1], page.handles, title=page.heading)
+    elif not legend_inside(page.ax, page.handles, title=page.heading):
+        page.beside = "below"
+        legend_below(page.axes[-1], page.handles, title=page.heading)

@@ -16,8 +16,8 @@ from disc_model.figures.words import UNITS
 
 BEYOND = 1.15  # length of a label over that of its axis, at most
 MARKUP = re.compile(r"\\\w+|[${}_^]")  # of mathematical text; a symbol for a command
-UNIT = re.compile(r" = | \([^() ]{1,4}( [^() ]{1,6})?\)")
-"""What stays on its line: a sign of equality with both sides, and the blanks of a unit."""
+WHOLE = re.compile(r"(?<=\()[^()]{1,12}(?=\))| = (-?[\d.]+ (?=\S{1,5}(,|$)))?")
+"""What stays on one line: a unit, and a value with its name and unit."""
 HARD = "\u00a0"  # blank at which no line ends
 
 
@@ -78,8 +78,7 @@ def titles_of(ax: Axes) -> list[Text]:
 
 def _break(label: Any, direction: str, room: float) -> None:
     """Break a label into as few lines as fit a room in pixels, or as its longest word leaves."""
-    text = UNIT.sub(lambda found: found[0].replace(" ", HARD), label.get_text())
-    text = text.replace(f"{HARD}(", " (")
+    text = WHOLE.sub(lambda found: found[0].replace(" ", HARD), label.get_text())
     length = getattr(label.get_window_extent(), direction)
     if length <= room or "\n" in text:
         return

@@ -5,12 +5,17 @@ from functools import partial
 from textwrap import fill
 from typing import Any, NamedTuple
 
+from matplotlib.collections import Collection, PolyCollection
+from matplotlib.lines import Line2D
+from matplotlib.transforms import Bbox, ScaledTranslation
+
 from disc_model.figures.types import Artist, Axes, FigureBase
 from disc_model.figures.words import CHARACTER
 
 PAGE_SHARE = 0.98  # of the width of a figure that its legend may have
 NARROWEST = 12  # characters to which a name is broken at most
 EDGE = 0.04  # inch, kept free beside a legend above a panel
+BESIDE = 0.15  # inch, left free on both sides of a legend below a panel, together
 LETTER = 0.3  # inch, kept free for the letter of one of several panels
 
 Legend = Any
@@ -77,9 +82,52 @@ def legend_above(
 
 
 def legend_inside(ax: Axes, handles: Sequence[Artist] = (), **look: Any) -> Legend:
-    """Draw a legend inside the axes, where it covers least."""
+    """Draw a legend inside the axes; nothing, and None, if it would cover data or words there while
+    the layout of the figure makes room elsewhere."""
     entries = list(handles) or ax.get_legend_handles_labels()[0]
-    return ax.legend(handles=entries, loc="best", **look) if entries else None
+    if not entries:
+        return None
+    legend = ax.legend(handles=entries, loc="best", **look)
+    page: Any = ax.get_figure(root=True)
+    page.draw_without_rendering()  # sets the places
+    if page.get_layout_engine() is not None and _covers(legend, ax):
+        legend.remove()
+        return None
+    return legend
+
+
+def _covers(legend: Legend, ax: Axes) -> bool:
+    """Whether a legend reaches beyond its axes, or covers lines, points, areas or texts in them."""
+    box = legend.get_window_extent()
+    frame = ax.get_window_extent()
+    if frame.count_contains(box.corners()) < len(box.corners()):
+        return True
+    texts = [text.get_window_extent() for text in ax.texts if text.get_text()]
+    return (
+        box.count_overlaps(texts) > 0
+        or any(_meets_line(box, line) for line in ax.lines)
+        or any(_meets_shape(box, shape) for shape in ax.collections)
+    )
+
+
+def _meets_line(box: Bbox, line: Line2D) -> bool:
+    """Whether a box covers a part of a line, or its marks; not of one across the axes, such as that
+    of zero."""
+    path = line.get_transform().transform_path(line.get_path())
+    if box.count_contains(path.vertices):
+        return True
+    joined = line.get_linestyle() != "None" and len(path.vertices) > 2
+    return joined and bool(path.intersects_bbox(box, filled=False))
+
+
+def _meets_shape(box: Bbox, shape: Collection) -> bool:
+    """Whether a box covers a part of an area, or a mark of many."""
+    if not isinstance(shape, PolyCollection):
+        return bool(box.count_contains(shape.get_offset_transform().transform(shape.get_offsets())))
+    to_page = shape.get_transform()
+    return any(
+        to_page.transform_path(path).intersects_bbox(box, filled=True) for path in shape.get_paths()
+    )
 
 
 def legend_below(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
@@ -90,11 +138,18 @@ def legend_below(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
     page: Any = ax.get_figure(root=True)
     page.draw_without_rendering()  # sets the places
     lowest = ax.xaxis.get_tightbbox()
-    bottom = 0.0 if lowest is None else ax.transAxes.inverted().transform((0, lowest.y0))[1]
+    depth = 0.0 if lowest is None else ax.bbox.y0 - lowest.y0
+    # as far below the axes when the layout has made them smaller
+    down = ScaledTranslation(0, -depth / page.dpi, page.dpi_scale_trans)
     draw = partial(
-        ax.legend, handles=list(handles), loc="upper left", bbox_to_anchor=(0, bottom), **look
+        ax.legend,
+        handles=list(handles),
+        loc="upper left",
+        bbox_to_anchor=(0, 0),
+        bbox_transform=ax.transAxes + down,
+        **look,
     )
-    return _widest_that_fits(draw, len(handles), float(ax.bbox.width))
+    return _widest_that_fits(draw, len(handles), float(ax.bbox.width) - BESIDE * page.dpi)
 
 
 def _room_above(ax: Axes) -> float:
@@ -118,9 +173,10 @@ def _widest_that_fits(draw: Callable[..., Legend], most: int, width: float) -> L
             return legend
         if count > 1:
             legend.remove()
-    longest = max((len(text.get_text()) for text in legend.get_texts()), default=0)
+    said = [text.get_text() for text in (*legend.get_texts(), legend.get_title())]
+    longest = max(map(len, said), default=0)
     while legend.get_window_extent().width > width and longest > NARROWEST:
         longest = max(NARROWEST, round(0.9 * longest))
-        for text in legend.get_texts():
+        for text in (*legend.get_texts(), legend.get_title()):
             text.set_text(fill(text.get_text(), longest))
     return legend
