@@ -219,7 +219,7 @@ def draw_slips() -> Figure:
     """Draw measured and predicted medians of the runs, with quartiles of the measured slips."""
     mu_s, mu_k = stick_slip.friction()
     with styled():
-        figure = Figure(figsize=(6.9, 2.5), layout="constrained")
+        figure = Figure(figsize=(6.9, 2.9), layout="constrained")
         axes = figure.subplots(1, 3)
         labels = ("Duration of a slip (ms)", "Period (ms)", "Fall of the force over the weight")
         ticks = ((5, 10, 20, 30), (20, 50, 100, 500, 2000), (0.03, 0.05, 0.1, 0.2))
@@ -240,13 +240,13 @@ def draw_slips() -> Figure:
                 axis.plot([place, place], [low, high], color=BLACK, linewidth=0.8)
                 axis.plot(place, middle, "o", color=BLACK, ms=3.5)
                 axis.plot(place, number, "D", color=SEPARATED, ms=4, mfc="none")
-        names = [f"{stiffness}\n{speed}" for stiffness, speed in stick_slip.runs()]
+        names = [f"{stiffness}, {speed}" for stiffness, speed in stick_slip.runs()]
         for axis, label, marks in zip(axes, labels, ticks, strict=True):
             axis.set(ylabel=label, yscale="log", xticks=range(len(names)))
             axis.set_yticks(marks, [f"{mark:g}" for mark in marks])
             axis.minorticks_off()
             axis.margins(x=0.07)
-            axis.set_xticklabels(names, fontsize=6)
+            axis.set_xticklabels(names, fontsize=6, rotation=90)  # of up to ten characters each
             axis.set_xlabel("Stiffness (N/m), speed (µm/s)")
     return figure
 

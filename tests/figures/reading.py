@@ -35,9 +35,12 @@ def draw(
     return figure
 
 
+LEAST_PANEL = 0.4  # inch
+
+
 def assert_fit_for_print(figure: Figure) -> None:
     """Nothing lies outside the page or over a title, and all axes are named; an empty panel says
-    why."""
+    why. Panels are not tiny, and numbers along an axis do not overlap."""
     figure.draw_without_rendering()
     width, height = figure.get_size_inches()
     page = figure.get_tightbbox()
@@ -58,6 +61,26 @@ def assert_fit_for_print(figure: Figure) -> None:
         text for ax in figure.axes for text in (ax.xaxis.label, ax.yaxis.label) if text.get_text()
     ):
         assert text.get_fontsize() >= 6
+    for ax in figure.axes:
+        assert_numbers_are_apart(ax)
+        frame = ax.get_window_extent()
+        if ax.axison and ax.get_label() != "<colorbar>" and ax.get_subplotspec() is not None:
+            assert min(frame.width, frame.height) > LEAST_PANEL * figure.dpi
+
+
+def assert_numbers_are_apart(ax: Axes) -> None:
+    """No number along an axis covers another."""
+    for axis in (ax.xaxis, ax.yaxis):
+        low, high = sorted(axis.get_view_interval())
+        ticks = [*axis.get_major_ticks(), *axis.get_minor_ticks()]
+        shown = [
+            tick.label1
+            for tick in ticks
+            if low <= tick.get_loc() <= high and tick.label1.get_text()
+        ]
+        boxes = [text.get_window_extent() for text in shown if text.get_visible()]
+        for i, box in enumerate(boxes):
+            assert not box.count_overlaps(boxes[i + 1 :]), [text.get_text() for text in shown]
 
 
 def crosses(ax: Axes) -> list[list[float]]:

@@ -6,7 +6,42 @@ import pytest
 import xarray as xr
 from matplotlib import pyplot
 
+from disc_model.figures.drawing import plain_decades
 from disc_model.figures.runs import show_thickness
+from tests.figures.reading import assert_numbers_are_apart
+
+
+@pytest.mark.parametrize(
+    ("ends", "numbers"),
+    [
+        ((0.4, 6.0), ["0.5", "1", "2", "5"]),
+        ((3.2, 21.0), ["5", "10", "20"]),
+        ((0.0147, 0.0202), ["0.016", "0.018", "0.02"]),
+    ],
+)
+def test_numbers_of_few_decades_are_plain_and_apart(
+    ends: tuple[float, float], numbers: list[str]
+) -> None:
+    """Within a decade, labels such as 4 x 10^0 covered each other."""
+    figure, ax = pyplot.subplots(figsize=(3.3, 1.0), layout="constrained")
+    ax.set(yscale="log", ylim=ends)
+    plain_decades(ax.yaxis)
+    figure.draw_without_rendering()
+    low, high = ends
+    ticks = [tick for tick in ax.yaxis.get_major_ticks() if low <= tick.get_loc() <= high]
+    assert [tick.label1.get_text() for tick in ticks] == numbers
+    assert_numbers_are_apart(ax)
+    pyplot.close(figure)
+
+
+def test_many_decades_are_powers_of_ten() -> None:
+    figure, ax = pyplot.subplots()
+    ax.set(yscale="log", ylim=(1e-4, 1e2))
+    plain_decades(ax.yaxis)
+    figure.draw_without_rendering()
+    said = [text.get_text() for text in ax.get_yticklabels()]
+    assert any("10^{-2}" in text for text in said)
+    pyplot.close(figure)
 
 
 @pytest.mark.parametrize("along", ["x", "y"])

@@ -110,6 +110,7 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
     assert np.allclose(lines(ax)[values[2]].get_ydata(), [-0.1, 0, 0.1])
     assert [text.get_text() for text in ax.texts] == ["no cycle found"]
     [gone] = [line for line in ax.lines if line.get_ydata()[0] > 1]
+    assert ax.texts[0].xy[1] == pytest.approx(gone.get_ydata()[0]), "named beside its row"
     assert (gone.get_xdata(), gone.get_marker()) == ([0.1], lines(ax)[names[0]].get_marker()), (
         "that has no value there"
     )

@@ -54,7 +54,7 @@ def test_labels_that_fit_stay_as_they_are() -> None:
 )
 def test_units_and_values_are_never_broken(text: str, whole: str) -> None:
     """A unit was broken within its brackets, and a value stood below its name."""
-    figure, ax = pyplot.subplots(figsize=(1.6, 2), layout="constrained")
+    figure, ax = pyplot.subplots(figsize=(1.1, 2), layout="constrained")
     ax.set_xlabel(text)
     break_labels(figure)
     said = ax.get_xlabel()
@@ -67,6 +67,7 @@ def test_units_and_values_are_never_broken(text: str, whole: str) -> None:
 def test_labels_end_within_the_page() -> None:
     """On axes that fill their figure, the unit of a label was cut off."""
     figure, ax = pyplot.subplots(figsize=(84 / 25.4, 2.4), layout="constrained")
+    ax.set_xlabel("Speed")
     ax.set_ylabel("Growth rate of the cycle (1/s)")
     break_labels(figure)
     figure.draw_without_rendering()

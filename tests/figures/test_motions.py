@@ -123,8 +123,16 @@ def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset) -> None:
     kicks = lines(figure.axes[-1])["by bisection"].get_ydata()
     np.testing.assert_allclose(kicks, [np.nan, 0.5, 0.05, np.nan], rtol=0.06)
     # what separates without a kick has no place on a logarithmic scale, and is not left out
-    assert [(text.xy[0], text.get_text()) for text in figure.axes[-1].texts] == [(15, "0")]
+    assert lines(figure.axes[-1])["zero"].get_xdata() == [15]
     assert crosses(draw("basins", with_failed(shares, Omega=13.0), x="Omega").axes[0]) == [[13]]
+
+
+def test_panels_of_shares_in_a_column_have_numbers_below_them(shares: xr.Dataset) -> None:
+    """Below each other, panels of shares had ticks and a name, but no numbers."""
+    figure = draw("basins", shares, x="Omega", width="column")
+    for ax in figure.axes:
+        assert any(text.get_text() for text in ax.get_xticklabels())
+        assert ax.xaxis.get_tick_params()["labelbottom"]
 
 
 # ---- ramps

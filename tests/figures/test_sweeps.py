@@ -113,7 +113,7 @@ def test_what_is_drawn_unasked_is_named(function: Callable[..., Any]) -> None:
     ax = dm.plot_sweep(swept(function).sel(N=385))
     assert " ".join(ax.get_ylabel().split()) == UNASKED[function]
     assert ax.get_xlabel() == "Speed Ω (rad/s)"
-    assert ax.figure.get_suptitle() == "N = 385 N, n_diameters = 2", "what does not vary"
+    assert ax.figure.get_suptitle() == "N = 385 N, nodal diameters up to 2", "what does not vary"
     pyplot.close("all")
 
 

@@ -14,12 +14,11 @@ from disc_model.figures.drawing import (
     GREY,
     PAGE,
     SEPARATED,
-    large,
     letters,
     mark,
     mark_failed,
     new_figure,
-    say,
+    plain_decades,
     wide,
 )
 from disc_model.figures.kinds.motions import BasinShares
@@ -43,6 +42,7 @@ STACKED = (
 LARGEST = 36.0  # area of the mark of an attractor that all starts reach, square points
 AREAS = {"10 %": 0.1, "50 %": 0.5, "all starts": 1.0}
 """Shares of starts that the legend shows."""
+ZERO = 0.04  # height of the marks of critical energies of zero, as a share of the panel
 BAR = 0.9  # width of a bar over the least distance of two
 
 
@@ -59,8 +59,10 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     for ax, energy in zip(shares, energies, strict=True):
         of_energy = study["basin_fraction_by_energy"].sel(energy=energy)
         draw_shares(ax, of_energy, classes, across.values)
-        ax.label_outer()
-    shares[0].set_ylabel(f"Fraction of {study.sizes['start']} starts")
+        if plot.inches == PAGE:  # below each other, each panel has numbers and names
+            ax.label_outer()
+    for ax in shares if plot.inches != PAGE else shares[:1]:
+        ax.set_ylabel(f"Fraction of {study.sizes['start']} starts")
     _draw_attractors(attractors, study, across.values)
     _draw_kicks(kicks, study, across.values)
 
@@ -146,6 +148,7 @@ def _draw_attractors(ax: Axes, study: xr.Dataset, along: Array) -> None:
     ax.set_ylabel("Slider range (mm)")
     if np.any(ranges > 0):
         ax.set_yscale("log")
+        plain_decades(ax.yaxis)
 
 
 # ---- Energies
@@ -166,15 +169,22 @@ def _draw_kicks(ax: Axes, study: xr.Dataset, along: Array) -> None:
     ax.set_ylabel("Critical energy (J)")
     if np.any(sample > 0):
         ax.set_yscale("log")
-        # energy 0 has no place on this logarithmic scale
-        for x in along[bound == 0]:
-            say(
-                ax,
-                "0",
-                (x, 0),
-                (0, 2),
-                color=SEPARATED,
-                xycoords=("data", "axes fraction"),
-                fontsize=large(7),
-            )
+        plain_decades(ax.yaxis)
+        _mark_zeros(ax, along[bound == 0])
     legend_above(ax, columns=2, columnspacing=0.7, handlelength=1.0, handletextpad=0.4)
+
+
+def _mark_zeros(ax: Axes, places: Array) -> None:
+    """Mark critical energies of zero, which have no place on a logarithmic scale, at its edge."""
+    if not places.size:
+        return
+    ax.plot(
+        places,
+        np.full(places.size, ZERO),
+        "v",
+        color=SEPARATED,
+        markersize=mark(3.5),
+        markerfacecolor="white",
+        transform=ax.get_xaxis_transform(),
+        label="zero",
+    )

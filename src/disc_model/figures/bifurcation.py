@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib.ticker import NullLocator
 
 from disc_model.data.variables import axis_of, flag_names, stated_in
 from disc_model.figures.drawing import (
@@ -18,6 +19,7 @@ from disc_model.figures.drawing import (
     mark_cases,
     mark_failed,
     panels,
+    plain_decades,
     wide,
 )
 from disc_model.figures.kinds.motions import Bifurcation
@@ -28,9 +30,9 @@ from disc_model.figures.types import Array, Axes, Figure, Words
 MARKS: dict[str, dict[str, Any]] = {
     "stick": {"marker": "x", "markersize": 2.0, "mew": 0.4},
     "slip": {"marker": ".", "markersize": 1.5},
-    "separation": {"marker": ".", "markersize": 1.5},
+    "separation": {"marker": "^", "markersize": 1.6, "mew": 0},
 }
-"""Marks of phases; in grey print, the colours of stick and separation are alike."""
+"""Marks of phases, whose colours are alike in grey print."""
 UNDECIDED: dict[str, Any] = {
     "color": GREY,
     "marker": "o",
@@ -73,7 +75,7 @@ def draw(plot: Bifurcation, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
 
     letters(axes)
     for panel in axes:
-        panel.margins(x=0.01)  # no dot is cut at the edge
+        panel.margins(x=0.02)  # no dot is cut at the edge
     places = {case: value * factor for case, value in plot.paper_cases.items()}
     mark_cases(axes, places)
     legend = legend_above(axes[0])
@@ -139,7 +141,8 @@ def _draw_periods(ax: Axes, study: xr.Dataset, along: Array) -> None:
     ax.set_yscale("log")
     ax.set_ylabel("Period\n(events)")
     ax.set_ylim(0.4, None)  # room for crosses below period 1
-    ax.yaxis.set_major_formatter("{x:g}")
+    plain_decades(ax.yaxis)
+    ax.yaxis.set_minor_locator(NullLocator())
     mark_failed(ax, along[moving][~repeats], name="not shown to repeat")
     if not repeats.all():
         legend_above(ax)

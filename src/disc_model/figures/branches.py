@@ -14,6 +14,7 @@ from disc_model.figures.drawing import (
     GREY,
     PAGE,
     SEPARATED,
+    halo,
     large,
     mark,
     mark_cases,
@@ -31,6 +32,7 @@ LOWEST = 1e-3  # least range that is distinguished from rest, mm
 STABLE = 2.0  # width of lines of stable motions, points,
 THIN = 0.7  # and of unstable ones; dashes of two branches that nearly meet would look like a whole line
 BENDS = 2.5  # factor between the heights of neighbouring points beyond which a branch may bend
+ABOVE_SLIDING = 0.12  # height of the names of cases, as a share of the panel
 JUMP = 1.0  # decades of the range from which a sweep jumps
 NONE = 1e-9  # mm, stands for no range on a logarithmic scale
 UNSETTLED = "#aaaaaa"  # a sweep's marks where it is not shown that the motion has settled
@@ -57,7 +59,7 @@ def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
         _draw_sweep(ax, sweep)
 
     places = {case: value * factor for case, value in plot.paper_cases.items()}
-    mark_cases([ax], places, 0.05)
+    mark_cases([ax], places, ABOVE_SLIDING)
     ax.set_xlabel(label)
     ax.set_ylabel("Range of the slider's height (mm)")
     ax.set_xlim((along[0], along[-1]))
@@ -93,7 +95,8 @@ def _draw_sliding(ax: Axes, study: xr.Dataset, along: Array) -> None:
         phrase = "stable"
     draw_branch(ax, along, np.full(along.size, LOWEST), ~unstable, GREY)
     place = (along[-1], LOWEST)
-    say(ax, f"steady sliding: {phrase}", place, (-4, 3), fontsize=large(7), color=GREY)
+    look: dict[str, Any] = {"fontsize": large(7), "color": GREY, "path_effects": halo(2.5)}
+    say(ax, f"steady sliding: {phrase}", place, (-4, 3), **look)
 
 
 # ---- Sweeps

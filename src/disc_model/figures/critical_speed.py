@@ -77,11 +77,18 @@ def draw(plot: CriticalSpeed, study: xr.Dataset, overlays: Mapping[str, xr.Datas
     letters(axes, titles, pad=12)
     for ax in axes:
         ax.set_xlabel(SPEED)
-        handles += ax.get_legend_handles_labels()[0]
+        handles += _new_marks(ax, handles)
         ax.set_ylabel(LOAD)
         ax.label_outer()
     figure_legend(figure, handles, loc="outside lower center", columns=3, columnspacing=1.0)
     return figure
+
+
+def _new_marks(ax: Axes, known: list[Artist]) -> list[Artist]:
+    """Lines and marks of a panel that the legend does not have yet, by their kind and name."""
+    names = {(type(handle), handle.get_label()) for handle in known}
+    found = ax.get_legend_handles_labels()[0]
+    return [handle for handle in found if (type(handle), handle.get_label()) not in names]
 
 
 def _within_scan(cycle: xr.Dataset | None, study: xr.Dataset) -> xr.Dataset | None:

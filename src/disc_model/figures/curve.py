@@ -14,6 +14,7 @@ from disc_model.figures.drawing import (
     large,
     letters,
     mark,
+    plain_decades,
     row_of_panels,
     say,
     say_beside,
@@ -32,7 +33,7 @@ from disc_model.figures.selection import (
     titles_of,
 )
 from disc_model.figures.types import Artist, Axes, Figure
-from disc_model.figures.words import as_numbers, measured
+from disc_model.figures.words import CHARACTER, as_numbers, measured
 
 LINEAR = 0.1
 """Growth rate up to which its scale is linear, 1/s; a greater step breaks the line, or finds another
@@ -45,7 +46,9 @@ MARKED = 12  # points of a line without gaps that have a mark, about
 MOST_BESIDE = 4  # names of lines from which the legend stands beside the panel
 LONGEST_BESIDE = 25  # characters of a name that fits there
 ABOVE = 1.03  # height of the first row of missing values, as a share of the panel
+ROW = 0.05  # and the distance of two rows
 APART = 0.05  # least distance of the ends of lines that are named there, as a share of the panel
+WIDEST_NAME = 0.35  # width of such a name, as a share of the page
 
 
 def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -139,6 +142,7 @@ def draw_lines(
     # scales and labels
     if log:
         ax.set_yscale("log")
+        plain_decades(ax.yaxis)
     if rates:
         scale_rates(ax)
     ax.set_xscale(scale(array[x]))
@@ -170,11 +174,13 @@ def _look() -> dict[str, Any]:
 def _mark_gaps(
     ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, marks: Mapping[str, str]
 ) -> None:
-    """Mark points without a value above the panel, a row for each line and each reason."""
+    """Mark points without a value above the panel, a row for each line and each reason, which is
+    named on the left of its rows."""
     by = remaining(array, [x])
     across = measured(array[x]).values
     top = ABOVE
     for name, gone in gaps(study, array).items():
+        first = top
         parts = parts_along(gone, by)
         for colour, part in zip(_colours(parts), parts, strict=True):
             mask = part.data.values
@@ -193,11 +199,12 @@ def _mark_gaps(
                 clip_on=False,
                 **_look(),
             )
-            top += 0.05
+            top += ROW
         if array.name == "first_separation" and name == "no value":
             name = f"none within {stated_in(study, 'options')['horizon']:g} s"
-        say(ax, name, (0, top - 0.02), (1, 1), xycoords="axes fraction", fontsize=large(7))
-        top += 0.1
+        middle = 0.5 * (first + top - ROW)
+        say(ax, name, (0, middle), (-3, 0), xycoords="axes fraction", fontsize=large(7))
+        top += ROW
 
 
 def scale_rates(ax: Axes) -> None:
@@ -225,6 +232,10 @@ def name_ends(ax: Axes) -> bool:
     lines: list[Any] = ax.get_legend_handles_labels()[0]
     ends = np.array([line.get_ydata()[-1] for line in lines])
     apart = np.diff(np.sort(ends)) / (high - low)
+    widest = CHARACTER * max((len(str(line.get_label())) for line in lines), default=0)
+    page: Any = ax.get_figure(root=True)
+    if widest > WIDEST_NAME * page.get_figwidth():
+        return False
     if len(lines) < 2 or not (apart > APART).all() or ax.get_yscale() != "linear":
         return False
     for line, end in zip(lines, ends, strict=True):

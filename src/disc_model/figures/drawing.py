@@ -5,6 +5,7 @@ common style, or of a reader who brings own axes.
 """
 
 import logging
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from itertools import chain, repeat
@@ -15,8 +16,17 @@ import matplotlib as mpl
 import matplotlib.style
 import numpy as np
 import xarray as xr
+from matplotlib.axis import Axis
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
+from matplotlib.ticker import (
+    FuncFormatter,
+    Locator,
+    LogFormatterSciNotation,
+    LogLocator,
+    MaxNLocator,
+    NullFormatter,
+)
 
 from disc_model.figures.sizes import COLUMN as COLUMN  # sizes are a part of the style
 from disc_model.figures.sizes import PAGE as PAGE
@@ -145,6 +155,51 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
     with styled():
         figure.savefig(path, metadata=metadata)
         figure.set_layout_engine(None)  # not "none", with which all is drawn twice
+
+
+# ---- Ticks
+
+FEW_DECADES = 2.0  # up to which 2 and 5 are ticks of a logarithmic axis too
+NARROW = 0.4  # decades, up to which all of 1 to 9 are
+
+
+class PlainDecades(Locator):
+    """Ticks of a logarithmic axis: powers of ten; 1, 2 and 5 over few decades; more over less than
+    half of one. All are labelled."""
+
+    def __call__(self) -> Any:
+        """The ticks between the limits of the axis."""
+        axis: Any = self.axis
+        low, high = sorted(axis.get_view_interval())
+        return self.tick_values(low, high)
+
+    def tick_values(self, vmin: float, vmax: float) -> Any:
+        """The ticks between two positive values."""
+        decades = math.log10(vmax / vmin)
+        if decades > FEW_DECADES:
+            return LogLocator().tick_values(vmin, vmax)
+        if decades < NARROW:
+            ticks = np.asarray(MaxNLocator(5, steps=[1, 2, 5, 10]).tick_values(vmin, vmax))
+        else:
+            ticks = np.asarray(DECADES)
+        return ticks[(ticks >= vmin) & (ticks <= vmax)]
+
+
+def plain_decades(axis: Axis) -> None:
+    """Label a logarithmic axis by plain numbers, far enough apart; over more than two decades, by
+    powers of ten."""
+    powers = LogFormatterSciNotation()
+    powers.set_axis(axis)
+
+    def text(value: float, _: float) -> str:
+        low, high = sorted(axis.get_view_interval())
+        if math.log10(high / low) > FEW_DECADES:
+            return str(powers(value))
+        return f"{value:.6g}"
+
+    axis.set_major_locator(PlainDecades())
+    axis.set_major_formatter(FuncFormatter(text))
+    axis.set_minor_formatter(NullFormatter())
 
 
 # ---- Samples of a legend, and outlines

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from matplotlib.text import Text
+from matplotlib.text import Annotation, Text
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
 from disc_model.data.variables import SHOWN, typeset
@@ -18,7 +18,7 @@ BEYOND = 1.15  # length of a label over that of its axis, at most
 MARKUP = re.compile(r"\\\w+|[${}_^]")  # of mathematical text; a symbol for a command
 WHOLE = re.compile(r"(?<=\()[^()]{1,12}(?=\))| = (-?[\d.]+ (?=\S{1,5}(,|$)))?")
 """What stays on one line: a unit, and a value with its name and unit."""
-HARD = "\u00a0"  # blank at which no line ends
+HARD = "\ue000"  # stands for a blank at which no line ends
 
 
 class Breakable(NamedTuple):
@@ -61,9 +61,16 @@ def _texts_of(ax: Axes) -> Iterator[Breakable]:
     """Labels and titles of axes that say something."""
     for label, direction in ((ax.xaxis.label, "width"), (ax.yaxis.label, "height")):
         if label.get_text().strip():
-            yield Breakable(label, ax, direction, BEYOND)
+            beyond = 1.0 if direction == "height" and _named_above(ax) else BEYOND
+            yield Breakable(label, ax, direction, beyond)
     for title in titles_of(ax):
         yield Breakable(title, ax, "width", 1.0)
+
+
+def _named_above(ax: Axes) -> bool:
+    """Whether rows above the axes have names on the left, which a longer label would meet."""
+    notes = [text for text in ax.texts if isinstance(text, Annotation)]
+    return any(text.xycoords == "axes fraction" and text.xy[0] == 0 for text in notes)
 
 
 def titles_of(ax: Axes) -> list[Text]:

@@ -20,6 +20,7 @@ KINDS = {"neutral": (BLACK, "cycle loses stability"), "fold": (SEPARATED, "cycle
 """Colours and names of the curves."""
 NAMED = (0.02, 0.75)  # part of the axes, across, in which names of curves may begin,
 BELOW = 0.98  # and up
+STEEP = 0.5  # run over rise, as shares of the axes, up to which a name stands beside a line
 APART = (0.27, 0.06)  # least distance of two names, across and up
 
 
@@ -73,4 +74,9 @@ def _name(ax: Axes, points: np.ndarray, text: str, colour: str, taken: list[np.n
         return
     i = free[free.size // 2]
     taken.append(share[i])
-    say(ax, text, points[i], (8, 0), fontsize=large(6), color=colour, path_effects=halo())
+    # above a line, on the side to which it falls; beside a steep one
+    across, up = share[min(i + 1, len(share) - 1)] - share[max(i - 1, 0)]
+    offset = (8, 0)
+    if abs(across) > STEEP * abs(up):
+        offset = (4, 4) if across * up <= 0 else (-4, 4)
+    say(ax, text, points[i], offset, fontsize=large(6), color=colour, path_effects=halo())

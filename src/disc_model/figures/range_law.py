@@ -101,8 +101,8 @@ def _draw_ranges(ax: Axes, motions: _Motions) -> None:
     high = 1e3 * 1.25 * max(motions.pinned.max(), motions.range.max())
     ax.plot([low, high], [low, high], color=BLACK, linewidth=wide(0.8), zorder=1)
     ax.set(xscale="log", yscale="log", xlim=(low, high), ylim=(low, high), aspect="equal")
-    ax.xaxis.set_major_formatter("{x:g}")
-    ax.yaxis.set_major_formatter("{x:g}")
+    drawing.plain_decades(ax.xaxis)
+    drawing.plain_decades(ax.yaxis)
     ax.set_xlabel("Range at which contact is lost, 2N/|k − mω²| (mm)")
     ax.set_ylabel("Range with separation (mm)")
     drawing.say(ax, "equal", (0.55 * high, 0.55 * high), (3, -3), fontsize=large(7))
@@ -130,9 +130,10 @@ def _draw_excess(ax: Axes, motions: _Motions) -> None:
     drawing.say(
         ax,
         "length of flights:\n(π · time apart)²/8",
-        (times[-1], 40 * excess_of_flights(times[-1] / 100)),
-        (-3, 0),
+        (times[-1], curve[-1]),
+        (-6, 3),
         fontsize=large(7),
+        path_effects=drawing.halo(),
     )
 
 

@@ -34,8 +34,10 @@ TOGETHER = 0.02
 """Distance of two marks, as a share of the panel, from which one surrounds the other."""
 USUAL_SIZE = 55.0  # of a mark, square points,
 SURROUNDING = 140.0  # and of one around another
+LEAST_ROW = 1.7  # inch, height of a panel with its title and label, at least
 RIGHT_EDGE = 0.85  # share of the panel from which names stand on the left of their marks
 LOWER_EDGE = 0.15  # and below which they stand above
+LEFT_EDGE = 0.15  # share up to which the second of two names stands above the first
 
 
 def draw(plot: RegionMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -67,7 +69,15 @@ def draw(plot: RegionMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
         growth = [entry for entry in growth if entry.get_label() != UNRESOLVED.label]
     said = "\n".join(_captions(study, first, plot))
     figure_legend(figure, growth, loc="outside lower center", title=said)
+    _make_room(figure, rows=len(figure.axes) if plot.inches == COLUMN else 2)
     return figure
+
+
+def _make_room(figure: Figure, rows: int) -> None:
+    """Make a figure so high that legends leave its panels their height."""
+    heights = [legend.get_window_extent().height / figure.dpi for legend in figure.legends]
+    needed = sum(heights) + LEAST_ROW * rows
+    figure.set_figheight(max(figure.get_figheight(), needed))
 
 
 def _panels(plot: RegionMap, count: int) -> tuple[Figure, list[Axes], list[Axes]]:
@@ -158,7 +168,7 @@ def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
         offset = _away_from_edges(across, up)
         if any(math.dist((across, up), other) < TOGETHER for other in places):
             size = SURROUNDING  # so that the other mark stays visible
-            offset = (-8, 6)
+            offset = (6, 14) if across < LEFT_EDGE else (-8, 6)
         places.append((across, up))
         shape = PAPER_MARKERS[mark.paper_outcome]
         ax.scatter(

@@ -7,7 +7,17 @@ import numpy as np
 import xarray as xr
 from cmcrameri import cm
 
-from disc_model.figures.drawing import BLACK, halo, large, letters, mark, row_of_panels, say, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    GREY,
+    halo,
+    large,
+    letters,
+    mark,
+    row_of_panels,
+    say,
+    wide,
+)
 from disc_model.figures.kinds.motions import RootLocus
 from disc_model.figures.names import named_modes
 from disc_model.figures.selection import parts_along, titles_of
@@ -43,7 +53,10 @@ def _draw_panel(ax: Axes, study: xr.Dataset) -> Any:
             rate,
             frequency,
             c=along,
-            s=mark(5),
+            s=mark(14),
+            linewidth=wide(0.3),
+            edgecolor=GREY,
+            clip_on=False,
             zorder=2,
             cmap=cm.batlow,
             vmin=along[0],
@@ -60,7 +73,7 @@ def _draw_panel(ax: Axes, study: xr.Dataset) -> Any:
         place = (ring, float(heights[part.modes].mean()))
         say(ax, part.name, place, (4 * side, 0), fontsize=large(7), path_effects=halo())
     ax.axvline(0, color=BLACK, linewidth=wide(0.6))
-    ax.margins(x=0.02)
+    ax.margins(x=0.04)
     ax.set_xlabel("Growth rate (1/s)")
     ax.set_ylabel("Frequency in the slider's frame (Hz)")
     return points

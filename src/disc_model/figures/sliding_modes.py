@@ -30,6 +30,7 @@ GROWS = 2.4  # and of one that grows
 FREE = 0.25  # of the largest growth rate, room above a line that is enough for its name
 NAMES_APART = 0.04  # of the axis of frequencies, least distance of names
 RATES_APART = 0.1  # of that of growth rates
+EDGE = 0.05  # of the width of the panel, beside its ends, where names stand on the inner side
 LEAST = 0.1  # 1/s, upper end of the axis of growth rates at least
 
 
@@ -128,7 +129,13 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
         for start, after in stretches(grows[:-1] & grows[1:]):
             shown = slice(start, after + 1)
             i = start + _place_of_name(line.rate[shown], [x.rate[shown] for x in lines], largest)
-            offset = (3, 0) if i == along.size - 1 else (0, 3)
+            across = (along[i] - along[0]) / (along[-1] - along[0])
+            side = 0
+            if across < EDGE:
+                side = 1
+            elif across > 1 - EDGE:
+                side = -1
+            offset = (3 * side, 3)
             place = (along[i], line.rate[i])
             say(bottom, line.name, place, offset, fontsize=large(7), path_effects=halo())
     bottom.axhline(0, color=BLACK, linewidth=wide(0.5))

@@ -41,6 +41,12 @@ AT_ZERO = {
     "friction_offset": "friction in the middle plane",
 }
 """What parameters mean that are zero: they name themselves."""
+IN_WORDS = {
+    "n_diameters = -1": "rigid disc",
+    "n_diameters =": "nodal diameters up to",
+    "n_circles =": "nodal circles up to",
+}
+"""What heads of figures say for parameters without a symbol."""
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
 """Units of the reader and the factors from SI to them, by parameter or sampled variable, while a
 figure is drawn."""
@@ -181,7 +187,10 @@ def what_case(values: Mapping[str, Any]) -> str:
     if values.get("normalization") == "orthonormal":
         words.append(MODES["orthonormal"])
     numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
-    return ", ".join(filter(None, [variables.values_text(numbers, UNITS.get()), *words]))
+    said = variables.values_text(numbers, UNITS.get())
+    for name, phrase in IN_WORDS.items():
+        said = said.replace(name, phrase)
+    return ", ".join(filter(None, [said, *words]))
 
 
 def head_text(width: float, title: str, values: str) -> str:
