@@ -289,3 +289,8 @@ def test_the_map_of_phases_names_the_pieces_near_the_motion() -> None:
     }
     rings = [line for line in near.lines if line.get_marker() == "o"]
     assert rings[0].get_xydata().tolist() == [[0.76, 0.86], [0.86, 0.81]]
+
+
+def test_phases_have_marks_of_their_own() -> None:
+    """In grey print, dots of slip and separation were alike."""
+    assert len({look["marker"] for look in MARKS.values()}) == len(MARKS)

@@ -5,6 +5,7 @@ from functools import partial
 from textwrap import fill
 from typing import Any, NamedTuple
 
+import numpy as np
 from matplotlib.collections import Collection, PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.transforms import Bbox, ScaledTranslation
@@ -114,9 +115,10 @@ def _meets_line(box: Bbox, line: Line2D) -> bool:
     """Whether a box covers a part of a line, or its marks; not of one across the axes, such as that
     of zero."""
     path = line.get_transform().transform_path(line.get_path())
-    if box.count_contains(path.vertices):
+    points = np.asarray(path.vertices)
+    if box.count_contains(points):
         return True
-    joined = line.get_linestyle() != "None" and len(path.vertices) > 2
+    joined = line.get_linestyle() != "None" and len(points) > 2
     return joined and bool(path.intersects_bbox(box, filled=False))
 
 
