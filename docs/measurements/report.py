@@ -89,23 +89,34 @@ def thresholds() -> str:
 
 
 def friction() -> str:
-    """Return friction and the mean force of each run, and numbers of slips by the least fall."""
+    """Return the force before a slip, kinetic friction and the mean force of each run, and numbers of
+    slips by the least fall."""
     rows = []
     for run in (*stick_slip.runs(), stick_slip.SLIDING):
         record = stick_slip.record(run)
-        levels = ["-", "-"]
+        levels = ["-", "-", "-"]
         if run != stick_slip.SLIDING:
-            levels = [f"{level:.3f}" for level in stick_slip.friction(run)]
+            before, kinetic = stick_slip.friction(run)
+            by_constants = stick_slip.force_before(run)
+            levels = [f"{level:.3f}" for level in (before, by_constants, kinetic)]
         counts = [f"{record[f'slips_{least_fall}']:.0f}" for least_fall in LEAST_FALLS]
         mean = f"{record['mean_force']:.3f}"
         rows.append([stick_slip.name(run), *levels, mean, ", ".join(counts)])
     falls = ", ".join(f"{least_fall:.2f}" for least_fall in LEAST_FALLS)
-    head = ("run", "static", "kinetic", "mean force over weight", f"slips by falls over {falls}")
+    head = (
+        "run",
+        "force before a slip, $f_1$",
+        "by the two constants",
+        "kinetic",
+        "mean force over weight",
+        f"slips by falls over {falls}",
+    )
     return table(head, rows)
 
 
 def mass() -> str:
-    """Return the residuals and the predictions of a block with the fitted mass."""
+    """Return the residuals and the predictions of a block with the fitted mass, and mark what is of
+    the slips to whose periods it was fitted."""
     fit = stick_slip.moving_mass()
     medians = stick_slip.medians(fit.parameters["m"].value)
     rows: dict[str, list[str]] = {stick_slip.name(run): [] for run in stick_slip.runs()}
@@ -113,8 +124,8 @@ def mass() -> str:
         cells = {}
         for each in medians[quantity]:
             cell = crossed(f"{each.ratio:.2f}", each.agrees)
-            if quantity == "period" and f" {stick_slip.FASTEST} " in each.what:
-                cell += " (fitted)"
+            if f" {stick_slip.FASTEST} " in each.what:
+                cell += " (fitted)" if quantity == "period" else " (same slips)"
             cells[each.what] = cell
         for run, row in rows.items():
             row.append(cells.get(run, "friction from here"))

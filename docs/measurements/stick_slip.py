@@ -60,7 +60,8 @@ def record(run: tuple[int, int]) -> pd.Series:
 def coefficients(table: pd.DataFrame) -> tuple[np.ndarray, np.ndarray]:
     """Return static and kinetic friction of each slip.
 
-    A block with constant kinetic friction swings about the force mu_k m g, from mu_s m g on.
+    A block with constant kinetic friction swings about the force mu_k m g. Its force before a slip is
+    mu_s m g at a low speed only, as in the calibrating run; at others it is larger (`swing`).
     """
     static = table["before"].to_numpy()
     kinetic = (table["before"] + table["after"]).to_numpy() / 2
@@ -135,7 +136,7 @@ def name(run: tuple[int, int]) -> str:
 
 
 def friction(run: tuple[int, int] = CALIBRATION, least_fall: float = FALL) -> tuple[float, float]:
-    """Return the medians of static and kinetic friction in a run."""
+    """Return the medians of static and kinetic friction in a run, as `coefficients` find them."""
     static, kinetic = coefficients(measured(run, least_fall))
     return float(np.median(static)), float(np.median(kinetic))
 
@@ -143,7 +144,7 @@ def friction(run: tuple[int, int] = CALIBRATION, least_fall: float = FALL) -> tu
 def medians(mass: float = MASS, least_fall: float = FALL) -> dict[str, list[Comparison]]:
     """Return A1, durations of slips in all runs, and A2, periods and falls in the others.
 
-    A block of another `mass` (kg) is used afterwards only.
+    A block of another moving `mass` (kg) and the same weight is used afterwards only.
     """
     mu_s, mu_k = friction(least_fall=least_fall)
     found: dict[str, list[Comparison]] = {quantity: [] for quantity in QUANTITIES}
@@ -211,10 +212,11 @@ def stick_share(run: tuple[int, int]) -> float:
 
 
 class Swing(NamedTuple):
-    """Motion of a block with constant friction: its period (s), and the fall of the force over the
-    weight from its maximum to its minimum."""
+    """Motion of a block with constant friction: its period (s), the part of it in which the block
+    sticks, and the fall of the force over the weight from its maximum to its minimum."""
 
     period: np.ndarray
+    stick: np.ndarray
     fall: np.ndarray
 
 
@@ -224,14 +226,33 @@ def swing(run: tuple[int, int], difference: ArrayLike, mass: float = MASS) -> Sw
 
     In slip the force swings about the kinetic one, by the angular frequency sqrt(k/m), and begins
     and ends with the rate of stick. The period is never less than 2 pi sqrt(m/k), and the force
-    falls in half a swing, whatever the friction and the speed.
+    falls in half a swing, whatever the friction and the speed. `mass` (kg) is the moving one; the
+    weight is the stated one.
     """
     stiffness, speed = run[0], 1e-6 * run[1]
     omega = np.sqrt(stiffness / mass)
     reach = np.asarray(difference) * MASS * GRAVITY / stiffness
     slip = (2 * np.pi - 2 * np.arctan(reach * omega / speed)) / omega
+    stick = 2 * reach / speed
+    period = stick + slip
     fall = 2 * np.hypot(reach, speed / omega) * stiffness / (MASS * GRAVITY)
-    return Swing(2 * reach / speed + slip, fall)
+    return Swing(period, stick / period, fall)
+
+
+def force_before(run: tuple[int, int]) -> float:
+    """Return the force over the weight before a slip, by the friction of the calibrating run.
+
+    The force rises above static friction until the block is as fast as the drive, and swings about
+    the kinetic one.
+    """
+    mu_s, mu_k = friction()
+    return float(mu_k + swing(run, mu_s - mu_k).fall / 2)
+
+
+def force_of_speed(run: tuple[int, int], mass: float = MASS) -> float:
+    """Return v sqrt(k m) / m g, the half fall of the force over the weight that a block would have
+    without a difference of static and kinetic friction, by its moving `mass` (kg)."""
+    return float(swing(run, 0.0, mass).fall / 2)
 
 
 # ---- Afterwards, not planned: friction of all runs, and a mass that explains the fastest ones

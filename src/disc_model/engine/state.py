@@ -111,19 +111,28 @@ def views_of_disc(width: int, n_single: int, compliant: bool) -> EngineState:
 
 # ---- What Python reads and writes
 
-SCALAR_NAMES = ("time", "time_low", "psi", "g", "u", "u_velocity", "surface_turn")
-_PLACES = [TIME, TIME_LOW, PSI, PHI_RATE, U, U_VELOCITY, SURFACE_TURN]
+_PLACES = {
+    "time": TIME,
+    "time_low": TIME_LOW,
+    "psi": PSI,
+    "g": PHI_RATE,
+    "u": U,
+    "u_velocity": U_VELOCITY,
+    "surface_turn": SURFACE_TURN,
+}
+SCALAR_NAMES = tuple(_PLACES)
 
 
 def scalars_of(state: EngineState) -> dict[str, float]:
     """Return the scalars of a motion by `SCALAR_NAMES`, in SI units: time (s), what was lost of it
     by rounding, psi (rad), g (rad/s), u (m), u' (m/s), and the surface's turn (rad)."""
-    return dict(zip(SCALAR_NAMES, state.x[_PLACES].tolist(), strict=True))
+    numbers = state.x.tolist()  # at once, which is faster than one by one
+    return {name: numbers[place] for name, place in _PLACES.items()}
 
 
 def put_scalars(state: EngineState, values: Iterable[float]) -> None:
     """Set the scalars of a motion, in the order of `SCALAR_NAMES`."""
-    state.x[_PLACES] = list(values)
+    state.x[[*_PLACES.values()]] = list(values)
 
 
 def time_of(state: EngineState) -> float:
