@@ -11,6 +11,7 @@ from matplotlib.text import Annotation
 
 from disc_model.figures import ramps as drawn
 from disc_model.figures.basins import LARGEST
+from disc_model.figures.bifurcation import MARKS
 from disc_model.figures.borders import Curve
 from disc_model.figures.classes import LOOKS
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
