@@ -126,8 +126,8 @@ def test_the_picture_shows_no_fitted_number_as_predicted() -> None:
 
 def test_the_plan_has_not_changed() -> None:
     """The rows of its table are those of the commit that the page names, before any comparison."""
-    assert "commit 060375d1, twelve minutes before that of the comparisons" in SENTENCES
-    assert "in commit 060375d1" in said_on("findings.md")
+    assert "commit `060375d1`, twelve minutes before that of the comparisons" in SENTENCES
+    assert "in commit `060375d1`" in said_on("findings.md")
     plan = PAGE.split("## The plan")[1].split("## Sources")[0]
     rows = "".join(f"{line}\n" for line in plan.splitlines() if line.startswith("| "))
     digest = hashlib.sha256(rows.encode()).hexdigest()
