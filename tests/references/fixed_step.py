@@ -262,12 +262,18 @@ def follow(case, modes, y, t_end, h, stop):
     return first, high - low, fastest
 
 
-def first_separation(problem, t_end, h=STEP, *, bilateral=False, stop=True):
-    """Of a `taylor.Problem`, from the static start: see `follow`, the last over r_0 Omega."""
+def case_and_modes(problem, *, bilateral=False):
+    """Numbers of a `taylor.Problem` for the functions of this module."""
     names = ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0", "u_0", "C")
     numbers = [float(getattr(problem, name)) for name in names]
     case = Case(*numbers, normal=problem.normal, bilateral=bilateral)
     modes = Modes(*(np.asarray(getattr(problem, name), float) for name in Modes._fields))
+    return case, modes
+
+
+def first_separation(problem, t_end, h=STEP, *, bilateral=False, stop=True):
+    """Of a `taylor.Problem`, from the static start: see `follow`, the last over r_0 Omega."""
+    case, modes = case_and_modes(problem, bilateral=bilateral)
     n = len(modes.s)
     start = np.zeros(4 * n + 4)
     start[:n] = problem.equilibrium().a

@@ -115,10 +115,13 @@ def swing_multiplier(p: Parameters, run: Result, lock: Lock) -> float:
         kappa = (mu_s - mu_k) P / (r_0 m w rho),  rho = Omega - mu_s P' / (r_0 k_p)
 
     with the force P and its rate P' when stick ends. This is that of a given vibration, and without
-    damper in the plane; nan if the run has no whole period.
+    damper in the plane; nan if the run has no whole period, or if friction varies with the slip
+    speed.
 
     run : with its events, and the samples `FORCE` of the contact force
     """
+    if p.friction_decay < math.inf or p.viscous_friction != 0:
+        return math.nan
     events = run.events
     kinds = events["kind"].to_numpy()
     times = events["time"].to_numpy(dtype=float)
