@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from docs.measurements import load, robustness, stick_slip, wheel
-from docs.measurements.comparison import Comparison
+from docs.measurements.comparison import Comparison, within
 from docs.measurements.signals import LEAST_FALLS
 from matplotlib.figure import Figure
 
@@ -97,8 +97,10 @@ def friction() -> str:
         levels = ["-", "-", "-"]
         if run != stick_slip.SLIDING:
             before, kinetic = stick_slip.friction(run)
-            by_constants = stick_slip.force_before(run)
-            levels = [f"{level:.3f}" for level in (before, by_constants, kinetic)]
+            by_constants = f"{stick_slip.force_before(run):.3f}"
+            if run == stick_slip.CALIBRATION:
+                by_constants = "fitted"
+            levels = [f"{before:.3f}", by_constants, f"{kinetic:.3f}"]
         counts = [f"{record[f'slips_{least_fall}']:.0f}" for least_fall in LEAST_FALLS]
         mean = f"{record['mean_force']:.3f}"
         rows.append([stick_slip.name(run), *levels, mean, ", ".join(counts)])
@@ -110,6 +112,35 @@ def friction() -> str:
         "kinetic",
         "mean force over weight",
         f"slips by falls over {falls}",
+    )
+    return table(head, rows)
+
+
+def baselines() -> str:
+    """Return falls and periods of the model, those that need no model, and the least that any
+    constants of friction allow."""
+    medians = stick_slip.medians()
+    falls = {each.what: each for each in medians["fall"]}
+    periods = {each.what: each for each in medians["period"]}
+    rows = []
+    for each in stick_slip.baselines():
+        row = [each.what]
+        for model, plain, least in (
+            (falls[each.what].ratio, each.fall, each.least_fall),
+            (periods[each.what].ratio, each.period, each.least_period),
+        ):
+            for ratio in (model, plain):
+                row.append(crossed(f"{ratio:.2f}", within(1.0, ratio, stick_slip.MEDIANS)))
+            row.append(crossed(f"{least:.2f}", least <= 1 + stick_slip.MEDIANS))
+        rows.append(row)
+    head = (
+        "over the measured",
+        "fall, model",
+        "fall, carried over",
+        "least fall, any friction",
+        "period, model",
+        "period, by 1/(k v)",
+        "least period, any friction",
     )
     return table(head, rows)
 
@@ -134,14 +165,17 @@ def mass() -> str:
 
 
 def spread() -> str:
-    """Return A3, and its ratios with other least falls."""
+    """Return A3, its ratios with other least falls, and those of the calibrating run's own spread."""
     rows = compared(stick_slip.spreads())
     others = LEAST_FALLS[1:]
     for least_fall in others:
         for row, each in zip(rows, stick_slip.spreads(least_fall), strict=True):
             row.append(crossed(f"{each.ratio:.2f}", each.agrees))
+    for row, each in zip(rows, stick_slip.carried_spreads(), strict=True):
+        row.append(crossed(f"{each.ratio:.2f}", each.agrees))
     head = ["run", "measured", "predicted", "ratio", "agrees"]
-    return table([*head, *(f"ratio, {least_fall:.2f}" for least_fall in others)], rows)
+    head += [f"ratio, {least_fall:.2f}" for least_fall in others]
+    return table([*head, "ratio, carried over"], rows)
 
 
 def shapes() -> str:
@@ -149,13 +183,14 @@ def shapes() -> str:
     rows = []
     for each in wheel.shapes():
         cells = []
-        for error in (each.real, each.complex, each.fitted):
+        for error in (each.real, each.complex, each.alone, each.fitted):
             cells.append(crossed(f"{error:.3f}", error < wheel.SHAPES))
         rows.append([each.mode, *cells, f"{each.other:.2f}"])
     head = (
         "mode",
         "real parts",
         "complex",
+        "one mode fitted, complex",
         "two modes fitted, complex",
         "another number, real parts",
     )
@@ -207,6 +242,7 @@ def loads() -> str:
 SECTIONS: dict[str, Callable[[], str]] = {
     "slips": slips,
     "thresholds": thresholds,
+    "baselines": baselines,
     "friction": friction,
     "mass": mass,
     "spread": spread,
@@ -246,6 +282,8 @@ def draw_slips() -> Figure:
                 1e3 * stick_slip.period(model),
                 stick_slip.fall(model),
             )
+            if run == stick_slip.CALIBRATION:
+                expected = (expected[0], np.nan, np.nan)  # friction is fitted to these slips
             for axis, value, number in zip(axes, values, expected, strict=True):
                 low, middle, high = np.percentile(value, [25, 50, 75])
                 axis.plot([place, place], [low, high], color=BLACK, linewidth=0.8)

@@ -69,16 +69,42 @@ def interval(
     steps, at both ends of a difference, which gives a triangular error.
     """
     generator = np.random.default_rng(0)
-    seen = stick_slip.measured(run, least_fall)
-    step = stick_slip.record(run)["quantum"] if quantity == "fall" else 1 / RATE
-    middle = medians_of_draws(values(quantity, seen), generator) + rounding(step, generator)
+    middle = measured_medians(quantity, run, least_fall, generator)
     model = comparison.predicted * scales(quantity, run, least_fall, generator)
     if quantity != "fall":
-        model += rounding(step, generator)
-    tail = (100 - LEVEL) / 2
-    low, high = np.percentile(model / middle, [tail, 100 - tail])
+        model += rounding(1 / RATE, generator)
+    low, high = ends(model / middle)
     what = f"{quantity}, {comparison.what}"
-    return Ratio(what, comparison.ratio, float(low), float(high))
+    return Ratio(what, comparison.ratio, low, high)
+
+
+def least(quantity: str, run: tuple[int, int], least_fall: float) -> Ratio:
+    """Return the least period or fall that a block with the stated mass and stiffness can have,
+    whatever its constants of friction, over the measured median, with the interval of the latter."""
+    generator = np.random.default_rng(0)
+    middle = measured_medians(quantity, run, least_fall, generator)
+    swing = stick_slip.swing(run, 0.0)
+    model = float(swing.fall if quantity == "fall" else swing.period)
+    seen = values(quantity, stick_slip.measured(run, least_fall))
+    value = model / float(np.median(seen))
+    low, high = ends(model / middle)
+    return Ratio(f"{quantity}, {stick_slip.name(run)}", value, low, high)
+
+
+def measured_medians(
+    quantity: str, run: tuple[int, int], least_fall: float, generator: np.random.Generator
+) -> np.ndarray:
+    """Return medians of drawn slips of a run, with the rounding of times and forces."""
+    seen = stick_slip.measured(run, least_fall)
+    step = stick_slip.record(run)["quantum"] if quantity == "fall" else 1 / RATE
+    return medians_of_draws(values(quantity, seen), generator) + rounding(step, generator)
+
+
+def ends(draws: np.ndarray) -> tuple[float, float]:
+    """Return the ends of the interval that holds the middle part, `LEVEL`, of draws."""
+    tail = (100 - LEVEL) / 2
+    low, high = np.percentile(draws, [tail, 100 - tail])
+    return float(low), float(high)
 
 
 def values(quantity: str, table: pd.DataFrame) -> np.ndarray:

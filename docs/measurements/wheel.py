@@ -45,6 +45,7 @@ class Shape(NamedTuple):
     mode : numbers of nodal diameters in words
     real : of the real parts of the amplitudes read at the peak
     complex : of the complex amplitudes read there
+    alone : of the complex residues of one fitted mode, which were not planned
     fitted : of the complex sums of residues of two fitted modes, which were not planned
     other : least error of the real parts with another number of diameters
     """
@@ -52,6 +53,7 @@ class Shape(NamedTuple):
     mode: str
     real: float
     complex: float
+    alone: float
     fitted: float
     other: float
 
@@ -68,19 +70,32 @@ def peaks(amplitudes: str) -> pd.DataFrame:
     return table[planned & (table["amplitudes"] == amplitudes)].set_index("diameters")
 
 
-def omitted() -> pd.DataFrame:
-    """Return the amplitudes read at the peaks that the plan left out."""
+def omitted(amplitudes: str = "read") -> pd.DataFrame:
+    """Return what was found of the peaks that the plan left out.
+
+    Parameters
+    ----------
+    amplitudes : "read" at the peak, or "1 fitted"
+    """
     table = read("wheel.csv")
-    return table[~table["peak"].str.isdigit() & (table["amplitudes"] == "read")]
+    return table[~table["peak"].str.isdigit() & (table["amplitudes"] == amplitudes)]
 
 
 def shapes() -> list[Shape]:
     """Return B: root mean square differences of measured shapes on the rim from the model's."""
+    alone = peaks("1 fitted")["error_complex"]
     fitted = peaks("2 fitted").groupby(level=0)["error_complex"].first()
     found = []
     for diameters, row in peaks("read").iterrows():
-        errors = (row["error_real"], row["error_complex"], fitted[diameters], row["error_other"])
-        found.append(Shape(f"{diameters} nodal diameters", *errors))
+        errors = Shape(
+            mode=f"{diameters} nodal diameters",
+            real=row["error_real"],
+            complex=row["error_complex"],
+            alone=alone[diameters],
+            fitted=fitted[diameters],
+            other=row["error_other"],
+        )
+        found.append(errors)
     return found
 
 
@@ -123,6 +138,12 @@ def frequencies(nu: float = PLATES["wheel"]["nu"]) -> list[Comparison]:
             what = f"{body}, {diameters} nodal diameters"
             found.append(Comparison(what, value, expected, "Hz", agrees))
     return found
+
+
+def thickness(body: str) -> float:
+    """Return the thickness (mm) of the uniform plate that stands for a body in C."""
+    measured = bodies()[body]
+    return 1e3 * plate(body, measured[2], 2, PLATES[body]["nu"]).h
 
 
 def squares() -> list[float]:
