@@ -361,6 +361,63 @@ class Sources:
         rates = self.brake_growth(disc, compliance)
         return float(rates["value"].where(rates > 0.01).min())
 
+    def brake_cycle(self, arc: float, N: float, Omega: float) -> float:
+        """Return the growth rate of the stick-slip cycle under a pad of some arc, rad, 1/s."""
+        study = self.grid("brake_growth").sel(disc="surface, damping ratio 0.001")
+        return float(study["growth_rate"].sel(contact_arc=arc, N=N, Omega=Omega))
+
+    def brake_cycles_without(self, damping: str, arc: float) -> float:
+        """Return the largest growth rate of the cycle without tangential motion, 1/s."""
+        study = self.grid("brake_growth").sel(disc=f"middle plane, damping ratio {damping}")
+        return float(study["growth_rate"].sel(contact_arc=arc).max())
+
+    def brake_sliding_without(self, damping: str) -> float:
+        """Return the largest growth rate of steady sliding without tangential motion, 1/s."""
+        study = self.grid("brake_growth").sel(disc=f"middle plane, damping ratio {damping}")
+        return float(study["sliding_growth_rate"].max())
+
+    def brake_pad(self, modes: int, arc: float, Omega: float) -> float:
+        """Return the largest growth rate of steady sliding at 8 kN with a number of modes, 1/s."""
+        study = self.grid("brake_pad").sel(disc=f"{modes} modes", contact_arc=arc)
+        return float(study["largest_growth_rate"].sel(Omega=Omega, value=8000))
+
+    def brake_pad_slowing(self, Omega: float) -> np.ndarray:
+        """Return the fractions by which a pad lowers this growth rate, for each number of modes."""
+        study = self.grid("brake_pad").sel(Omega=Omega, value=8000).drop_sel(disc="middle plane")
+        rates = study["largest_growth_rate"]
+        return 1 - (rates.sel(contact_arc=0.4) / rates.sel(contact_arc=0)).values
+
+    def brake_pad_mode(self, modes: int, arc: float, Omega: float) -> float:
+        """Return the frequency of the mode of steady sliding that grows fastest, kHz."""
+        study = self.grid("brake_pad").sel(disc=f"{modes} modes", contact_arc=arc)
+        row = study.sel(Omega=Omega, value=8000)
+        fastest = np.nanargmax(row["mode_growth_rate"].values)
+        return float(row["frequency"].values[fastest]) / 1e3
+
+    def brake_mass(self, compliance: float) -> xr.DataArray:
+        """Return the largest growth rate of steady sliding at 8 kN and 80 rad/s under a pad of
+        40 mm over the mass of the slider, 1/s."""
+        study = self.grid("brake_mass").sel(disc="surface", contact_arc=0.4, Omega=80)
+        return study["largest_growth_rate"].sel(contact_compliance=compliance)
+
+    def brake_mass_at(self, compliance: float, m: float) -> float:
+        """Return this growth rate at a mass in kg, 1/s."""
+        return float(self.brake_mass(compliance).sel(value=m, method="nearest"))
+
+    def brake_mass_of_most_growth(self, compliance: float) -> float:
+        """Return the mass at which this growth rate is largest, kg."""
+        rates = self.brake_mass(compliance)
+        return float(rates["value"].values[rates.values.argmax()])
+
+    def brake_growing_without(self) -> int:
+        """Return the number of points of the studies `brake_mass` and `brake_pad` at which sliding
+        grows by more than 1e-6/s without tangential motion."""
+        count = 0
+        for name in ("brake_mass", "brake_pad"):
+            rates = self.grid(name)["largest_growth_rate"].sel(disc="middle plane")
+            count += int((rates > 1e-6).sum())
+        return count
+
     # ---- results of `make survival` and of `make orthonormal`
 
     def _found(self, conclusion: str, model: str, column: str = "here") -> str:
