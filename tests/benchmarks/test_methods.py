@@ -142,11 +142,11 @@ def test_a_state_that_overflows_is_no_answer(name: str) -> None:
 def test_rivals_refuse_other_laws_of_contact(name: str, law: str) -> None:
     """They used to answer for the paper's law, as if the parameters had been left out."""
     motion = Problem(P.replace(**ALL_LAWS[law]), lively("slip", 1, P), 1e-4)
-    # how friction falls says nothing without the rate at which it falls, which is refused
-    refused = [parameter for parameter in ALL_LAWS[law] if parameter != "friction_law"]
-    changed = ".*".join(f"{parameter}=.*: must be" for parameter in refused)
-    with pytest.raises(ParameterError, match=f"{changed} .*, because only the engine"):
+    with pytest.raises(ParameterError, match="because only the engine") as caught:
         METHODS[name].solve(motion, 1e-3)
+    # how friction falls says nothing without the rate at which it falls, which is refused
+    refused = {*ALL_LAWS[law]} - {"friction_law"}
+    assert {text.split("=")[0] for text in str(caught.value).split("; ")} == refused
 
 
 # ---- The regularised model
