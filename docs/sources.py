@@ -461,7 +461,7 @@ class Sources:
         for separating, bilateral, place in re.findall(row, pairs):
             if paradox or f"{place} after" not in notes:
                 found.append((float(separating), float(bilateral)))
-        return np.array(found)
+        return np.array(found).reshape(-1, 2)
 
     def ratios(self) -> np.ndarray:
         """Return how many times smaller the ranges are with separation, under all models.
