@@ -122,6 +122,20 @@ def test_where_a_sine_loses_contact(angle: float, share_of_range: float) -> None
     assert found == pytest.approx(share_of_range, abs=0.01)
 
 
+def test_the_range_is_that_of_one_period_around_the_loss() -> None:
+    """Contact is lost at the top, half a period before the amplitude grows to three times as much:
+    the next top is three times as high, and outside that period."""
+    f = 100.0
+    rate = 100_000.0
+    time = np.arange(0, 0.2, 1 / rate)
+    amplitude = np.where(time < 0.105, 1.0, 3.0)
+    start = round(0.1025 * rate)
+    found = separation_location(amplitude * np.sin(2 * np.pi * f * time), np.array([start]))
+    assert found == pytest.approx(1.0, abs=1e-3)
+    with pytest.raises(ValueError, match="no separation"):
+        separation_location(time, np.array([], dtype=int))
+
+
 # ---- shares
 
 

@@ -172,6 +172,16 @@ def test_combinations_of_up_to_three_times_the_drive_are_named(n: int, m: int) -
     assert found.deviation == pytest.approx(0, abs=1e-12)
 
 
+@pytest.mark.parametrize(("frequency", "drive"), [(9.0, 1.0), (8.9999, 1.0001)])
+def test_of_names_that_fit_alike_the_one_of_the_smallest_orders_is_taken(
+    frequency: float, drive: float
+) -> None:
+    """f_s + 3 f_drive and 2 f_s - 3 f_drive are the same frequency, or 0.0006 Hz apart."""
+    found = spectra.identify(frequency, 6.0, drive)
+    assert found.n == 1
+    assert found.m == 3
+
+
 @pytest.mark.parametrize("amplitude", [1.0, 3.0])
 def test_a_sine_of_amplitude_one_has_the_power_one_half(amplitude: float) -> None:
     time = np.arange(8000) / RATE
@@ -213,6 +223,24 @@ def test_the_detuning_is_how_far_the_multiple_lies_above_the_mode() -> None:
         assert found.sign == -1
         assert found.detuning == pytest.approx(detuning, abs=1e-9)
         assert found.frequency == pytest.approx(frequency)
+
+
+@pytest.mark.parametrize(
+    ("multiplier", "ratio", "harmonic"),
+    [(-1.0, 2.6, 2.5), (-1.0, 2.4, 2.5), (-1.0, 3.4, 3.5), (1.0, 2.6, 3.0), (1.0, 2.4, 2.0)],
+)
+def test_a_period_doubling_belongs_to_an_odd_multiple_of_half_the_rate(
+    multiplier: float, ratio: float, harmonic: float
+) -> None:
+    """Of the mode without nodal diameters, which stands in the slider's frame."""
+    p = Parameters(N=385, Omega=15.0)
+    frequency = next(mode.frequency for mode in spectra.modes_at_rest(p) if not mode.diameters)
+    rate = frequency / ratio
+    found = spectra.nearest_resonance(p, 1 / rate, complex(multiplier), 0)
+    assert found.frequency == frequency
+    assert found.sign == 0
+    assert found.harmonic == harmonic
+    assert found.detuning == pytest.approx((harmonic - ratio) * rate, rel=1e-9)
 
 
 def test_the_highest_line_is_that_of_a_hundredth_of_the_strongest() -> None:

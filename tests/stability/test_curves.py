@@ -1,8 +1,10 @@
-"""Seeds of curves of stability."""
+"""Seeds of curves of stability, and places on them."""
 
+import numpy as np
 import pytest
 
 from disc_model import Parameters
+from disc_model.analysis.spectra import Resonance
 from disc_model.stability import curves
 from disc_model.stability.return_map import ReturnMap
 
@@ -30,3 +32,30 @@ def test_a_fold_is_followed_across_its_line():
     fold = next(curve for curve in found if curve.kind == "fold")
     assert fold.values[:, 1].min() < 375 < fold.values[:, 1].max()
     assert len(fold.values) < 30  # short steps are a sign of a corrector that fails
+
+
+@pytest.mark.parametrize(
+    ("point", "span", "distance", "period"),
+    [
+        ((0.25, 0.1), (1.0, 1.0), 0.1, 1.25),
+        ((0.75, 0.1), (1.0, 2.0), 0.05, 1.75),
+        ((-2.0, 0.0), (4.0, 1.0), 0.5, 1.0),
+        ((1.1, 1.5), (1.0, 1.0), 0.1, 4.0),
+        ((1.0, 3.0), (1.0, 1.0), 1.0, 5.0),
+    ],
+)
+def test_the_nearest_place_on_a_curve_lies_between_its_points(
+    point: tuple[float, float], span: tuple[float, float], distance: float, period: float
+) -> None:
+    """From (0, 0) to (1, 0), where a point stands twice, and up to (1, 2)."""
+    curve = curves.StabilityCurve(
+        kind="neutral",
+        values=np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 2.0]]),
+        adjoins_stable_cycle=np.ones(4, bool),
+        period=np.array([1.0, 2.0, 1.0, 5.0]),
+        multipliers=np.ones(4, complex),
+        resonance=Resonance(1.0, 100.0, 0, 0, 0.0),
+    )
+    found, period_there = curves._nearest_on(curve, np.array(point), np.array(span))
+    assert found == pytest.approx(distance, rel=1e-12)
+    assert period_there == pytest.approx(period, rel=1e-12)

@@ -116,3 +116,25 @@ def test_errors_are_standard_errors_of_16_segments_unless_both_halves_differ_by_
     standard_error = np.std(alternating, ddof=1) / np.sqrt(16)
     assert found.errors == pytest.approx([standard_error, 1.0], rel=1e-12)
     assert found.converged.tolist() == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("halves", "converged"),
+    [
+        ((0.0005, 0.0015), True),  # within 0.002/s, though not within 5 %
+        ((0.99, 1.01), True),  # within 5 %, though not within 0.002/s
+        ((-0.0009, 0.0009), True),
+        ((-0.0011, 0.0011), False),
+        ((-0.98, -1.02), True),
+        ((-0.97, -1.03), False),
+    ],
+)
+def test_halves_agree_within_a_share_or_within_a_rate(
+    halves: tuple[float, float], converged: bool
+) -> None:
+    logs = np.repeat(halves, 80)[:, None] * 0.01
+    found = _averaged(Status.OK, logs, 0.01, 1, np.zeros(16), static_start(STICK), False)
+    first, second = halves
+    assert found.exponents == pytest.approx([(first + second) / 2], abs=1e-12)
+    assert found.duration == pytest.approx(1.6)
+    assert found.converged.tolist() == [converged]

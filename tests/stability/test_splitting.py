@@ -8,7 +8,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import disc_model as dm
-from disc_model.stability.splitting import SplitGrowth
+from disc_model.disc.plate import mode_arrays
+from disc_model.stability.splitting import SplitGrowth, _floquet_growth, _pairs
 
 PAD: dict[str, Any] = {
     "r_0": 0.1,
@@ -63,6 +64,18 @@ def test_growth_rates_are_those_of_an_integrator(split: float) -> None:
     p = case(PAD)
     found = dm.split_growth(p, split).growth_rate
     assert found == pytest.approx(by_integration(p, split), abs=2e-2 * split**0.5)
+
+
+def test_growth_by_more_than_a_propagator_holds_is_taken_out_of_it() -> None:
+    """All solutions grow by 50/s more, which is exp(314) in half a turn; steps hardly differ."""
+    p = case(PAD, Omega=0.5)
+    jacobian = dm.steady_sliding(p).jacobian
+    modes = mode_arrays(p)
+    pairs = _pairs(modes, len(jacobian))
+    raised = jacobian + 50 * np.eye(len(jacobian))
+    usual = _floquet_growth(p, modes, pairs, [0.01], jacobian)
+    found = _floquet_growth(p, modes, pairs, [0.01], raised)
+    assert found - usual == pytest.approx(50, abs=1e-2)
 
 
 @pytest.mark.parametrize("split", [5e-5, 2e-4, 5e-4, 2e-3])

@@ -115,6 +115,17 @@ def test_a_branch_has_cycles_at_given_values_each_time_it_passes_them(monkeypatc
     assert branch.points[fold.after, 0] > 1 > branch.points[fold.after + 1, 0]
 
 
+def test_special_points_of_both_halves_lie_behind_the_point_of_their_number(branch):
+    """From 15 rad/s down, the pair crosses the unit circle at 14; up, there is the fold at 16, and
+    beyond it 14 again."""
+    _, down, fold, beyond, _ = branch.special
+    assert [down.kind, fold.kind, beyond.kind] == ["neimark_sacker", "fold", "neimark_sacker"]
+    values = branch.values[:, 0]
+    assert values[down.after] < 14 < values[down.after + 1]
+    assert branch.points[fold.after, 0] > 1 > branch.points[fold.after + 1, 0]
+    assert values[beyond.after] > 14 > values[beyond.after + 1]
+
+
 def test_a_branch_stops_at_its_first_fold(monkeypatch):
     use(monkeypatch, FoldMap)
     branch = continue_cycle(P, "Omega", (12.0, 17.0), stop_at="fold")

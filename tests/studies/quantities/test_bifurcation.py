@@ -8,7 +8,7 @@ import pytest
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Start
+from disc_model.simulation.case import Poincare, Start
 from disc_model.simulation.starts import make_initial_state
 from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.quantity import Point
@@ -63,6 +63,26 @@ def test_on_a_rigid_disc_the_slider_is_released_where_the_spring_has_friction_s_
     )  # at a tolerance of 1e-10
     # the drive point moves ahead of the slider, which still rests on the disc
     assert values["psi_velocity"] == pytest.approx([p.Omega] * 5, rel=1e-9)
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(("turns_left_out", "first"), [(0.3, 1), (1.0, 1), (1.7, 2)])
+def test_samples_once_a_turn_begin_with_the_first_after_the_transient(
+    turns_left_out: float, first: int
+) -> None:
+    p = Parameters(N=200, Omega=20, n_diameters=0)
+    turn = 2 * np.pi / p.Omega
+    options = Bifurcation(transient=turns_left_out * turn, samples=3, theta=2.0)
+    values, message = options.compute_point(Point(p))
+    assert message == ""
+    start = make_initial_state(p, Start(), options.tol)
+    turns = {"turns": Poincare(theta=2.0)}
+    run = simulate(p, 4.5 * turn, turns, tol=options.tol, initial_state=start)
+    every = run["turns"]
+    for name in ("psi", "u", "P", "w_point"):
+        expected = every[name].values[first : first + 3]
+        # both runs stop elsewhere, which leaves the error of events
+        assert values[name] == pytest.approx(expected, rel=1e-6, abs=1e-9)
 
 
 @pytest.mark.compiled

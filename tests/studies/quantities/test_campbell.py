@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from disc_model.data.variables import CycleStatus, flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.frequencies import frequencies
-from disc_model.studies.quantities.campbell import KINDS, Campbell, frequency_of
+from disc_model.studies.quantities.campbell import KINDS, Campbell, effect_of, frequency_of
 from disc_model.studies.quantity import Point
 from tests.studies.conftest import SMALL, computed
 
@@ -108,6 +108,33 @@ def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not
     assert effects(made_up(cycle_growth_rate=np.full((401, 1), np.nan))) == ["unresolved"]
     assert effects(peak.isel(Omega=slice(0, 401, 20))) == ["unresolved"]
     assert effects(peak.isel(Omega=slice(195, 401))) == ["unresolved"]
+
+
+@pytest.mark.parametrize(
+    ("ends", "within", "effect"),
+    [
+        ((-0.05, 0.02), 0.025, "no_rise"),  # unstable at one end already
+        ((0.02, -0.05), 0.025, "no_rise"),
+        ((0.02, -0.05), 0.035, "rises"),
+        ((0.0, -0.05), 0.005, "destabilises"),
+        ((-0.05, -0.01), 0.005, "destabilises"),
+        ((-0.05, -0.01), -0.005, "no_rise"),
+        ((-0.05, -0.02), -0.005, "rises"),
+    ],
+)
+def test_a_rise_is_one_above_both_ends_of_the_window(
+    ends: tuple[float, float], within: float, effect: str
+) -> None:
+    """Of the cycle and of the second of two modes; speeds beyond the window count for nothing."""
+    detuning = np.array([2.0, 1.2, 0.8, 0.4, -0.1, -0.4, -0.8, -1.2, -2.0])
+    first, last = ends
+    leading = np.array([0.5, first, *[-0.2] * 2, within, *[-0.2] * 2, last, 0.5])
+    growth = np.column_stack([np.full(9, -0.3), leading])
+    found = effect_of(detuning, 3, growth, leading, Campbell())
+    assert found["effect"] == effect
+    assert found["growth_rate"] == within
+    assert found["rise"] == pytest.approx(within - max(ends), abs=1e-12)
+    assert found["growing_mode"] == 2
 
 
 def found_crossings(cell: xr.Dataset) -> list[tuple[float, float, int, str, float]]:

@@ -1,13 +1,15 @@
 """The range of motions with separation, against the range at which their vibration loses contact."""
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 
+from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
 from disc_model.parameters import Parameters
-from disc_model.studies.quantities.range_law import BEGINS, RangeLaw
+from disc_model.studies.quantities.range_law import BEGINS, SEPARATION, RangeLaw, _measure
 from disc_model.studies.quantity import Point
 from disc_model.studies.whole_study import run_study
 
@@ -58,6 +60,53 @@ def test_a_light_slider_leaves_at_the_bottom_and_a_heavy_one_at_the_top() -> Non
 @pytest.mark.compiled
 def test_a_motion_in_contact_has_no_range_of_the_law() -> None:
     assert np.isnan(measured(N=200, Omega=20, c=0.5)["range"])
+
+
+@dataclass
+class MadeUpRun:
+    """A run as far as it is measured: its case, statistics, and samples of its last stretch."""
+
+    parameters: Parameters
+    statistics: dict[str, float]
+    late: xr.Dataset
+
+    def __getitem__(self, name: str) -> xr.Dataset:
+        assert name == "late"
+        return self.late
+
+
+def test_each_column_is_measured_of_its_own_signal() -> None:
+    """Two seconds of a height of 100 Hz and a contact force with a second line, which has a fifth of
+    its variance;
+    contact is lost at the highest position, in each period for 5 samples."""
+    time = np.arange(16_001) / 8000
+    height = 3e-3 * np.sin(2 * np.pi * 100 * time)
+    force = 200 + np.cos(2 * np.pi * 100 * time) + 0.5 * np.cos(2 * np.pi * 210 * time)
+    within = np.arange(time.size) % 80
+    phase = np.where((within >= 20) & (within < 25), SEPARATION, 0)
+    samples = {"u": height, "P": force, "phase": phase}
+    late = xr.Dataset({name: ("time", values) for name, values in samples.items()}, {"time": time})
+    p = Parameters(N=200, Omega=20)
+    statistics = {"separations": 200, "time_separation": 0.125, "time_stick": 0.5}
+    found = _measure(MadeUpRun(p, statistics, late))
+
+    pinned = pinned_range(p, found["vibration_frequency"])
+    expected = {
+        "range": 6e-3,
+        "pinned_range": pinned,
+        "deviation": 6e-3 / pinned - 1,
+        "flight_excess": excess_of_flights(0.0625),
+        "vibration_frequency": 100.0,
+        "vibration_share": 1.0,
+        "force_share": 0.8,
+        "separation_rate": 100.0,
+        "separation_fraction": 0.0625,
+        "stick_fraction": 0.25,
+        "loss_position": 1.0,
+    }
+    # the last sample begins another period
+    assert found == pytest.approx(expected, rel=1e-3)
+    assert _measure(MadeUpRun(p, {"separations": 0}, late)) == {}
 
 
 @pytest.fixture(scope="module")
