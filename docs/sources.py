@@ -172,8 +172,10 @@ class Sources:
     # ---- grid studies of the paper's disc
 
     def grid(self, study: str) -> xr.Dataset:
-        """Return the dataset of a study, without axes of one value."""
-        return _load(self.results / study / f"{study}.nc").to_dataset().squeeze()
+        """Return the dataset of a study, without axes of one value but that of discs."""
+        dataset = _load(self.results / study / f"{study}.nc").to_dataset()
+        single = [name for name, count in dataset.sizes.items() if count == 1 and name != "disc"]
+        return dataset.squeeze(single)
 
     def separating_cells(self, normalization: str) -> int:
         """Return the number of points of the map over speed and preload that separate."""
