@@ -127,7 +127,6 @@ def test_the_picture_shows_no_fitted_number_as_predicted() -> None:
 def test_the_plan_has_not_changed() -> None:
     """The rows of its table are those of the commit that the page names, before any comparison."""
     assert "commit `060375d1`, twelve minutes before that of the comparisons" in SENTENCES
-    assert "in commit `060375d1`" in said_on("findings.md")
     plan = PAGE.split("## The plan")[1].split("## Sources")[0]
     rows = "".join(f"{line}\n" for line in plan.splitlines() if line.startswith("| "))
     digest = hashlib.sha256(rows.encode()).hexdigest()
@@ -156,8 +155,6 @@ def test_the_headline_on_slips_holds_with_every_least_fall(
     assert f"highest speed periods are {too_long} times too long" in SENTENCES
     assert f"**, {too_far} times, with every least fall" in SENTENCES
     assert f"**, {too_long} times, with every least fall" in SENTENCES
-    assert f"[{too_long} times too long](measurements.md)" in said_on("findings.md")
-    assert "in the seven other runs compared" in said_on("findings.md")
 
 
 def test_no_constants_of_friction_give_the_fast_periods_nor_two_falls() -> None:
@@ -191,8 +188,6 @@ def test_no_constants_of_friction_give_the_fast_periods_nor_two_falls() -> None:
     assert {f"{each.value:.2f}" for each in undecided[1:]} == {"0.97"}
     assert "with larger least falls it is 0.97" in SENTENCES
     assert "These periods and two of the seven falls are out of reach of any two" in SENTENCES
-    two = "no two constants of friction give these periods, nor two of the seven falls"
-    assert two in said_on("findings.md")
     # the planned tolerance, which one of the two keeps
     assert values[1002, 4300][0].value < 1 + stick_slip.MEDIANS < min(stiff)
     assert "of these two, the first is within the planned 20 %" in SENTENCES
