@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from docs.measurements import load, robustness, stick_slip, wheel
-from docs.measurements.comparison import Comparison, within
+from docs.measurements.comparison import Comparison
 from matplotlib.figure import Figure
 
 import disc_model as dm
@@ -91,40 +91,6 @@ def thresholds() -> str:
     return table(("run", *quantities), lines)
 
 
-def friction() -> str:
-    """Return the force before a slip, kinetic friction and the mean force of each run."""
-    rows = []
-    for run in stick_slip.runs():
-        before, kinetic = stick_slip.friction(run)
-        by_constants = f"{stick_slip.force_before(run):.3f}"
-        if run == stick_slip.CALIBRATION:
-            by_constants = "fitted"
-        mean = f"{stick_slip.record(run)['mean_force']:.3f}"
-        rows.append([stick_slip.name(run), f"{before:.3f}", by_constants, f"{kinetic:.3f}", mean])
-    head = ("run", "$f_1$", "by two constants", "kinetic", "mean force over weight")
-    return table(head, rows)
-
-
-def baselines() -> str:
-    """Return falls and periods that need no model, and the least that any constants of friction
-    allow."""
-    rows = []
-    for each in stick_slip.baselines():
-        row = [each.what]
-        for plain, least in ((each.fall, each.least_fall), (each.period, each.least_period)):
-            row.append(crossed(f"{plain:.2f}", within(1.0, plain, stick_slip.MEDIANS)))
-            row.append(crossed(f"{least:.2f}", least <= 1 + stick_slip.MEDIANS))
-        rows.append(row)
-    head = (
-        "over the measured",
-        "fall, carried over",
-        "least fall",
-        "period, by 1/(k v)",
-        "least period",
-    )
-    return table(head, rows)
-
-
 def spread() -> str:
     """Return A3, and the ratios of the calibrating run's own spread."""
     rows = []
@@ -192,8 +158,6 @@ def loads() -> str:
 SECTIONS: dict[str, Callable[[], str]] = {
     "slips": slips,
     "thresholds": thresholds,
-    "baselines": baselines,
-    "friction": friction,
     "spread": spread,
     "shapes": shapes,
     "frequencies": frequencies,

@@ -320,15 +320,6 @@ def typical_factor(ratios: ArrayLike) -> float:
     return float(np.exp(np.mean(np.abs(np.log(ratios)))))
 
 
-def difference_for_fall(run: tuple[int, int], value: float) -> float:
-    """Return the difference of static and kinetic friction with which a block with the stated mass
-    and stiffness has a given fall of the force over the weight; nan if none does."""
-    least = 2 * force_of_speed(run)
-    if value < least:
-        return float("nan")
-    return float(np.sqrt(value**2 - least**2) / 2)
-
-
 def stick_stiffness(run: tuple[int, int], least_fall: float = FALL) -> float:
     """Return the median stiffness (N/m) by which the force rises from a slip to the next, while the
     drive goes on.
@@ -342,8 +333,3 @@ def stick_stiffness(run: tuple[int, int], least_fall: float = FALL) -> float:
     lasting = np.diff(table["start_s"]) - table["duration_s"].to_numpy()[:-1]
     travel = 1e-6 * run[1] * lasting
     return float(np.median((before - after) * MASS * GRAVITY / travel))
-
-
-def deflection_step(run: tuple[int, int]) -> float:
-    """Return the deflection of the spring (µm) that makes the least step of the force."""
-    return float(1e6 * record(run)["quantum"] * MASS * GRAVITY / run[0])

@@ -91,17 +91,16 @@ def test_the_spread_of_slips_agrees_more_often_if_it_is_carried_over() -> None:
 
 def test_cells_that_fitted_numbers_make_are_marked() -> None:
     """The calibrating run's own row in each table that predicts from its friction."""
-    marks = {"slips": ["fitted"] * 2, "thresholds": ["fitted"] * 2, "friction": ["fitted"]}
+    marks = {"slips": ["fitted"] * 2, "thresholds": ["fitted"] * 2}
     for name, expected in marks.items():
         shown = report.marked(name).search(PAGE)
         assert shown is not None
         row = next(line for line in shown[0].splitlines() if f"| {CALIBRATION} |" in line)
         cells = [cell.strip() for cell in row.split("|")]
         assert [cell for cell in cells if cell in expected] == expected, name
-    for name in ("baselines", "spread"):
-        shown = report.marked(name).search(PAGE)
-        assert shown is not None
-        assert CALIBRATION not in shown[0]
+    shown = report.marked("spread").search(PAGE)
+    assert shown is not None
+    assert CALIBRATION not in shown[0]
     # by the constants that were found from it, its force before a slip is the measured one
     identical = stick_slip.friction()[0]
     assert stick_slip.force_before(stick_slip.CALIBRATION) == pytest.approx(identical, abs=1e-4)
@@ -194,8 +193,6 @@ def test_the_least_of_any_friction_is_that_of_the_simulated_block() -> None:
         other = stick_slip.swing(run, difference)
         assert other.period > least.period
         assert other.fall > least.fall
-        assert stick_slip.difference_for_fall(run, float(other.fall)) == pytest.approx(difference)
-    assert math.isnan(stick_slip.difference_for_fall(run, 0.99 * float(least.fall)))
 
 
 def count_within(ratios: list[float]) -> int:
@@ -237,29 +234,10 @@ def test_what_needs_no_model_is_compared_as_the_page_says() -> None:
     assert factors in SENTENCES
 
 
-def test_another_difference_of_friction_gives_the_other_falls() -> None:
-    runs = [(168, 42), (168, 1100), (168, 4300), (1002, 1100)]
-    ends = []
-    for run in runs:
-        seen = stick_slip.fall(stick_slip.measured(run))
-        few = stick_slip.difference_for_fall(run, (1 - stick_slip.MEDIANS) * seen)
-        many = stick_slip.difference_for_fall(run, (1 + stick_slip.MEDIANS) * seen)
-        ends.append((few, many))
-    low = np.nanmax([few for few, _ in ends])  # nan: any difference, down to none, will do
-    high = min(many for _, many in ends)
-    assert low < high
-    assert f"friction, {low:.3f} to {high:.3f}, brings the three at 168 N/m" in SENTENCES
-    own = stick_slip.fall(stick_slip.measured(stick_slip.CALIBRATION))
-    needed = stick_slip.difference_for_fall(stick_slip.CALIBRATION, own)
-    assert f"calibrating run's fall needs {needed:.3f}" in SENTENCES
-
-
 def test_stiffness_by_the_rise_of_the_force_is_what_the_page_says() -> None:
     found = [f"{stick_slip.stick_stiffness(run):.0f}" for run in ((168, 42), (1002, 42))]
     said = f"springs of {found[0]} and {found[1]} N/m, where 168 and 1002 are stated"
     assert said in SENTENCES
-    steps = [stick_slip.deflection_step((stiffness, 1100)) for stiffness in stick_slip.STIFFNESSES]
-    assert f"its steps are {span(steps, '.1f')} µm of deflection" in SENTENCES
 
 
 @pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
@@ -364,16 +342,9 @@ def test_the_force_before_a_slip_is_compared_with_that_of_two_constants() -> Non
 
     slow = f"{terms[stick_slip.CALIBRATION]:.4f} against {static - kinetic:.3f}"
     assert f"It is {slow} in the calibrating run" in SENTENCES
-    assert f"4300 µm/s it is {span([terms[run] for run in fast], '.3f')}, and" in SENTENCES
     ratios = {run: stick_slip.friction(run)[0] / expected[run] for run in fast}
     softest = ratios[stick_slip.INERTIAL]
     assert f"$f_1$ is {softest:.2f} times that of the two constants" in SENTENCES
-    stiffest = (2254, stick_slip.FASTEST)
-    assert f"it is {ratios[stiffest]:.2f} times, but two errors cancel" in SENTENCES
-    before, own = stick_slip.friction(stiffest)
-    halves = f"{before - own:.3f}, where the constants give {expected[stiffest] - kinetic:.3f}"
-    assert f"kinetic friction is {own / kinetic:.2f} times that" in SENTENCES
-    assert f"half of the fall {halves}" in SENTENCES
 
 
 def test_period_and_fall_are_one_disagreement_where_the_block_mostly_sticks() -> None:
@@ -383,10 +354,8 @@ def test_period_and_fall_are_one_disagreement_where_the_block_mostly_sticks() ->
     for run, share in shares.items():
         if run[1] == 42:
             assert share > 0.95
-    percent = 100 * shares[(168, 1100)]
-    assert f"the slider sticks for {percent:.0f} % of the predicted period" in SENTENCES
-    others = [share for run, share in shares.items() if run[1] != 42 and run != (168, 1100)]
-    assert max(others) < 0.6
+    others = [share for run, share in shares.items() if run[1] != 42]
+    assert max(others) < 0.8
 
 
 @pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
@@ -401,8 +370,6 @@ def test_the_model_sticks_and_slips_in_every_run() -> None:
     assert sum(each.agrees for each in regimes) == 6
     assert "the six runs that agree, besides the calibrating one, show nothing" in SENTENCES
     assert [each.what for each in regimes if not each.agrees] == ["2254 N/m, 42 µm/s"]
-    share = 100 * stick_slip.stick_share(stick_slip.INERTIAL)
-    assert f"the model sticks there for {share:.0f} % of the time" in SENTENCES
 
 
 # ---- What the pages say of discs and loads
@@ -437,12 +404,6 @@ def test_the_page_names_the_peaks_that_were_left_out() -> None:
     heights = " and ".join(f"{100 * value:.0f}" for value in left_out["strength"])
     assert f"at {said['frequency_Hz']} Hz, with {heights} % of the height" in SENTENCES
     assert f"{said['error_real']} in the real parts and {said['error_complex']} in" in SENTENCES
-    alone = wheel.omitted("1 fitted")
-    real = " and ".join(f"{value:.3f}" for value in alone["error_real"])
-    whole = " and ".join(f"{value:.3f}" for value in alone["error_complex"])
-    assert f"By residues of one fitted mode these are {real}, and {whole}: the second" in SENTENCES
-    assert (alone["error_real"] < wheel.SHAPES).tolist() == [False, True]
-    assert (alone["error_complex"] >= wheel.SHAPES).all()
     ratios = " and ".join(f"{100 * value:.2f}" for value in left_out["damping_ratio"])
     assert f"the two peaks that were left out have {ratios} %" in SENTENCES
     assert f"the two weaker peaks, with {ratios} %, were left out" in SENTENCES
