@@ -315,11 +315,6 @@ def baselines(least_fall: float = FALL) -> list[Baseline]:
     return found
 
 
-def typical_factor(ratios: ArrayLike) -> float:
-    """Return the geometric mean of the factors, at least 1, by which ratios differ from 1."""
-    return float(np.exp(np.mean(np.abs(np.log(ratios)))))
-
-
 def stick_stiffness(run: tuple[int, int], least_fall: float = FALL) -> float:
     """Return the median stiffness (N/m) by which the force rises from a slip to the next, while the
     drive goes on.

@@ -205,33 +205,20 @@ def test_what_needs_no_model_is_compared_as_the_page_says() -> None:
     medians = stick_slip.medians()
     plain = stick_slip.baselines()
     model = {}
-    for quantity in ("fall", "period", "duration"):
+    for quantity in ("fall", "period"):
         others = [each for each in medians[quantity] if each.what != CALIBRATION]
         assert [each.what for each in others] == [each.what for each in plain]
         model[quantity] = [each.ratio for each in others]
     carried = [each.fall for each in plain]
     scaled = [each.period for each in plain]
-    lasting = [each.duration for each in plain]
     free = [each.least_period for each in plain]
 
     counts = [count_within(each) for each in (model["fall"], carried)]
     assert counts == [0, 1]
     assert "none of seven agrees by the model, and one if carried over" in SENTENCES
-    factor = stick_slip.typical_factor
-    factors = f"factor of {factor(model['fall']):.2f} and {factor(carried):.2f}, in the geometric"
-    assert factors in SENTENCES
-
     counts = [count_within(each) for each in (model["period"], scaled, free)]
     assert counts == [0, 1, 2]
     assert "none agrees by the model, one by 1/(k v), and two by a free swing" in SENTENCES
-    factors = [f"{factor(each):.2f}" for each in (model["period"], scaled, free)]
-    assert f"factors are {factors[0]}, {factors[1]} and {factors[2]}, so" in SENTENCES
-
-    counts = [count_within(each) for each in (model["duration"], lasting)]
-    assert counts == [3, 2]
-    assert "of the same runs three medians agree, and two if carried over" in SENTENCES
-    factors = f"factors of {factor(model['duration']):.2f} and {factor(lasting):.2f}"
-    assert factors in SENTENCES
 
 
 def test_stiffness_by_the_rise_of_the_force_is_what_the_page_says() -> None:
@@ -342,9 +329,6 @@ def test_the_force_before_a_slip_is_compared_with_that_of_two_constants() -> Non
 
     slow = f"{terms[stick_slip.CALIBRATION]:.4f} against {static - kinetic:.3f}"
     assert f"It is {slow} in the calibrating run" in SENTENCES
-    ratios = {run: stick_slip.friction(run)[0] / expected[run] for run in fast}
-    softest = ratios[stick_slip.INERTIAL]
-    assert f"$f_1$ is {softest:.2f} times that of the two constants" in SENTENCES
 
 
 def test_period_and_fall_are_one_disagreement_where_the_block_mostly_sticks() -> None:
