@@ -322,15 +322,14 @@ class Sources:
 
     # ---- the brake-like disc
 
-    def brake(self, disc: str, N: float, Omega: float, contact: str = "unilateral") -> float:
+    def brake(self, N: float, Omega: float, contact: str = "unilateral") -> float:
         """Return the range of the slider late in the motion, in thicknesses of the ring."""
-        point = self.grid("brake_outcome").sel(disc=disc, N=N, Omega=Omega, contact=contact)
+        point = self.grid("brake_outcome").sel(N=N, Omega=Omega, contact=contact)
         return float(point["u_max"] - point["u_min"]) / THICKNESS
 
-    def brake_ranges(self, contact: str = "unilateral", least: float = 60) -> xr.DataArray:
-        """Return the ranges of the slider with tangential motion, in thicknesses of the ring, from
-        a speed in rad/s on."""
-        study = self.grid("brake_outcome").sel(disc="surface", contact=contact)
+    def brake_ranges(self, contact: str = "unilateral", least: float = 50) -> xr.DataArray:
+        """Return these ranges from a speed in rad/s on."""
+        study = self.grid("brake_outcome").sel(contact=contact)
         study = study.where(study["Omega"] >= least, drop=True)
         return (study["u_max"] - study["u_min"]) / THICKNESS
 
@@ -338,11 +337,25 @@ class Sources:
         """Return these ranges in bilateral contact over those with separation."""
         return self.brake_ranges("bilateral") / self.brake_ranges()
 
-    def brake_separation(self, disc: str, N: float, Omega: float) -> float:
+    def brake_separation(self, N: float, Omega: float) -> float:
         """Return the time of the first separation, s."""
-        study = self.grid("brake_outcome")
-        point = study.sel(disc=disc, N=N, Omega=Omega, contact="unilateral")
+        point = self.grid("brake_outcome").sel(N=N, Omega=Omega, contact="unilateral")
         return float(point["first_separation"])
+
+    def brake_separating(self) -> float:
+        """Return the least speed at which the slider separates with both preloads, rad/s."""
+        study = self.grid("brake_outcome").sel(contact="unilateral")
+        separate = study["first_separation"].notnull().all("N")
+        return float(study["Omega"].where(separate).min())
+
+    def two_pads(self, disc: str) -> xr.DataArray:
+        """Return the largest growth rate of steady sliding between two pads at 8 kN each, 1/s."""
+        study = self.grid("brake_two_pads").sel(disc=disc, value=16000)
+        return study["largest_growth_rate"]
+
+    def escaped(self, N: float) -> int:
+        """Return how many of the starts 1 nm apart separate."""
+        return int(self.grid("escape")["first_separation"].sel(N=N).notnull().sum())
 
     def brake_mode(self, Omega: float) -> float:
         """Return the frequency of the mode of steady sliding that grows fastest at 8 kN, Hz."""

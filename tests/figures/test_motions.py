@@ -295,3 +295,21 @@ def test_the_map_of_phases_names_the_pieces_near_the_motion() -> None:
 def test_phases_have_marks_of_their_own() -> None:
     """In grey print, dots of slip and separation were alike."""
     assert len({look["marker"] for look in MARKS.values()}) == len(MARKS)
+
+
+def test_the_share_of_starts_that_have_separated_rises_at_each_separation() -> None:
+    """Of four starts that were computed two separate, and one more has failed."""
+    dims = ("N", "perturbation_u")
+    data = {
+        "status": (dims, [[0, 0, 0, 0, 1]], {"flag_meanings": "ok failed"}),
+        "first_separation": (dims, [[9.0, np.nan, 4.0, np.nan, np.nan]]),
+    }
+    axes = {"N": [550.0], "perturbation_u": 1e-9 * np.arange(5)}
+    study = xr.Dataset(data, axes, {"options": '{"horizon": 20}', "base": '{"disc": "table"}'})
+    (ax,) = draw("escape", study).axes
+    line, interval = ax.lines
+    np.testing.assert_allclose(line.get_xdata(), [0, 4, 9, 20])
+    np.testing.assert_allclose(line.get_ydata(), [0, 0.25, 0.5, 0.5])
+    low, high = interval.get_ydata()
+    assert low < 0.5 < high
+    assert 0.5 - low == pytest.approx(high - 0.5)

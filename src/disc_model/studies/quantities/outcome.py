@@ -73,6 +73,11 @@ class HorizonOutcome(Start, Quantity):
         "slip_fraction": Variable("1", "share of the late stretch spent slipping"),
         "separation_fraction": Variable("1", "share of the late stretch spent separated"),
         "separation_rate": Variable("s-1", "separations per second over the late stretch"),
+        "surface_speed": Variable(
+            "1",
+            "largest speed of the disc's surface at the slider relative to the drive's, over the late"
+            " stretch",
+        ),
     }
 
     def cost(self, unit: UnitCosts) -> float:
