@@ -171,8 +171,10 @@ class Sources:
     # ---- grid studies of the paper's disc
 
     def grid(self, study: str) -> xr.Dataset:
-        """Return the dataset of a study, without axes of one value."""
-        return _load(self.results / study / f"{study}.nc").to_dataset().squeeze()
+        """Return the dataset of a study, without axes of one value but that of discs."""
+        dataset = _load(self.results / study / f"{study}.nc").to_dataset()
+        single = [name for name, count in dataset.sizes.items() if count == 1 and name != "disc"]
+        return dataset.squeeze(single)
 
     def separating_cells(self, normalization: str) -> int:
         """Return the number of points of the map over speed and preload that separate."""
@@ -324,12 +326,12 @@ class Sources:
 
     def brake(self, N: float, Omega: float, contact: str = "unilateral") -> float:
         """Return the range of the slider late in the motion, in thicknesses of the ring."""
-        point = self.grid("brake_outcome").sel(N=N, Omega=Omega, contact=contact)
+        point = self.grid("brake_outcome").sel(disc="surface", N=N, Omega=Omega, contact=contact)
         return float(point["u_max"] - point["u_min"]) / THICKNESS
 
     def brake_ranges(self, contact: str = "unilateral", least: float = 50) -> xr.DataArray:
         """Return these ranges from a speed in rad/s on."""
-        study = self.grid("brake_outcome").sel(contact=contact)
+        study = self.grid("brake_outcome").sel(disc="surface", contact=contact)
         study = study.where(study["Omega"] >= least, drop=True)
         return (study["u_max"] - study["u_min"]) / THICKNESS
 
@@ -339,12 +341,13 @@ class Sources:
 
     def brake_separation(self, N: float, Omega: float) -> float:
         """Return the time of the first separation, s."""
-        point = self.grid("brake_outcome").sel(N=N, Omega=Omega, contact="unilateral")
+        study = self.grid("brake_outcome").sel(disc="surface", contact="unilateral")
+        point = study.sel(N=N, Omega=Omega)
         return float(point["first_separation"])
 
     def brake_separating(self) -> float:
         """Return the least speed at which the slider separates with both preloads, rad/s."""
-        study = self.grid("brake_outcome").sel(contact="unilateral")
+        study = self.grid("brake_outcome").sel(disc="surface", contact="unilateral")
         separate = study["first_separation"].notnull().all("N")
         return float(study["Omega"].where(separate).min())
 
