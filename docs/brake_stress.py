@@ -25,7 +25,7 @@ DRAWING = (
     (0.067, 0.075, -0.040, 0.012),
     (0.035, 0.067, -0.040, -0.032),
 )
-"""Section of docs/own_disc.md: r from, r to, z from, z to in m."""
+"""Section of docs/brake_disc.md: r from, r to, z from, z to in m."""
 IRON = Material(110e9, 0.26, 7200.0)
 SLIDER = (0.1, 0.012)
 CLAMPED = 0.035
