@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from disc_model.analysis import spectra
+from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
 from disc_model.parameters import Parameters
 
 RATE = 4000.0
@@ -223,6 +224,19 @@ def test_the_detuning_is_how_far_the_multiple_lies_above_the_mode() -> None:
         assert found.sign == -1
         assert found.detuning == pytest.approx(detuning, abs=1e-9)
         assert found.frequency == pytest.approx(frequency)
+
+
+def test_modes_at_rest_are_those_of_the_disc_and_of_both_bodies_together() -> None:
+    """In Hz: those bound to the slider are the coupled ones; of a pair, one has its node there."""
+    p = Parameters(N=385, Omega=15.0)
+    found = spectra.modes_at_rest(p)
+    bound = [mode.frequency for mode in found if mode.bound]
+    free = [mode.frequency for mode in found if not mode.bound]
+    assert bound == pytest.approx(coupled_natural_frequencies(p), rel=1e-12)
+    modes = plate_modes(p)
+    pairs = modes[modes["diameters"] > 0]["omega"]
+    assert free == pytest.approx(sorted(pairs / (2 * np.pi)), rel=1e-12)
+    assert found == sorted(found)
 
 
 @pytest.mark.parametrize(
