@@ -12,9 +12,10 @@ from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model.data.variables import CycleStatus
-from disc_model.figures.disc import Motion
+from disc_model.figures.disc import Motion, scale_of
 from disc_model.figures.film import film as film_of
 from disc_model.simulation.api import snapshots
+from disc_model.stability.critical import Critical
 from disc_model.stability.cycle import FloquetResult
 from tests.figures.measured import Shown, assert_shows, drawn_values
 from tests.figures.reading import lines
@@ -118,6 +119,27 @@ def test_critical_values_are_over_the_parameter_and_growth_per_second() -> None:
     assert_shows(figure, Shown(0, "y", "Growth rate of the cycle", critical.growth_rate, "1/s"))
 
 
+def test_what_is_unstable_is_shaded_in_the_unit_of_the_axis() -> None:
+    """The in-plane spring in kN/m, of 1e3 N/m; outside, the motion is stable."""
+    made = Critical(
+        parameters=P,
+        name="k_p",
+        value=2.1e4,
+        crossings=np.array([2.1e4, 2.3e4, 2.6e4]),
+        unstable_above=np.array([True, False, True]),
+        values=np.array([2e4, 2.5e4, 3e4]),
+        growth_rate=np.array([-0.1, -0.2, 0.3]),
+        resolution=5e3,
+    )
+    ax = figure_of(made.plot()).axes[0]
+    assert ax.get_xlabel() == "In-plane spring $k_p$ (kN/m)"
+    spans = [(patch.get_x(), patch.get_x() + patch.get_width()) for patch in ax.patches]
+    assert spans == [pytest.approx((21, 23)), pytest.approx((26, 30))]
+    assert ax.get_xlim() == (20, 30)
+    names = [text.get_text() for text in ax.figure.legends[0].get_texts()]
+    assert names == ["unstable near the static start", "cycles computed"]
+
+
 def test_neutral_curves_have_both_parameters_in_their_units() -> None:
     curves = dm.neutral_curves(P, {"Omega": (14, 15.5), "k_p": (1.9e4, 2.1e4)}, [2e4], points=5)
     figure = figure_of(curves.plot())
@@ -155,3 +177,10 @@ def test_a_film_is_in_milliseconds_newtons_and_millimetres() -> None:
     assert_shows(figure, Shown(2, "y", "Contact force P", late["P"][::50], "N"))
     assert_shows(figure, Shown(1, "y", "Deflection at r_0", [states[3].u], "m"))
     assert circle.get_title().startswith("50.0 ms")
+    scale = scale_of(Motion.of(P, states))
+    assert circle.get_ylim() == pytest.approx((scale.vmin, scale.vmax))
+    film._draw_frame(1)
+    _, dot = figure.axes[2].lines
+    assert dot.get_xdata()[0] == pytest.approx(1e3 * (times[1] - times[0]))
+    force = np.interp(times[1], late["time"].values, late["P"].values)
+    assert dot.get_ydata()[0] == pytest.approx(force)
