@@ -15,6 +15,7 @@ import pytest
 import xarray as xr
 
 import disc_model as dm
+from disc_model.studies import workers
 from disc_model.studies.sweeps import sweep
 from disc_model.studies.whole_study import run_study
 
@@ -313,6 +314,8 @@ def test_an_error_leaves_out_the_calls_that_have_not_begun() -> None:
         ({"executor": 3}, r"^executor=3: must have the method submit"),
         ({"executor": ThreadPool}, r"^executor=.*: must have the method submit"),
         ({"executor": Backwards(), "workers": 2}, r"^executor=.*: takes the place of workers"),
+        ({"executor": Backwards(), "processes": True}, r"^executor=.*: takes the place of workers"),
+        ({"workers": 0}, r"^workers=0: must be a whole number >= 1"),
         ({"workers": 2, "processes": True}, r"^processes=True: needs a function that other"),
         ({"progress": "yes"}, r"^progress='yes': must be True or False"),
     ],
@@ -340,3 +343,21 @@ def test_a_bar_stays_where_a_call_ended_the_sweep(capsys: pytest.CaptureFixture[
     with pytest.raises(RuntimeError):
         sweep(function, P, N=[1, 2, 3], progress=True)
     assert "1/3" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("processes", "kind"), [(False, "ThreadPoolExecutor"), (True, "ProcessPoolExecutor")]
+)
+def test_as_many_workers_are_started_as_are_asked_for(
+    processes: bool, kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[int] = []
+
+    def pool(number: int) -> ThreadPoolExecutor:
+        started.append(number)
+        return ThreadPoolExecutor(number)
+
+    monkeypatch.setattr(workers, kind, pool)
+    swept = sweep(products, P, N=[1, 2, 3], workers=3, processes=processes)
+    assert started == [3]
+    np.testing.assert_allclose(swept["load"], P.mu_k * np.array([1, 2, 3]))
