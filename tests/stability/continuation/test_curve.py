@@ -44,7 +44,9 @@ def test_between_two_points_lies_the_cubic_with_both_tangents() -> None:
         np.testing.assert_allclose(beside, math.sqrt(2) * end.tangent, atol=1e-5)
 
 
-def test_a_step_is_predicted_on_the_cubic_unless_the_former_one_was_less_than_half_as_long() -> None:
+def test_a_step_is_predicted_on_the_cubic_unless_the_former_one_was_less_than_half_as_long() -> (
+    None
+):
     length = math.sqrt(2)
     np.testing.assert_allclose(
         predict(EAST, NORTH, 2 * length).z, interpolate(EAST, NORTH, 3.0).z, rtol=1e-14

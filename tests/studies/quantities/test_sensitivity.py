@@ -125,3 +125,13 @@ def test_blocks_of_samples_are_one_sequence() -> None:
         expected = whole[block * BLOCK : (block + 1) * BLOCK]
         np.testing.assert_array_equal(unit_draws(5, 3, block), expected)
     assert not np.array_equal(unit_draws(6, 3, 0), unit_draws(5, 3, 0))
+
+
+@pytest.mark.parametrize(
+    ("samples", "blocks"), [(16, [16]), (64, [64]), (128, [64, 64]), (512, [64, 64, 128, 256])]
+)
+def test_blocks_of_samples_double_their_number(samples: int, blocks: list[int]) -> None:
+    made = Sensitivity.model_validate({"distributions": {"k": UNIFORM}, "samples": samples})
+    found = made.dimensions["sample"]
+    assert [len(block) for block in found] == blocks
+    assert [number for block in found for number in block] == list(range(samples))
