@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from disc_model import floquet
 from disc_model.data.variables import Variable, flag_names
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.studies.batch import read_infinity
 from disc_model.studies.costs import PAPER
@@ -170,3 +172,36 @@ def test_the_word_for_infinity_is_a_number_where_numbers_stand() -> None:
     assert read_infinity("disc", "inf") == "inf", "the name of a table"
     assert read_infinity("start", "inf") == "inf"
     assert read_infinity("N", 3.0) == 3.0
+
+
+# ---- single columns
+
+
+def test_the_leading_multiplier_of_a_point_is_that_of_its_cycle() -> None:
+    p = Parameters(N=300, Omega=14, n_diameters=1)
+    cycle = floquet(p)
+    values, _ = quantity_of("floquet")().compute_point(Point(p))
+    largest = cycle.multipliers[np.argmax(np.abs(cycle.multipliers))]
+    assert abs(complex(values["multiplier_re"], values["multiplier_im"])) == abs(largest)
+    assert values["growth_rate"] == pytest.approx(np.log(abs(largest)) / cycle.period)
+    assert values["stick_fraction"] == cycle.stick_fraction
+
+
+def test_exponents_have_converged_or_not_or_are_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = SimpleNamespace(
+        status=Status.OK,
+        exponents=np.array([0.3, -0.2, -np.inf]),
+        errors=np.array([0.1, 0.2, np.nan]),
+        converged=np.array([True, False, False]),
+        trivial_exponent=0.01,
+        duration=7.0,
+        separations=3,
+    )
+    monkeypatch.setattr("disc_model.stability.lyapunov.lyapunov_exponents", lambda *_, **__: found)
+    monkeypatch.setattr("disc_model.simulation.starts.state_after", lambda *_: None)
+    quantity = quantity_of("lyapunov").model_validate({"transient": 1, "duration": 7})
+    values, _ = quantity.compute_point(P)
+    words = quantity.COLUMNS["converged"].flags
+    assert [words[i] for i in values["converged"]] == ["yes", "no", "unknown"]
+    assert values["averaging_time"] == 7.0
+    assert values["separations"] == 3
