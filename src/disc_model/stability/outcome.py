@@ -263,6 +263,9 @@ class _OutcomeSearch:
         self.result.state = state.replace(time=departure.time)
         self.result.time = departure.time
         self.result.extrapolated = True
+        self._note_close_return(near.map, departure.x)
+        # nothing is to be seen before the departure has grown by a factor of e
+        self.leg = min(max(self.leg, 1 / near.cycle.growth_rate), thresholds.LONGEST_LEG)
         self.horizon = (1 + thresholds.BORDER) * self.options.horizon
 
     def _simulate_on(self) -> Stage:
@@ -301,9 +304,7 @@ class _OutcomeSearch:
         release = self.map.next_release(leg.final_state)
         if not release.reached:
             return Stage.ON_ITS_WAY
-        close_return = find_close_return(self.map, release.x)
-        result.times.append(result.time)
-        result.changes.append(np.nan if close_return is None else close_return.change)
+        close_return = self._note_close_return(self.map, release.x)
 
         # a cycle that the motion follows from there on
         if examined:
@@ -311,6 +312,13 @@ class _OutcomeSearch:
             if self.cycle is not None:
                 return Stage.NEAR_CYCLE
         return Stage.ON_ITS_WAY
+
+    def _note_close_return(self, map_: ReturnMap, x: Array) -> CloseReturn | None:
+        """Note how nearly the motion repeats from a point of the section on."""
+        close_return = find_close_return(map_, x)
+        self.result.times.append(self.result.time)
+        self.result.changes.append(np.nan if close_return is None else close_return.change)
+        return close_return
 
     def _simulate_leg(self) -> Result:
         """Simulate a leg to its end or the first separation; the segment to be described is a leg
