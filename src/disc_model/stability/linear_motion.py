@@ -135,8 +135,11 @@ class NearCycle:
         right = left_vector(self.jacobian.T)
         part = float(abs(self.leading @ self.distance)) / float(abs(self.leading @ right))
         growth = math.log(abs(cycle.multipliers[0]))
+        # the test after it ends within `NEAR`
+        tested = thresholds.TEST_TIMES[-1][-1]
+        factor = math.exp(cycle.growth_rate * tested)
         for share in thresholds.DEPARTURES:
-            size = share * thresholds.NEAR * self.map.deflection
+            size = share * thresholds.NEAR / factor * self.map.deflection
             periods = math.floor(math.log(size / max(part, sys.float_info.min)) / growth)
             periods = min(periods, self.periods_left(latest))
             if periods <= 0:
@@ -147,7 +150,7 @@ class NearCycle:
             excess = self._excess_rate(distance)
             if excess is not None and abs(excess) <= thresholds.LARGEST_EXCESS:
                 time = self.time + periods * cycle.period
-                gained = excess / 2 / cycle.growth_rate
+                gained = excess * tested / (factor**2 - 1)
                 return Departure(self.x + distance, time - gained, periods)
         return None
 
