@@ -97,6 +97,11 @@ class OutcomeResult:
         return self.attractor is not None and self.attractor.segment.separation_rate > 0
 
     @property
+    def timed_separation(self) -> float:
+        """Time of the first separation (s) where the whole motion was simulated; nan elsewhere."""
+        return np.nan if self.extrapolated else self.first_separation
+
+    @property
     def status(self) -> Status:
         """How the last simulation ended."""
         return Status.OK if self.failed is None else self.failed.status
@@ -131,8 +136,8 @@ def find_outcome(
     the same first separation.
 
     Where the first separation is only compared with some times, slow departures from unstable
-    cycles are extrapolated instead, see `NearCycle.extrapolate`. The time of a separation that
-    comes near to one of those times is simulated all the same.
+    cycles are extrapolated instead, see `NearCycle.extrapolate`. A motion whose separation
+    comes near to one of those times is simulated from its start all the same.
     """
     start_cycle: NearCycle | None = None
     map_: ReturnMap | None = None

@@ -306,17 +306,14 @@ def _outcome_columns(point: TilePoint) -> dict[str, Any]:
         method = "inferred" if point.inferred else "multipliers"
         return {"outcome": point.shown, "method": method}
     method = "simulation" if result.simulated else "multipliers"
-    first_separation = result.first_separation
-    # an extrapolated departure tells whether, not when
     if result.extrapolated:
         method = "extrapolation"
-        first_separation = math.nan
     return {
         "method": method,
         "status": result.status,
         "outcome": result.word,
         "simulated_time": result.simulated,
-        "first_separation": first_separation,
+        "first_separation": result.timed_separation,
     }
 
 

@@ -139,7 +139,7 @@ class CriticalSpeed(Quantity):
         values: dict[str, Any] = {
             "status": next((result.status for result in failed.values()), "ok"),
             "scan_outcome": [motions[i].word for i in scanned],
-            "scan_first_separation": [_timed_separation(motions[i]) for i in scanned],
+            "scan_first_separation": [motions[i].timed_separation for i in scanned],
             "scan_status": [motions[i].status for i in scanned],
             "simulations": len(motions),
             "simulated_time": sum(result.simulated for result in motions.values()),
@@ -152,11 +152,6 @@ class CriticalSpeed(Quantity):
     def _speed(self, i: int) -> float:
         """Speed, rad/s, of a place on the lattice of the precision."""
         return float(f"{self.scan.start + i * self.precision:.12g}")
-
-
-def _timed_separation(result: OutcomeResult) -> float:
-    """Time of the first separation, s, where it was simulated from the start; otherwise nan."""
-    return math.nan if result.extrapolated else result.first_separation
 
 
 def _first_separation(result: OutcomeResult) -> float:

@@ -87,7 +87,7 @@ class HorizonOutcome(Start, Quantity):
         values: dict[str, Any] = {
             "status": "ok" if last.status.complete else last.status.value,
             "outcome": reached.word,
-            "first_separation": reached.first_separation,
+            "first_separation": reached.timed_separation,
             "time_reached": reached.time,
             "cycle_distance": reached.distance,
         }

@@ -96,9 +96,7 @@ class Regions(Quantity):
         """Rows and messages of a tile, of which at least the places `sampled` are computed."""
         from disc_model.studies.refinement import Tile, TileOptions
 
-        options = TileOptions(
-            self.horizon, self.tol, self.extrapolate, self.initial_cell_size
-        )
+        options = TileOptions(self.horizon, self.tol, self.extrapolate, self.initial_cell_size)
         tile = Tile(points, sampled, options)
         tile.compute()
         return tile.rows()
