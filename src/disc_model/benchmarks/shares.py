@@ -3,14 +3,18 @@
 import cProfile
 import pstats
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from types import FunctionType
 from typing import Any
+from unittest import mock
 
+import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks import study
 from disc_model.benchmarks.study import Row
 from disc_model.simulation.api import simulate
+from disc_model.simulation.result import Result
 from disc_model.simulation.run import Run
 from disc_model.stability import return_map
 from disc_model.stability.return_map import ReturnMap, newton
@@ -122,7 +126,7 @@ def measured_shares(definition: Definition) -> Row:
     kernels; what Newton's method takes includes its return maps.
     """
     run_study(definition)
-    with _SimulatedTime() as simulated:
+    with _simulated_times() as simulated:
         profile = cProfile.Profile()
         profile.enable()
         result = run_study(definition)
@@ -134,36 +138,29 @@ def measured_shares(definition: Definition) -> Row:
     maps = _time_in(stats, ReturnMap._follow_to_release)
     maps += _time_in(stats, ReturnMap.evaluate, but_for=(newton, return_map._search_along_step))
     return {
-        "points": len(result["status"].values.ravel()),
+        "points": int(np.size(result["status"])),
         "seconds": whole,
         "simulation": simulation,
         "newton": by_newton,
         "return_maps": maps,
         "rest": whole - simulation - by_newton - maps,
-        "simulated": simulated.seconds,
+        "simulated": sum(simulated),
     }
 
 
-class _SimulatedTime:
-    """Adds up the time that is simulated while it is in force, s."""
+@contextmanager
+def _simulated_times() -> Iterator[list[float]]:
+    """Collect how long each motion is that is simulated in the block, s."""
+    times = []
+    complete = Run.complete
 
-    def __init__(self) -> None:
-        self.seconds = 0.0
-        self._complete = Run.complete
+    def noted(run: Run) -> Result:
+        result = complete(run)
+        times.append(result.final_state.time - run.request.start)
+        return result
 
-    def __enter__(self) -> "_SimulatedTime":
-        complete = self._complete
-
-        def counted(run: Run) -> Any:
-            result = complete(run)
-            self.seconds += result.final_state.time - run.request.start
-            return result
-
-        Run.complete = counted  # type: ignore[method-assign]
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        Run.complete = self._complete  # type: ignore[method-assign]
+    with mock.patch.object(Run, "complete", noted):
+        yield times
 
 
 def _time_in(
