@@ -4,7 +4,6 @@ import cProfile
 import pstats
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from types import FunctionType
 from typing import Any
 from unittest import mock
 
@@ -12,12 +11,9 @@ import numpy as np
 import xarray as xr
 
 from disc_model.benchmarks import study
-from disc_model.benchmarks.study import Row
 from disc_model.simulation.api import simulate
-from disc_model.simulation.result import Result
 from disc_model.simulation.run import Run
 from disc_model.stability import return_map
-from disc_model.stability.return_map import ReturnMap, newton
 from disc_model.studies.whole_study import run_study
 
 Definition = Mapping[str, Any]
@@ -100,6 +96,8 @@ SAMPLES: dict[str, Definition] = {
     },
 }
 """Studies of the paper's disc of some seconds each, by quantity."""
+_OF_NEWTON = (return_map.newton, return_map._search_along_step)
+"""What follows orbits for Newton's method."""
 
 
 def shares(samples: Mapping[str, Definition] = SAMPLES) -> xr.Dataset:
@@ -109,16 +107,16 @@ def shares(samples: Mapping[str, Definition] = SAMPLES) -> xr.Dataset:
     ----------
     samples : options, base and axes of a study of each quantity
     """
-    points: list[Row] = [{"quantity": quantity} for quantity in samples]
+    points: list[study.Row] = [{"quantity": quantity} for quantity in samples]
 
-    def measure(quantity: str) -> Iterator[Row]:
+    def measure(quantity: str) -> Iterator[study.Row]:
         yield measured_shares({"study": "shares", "quantity": quantity, **samples[quantity]})
 
     title = "Where the time of quantities goes"
     return study.run("shares", points, measure, title=title, Conventions="CF-1.11")
 
 
-def measured_shares(definition: Definition) -> Row:
+def measured_shares(definition: Definition) -> study.Row:
     """Return processor times (s) and simulated time (s) of a study, which is run twice: kernels are
     compiled first.
 
@@ -134,9 +132,9 @@ def measured_shares(definition: Definition) -> Row:
     stats = pstats.Stats(profile)
     whole = stats.total_tt  # type: ignore[attr-defined]
     simulation = _time_in(stats, simulate)
-    by_newton = _time_in(stats, newton)
-    maps = _time_in(stats, ReturnMap._follow_to_release)
-    maps += _time_in(stats, ReturnMap.evaluate, but_for=(newton, return_map._search_along_step))
+    by_newton = _time_in(stats, return_map.newton)
+    maps = _time_in(stats, return_map.ReturnMap._follow_to_release)
+    maps += _time_in(stats, return_map.ReturnMap.evaluate, but_for=_OF_NEWTON)
     return {
         "points": int(np.size(result["status"])),
         "seconds": whole,
@@ -154,7 +152,7 @@ def _simulated_times() -> Iterator[list[float]]:
     times = []
     complete = Run.complete
 
-    def noted(run: Run) -> Result:
+    def noted(run: Run) -> Any:
         result = complete(run)
         times.append(result.final_state.time - run.request.start)
         return result
@@ -180,6 +178,5 @@ def _time_in(
 
 def _key(function: Callable[..., Any]) -> tuple[str, int, str]:
     """Return the name of a function in a profile."""
-    assert isinstance(function, FunctionType)
     code = function.__code__
     return code.co_filename, code.co_firstlineno, code.co_name
