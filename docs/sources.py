@@ -192,11 +192,11 @@ class Sources:
         They are all, those where only one of the two separates, and of these the inferred ones.
         """
         cells = self.grid("map_N").sel(normalization="as_published")
-        scan = self.grid("critical_speed")["scan_first_separation"].rename(scan_Omega="Omega")
+        scan = self.grid("critical_speed")["scan_outcome"].rename(scan_Omega="Omega")
         cells, scan = xr.align(cells, scan, join="inner")
         mapped = flag_names(cells["outcome"].transpose("N", "Omega")) == "separation"
         inferred = flag_names(cells["method"].transpose("N", "Omega")) == "inferred"
-        differ = mapped != np.isfinite(scan.transpose("N", "Omega").values)
+        differ = mapped != (flag_names(scan.transpose("N", "Omega")) == "separation")
         return differ.size, int(differ.sum()), int((differ & inferred).sum())
 
     def lowest_speeds(self) -> np.ndarray:

@@ -43,9 +43,14 @@ class MadeUp:
         self.outcome: Callable[[Index], OutcomeResult] = lambda index: quiet()
         self.starts: dict[Index, NearCycle] = {}
         self.computed: list[Index] = []
+        self.extrapolate = True
+        self.compared: list[tuple[float, ...]] = []
 
-    def find_outcome(self, p: Parameters, horizon: float, **_: Any) -> OutcomeResult:
+    def find_outcome(
+        self, p: Parameters, horizon: float, *, compared_with: tuple[float, ...], **_: Any
+    ) -> OutcomeResult:
         index = place(p)
+        self.compared.append(compared_with)
         self.computed.append(index)
         return self.outcome(index)
 
@@ -54,7 +59,9 @@ class MadeUp:
 
     def tile(self, rows: int, columns: int, cell: int) -> Tile:
         points = [[Parameters(N=i + 1, Omega=j + 1) for j in range(columns)] for i in range(rows)]
-        options = TileOptions(horizon=100.0, tol=1e-8, initial_cell_size=cell)
+        options = TileOptions(
+            horizon=100.0, tol=1e-8, extrapolate=self.extrapolate, initial_cell_size=cell
+        )
         tile = Tile(points, [], options)
         tile.compute()
         return tile
@@ -100,6 +107,27 @@ def test_multipliers_decide_where_the_start_stays_near_its_cycle(plane: MadeUp) 
 def test_a_row_says_how_its_outcome_is_known(plane: MadeUp, simulated: float, method: str) -> None:
     plane.outcome = lambda index: OutcomeResult(Outcome.OTHER_CYCLE, simulated)
     assert row_at(plane.tile(1, 1, 1), (0, 0))["method"] == method
+
+
+@pytest.mark.parametrize(("extrapolate", "compared"), [(True, (100.0,)), (False, ())])
+def test_separations_are_only_compared_with_the_horizon_unless_their_times_are_asked_for(
+    plane: MadeUp, extrapolate: bool, compared: tuple[float, ...]
+) -> None:
+    plane.extrapolate = extrapolate
+    plane.tile(1, 1, 1)
+    assert plane.compared == [compared]
+
+
+def test_an_extrapolated_separation_has_no_time(plane: MadeUp) -> None:
+    first = separation()
+    first.first_separation = 40.0
+    plane.outcome = lambda index: first
+    assert row_at(plane.tile(1, 1, 1), (0, 0))["first_separation"] == 40.0
+    first.extrapolated = True
+    row = row_at(plane.tile(1, 1, 1), (0, 0))
+    assert row["outcome"] == Outcome.SEPARATION
+    assert row["method"] == "extrapolation"
+    assert np.isnan(row["first_separation"])
 
 
 def test_separation_is_inferred_only_in_cells_that_separate_at_corners_and_in_the_middle(
