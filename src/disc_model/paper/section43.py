@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from scipy.stats import spearmanr
 
 from disc_model.analysis import spectra
@@ -15,7 +14,7 @@ from disc_model.analysis.classify import SAME, Settled, distinct_points, separat
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, values_text
 from disc_model.paper import growth, measures, paper_tables
-from disc_model.paper.measures import STRETCH, Array, CaseView, extent
+from disc_model.paper.measures import STRETCH, Array, CaseView, Mask, extent
 from disc_model.paper.model import (
     AMBIGUOUS,
     FALSE,
@@ -630,12 +629,12 @@ class Plane(NamedTuple):
     """Values of its first parameter, ascending."""
     second: Array
     """Values of its second parameter, ascending."""
-    separates: NDArray[np.bool_]
+    separates: Mask
     """Whether the static start separates, shape (first, second)."""
     growth: Array
     """Growth rates of the cycle, 1/s, of the same shape."""
 
-    def newly_separating(self) -> NDArray[np.bool_]:
+    def newly_separating(self) -> Mask:
         """Return for each first value whether it separates, but not at the least second value."""
         at_least = self.separates[:, :1]
         return np.any(self.separates & ~at_least, axis=1)

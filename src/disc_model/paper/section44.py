@@ -6,15 +6,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from disc_model.analysis import spectra
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names
 from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
-from disc_model.paper import growth, measures, paper_tables
-from disc_model.paper.growth import sliding_growth
-from disc_model.paper.measures import HIGH, LOW, Array, CaseView
+from disc_model.paper import growth as growth_rates
+from disc_model.paper import measures, paper_tables
+from disc_model.paper.measures import HIGH, LOW, Array, CaseView, Mask
 from disc_model.paper.model import FALSE, NOT_TESTED, PART, TRUE, Answer, graded, partly
 from disc_model.paper.section2 import BASE
 from disc_model.paper.section43 import plane
@@ -452,7 +451,7 @@ def caused_by_friction(*cases: CaseView, growth: float) -> Answer:
     frictionless = []
     by_friction = False
     for case in cases:
-        rate = sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0))
+        rate = growth_rates.sliding_growth(case.parameters.replace(mu_s=0.0, mu_k=0.0))
         frictionless.append(rate)
         by_friction = by_friction or (case.separates and rate < growth)
     rows = [case.fate for case in cases]
@@ -542,7 +541,7 @@ def stiffened(p: Parameters, *speeds: float) -> tuple[list[Array], str]:
         rates = []
         words = []
         for k_p in STIFFENED:
-            rate = growth.growth_of(p.replace(k_p=1e3 * k_p, Omega=speed))
+            rate = growth_rates.growth_of(p.replace(k_p=1e3 * k_p, Omega=speed))
             words.append(f"{measures.rate_text(rate)} at {k_p}")
             if math.isfinite(rate):
                 rates.append(rate)
@@ -696,6 +695,6 @@ def errs(*evidence: Any, within: float, share: float) -> Answer:
     )
 
 
-def _errors(ratios: Array, within: float) -> NDArray[np.bool_]:
+def _errors(ratios: Array, within: float) -> Mask:
     """Return which ratios of ranges are too large, and which too small, shape (2, ratios)."""
     return np.stack([ratios > 1 + within, ratios < 1 / (1 + within)])
