@@ -6,19 +6,20 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.colors import to_rgb
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.text import Annotation
 
 from disc_model.figures import ramps as drawn
 from disc_model.figures.basins import LARGEST
 from disc_model.figures.bifurcation import MARKS
 from disc_model.figures.borders import Curve
-from disc_model.figures.classes import LOOKS
+from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
 from disc_model.studies.reading import StudyError
+from tests.figures.described import branches, campbell, of_example, sensitivity, sliding_modes
 from tests.figures.reading import crosses, draw, labels, lines
 from tests.studies.conftest import computed, made_up_samples, with_failed
 from tests.studies.quantities.test_basins import Made, made
@@ -295,3 +296,30 @@ def test_the_map_of_phases_names_the_pieces_near_the_motion() -> None:
 def test_phases_have_marks_of_their_own() -> None:
     """In grey print, dots of slip and separation were alike."""
     assert len({look["marker"] for look in MARKS.values()}) == len(MARKS)
+
+
+def test_marks_of_a_sweep_differ_in_grey_print() -> None:
+    """What separates and what is not settled were two triangles of nearly one grey."""
+    figure = branches()
+    names = [text.get_text() for text in figure.legends[0].get_texts()]
+    marks = dict(zip(names, figure.legends[0].legend_handles, strict=True))
+    separating = marks["simulated, separating"]
+    unsettled = marks["simulated, not settled, or undecided"]
+    assert lightness(to_hex(separating.get_markerfacecolor())) > 0.9
+    assert lightness(to_hex(unsettled.get_markerfacecolor())) < 0.4
+
+
+def test_a_campbell_diagram_names_its_lines_marks_and_bands() -> None:
+    said = labels(campbell())
+    assert {r"multiple of $f_s$ or $f_Ω$", "no growth rate", "speed of a peak"} <= set(said)
+
+
+def test_lines_of_sliding_modes_and_of_probabilities_are_named() -> None:
+    assert labels(sliding_modes()) == ["mode decays", "mode grows"]
+    assert "all of its values" in labels(sensitivity())
+
+
+def test_branches_of_a_map_of_phases_are_named() -> None:
+    said = labels(of_example("phase_map"))
+    assert said[-1] == "the motion itself"
+    assert all(text.endswith("between them") for text in said[:-1])

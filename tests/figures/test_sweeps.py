@@ -160,6 +160,30 @@ def test_maps_have_a_bar_for_numbers_and_a_legend_for_words(
     pyplot.close("all")
 
 
+@pytest.mark.parametrize("log", [False, True])
+@pytest.mark.parametrize(
+    ("variable", "label"),
+    [
+        ("growth_rate", "Growth rate of the stick-slip cycle (1/s)"),
+        ("period", "Period of the stick-slip cycle (s)"),
+    ],
+)
+def test_a_sweep_without_any_value_has_no_scale(variable: str, label: str, log: bool) -> None:
+    """A bar from 0 to 1, or from -0.3 to 0.3 per second, was made up where nothing had a value."""
+    study = dm.sweep(dm.floquet, CASE, Omega=SPEEDS, N=LOADS)
+    study[variable] = study[variable].where(False)
+    plane = dm.plot_sweep(study, variable, log=log)
+    [ax] = plane.figure.axes
+    [legend] = ax.figure.legends
+    assert "no value" in [text.get_text() for text in legend.get_texts()]
+    assert legend.get_title().get_text() == label
+    curve = dm.plot_sweep(study.isel(N=0), variable, log=log)
+    assert [*curve.get_yticks(), *curve.get_yticks(minor=True)] == []
+    assert curve.get_ylabel().replace("\n", " ") == label
+    assert "no value" in [text.get_text() for text in curve.texts]
+    pyplot.close("all")
+
+
 def test_units_of_datasets_become_those_of_labels() -> None:
     written = {"s-1": "1/s", "N s m-1": "N s/m", "rad s-2": "rad/s²", "m2": "m²", "1": "", "": ""}
     assert {unit: unit_text(unit) for unit in written} == written

@@ -150,6 +150,9 @@ def draw_lines(
     ax.set_ylabel(label)
     if names:
         ax.set_yticks(range(len(names)), labels=names)
+    elif array.isnull().all():  # numbers along the axis would be made up
+        ax.set_yticks([])
+        ax.set_yticks([], minor=True)
     ax.margins(0.03)
     _mark_gaps(ax, study, array, x, marks)
 

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib.patches import Patch
 
 from disc_model.data.variables import flag_names
 from disc_model.figures.drawing import (
@@ -13,7 +14,6 @@ from disc_model.figures.drawing import (
     GREEN,
     GREY,
     PURPLE,
-    large,
     letters,
     mark,
     row_of_panels,
@@ -29,6 +29,7 @@ LOAD_COLOURS = (BLACK, BLUE, GREEN, PURPLE)
 SMALLEST = 1e-6
 """Thicknesses, least range drawn: a quiet cycle moves the slider by less than a millionth of a metre."""
 LARGEST = 10.0  # thicknesses
+BEYOND = "0.9"  # grey behind ranges of more than a thickness, for which plate theory is not linear
 LINES = {"unilateral": "-", "bilateral": "--"}
 OPEN_END = ("growing", "undecided")
 """Outcomes of which a longer time would change the range."""
@@ -50,15 +51,6 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
         ax.set_xlabel(SPEED)
         ax.set_ylabel("Slider, peak to peak (thicknesses)")
         ax.label_outer()
-    axes[0].text(
-        0.03,
-        0.99,
-        "beyond linear plate theory",
-        size=large(6),
-        transform=axes[0].transAxes,
-        va="top",
-        c=GREY,
-    )
     letters(axes, [plot.names.get(str(name), str(name)) for name in names])
     _legend(figure, study["N"].values)
     return figure
@@ -77,7 +69,7 @@ def _marks() -> dict[str, dict[str, Any]]:
 
 def _draw_panel(ax: Axes, ranges: xr.DataArray, outcomes: xr.DataArray) -> None:
     """Draw lines over the speed for each preload and contact, with marks of their outcomes."""
-    ax.axhspan(1, 1e3, color="0.93", zorder=0)
+    ax.axhspan(1, 1e3, color=BEYOND, zorder=0)
     speeds = ranges["Omega"].values
     for load, colour in zip(ranges["N"].values, LOAD_COLOURS, strict=False):
         for contact, line in LINES.items():
@@ -93,7 +85,7 @@ def _draw_panel(ax: Axes, ranges: xr.DataArray, outcomes: xr.DataArray) -> None:
 
 
 def _legend(figure: Figure, loads: np.ndarray) -> None:
-    """Name preloads, contacts and marks below the panels."""
+    """Name preloads, contacts, marks and the grey band below the panels."""
     handles = [
         sample(color=colour, label=f"{1e-3 * load:g} kN")
         for load, colour in zip(loads, LOAD_COLOURS, strict=False)
@@ -102,4 +94,5 @@ def _legend(figure: Figure, loads: np.ndarray) -> None:
     handles.append(sample(color=GREY, linestyle="--", label="separation ignored"))
     for name, look in _marks().items():
         handles.append(sample(color=GREY, label=name, **look))
+    handles.append(Patch(color=BEYOND, label="beyond linear plate theory"))
     figure_legend(figure, handles, loc="outside lower center", columns=4, columnspacing=1.0)

@@ -65,7 +65,9 @@ def _draw_rows(ax: Axes, thirds: Array, at_all: float) -> None:
     """Draw the probabilities in the lowest and highest third of each parameter, shape
     (parameters, parts, 3), and the one at all values."""
     rows = np.arange(len(thirds), dtype=float)
-    ax.axvline(at_all, color=BLACK, linewidth=wide(0.7), linestyle=(0, (3, 2)))
+    ax.axvline(
+        at_all, color=BLACK, linewidth=wide(0.7), linestyle=(0, (3, 2)), label="all of its values"
+    )
     ax.hlines(rows, thirds[:, 0, 0], thirds[:, -1, 0], color=GREY, linewidth=wide(0.8))
     for end, up, face, label in (
         (0, -ASIDE, "white", "lowest third of its values"),
