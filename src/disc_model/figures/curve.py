@@ -109,9 +109,11 @@ def draw_lines(
     x: str,
     log: bool = False,
     marks: dict[str, str] | None = None,
+    *,
+    joined: bool = True,
 ) -> None:
-    """Draw a line, or one for each value of a second dimension; its marks above the panel stand for
-    missing values.
+    """Draw a line, or one for each value of a second dimension, or points that are not `joined`;
+    marks above the panel stand for missing values.
 
     Panels of a figure share `marks`, by the names of lines, so that a line has the same mark in all
     of them.
@@ -128,10 +130,10 @@ def draw_lines(
     # lines, in the colours of their order
     parts = parts_along(array, by)
     every = 1
-    if not (names or rates or array.isnull().any()):
+    if joined and not (names or rates or array.isnull().any()):
         every = max(1, across.values.size // MARKED)
     jump = LINEAR if rates else np.inf
-    line = "" if names else "-"
+    line = "" if names or not joined else "-"
     for colour, part, title in zip(_colours(parts), parts, titles_of(parts), strict=True):
         shape = marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
         points = broken(across.values, part.data.values, jump)
@@ -221,7 +223,7 @@ def scale_rates(ax: Axes) -> None:
         near = max(map(abs, ax.get_ylim())) < 20 * LINEAR
         return f"{rate:g}" if leading in "25" and near else ""
 
-    if max(map(abs, ax.dataLim.intervaly)) > LINEAR:
+    if max(map(abs, ax.dataLim.intervaly)) > 2 * LINEAR:
         ax.set_yscale("symlog", linthresh=LINEAR, subs=range(2, 10))
         ax.yaxis.set_major_formatter("{x:g}")
         ax.yaxis.set_minor_formatter(between)
