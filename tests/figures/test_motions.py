@@ -15,6 +15,7 @@ from disc_model.figures.bifurcation import MARKS
 from disc_model.figures.borders import Curve
 from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
+from disc_model.figures.late_range import LOAD_COLOURS
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
@@ -323,3 +324,19 @@ def test_branches_of_a_map_of_phases_are_named() -> None:
     said = labels(of_example("phase_map"))
     assert said[-1] == "the motion itself"
     assert all(text.endswith("between them") for text in said[:-1])
+
+
+def test_lines_of_phases_differ_in_grey_print() -> None:
+    """A thin line of stick was like one of slip."""
+    [ax] = of_example("portrait").axes
+    looks = {
+        line.get_label(): (line.get_linewidth(), bool(line.get_path_effects())) for line in ax.lines
+    }
+    assert len(looks) == 3
+    assert len({*looks.values()}) == 3
+
+
+def test_preloads_of_late_ranges_differ_in_grey_print() -> None:
+    """Shades of the second and third were alike."""
+    shades = [lightness(colour) for colour in LOAD_COLOURS[:3]]
+    assert min(np.diff(shades)) > 0.2

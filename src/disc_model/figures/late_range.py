@@ -13,7 +13,7 @@ from disc_model.figures.drawing import (
     BLUE,
     GREEN,
     GREY,
-    PURPLE,
+    SKY,
     letters,
     mark,
     row_of_panels,
@@ -25,7 +25,8 @@ from disc_model.figures.legends import figure_legend
 from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import SPEED
 
-LOAD_COLOURS = (BLACK, BLUE, GREEN, PURPLE)
+LOAD_COLOURS = (BLACK, BLUE, SKY, GREEN)
+"""Of preloads in their order; the first three differ in grey print."""
 SMALLEST = 1e-6
 """Thicknesses, least range drawn: a quiet cycle moves the slider by less than a millionth of a metre."""
 LARGEST = 10.0  # thicknesses
