@@ -150,13 +150,19 @@ def draw_lines(
     ax.set_xscale(scale(array[x]))
     ax.set_xlabel(across.label)
     ax.set_ylabel(label)
-    if names:
-        ax.set_yticks(range(len(names)), labels=names)
-    elif array.isnull().all():  # numbers along the axis would be made up
-        ax.set_yticks([])
-        ax.set_yticks([], minor=True)
+    _set_ticks(ax, names, array)
     ax.margins(0.03)
     _mark_gaps(ax, study, array, x, marks)
+
+
+def _set_ticks(ax: Axes, names: Sequence[str], array: xr.DataArray) -> None:
+    """Write the names of classes along the vertical axis, if there are any; nothing where no point
+    has a value, as numbers would be made up."""
+    if names:
+        ax.set_yticks(range(len(names)), labels=names)
+    elif array.isnull().all():
+        ax.set_yticks([])
+        ax.set_yticks([], minor=True)
 
 
 def _colours(parts: Sequence[Part[Any]]) -> list[Any]:

@@ -19,9 +19,7 @@ PAGE_SHARE = 0.98  # of the width of a figure that its legend may have
 NARROWEST = 12  # characters to which a name is broken at most
 EDGE = 0.04  # inch, kept free beside a legend above a panel
 BESIDE = 0.15  # inch, left free on both sides of a legend below a panel, together
-INSIDE = (
-    0.6  # of the width of axes, that a legend in them has at most: others may make them narrower
-)
+INSIDE = 0.6  # of the width of axes, for a legend in them: other panels may make them narrower
 SMALLER = 0.8  # size of the text of a legend that finds too little room, over the usual one,
 LEAST_TEXT = 6.0  # and its least size, points, unless the usual one is less
 LETTER = 0.3  # inch, kept free for the letter of one of several panels

@@ -16,6 +16,7 @@ from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import label_of, measured, what_case
+from disc_model.parameters import Disc
 
 SHARES = ("basin_fraction_by_energy", "basin_fraction")
 PREFERRED = (
@@ -94,8 +95,9 @@ def _with_names_of_discs(study: xr.Dataset) -> xr.Dataset:
     """The study with names for the discs along its dimensions, by their order and frequencies."""
     named = {}
     for name, values in study.coords.items():
-        if values.dtype.kind == "O" and values.ndim == 1:
-            shown = [str(value).removeprefix("Disc(").removesuffix(")") for value in values.values]
+        discs = [value for value in values.values.flat if isinstance(value, Disc)]
+        if discs and values.ndim == 1:
+            shown = [str(disc).removeprefix("Disc(").removesuffix(")") for disc in discs]
             words = [f"disc {i}: {text}" for i, text in enumerate(shown, start=1)]
             named[name] = (values.dims, words, values.attrs)
     return study.assign_coords(named)
