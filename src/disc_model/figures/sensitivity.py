@@ -45,7 +45,7 @@ def draw(plot: Sensitivity, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     names = [names[i] for i in order]
 
     width = plot.inches
-    height = 1.2 + 0.2 * len(names)
+    height = 1.35 + 0.2 * len(names)
     figure, axes = row_of_panels(width, len(cells), height, height, sharey=True, sharex=True)
     for ax, cell, thirds in zip(axes, cells, each[:, order], strict=True):
         _draw_rows(ax, thirds, float(cell.samples["probability_unstable"]))
@@ -57,7 +57,7 @@ def draw(plot: Sensitivity, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     axes[0].set_yticks(range(len(names)), labels=labels)
     axes[0].minorticks_off()
     handles = axes[0].get_legend_handles_labels()[0]
-    figure_legend(figure, handles, loc="outside lower center", columns=2)
+    figure_legend(figure, handles, loc="outside lower center", columns=3)
     return figure
 
 
