@@ -5,6 +5,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.colors import to_rgb
 
 from disc_model.benchmarks import figures
 from disc_model.benchmarks.figures.looks import TEXTS
@@ -45,6 +46,27 @@ def test_cost_against_accuracy_draws_both_in_seconds(dataset: xr.Dataset) -> Non
 def test_a_cell_of_prices_names_its_setting(priced: xr.Dataset) -> None:
     texts = [text.get_text() for text in figures.prices(priced).axes[0].texts]
     assert texts == ["2 s", "tol 1e-2", "wrong at 2", "0.4 ms", "tol 1e-6", "wrong"]
+
+
+def relative_luminance(colour: object) -> float:
+    """As WCAG 2 defines it."""
+    channels = np.array(to_rgb(colour))
+    linear = np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+    return float(linear @ [0.2126, 0.7152, 0.0722])
+
+
+def test_words_of_prices_are_seen_on_what_is_behind_them(priced: xr.Dataset) -> None:
+    """Red words stood on blue and green."""
+    [ax, *_] = figures.prices(priced).axes
+    cells = [cell for cell in ax.patches if cell.get_width() == 1]
+    for text in ax.texts:
+        plate = text.get_bbox_patch()
+        if plate is None:
+            x, y = text.get_position()
+            [plate] = [cell for cell in cells if cell.get_bbox().contains(x, y)]
+        pair = [relative_luminance(shade) for shade in (text.get_color(), plate.get_facecolor())]
+        contrast = (max(pair) + 0.05) / (min(pair) + 0.05)
+        assert contrast >= 4.5, text.get_text()  # WCAG 2, level AA
 
 
 def test_costs_of_answers_name_lines_and_numbers_of_modes(priced: xr.Dataset) -> None:

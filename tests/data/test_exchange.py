@@ -78,6 +78,22 @@ def test_a_sweep_comes_back_as_it_was(suffix: str, tmp_path: Path) -> None:
 
 
 @SUFFIXES
+def test_a_sweep_over_discs_comes_back_as_it_was(suffix: str, tmp_path: Path) -> None:
+    """Discs could not be saved."""
+    columns = {"diameters": [2, 3], "omega": [900.0, 1500.0 / 7], "amplitude": [1.0, 1.0]}
+    discs = [dm.Disc(**columns, damping_ratio=[ratio] * 2) for ratio in (1e-3, 1e-4 / 3)]
+    case = dm.Parameters(N=100, Omega=20, r_0=0.2, disc=discs[0])
+    for pairs in ({"disc": discs}, {"zip": {"disc": discs, "N": [50.0, 70.0]}}):
+        swept = dm.sweep(dm.steady_sliding, case, Omega=[20.0, 30.0], **pairs)
+        path = tmp_path / f"sweep.{suffix}"
+        dm.save(swept, path)
+        found = dm.load(path)
+        assert found["disc"].values.tolist() == discs
+        assert found["disc"].values.tolist() != discs[::-1]
+        xr.testing.assert_identical(found, swept)
+
+
+@SUFFIXES
 def test_groups_come_back_as_a_tree(suffix: str, tmp_path: Path) -> None:
     scalars = RUN.to_tree().to_dataset()
     tree = xr.DataTree.from_dict({"/": scalars, "grid": every_kind(), "grid/all": RUN["all"]})
@@ -153,15 +169,13 @@ def test_names_that_matlab_does_not_allow_are_changed_in_the_file_alone(tmp_path
 # ---- What cannot be written or read
 
 TWO_LEVELS = pd.MultiIndex.from_product([["a", "b"], [1, 2]], names=["word", "number"])
-BY_DISC = xr.Dataset(
-    coords={"disc": ("disc", [dm.Disc(diameters=[0], omega=[1.0], amplitude=[1])])}
-)
+BY_CASE = xr.Dataset(coords={"case": ("case", [P])})
 
 
 @pytest.mark.parametrize(
     ("data", "name", "message"),
     [
-        (BY_DISC, "x.nc", "^disc: must hold numbers or words to be saved, and holds Disc$"),
+        (BY_CASE, "x.nc", "^case: must hold numbers or words to be saved, and holds Parameters$"),
         (xr.Dataset({"t": ("t", [np.datetime64("2026-01-01")])}), "x.mat", "^t: must hold numbers"),
         (xr.Dataset({"x": ("i", [1])}, attrs={"a": None}), "x.nc", "^a=None: must be text or num"),
         (xr.Dataset({"x": ("i", [1], {"a": True})}), "x.mat", "^x.a=True: must be text or numbers"),
@@ -169,7 +183,7 @@ BY_DISC = xr.Dataset(
         (xr.Dataset({"units": ((), 1.0)}), "x.mat", "^units: must be a name of at most 63 char"),
         (xr.Dataset({"x" * 64: ((), 1.0)}), "x.mat", "^x{64}: must be a name of at most 63"),
         (xr.Dataset({"a b": ((), 1.0), "a-b": ((), 1.0)}), "x.mat", "^a-b: must differ from a b"),
-        (xr.DataTree.from_dict({"dataset": BY_DISC[[]]}), "x.mat", "^dataset: must be a name"),
+        (xr.DataTree.from_dict({"dataset": BY_CASE[[]]}), "x.mat", "^dataset: must be a name"),
         (every_kind(), "x.csv", "must end in .nc or .mat"),
     ],
 )

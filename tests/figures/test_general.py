@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from disc_model.errors import ParameterError
 from disc_model.figures.drawing import save
+from disc_model.studies.study import load_study
 from tests.figures.reading import draw, labels, lines
 
 
@@ -130,3 +131,14 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
     titles = [" ".join(ax.get_title("left").split()) for ax in axes]
     assert titles[0] == "(a) In-plane damper $c_p$ = 0.01 N s/m"
     assert titles[1:] == ["(b) 0.1 N s/m", "(c) 1 N s/m", "(d) 10 N s/m"], "named once"
+
+
+def test_panels_of_the_brake_disc_name_law_and_damping_of_their_disc() -> None:
+    """One of four said "included" and another "left out", without what."""
+    study = load_study(Path("config/studies/brake_growth.yaml"))
+    plot = study.figures["brake_growth"]
+    for disc, name in plot.names.items():
+        law, damping = disc.split(", damping ratio ")
+        assert (
+            name == f"friction {('in' if law == 'middle plane' else 'on')} the {law}, ζ = {damping}"
+        )

@@ -3,7 +3,9 @@
 import pytest
 from matplotlib import pyplot
 
-from disc_model.figures.labels import break_labels, in_lines
+from disc_model.figures.labels import break_labels, in_lines, part_numbers
+from disc_model.figures.spectrum import name_lines
+from tests.figures.reading import assert_numbers_are_apart
 
 
 @pytest.mark.parametrize(
@@ -74,4 +76,45 @@ def test_labels_end_within_the_page() -> None:
     box = ax.yaxis.label.get_window_extent()
     assert box.y0 >= 0
     assert box.y1 <= figure.bbox.y1
+    pyplot.close(figure)
+
+
+def test_numbers_of_narrow_axes_are_apart_and_more_than_one() -> None:
+    """Times with six digits ran into each other."""
+    figure, ax = pyplot.subplots(figsize=(1.5, 1.5), layout="constrained")
+    ax.set_xlim(59.93, 60)
+    figure.draw_without_rendering()
+    part_numbers(ax)
+    figure.draw_without_rendering()
+    assert_numbers_are_apart(ax)
+    assert len(ax.get_xticks()) > 1
+    pyplot.close(figure)
+
+
+@pytest.mark.parametrize("neighbour", [(136.0, 0.1), (144.4, 0.1)])
+def test_the_frequency_of_a_line_stands_on_its_own_side(neighbour: tuple[float, float]) -> None:
+    """The name of the weaker of two lines stood beyond the stronger one."""
+    figure, ax = pyplot.subplots(figsize=(84 / 25.4, 2.4), layout="constrained")
+    ax.set(xlim=(0, 400), ylim=(1e-5, 1), yscale="log")
+    name_lines(ax, [(140.2, 0.05), neighbour])
+    figure.draw_without_rendering()
+    shown = {text.get_text(): text.get_window_extent() for text in ax.texts if text.get_visible()}
+    assert set(shown) == {"140.2 Hz", f"{neighbour[0]:.1f} Hz"}
+    own, _ = ax.transData.transform((140.2, 0.05))
+    other, _ = ax.transData.transform(neighbour)
+    box = shown["140.2 Hz"]
+    if other < own:
+        assert box.x0 > own
+    else:
+        assert box.x1 < own
+    pyplot.close(figure)
+
+
+def test_a_name_that_would_stand_nearer_to_another_point_is_left_out() -> None:
+    figure, ax = pyplot.subplots(figsize=(84 / 25.4, 2.4), layout="constrained")
+    ax.set(xlim=(0, 400), ylim=(1e-5, 1), yscale="log")
+    name_lines(ax, [(140.2, 0.05), (136.0, 0.1), (144.4, 0.1)])
+    figure.draw_without_rendering()
+    shown = {text.get_text() for text in ax.texts if text.get_visible()}
+    assert shown == {"136.0 Hz", "144.4 Hz"}
     pyplot.close(figure)

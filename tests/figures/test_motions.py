@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib import pyplot
-from matplotlib.colors import to_rgb
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.text import Annotation
 
 from disc_model.figures import ramps as drawn
@@ -17,12 +17,14 @@ from disc_model.figures.borders import Curve
 from disc_model.figures.branches import Sweep
 from disc_model.figures.branches import _draw_sweep as draw_sweep
 from disc_model.figures.campbell import peaks
-from disc_model.figures.classes import LOOKS
+from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
+from disc_model.figures.late_range import LOAD_COLOURS
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
 from disc_model.studies.reading import StudyError
+from tests.figures.described import branches, campbell, of_example, sensitivity, sliding_modes
 from tests.figures.reading import crosses, draw, labels, lines
 from tests.studies.conftest import computed, made_up_samples, with_failed
 from tests.studies.quantities.test_basins import Made, made
@@ -370,3 +372,46 @@ def test_the_share_of_starts_that_have_separated_rises_at_each_separation() -> N
     low, high = interval.get_ydata()
     assert low < 0.5 < high
     assert 0.5 - low == pytest.approx(high - 0.5)
+
+
+def test_marks_of_a_sweep_differ_in_grey_print() -> None:
+    """What separates and what is not settled were two triangles of nearly one grey."""
+    figure = branches()
+    names = [text.get_text() for text in figure.legends[0].get_texts()]
+    marks = dict(zip(names, figure.legends[0].legend_handles, strict=True))
+    separating = marks["simulated, separating"]
+    unsettled = marks["simulated, not settled, or undecided"]
+    assert lightness(to_hex(separating.get_markerfacecolor())) > 0.9
+    assert lightness(to_hex(unsettled.get_markerfacecolor())) < 0.4
+
+
+def test_a_campbell_diagram_names_its_lines_marks_and_bands() -> None:
+    said = labels(campbell())
+    assert {r"multiple of $f_s$ or $f_Ω$", "no growth rate", "speed of a peak"} <= set(said)
+
+
+def test_lines_of_sliding_modes_and_of_probabilities_are_named() -> None:
+    assert labels(sliding_modes()) == ["mode decays", "mode grows"]
+    assert "all of its values" in labels(sensitivity())
+
+
+def test_branches_of_a_map_of_phases_are_named() -> None:
+    said = labels(of_example("phase_map"))
+    assert said[-1] == "the motion itself"
+    assert all(text.endswith("between them") for text in said[:-1])
+
+
+def test_lines_of_phases_differ_in_grey_print() -> None:
+    """A thin line of stick was like one of slip."""
+    [ax] = of_example("portrait").axes
+    looks = {
+        line.get_label(): (line.get_linewidth(), bool(line.get_path_effects())) for line in ax.lines
+    }
+    assert len(looks) == 3
+    assert len({*looks.values()}) == 3
+
+
+def test_preloads_of_late_ranges_differ_in_grey_print() -> None:
+    """Shades of the second and third were alike."""
+    shades = [lightness(colour) for colour in LOAD_COLOURS[:3]]
+    assert min(np.diff(shades)) > 0.2

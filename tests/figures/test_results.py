@@ -127,7 +127,9 @@ def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
     assert labels(neutral.plot().figure) == ["decays"]
     assert labels(sliding.plot().figure) == ["decays", "grows"]
     unstable = sliding.eigenvalues[(sliding.eigenvalues.real > 0) & (sliding.eigenvalues.imag >= 0)]
-    named = [text.get_text() for text in sliding.plot().texts]
+    axes = sliding.plot()
+    axes.figure.draw_without_rendering()  # chooses the places of names
+    named = [text.get_text() for text in axes.texts if text.get_visible()]
     frequencies = unstable.imag / 2 / np.pi
     count = len(unstable)
     expected = [f"{x:.0f} Hz" for x in frequencies]

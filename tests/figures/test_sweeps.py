@@ -160,6 +160,73 @@ def test_maps_have_a_bar_for_numbers_and_a_legend_for_words(
     pyplot.close("all")
 
 
+@pytest.mark.parametrize("log", [False, True])
+@pytest.mark.parametrize(
+    ("variable", "label"),
+    [
+        ("growth_rate", "Growth rate of the stick-slip cycle (1/s)"),
+        ("period", "Period of the stick-slip cycle (s)"),
+    ],
+)
+def test_a_sweep_without_any_value_has_no_scale(variable: str, label: str, log: bool) -> None:
+    """A bar from 0 to 1, or from -0.3 to 0.3 per second, was made up where nothing had a value."""
+    study = dm.sweep(dm.floquet, CASE, Omega=SPEEDS, N=LOADS)
+    study[variable] = study[variable].where(False)
+    plane = dm.plot_sweep(study, variable, log=log)
+    [ax] = plane.figure.axes
+    [legend] = ax.figure.legends
+    assert "no value" in [text.get_text() for text in legend.get_texts()]
+    assert legend.get_title().get_text() == label
+    curve = dm.plot_sweep(study.isel(N=0), variable, log=log)
+    assert [*curve.get_yticks(), *curve.get_yticks(minor=True)] == []
+    assert curve.get_ylabel().replace("\n", " ") == label
+    assert "no value" in [text.get_text() for text in curve.texts]
+    pyplot.close("all")
+
+
+PAIRS = {"N": [385.0, 300.0, 350.0, 320.0], "mu_k": [0.24, 0.2, 0.3, 0.41]}
+"""The last pair is no case, as mu_k is above mu_s."""
+
+
+@pytest.mark.parametrize("x", PAIRS)
+def test_paired_samples_are_points_over_one_of_their_columns(x: str) -> None:
+    """They had no picture."""
+    pairs = dm.sweep(dm.floquet, CASE, zip=PAIRS)
+    ax = dm.plot_sweep(pairs, "period", x)
+    points, *gaps = ax.lines
+    assert points.get_linestyle() == "None"
+    np.testing.assert_array_equal(points.get_xdata(), pairs[x].values)
+    np.testing.assert_array_equal(points.get_ydata(), pairs["period"].values)
+    marked = np.concatenate([line.get_xdata() for line in gaps])
+    missing = pairs["period"].isnull().values
+    assert missing.any()
+    assert sorted(marked) == sorted(pairs[x].values[missing])
+    assert "failed" in [text.get_text() for text in ax.texts]
+    pyplot.close("all")
+
+
+def test_paired_samples_have_a_mark_for_each_value_of_an_axis_beside_them() -> None:
+    pairs = dm.sweep(dm.floquet, CASE, zip=PAIRS, Omega=SPEEDS[:2])
+    ax = dm.plot_sweep(pairs, x="mu_k")
+    assert len({line.get_marker() for line in ax.lines[:2]}) == 2
+    assert ax.get_xlabel().startswith("Kinetic friction")
+    with pytest.raises(dm.ParameterError, match="x='Omega': must be one of N, mu_k"):
+        dm.plot_sweep(pairs, x="Omega")
+    pyplot.close("all")
+
+
+def test_discs_of_a_sweep_are_told_apart_in_the_legend() -> None:
+    """Both had the same name, or no picture."""
+    columns = {"diameters": [2, 3], "omega": [900.0, 1500.0], "amplitude": [1.0, 1.0]}
+    discs = [dm.Disc(**columns, damping_ratio=[ratio] * 2) for ratio in (1e-3, 1e-4)]
+    case = dm.Parameters(N=100, Omega=20, r_0=0.2, disc=discs[0])
+    swept = dm.sweep(dm.steady_sliding, case, Omega=[20.0, 30.0], disc=discs)
+    ax = dm.plot_sweep(swept, "growth_rate")
+    names = [text.get_text() for text in ax.figure.legends[0].get_texts()]
+    assert [name.partition(":")[0] for name in names] == ["disc 1", "disc 2"]
+    pyplot.close("all")
+
+
 def test_units_of_datasets_become_those_of_labels() -> None:
     written = {"s-1": "1/s", "N s m-1": "N s/m", "rad s-2": "rad/s²", "m2": "m²", "1": "", "": ""}
     assert {unit: unit_text(unit) for unit in written} == written

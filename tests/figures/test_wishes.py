@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 import disc_model as dm
 from disc_model.figures.sizes import COLUMN, PAGE
-from tests.figures.reading import assert_fit_for_print
+from tests.figures.reading import assert_fit_for_print, assert_numbers_are_apart
 
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
 SEPARATING = dm.Parameters(N=385, Omega=15.1)
@@ -178,6 +178,42 @@ def test_pictures_of_several_panels_take_as_many_axes() -> None:
     assert one(dm.plot_modes(CASE, title="Shapes")).figure.get_suptitle() == "Shapes"
 
 
+PANEL = 42 / 25.4
+"""Width of two panels beside each other in a column, inch."""
+LEAST_WIDTH = 6 / 25.4
+"""Of axes beside the label of a bar of colours, which has up to three lines, inch."""
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_small_panels_keep_their_width_beside_their_legends(name: str) -> None:
+    """A legend wider than a panel of 40 mm squeezed it to nothing, and ran into the next one."""
+    with mpl.rc_context({"font.size": 7}):
+        figure, axes = pyplot.subplots(1, 2, figsize=(2 * PANEL, 2.4), layout="constrained")
+        for ax in axes:
+            DRAWN[name](ax=ax)
+        figure.draw_without_rendering()
+    for i, ax in enumerate(axes):
+        assert ax.get_window_extent().width > LEAST_WIDTH * figure.dpi
+        assert_numbers_are_apart(ax)
+        if ax.get_legend():
+            box = ax.get_legend().get_window_extent()
+            assert box.y0 >= 0
+            assert box.width <= PANEL * figure.dpi
+            assert not box.overlaps(axes[1 - i].get_window_extent())
+
+
+def test_columns_on_own_axes_have_the_heights_that_stand_beside_the_first() -> None:
+    """The last cycles had a scale of their own, and no numbers beside it."""
+    _, axes = pyplot.subplots(3, 2)
+    dm.simulate(SEPARATING, 56).plot(ax=axes)
+    for left, right in axes:
+        assert left.get_ylim() == right.get_ylim()
+        for ax in (left, right):
+            low, high = ax.dataLim.intervaly
+            assert ax.get_ylim()[0] <= low
+            assert ax.get_ylim()[1] >= high
+
+
 LEGENDS = [(name, width) for name in WITH_LEGEND for width in (COLUMN, PAGE)]
 
 
@@ -189,7 +225,11 @@ def test_a_legend_on_own_axes_covers_no_data_and_no_words(name: str, width: floa
     figure.draw_without_rendering()
     box = ax.get_legend().get_window_extent()
     labels = [axis.label.get_window_extent() for axis in (ax.xaxis, ax.yaxis)]
-    ticks = [text.get_window_extent() for text in (*ax.get_xticklabels(), *ax.get_yticklabels())]
+    ticks = []
+    for axis in (ax.xaxis, ax.yaxis):
+        low, high = axis.get_view_interval()
+        shown = [tick for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
+        ticks += [tick.label1.get_window_extent() for tick in shown]
     texts = [text.get_window_extent() for text in ax.texts]
     assert box.count_overlaps([*labels, *ticks, *texts]) == 0
     for line in ax.lines:

@@ -168,7 +168,10 @@ def test_a_kick_has_the_energy_asked_for_and_its_direction_hangs_on_its_key_alon
 def test_a_periodic_attractor_is_known_by_its_fixed_point() -> None:
     """The separating motion at 14 rad/s separates once between two releases of stick, again and
     again."""
-    quiet, separating = Basins(P14, 100.0).known
+    basins = Basins(P14, 100.0)
+    quiet, separating = basins.known
+    assert basins.copy().known == basins.known
+    assert basins.copy().known is not basins.known, "further ones are those of the copy alone"
     assert separating.kind == Outcome.SEPARATING
     assert separating.releases == 1
     # one separation more or less in a leg of five seconds

@@ -109,8 +109,8 @@ def test_many_starts_of_one_point_each_share_the_work() -> None:
     raw = {"study": "s", "quantity": "basins", "base": STEEL, "axes": axes}
     grid = parse_grid(raw)
     assert len(grid.batches) >= 4
-    # measured: 253 s
-    assert 253 / 3 < sum(grid.work.values()) < 3 * 253
+    # processor time measured since the attractors of a case are found once in a batch; 253 s before
+    assert 88 / 3 < sum(grid.work.values()) < 3 * 88
 
 
 def test_a_dear_value_elsewhere_leaves_the_batches_that_there_are() -> None:

@@ -212,11 +212,6 @@ def test_pairs_go_with_axes() -> None:
     np.testing.assert_array_equal(swept["speed"], [[10.0] * 3, [12.0] * 3])
 
 
-def test_a_picture_of_pairs_names_what_draws_them() -> None:
-    with pytest.raises(dm.ParameterError, match=r"paired values: study.plot.scatter"):
-        dm.plot_sweep(sweep(products, P, zip=PAIRS), "load")
-
-
 @pytest.mark.parametrize(
     "table",
     [

@@ -15,12 +15,15 @@ from disc_model.data.files import regular_file
 from disc_model.data.matlab import load_mat, save_mat
 from disc_model.data.tables import check_suffix
 from disc_model.errors import Fault, ParameterError, raise_faults, require
+from disc_model.parameters import Disc
 
 PARTS = ("real", "imag")
 """Ends of the names of variables that are parts of a complex one in netCDF, which has no complex
 numbers."""
 COMPLEX_PART = "complex_part"
 """Attribute of such a variable: which part it is."""
+DISCS = "json_of_disc"
+"""Attribute of a variable of texts, each of which is a disc in JSON: yes."""
 
 
 def save(data: xr.Dataset | xr.DataTree, path: str | Path) -> None:
@@ -28,7 +31,7 @@ def save(data: xr.Dataset | xr.DataTree, path: str | Path) -> None:
 
     Parameters
     ----------
-    data : of numbers and words
+    data : of numbers and words; discs along a dimension are written as text, in JSON
     path : its suffix says how. ".nc": netCDF 4; of a complex variable `x` it has the real part `x_real` and the
         imaginary part `x_imag`. ".mat": an array for each variable, complex ones too, with its dimensions in their
         order, a structure for each group, and `units`, `dimensions` and `meanings`, the words of the numbers 0, 1, ...
@@ -57,7 +60,7 @@ def save(data: xr.Dataset | xr.DataTree, path: str | Path) -> None:
     require((isinstance(data, xr.Dataset | xr.DataTree), "data", data, rule))
     file = check_suffix(regular_file(path))
     tree = xr.DataTree(data) if isinstance(data, xr.Dataset) else data
-    groups = {node.path: node.to_dataset(inherit=False) for node in tree.subtree}
+    groups = {node.path: _with_texts(node.to_dataset(inherit=False)) for node in tree.subtree}
     raise_faults(list(_faults(groups)))
     if file.suffix == ".nc":
         parts = {path: _with_parts(group) for path, group in groups.items()}
@@ -97,7 +100,8 @@ def load(path: str | Path) -> xr.Dataset | xr.DataTree:
     ['events', 'final_state', 'late']
     """
     file = regular_file(path)
-    groups = load_mat(file) if file.suffix == ".mat" else _load_netcdf(file)
+    stored = load_mat(file) if file.suffix == ".mat" else _load_netcdf(file)
+    groups = {path: _with_discs(group) for path, group in stored.items()}
     if len(groups) == 1:
         return next(iter(groups.values()))
     return xr.DataTree.from_dict(groups)
@@ -133,6 +137,43 @@ def _attribute_faults(place: tuple[str, ...], attrs: Mapping[Any, Any]) -> Itera
         kind = np.asarray(value).dtype.kind
         if not isinstance(value, str) and kind not in "iuf":
             yield Fault.of((*place, str(name)), value, "must be text or numbers, as an attribute")
+
+
+# ---- Discs
+
+
+def _with_texts(group: xr.Dataset) -> xr.Dataset:
+    """A dataset with the JSON of discs in their place."""
+    texts = {}
+    for key, variable in group.variables.items():
+        values = variable.values
+        if values.size and all(isinstance(value, Disc) for value in values.flat):
+            written = [value.model_dump_json() for value in values.flat]
+            attrs = {**variable.attrs, DISCS: "yes"}
+            texts[key] = xr.Variable(variable.dims, np.reshape(written, values.shape), attrs)
+    return _replaced(group, texts)
+
+
+def _with_discs(group: xr.Dataset) -> xr.Dataset:
+    """A dataset with discs in place of their JSON."""
+    discs = {}
+    for key, variable in group.variables.items():
+        if DISCS not in variable.attrs:
+            continue
+        values = np.empty(variable.shape, object)
+        for place, text in np.ndenumerate(variable.values):
+            values[place] = Disc.model_validate_json(str(text))
+        attrs = {name: value for name, value in variable.attrs.items() if name != DISCS}
+        discs[key] = xr.Variable(variable.dims, values, attrs)
+    return _replaced(group, discs)
+
+
+def _replaced(group: xr.Dataset, others: Mapping[Any, xr.Variable]) -> xr.Dataset:
+    """A dataset with other variables in place of those of the same names."""
+    if not others:
+        return group
+    variables = {**group.variables, **others}
+    return xr.Dataset(variables, attrs=group.attrs).set_coords([*group.coords])
 
 
 # ---- netCDF

@@ -35,7 +35,7 @@ BENDS = 2.5  # factor between the heights of neighbouring points beyond which a 
 ABOVE_SLIDING = 0.12  # height of the names of cases, as a share of the panel
 JUMP = 1.0  # decades of the range from which a sweep jumps
 NONE = 1e-9  # mm, stands for no range on a logarithmic scale
-UNSETTLED = "#aaaaaa"  # a sweep's marks where it is not shown that the motion has settled
+UNSETTLED = "#4d4d4d"  # a sweep's marks, filled ones, where motions are not shown to have settled
 
 
 def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -132,9 +132,16 @@ def sweeps_of(study: xr.Dataset, along: Array) -> list[Sweep]:
     return found
 
 
-def _mark_look() -> dict[str, Any]:
-    """Look of the marks of a sweep."""
-    return {"markersize": mark(2.5), "markerfacecolor": "white", "markeredgewidth": wide(0.5)}
+def _mark_look(colour: str) -> dict[str, Any]:
+    """Look of the marks of a sweep in one of its colours: filled where it is not shown that motions
+    have settled, as in grey print colours are alike."""
+    face = UNSETTLED if colour == UNSETTLED else "white"
+    return {
+        "color": colour,
+        "markersize": mark(2.5),
+        "markerfacecolor": face,
+        "markeredgewidth": wide(0.5),
+    }
 
 
 def _draw_sweep(ax: Axes, sweep: Sweep) -> None:
@@ -145,10 +152,8 @@ def _draw_sweep(ax: Axes, sweep: Sweep) -> None:
         (~sweep.settled, UNSETTLED),
     ):
         if mask.any():  # the layout leaves room for marks that are not clipped, even for none
-            look = _mark_look()
-            ax.plot(
-                sweep.x[mask], sweep.heights[mask], sweep.shape, color=colour, clip_on=False, **look
-            )
+            look = _mark_look(colour)
+            ax.plot(sweep.x[mask], sweep.heights[mask], sweep.shape, clip_on=False, **look)
     decades = np.log10(np.maximum(sweep.heights, NONE))
     arrow = {"arrowstyle": "->", "color": GREY, "lw": wide(1.0)}
     for i in np.flatnonzero(np.abs(np.diff(decades)) > JUMP):
@@ -174,7 +179,7 @@ def _legend(figure: Figure, study: xr.Dataset) -> None:
 
     def both(colour: str) -> tuple[Any, Any]:
         """Marks of both sweeps, up and down."""
-        up, down = (sample(ls="", marker=way, c=colour, **_mark_look()) for way in "^v")
+        up, down = (sample(ls="", marker=way, **_mark_look(colour)) for way in "^v")
         return up, down
 
     rising, falling = both(BLACK)

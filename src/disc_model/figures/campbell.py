@@ -1,10 +1,11 @@
 """Campbell diagrams: frequencies and growth rates against the speed."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
+from matplotlib.patches import Patch
 
 from disc_model.data.variables import flag_names
 from disc_model.figures.curve import LINEAR, scale_rates
@@ -16,10 +17,12 @@ from disc_model.figures.drawing import (
     letters,
     mark,
     panels,
+    sample,
     say_beside,
     wide,
 )
 from disc_model.figures.kinds.motions import Campbell
+from disc_model.figures.legends import figure_legend
 from disc_model.figures.names import Names, named_modes
 from disc_model.figures.selection import (
     NORM,
@@ -30,7 +33,7 @@ from disc_model.figures.selection import (
     stretches,
     titles_of,
 )
-from disc_model.figures.types import Array, Axes, Figure, Mask
+from disc_model.figures.types import Array, Artist, Axes, Figure, Mask
 from disc_model.figures.words import SPEED
 
 MOST = 5  # number of peaks that are named at most
@@ -38,6 +41,8 @@ NEAR = 0.01  # share of the speeds shown within which peaks are one, and crossin
 ROOM = 1.06  # highest frequency of the axis over that of the modes
 BESIDE_MEETING = ((4, -1), (-4, -1), (4, 4), (-4, 4))  # points, of names beside crossings,
 BESIDE_PEAK = ((2, 3), (-2, 3), (2, 10), (-2, 10))  # and beside peaks
+BAND: dict[str, Any] = {"color": GREY, "alpha": 0.25, "linewidth": 0}
+"""Look of a stretch of speeds without a growth rate."""
 NAMES_APART = 0.035  # of the axis, least distance of the names of modes
 
 
@@ -73,7 +78,27 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     letters(axes, titles_of(parts))
     for top, bottom, part in zip(above, below, parts, strict=True):
         _name_peaks(top, bottom, part.data.transpose("Omega", ...))
+    _legend(figure, [part.data.transpose("Omega", ...) for part in parts])
     return figure
+
+
+def _legend(figure: Figure, studies: Sequence[xr.Dataset]) -> None:
+    """Name lines, marks and bands that are drawn."""
+    found = [peak for study in studies for peak in peaks(study)]
+    rates = [study["growth_rate"].values for study in studies]
+    handles: list[Artist] = [
+        sample(color=BLACK, linewidth=wide(0.9), label="mode of steady sliding")
+    ]
+    if any(peak.crossing is not None for peak in found):
+        handles.append(sample(label=r"multiple of $f_s$ or $f_Ω$", **_multiple_look()))
+    if found:
+        handles.append(sample(label="peak of growth, crossing at it", **_dot(alone=False)))
+        handles.append(sample(color=GREY, linewidth=wide(0.4), label="speed of a peak"))
+    if any(unjoined(rate).any() for rate in rates):
+        handles.append(sample(label="differs from both neighbours", **_dot(alone=True)))
+    if any(np.isnan(rate).any() for rate in rates):
+        handles.append(Patch(label="no growth rate", **BAND))
+    figure_legend(figure, handles, columns=3)
 
 
 def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
@@ -87,7 +112,7 @@ def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
         _draw_peak(top, bottom, study, peak, bool(alone[peak.place]))
     for ax in (top, bottom):
         for start, end in spans(speeds, ~np.isfinite(rate)):  # without a cycle
-            ax.axvspan(start, end, color=GREY, alpha=0.25, linewidth=0)
+            ax.axvspan(start, end, **BAND)
     top.set_xlim(speeds[0], speeds[-1])
     bottom.set_xlabel(SPEED)
 
@@ -137,15 +162,13 @@ def _draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, alone: bo
     by_slips = flag_names(peak.crossing["crossing_line"]) == "stick_slip"
     line = study["stick_slip_frequency" if by_slips else "rotation_frequency"]
     multiple = float(peak.crossing["crossing_multiple"])
-    top.plot(
-        study["Omega"],
-        multiple * line,
-        color=GREY,
-        linewidth=wide(0.8),
-        linestyle=(0, (4, 2)),
-        zorder=0,
-    )
+    top.plot(study["Omega"], multiple * line, zorder=0, **_multiple_look())
     top.plot(*_meeting(peak.crossing), **_dot(alone=False))
+
+
+def _multiple_look() -> dict[str, Any]:
+    """Look of the line of a multiple of a frequency."""
+    return {"color": GREY, "linewidth": wide(0.8), "linestyle": (0, (4, 2))}
 
 
 def _meeting(crossing: xr.Dataset) -> tuple[float, float]:

@@ -13,7 +13,7 @@ from matplotlib.legend import Legend
 
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.drawing import large, readers_style
-from disc_model.figures.labels import break_labels
+from disc_model.figures.labels import break_labels, part_numbers
 from disc_model.figures.legends import figure_legend, legend_below, legend_inside
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import head_text
@@ -119,11 +119,18 @@ def page_for(
         before = set(figure.axes)
         yield page
         _restate(page, wishes)
-        _write_legend(page, wishes)
         bars = [ax for ax in figure.axes if ax not in before]
-        break_labels(figure, [*page.axes, *bars])
+        shown = [*page.axes, *bars]
+        unbroken = break_labels(figure, shown)  # long ones would leave the legend no room
+        _write_legend(page, wishes)
+        for ax in shown:  # which may be lower or narrower now
+            for label in (ax.xaxis.label, ax.yaxis.label):
+                label.set_text(unbroken.get(label, ""))
+        break_labels(figure, shown)
         if page.beside == "below":  # also below labels that have more lines now
             _write_legend(page, wishes)
+        for ax in page.axes:
+            part_numbers(ax)
         return
     with readers_style():
         figure = pyplot.figure(figsize=(width, height), layout="constrained")
@@ -153,7 +160,7 @@ def _restate(page: Page, wishes: Wishes) -> None:
     """Write the title and labels that a reader asks for."""
     if wishes.title is None:
         if page.note:
-            page.ax.set_title(page.note, loc="left")
+            page.ax.set_title(page.note, loc="left", fontsize=large(8))
     elif not page.own:
         page.ax.set_title(wishes.title)
     _relabel(page, wishes.labels or {})

@@ -109,9 +109,11 @@ def draw_lines(
     x: str,
     log: bool = False,
     marks: dict[str, str] | None = None,
+    *,
+    joined: bool = True,
 ) -> None:
-    """Draw a line, or one for each value of a second dimension; its marks above the panel stand for
-    missing values.
+    """Draw a line, or one for each value of a second dimension, or points that are not `joined`;
+    marks above the panel stand for missing values.
 
     Panels of a figure share `marks`, by the names of lines, so that a line has the same mark in all
     of them.
@@ -128,10 +130,10 @@ def draw_lines(
     # lines, in the colours of their order
     parts = parts_along(array, by)
     every = 1
-    if not (names or rates or array.isnull().any()):
+    if joined and not (names or rates or array.isnull().any()):
         every = max(1, across.values.size // MARKED)
     jump = LINEAR if rates else np.inf
-    line = "" if names else "-"
+    line = "" if names or not joined else "-"
     for colour, part, title in zip(_colours(parts), parts, titles_of(parts), strict=True):
         shape = marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
         points = broken(across.values, part.data.values, jump)
@@ -148,10 +150,19 @@ def draw_lines(
     ax.set_xscale(scale(array[x]))
     ax.set_xlabel(across.label)
     ax.set_ylabel(label)
-    if names:
-        ax.set_yticks(range(len(names)), labels=names)
+    _set_ticks(ax, names, array)
     ax.margins(0.03)
     _mark_gaps(ax, study, array, x, marks)
+
+
+def _set_ticks(ax: Axes, names: Sequence[str], array: xr.DataArray) -> None:
+    """Write the names of classes along the vertical axis, if there are any; nothing where no point
+    has a value, as numbers would be made up."""
+    if names:
+        ax.set_yticks(range(len(names)), labels=names)
+    elif array.isnull().all():
+        ax.set_yticks([])
+        ax.set_yticks([], minor=True)
 
 
 def _colours(parts: Sequence[Part[Any]]) -> list[Any]:
@@ -218,7 +229,7 @@ def scale_rates(ax: Axes) -> None:
         near = max(map(abs, ax.get_ylim())) < 20 * LINEAR
         return f"{rate:g}" if leading in "25" and near else ""
 
-    if max(map(abs, ax.dataLim.intervaly)) > LINEAR:
+    if max(map(abs, ax.dataLim.intervaly)) > 2 * LINEAR:
         ax.set_yscale("symlog", linthresh=LINEAR, subs=range(2, 10))
         ax.yaxis.set_major_formatter("{x:g}")
         ax.yaxis.set_minor_formatter(between)

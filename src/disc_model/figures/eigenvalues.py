@@ -8,13 +8,15 @@ import numpy as np
 
 from disc_model.errors import Fault, ParameterError
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, BLUE, COLUMN, SEPARATED, large, mark, say, wide
+from disc_model.figures.drawing import BLACK, BLUE, COLUMN, SEPARATED, large, mark, wide
+from disc_model.figures.names import Names
 from disc_model.figures.types import Axes
 from disc_model.figures.words import head_text
 
 if TYPE_CHECKING:
     from disc_model.stability.sliding import SteadySliding
 
+BESIDE = ((4, 0), (4, 5), (4, -5), (-4, 0))  # points, of the names beside their marks
 ROOM = 1.25  # end of the axis of growth rates over the greatest
 
 
@@ -45,8 +47,9 @@ def plot_eigenvalues(
             axes.plot(
                 rate[mask], frequency[mask], shape, color=colour, markersize=mark(4), label=name
             )
+        names = Names(axes)
         for x, y in zip(rate[grows], frequency[grows], strict=True):
-            say(axes, f"{y:.0f} Hz", (x, y), (4, 0), fontsize=large(7), color=SEPARATED)
+            names.add(f"{y:.0f} Hz", (x, y), BESIDE, fontsize=large(7), color=SEPARATED)
         span = max(map(abs, axes.get_xlim())) * ROOM
         axes.set_xlabel("Growth rate (1/s)")
         axes.set_ylabel("Frequency (Hz)")

@@ -64,6 +64,8 @@ def growth_panels(
             if cells.any():
                 lay_over(ax, edges, cells, MAP_LOOKS[mark], colours)
                 used.add(mark)
+    if not any(np.isfinite(plane[name]).any() for plane in planes):
+        return entries(used, MAP_LOOKS)  # the ends of a scale would be made up
     bar = figure.colorbar(mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30)
     bar.set_label(label_of(planes[0][name])[0])
     largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))

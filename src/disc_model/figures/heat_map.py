@@ -89,13 +89,16 @@ def draw_maps(
     a legend says, which names the variable if no bar does."""
     arrays = [as_classes(plane[variable]) for plane in planes]
     first = arrays[0]
+    title = ""
+    if not any(plane[variable].notnull().any() for plane in planes):
+        title = label_of(planes[0][variable])[0]  # there is no bar
     if is_growth(variable) and not log:
-        key = Key(growth_panels(figure, axes, planes, variable))
+        key = Key(growth_panels(figure, axes, planes, variable), title)
     elif first.dtype.kind in "UO" or "flag_meanings" in first.attrs:
         entries_of_classes = class_panels(axes, arrays, [statuses(plane) for plane in planes])
         key = Key(entries_of_classes, label_of(planes[0][variable])[0])
     else:
-        key = Key(number_panels(figure, axes, planes, variable, log))
+        key = Key(number_panels(figure, axes, planes, variable, log), title)
     up, across = (first[str(name)] for name in first.dims)
     axes[0].set_xscale(scale(across))
     axes[0].set_yscale(scale(up))
@@ -150,6 +153,8 @@ def number_panels(
         paint(ax, edges, missing, LOOKS)
         used |= set(missing.flat)
 
+    if not np.isfinite(numbers).any():  # the ends of a scale would be made up
+        return entries(used, MARKED)
     bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=label)
     if colours.ticks:
         bar.set_ticks(range(len(colours.ticks)), labels=list(colours.ticks))

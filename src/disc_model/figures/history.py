@@ -82,7 +82,18 @@ def plot_run(
             page.explain(handles or page.handles)
         if page.own:
             page.figure.align_ylabels()
+        else:
+            _share_heights(grid)
     return grid if rows * columns > 1 else grid[0, 0]
+
+
+def _share_heights(grid: Any) -> None:
+    """Give the axes of each row one range of heights: numbers stand beside the first of them
+    only."""
+    for row in grid:
+        limits = np.array([ax.get_ylim() for ax in row])
+        for ax in row:
+            ax.set_ylim(limits[:, 0].min(), limits[:, 1].max())
 
 
 def draw_history(

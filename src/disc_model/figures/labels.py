@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,6 +15,8 @@ from disc_model.figures.drawing import DECADES
 from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import UNITS
 
+MOST_STEPS = 6  # between numbers along an axis on which more of them would meet
+NUMBERS_APART = 4.0  # points, least gap between these
 BEYOND = 1.15  # length of a label over that of its axis, at most
 MARKUP = re.compile(r"\\\w+|[${}_^]")  # of mathematical text; a symbol for a command
 WHOLE = re.compile(r"(?<=\()[^()]{1,12}(?=\))| = (-?[\d.]+ (?=\S{1,5}(,|$)))?")
@@ -30,9 +33,9 @@ class Breakable(NamedTuple):
     beyond: float
 
 
-def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
+def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> dict[Text, str]:
     """Break labels and titles of axes, all those of a figure unless some are given, into lines where
-    they are longer than the axes."""
+    they are longer than the axes; returns them with their words before."""
     found = [each for ax in (figure.axes if axes is None else axes) for each in _texts_of(ax)]
     words = [each.text.get_text() for each in found]
     # the layout makes axes narrow under a long title, so that it is set with short ones
@@ -42,6 +45,7 @@ def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
     for each, said in zip(found, words, strict=True):
         each.text.set_text(said)
         _break(each.text, each.direction, _room(figure, each))
+    return {each.text: said for each, said in zip(found, words, strict=True)}
 
 
 def _room(figure: Figure, label: Breakable) -> float:
@@ -128,6 +132,39 @@ def _filled(words: Sequence[str], length: int) -> list[str]:
 def seen(word: str) -> int:
     """Number of characters of a word that are seen, and the blank after it."""
     return len(MARKUP.sub(lambda found: "x" if found[0].startswith("\\") else "", word)) + 1
+
+
+# ---- Numbers along axes
+
+
+def part_numbers(ax: Axes) -> None:
+    """Have fewer numbers along a horizontal linear axis, as long as they meet."""
+    axis: Any = ax.xaxis
+    if not isinstance(axis.get_major_locator(), MaxNLocator):
+        return
+    for steps in range(MOST_STEPS, 0, -1):
+        if _numbers_are_apart(axis):
+            return
+        ax.locator_params(axis="x", nbins=steps)
+    if not _numbers_are_apart(axis):
+        ax.set_xticks(_shown(axis, axis.get_majorticklocs())[[0, -1]])
+
+
+def _numbers_are_apart(axis: Any) -> bool:
+    """Whether numbers along a horizontal axis have a gap between them."""
+    labels = axis.get_ticklabels()  # also sets their texts and places
+    shown = _shown(axis, axis.get_majorticklocs())
+    boxes = [text.get_window_extent() for text in labels if text.get_position()[0] in shown]
+    ends = sorted((box.x0, box.x1) for box in boxes)
+    gap = NUMBERS_APART * axis.get_figure(root=True).dpi / 72
+    return all(after[0] - before[1] > gap for before, after in pairwise(ends))
+
+
+def _shown(axis: Any, places: Any) -> Any:
+    """Those of some places along an axis that lie on it."""
+    low, high = sorted(axis.get_view_interval())
+    rounding = 1e-3 * (high - low)
+    return places[(places >= low - rounding) & (places <= high + rounding)]
 
 
 # ---- Units of the reader

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib.patches import Patch
 
 from disc_model.analysis.contact_loss import pinned_range
 from disc_model.data.variables import flag_names
@@ -14,7 +15,7 @@ from disc_model.figures.drawing import (
     BLUE,
     GREEN,
     GREY,
-    PURPLE,
+    SKY,
     large,
     letters,
     mark,
@@ -28,10 +29,12 @@ from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import SPEED
 from disc_model.parameters import Parameters
 
-LOAD_COLOURS = (BLACK, BLUE, GREEN, PURPLE)
+LOAD_COLOURS = (BLACK, BLUE, SKY, GREEN)
+"""Of preloads in their order; the first three differ in grey print."""
 LARGEST = 10.0  # thicknesses
 DECADES = 1e5
 """Largest range drawn over the least one."""
+BEYOND = "0.9"  # grey behind ranges of more than a thickness, for which plate theory is not linear
 LINES = {"unilateral": "-", "bilateral": "--"}
 OPEN_END = ("growing", "undecided")
 """Outcomes of which a longer time would change the range."""
@@ -50,7 +53,7 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     titles = [plot.names.get(str(name), str(name)) for name in names]
     for ax, name in zip(axes, names, strict=False):
         chosen = {plot.by: name}
-        ax.axhspan(1, 1e3, color="0.93", zorder=0)
+        ax.axhspan(1, 1e3, color=BEYOND, zorder=0)
         _draw_panel(ax, ranges.sel(chosen), outcomes.sel(chosen))
         if name in moving:
             _draw_lost_contact(ax, study, str(name), plot.thickness)
@@ -72,15 +75,6 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     for ax in axes:
         ax.margins(x=0.05)
         ax.set_xlabel(SPEED)
-    axes[0].text(
-        0.03,
-        0.99,
-        "beyond linear plate theory",
-        size=large(6),
-        transform=axes[0].transAxes,
-        va="top",
-        c=GREY,
-    )
     letters(axes, titles)
     _legend(figure, study["N"].values)
     return figure
@@ -144,7 +138,7 @@ def _draw_panel(ax: Axes, ranges: xr.DataArray, outcomes: xr.DataArray) -> None:
 
 
 def _legend(figure: Figure, loads: np.ndarray) -> None:
-    """Name preloads, contacts and marks below the panels."""
+    """Name preloads, contacts, marks and the grey band below the panels."""
     handles = [
         sample(color=colour, label=f"{1e-3 * load:g} kN")
         for load, colour in zip(loads, LOAD_COLOURS, strict=False)
@@ -153,4 +147,5 @@ def _legend(figure: Figure, loads: np.ndarray) -> None:
     handles.append(sample(color=GREY, linestyle="--", label="separation ignored"))
     for name, look in _marks().items():
         handles.append(sample(color=GREY, label=name, **look))
+    handles.append(Patch(color=BEYOND, label="beyond linear plate theory"))
     figure_legend(figure, handles, loc="outside lower center", columns=4, columnspacing=1.0)

@@ -6,7 +6,9 @@ from textwrap import fill
 from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib import rcParams
 from matplotlib.collections import Collection, PolyCollection
+from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
 from matplotlib.transforms import Bbox, ScaledTranslation
 
@@ -17,6 +19,9 @@ PAGE_SHARE = 0.98  # of the width of a figure that its legend may have
 NARROWEST = 12  # characters to which a name is broken at most
 EDGE = 0.04  # inch, kept free beside a legend above a panel
 BESIDE = 0.15  # inch, left free on both sides of a legend below a panel, together
+INSIDE = 0.6  # of the width of axes, for a legend in them: other panels may make them narrower
+SMALLER = 0.8  # size of the text of a legend that finds too little room, over the usual one,
+LEAST_TEXT = 6.0  # and its least size, points, unless the usual one is less
 LETTER = 0.3  # inch, kept free for the letter of one of several panels
 
 Legend = Any
@@ -83,25 +88,49 @@ def legend_above(
 
 
 def legend_inside(ax: Axes, handles: Sequence[Artist] = (), **look: Any) -> Legend:
-    """Draw a legend inside the axes; nothing, and None, if it would cover data or words there while
-    the layout of the figure makes room elsewhere."""
+    """Draw a legend inside the axes, a smaller one if the usual one would cover data or words;
+    nothing, and None, if that would as well while the layout of the figure makes room elsewhere."""
     entries = list(handles) or ax.get_legend_handles_labels()[0]
     if not entries:
         return None
-    legend = ax.legend(handles=entries, loc="best", **look)
     page: Any = ax.get_figure(root=True)
-    page.draw_without_rendering()  # sets the places
-    if page.get_layout_engine() is not None and _covers(legend, ax):
-        legend.remove()
-        return None
-    return legend
+    legend: Legend = None
+    for size in ({}, small()):
+        legend = ax.legend(handles=entries, loc="best", **size, **look)
+        # axes that others make narrower later would be squeezed by it
+        legend.set_in_layout(False)
+        page.draw_without_rendering()  # sets the places
+        if not _covers(legend, ax):
+            return legend
+    if page.get_layout_engine() is None:
+        return legend
+    legend.remove()
+    return None
+
+
+def small() -> dict[str, Any]:
+    """Options of a legend that needs little room: its text is smaller, and its samples shorter."""
+    usual = FontProperties(size=rcParams["legend.fontsize"]).get_size_in_points()
+    size = min(usual, max(SMALLER * usual, LEAST_TEXT))
+    return {
+        "fontsize": size,
+        "title_fontsize": size,
+        "handlelength": 1.4,
+        "handletextpad": 0.5,
+        "labelspacing": 0.3,
+        "columnspacing": 0.9,
+        "borderpad": 0.3,
+    }
 
 
 def _covers(legend: Legend, ax: Axes) -> bool:
-    """Whether a legend reaches beyond its axes, or covers lines, points, areas or texts in them."""
+    """Whether a legend reaches beyond its axes, nearly fills their width, or covers lines, points,
+    areas or texts in them."""
     box = legend.get_window_extent()
     frame = ax.get_window_extent()
     if frame.count_contains(box.corners()) < len(box.corners()):
+        return True
+    if box.width > INSIDE * frame.width:
         return True
     texts = [text.get_window_extent() for text in ax.texts if text.get_text()]
     return (
@@ -133,25 +162,57 @@ def _meets_shape(box: Bbox, shape: Collection) -> bool:
 
 
 def legend_below(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
-    """Draw a legend below the label of the horizontal axis, in as many columns as the axes are
-    wide."""
+    """Draw a legend below the label of the horizontal axis, in as many columns as there is room for
+    between the left end of the labels and the right end of the axes; a smaller one where the usual
+    one is wider than that."""
     if not handles:
         return None
     page: Any = ax.get_figure(root=True)
     page.draw_without_rendering()  # sets the places
+    frame = ax.bbox
     lowest = ax.xaxis.get_tightbbox()
-    depth = 0.0 if lowest is None else ax.bbox.y0 - lowest.y0
-    # as far below the axes when the layout has made them smaller
-    down = ScaledTranslation(0, -depth / page.dpi, page.dpi_scale_trans)
-    draw = partial(
-        ax.legend,
-        handles=list(handles),
-        loc="upper left",
-        bbox_to_anchor=(0, 0),
-        bbox_transform=ax.transAxes + down,
-        **look,
-    )
-    return _widest_that_fits(draw, len(handles), float(ax.bbox.width) - BESIDE * page.dpi)
+    leftmost = ax.yaxis.get_tightbbox()
+    depth = 0.0 if lowest is None else frame.y0 - lowest.y0
+    reach = 0.0 if leftmost is None else frame.x0 - max(leftmost.x0, 0.0)
+
+    # below the axes where it fits, and else below their labels too
+    room = float(frame.width) - BESIDE * page.dpi
+    for shift, size in ((0.0, {}), (reach, {}), (reach, small())):
+        # as far below the axes when the layout has made them smaller
+        offset = ScaledTranslation(-shift / page.dpi, -depth / page.dpi, page.dpi_scale_trans)
+        draw = partial(
+            ax.legend,
+            handles=list(handles),
+            loc="upper left",
+            bbox_to_anchor=(0, 0),
+            bbox_transform=ax.transAxes + offset,
+            **size,
+            **look,
+        )
+        one_column = draw(ncols=1)
+        if one_column.get_window_extent().width <= room + shift:
+            break
+    one_column.remove()
+    legend = _widest_that_fits(draw, len(handles), min(room + shift, _share_of_page(ax)))
+    # a layout that made room on its sides would squeeze narrow axes, which do not hold it anyway
+    legend.get_tightbbox = partial(_as_wide_as, ax, legend)
+    return legend
+
+
+def _share_of_page(ax: Axes) -> float:
+    """Width in pixels of the part of the page that axes of a grid have with their labels."""
+    page: Any = ax.get_figure()
+    place = ax.get_subplotspec()
+    if place is None:
+        return float(page.bbox.width)
+    columns = place.get_gridspec().ncols
+    return float(page.bbox.width) * len(place.colspan) / columns
+
+
+def _as_wide_as(ax: Axes, legend: Legend, renderer: Any = None) -> Bbox:
+    """The extent of a legend in height, and of its axes in width."""
+    box = legend.get_window_extent(renderer)
+    return Bbox.from_extents(ax.bbox.x0, box.y0, ax.bbox.x1, box.y1)
 
 
 def _room_above(ax: Axes) -> float:

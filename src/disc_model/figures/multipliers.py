@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLUE, COLUMN, GREY, SEPARATED, large, mark, wide
+from disc_model.figures.drawing import BLUE, COLUMN, GREY, SEPARATED, mark, wide
 from disc_model.figures.runs import stated
 from disc_model.figures.types import Axes
 
@@ -42,14 +42,14 @@ def plot_multipliers(
                 axes.plot(
                     shown.real, shown.imag, shape, color=colour, markersize=mark(4), label=name
                 )
-        words = f"largest |κ|\n= {abs(values[0]):.5g}"
-        axes.text(0, 0.08, words, ha="center", fontsize=large(7))
         axes.set_xlabel("Re κ")
         axes.set_ylabel("Im κ")
         axes.set_aspect("equal")
         axes.margins(0.12)
         page.note = f"{_stability(cycle)}, period {period_text(cycle.period)}"
-        page.explain(axes.get_legend_handles_labels()[0])
+        # not in the panel, where multipliers may lie anywhere
+        largest = f"largest |κ| = {abs(values[0]):.5g}"
+        page.explain(axes.get_legend_handles_labels()[0], title=largest)
     return page.ax
 
 

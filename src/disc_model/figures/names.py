@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.text import Annotation
+from matplotlib.transforms import Bbox
 
 from disc_model.figures.drawing import say
 from disc_model.figures.types import Array, Artist, Axes, Indices
@@ -13,7 +14,8 @@ GAP = 1  # points around a name that no other one covers
 
 
 class Names(Artist):
-    """Names of points, each beside its own: inside the panel, and where it covers no other.
+    """Names of points, each beside its own: inside the panel, where it covers no other name and is
+    nearer to no other point.
 
     Those that are added first come first; those that find no room are left out. Places are chosen
     whenever the figure is drawn, since axes change their size until then.
@@ -23,6 +25,7 @@ class Names(Artist):
         super().__init__()
         self._most = most
         self._candidates: list[list[Annotation]] = []
+        self._points: list[tuple[float, float]] = []
         self.set_zorder(-1)  # chosen before they are drawn
         self.set_in_layout(False)
         ax.add_artist(self)
@@ -40,18 +43,24 @@ class Names(Artist):
         for name in names:
             name.set_in_layout(False)
         self._candidates.append(names)
+        self._points.append(point)
 
     def draw(self, renderer: Any) -> None:
         """Choose the places of all names, which are drawn after it."""
         taken: list[Any] = []
-        for names in self._candidates:
+        panel: Any = self.axes
+        points = panel.transData.transform(np.reshape(self._points, (-1, 2)))
+        for i, names in enumerate(self._candidates):
             for name in names:
                 name.set_visible(False)
             if self._most is None or len(taken) < self._most:
-                self._place(names, taken, renderer)
+                nearness = Nearness(points[i], np.delete(points, i, axis=0))
+                self._place(names, nearness, taken, renderer)
         self.stale = False
 
-    def _place(self, names: Sequence[Annotation], taken: list[Any], renderer: Any) -> None:
+    def _place(
+        self, names: Sequence[Annotation], nearness: "Nearness", taken: list[Any], renderer: Any
+    ) -> None:
         """Show the first of a point's names that finds room; its box is added to those taken."""
         panel: Any = self.axes
         frame = panel.get_window_extent(renderer)
@@ -59,10 +68,25 @@ class Names(Artist):
             name.set_visible(True)  # an invisible one has no extent
             box = name.get_window_extent(renderer).padded(GAP)
             inside = frame.count_contains(box.corners()) == len(box.corners())
-            if inside and not box.count_overlaps(taken):
+            if inside and not box.count_overlaps(taken) and nearness.is_clear(box):
                 taken.append(box)
                 return
             name.set_visible(False)
+
+
+class Nearness(NamedTuple):
+    """A point that is named, and all others, in pixels."""
+
+    own: Array
+    others: Array
+
+    def is_clear(self, box: Bbox) -> bool:
+        """Whether a box is nearer to the point itself than to any other, so that nobody takes it
+        for the name of that one."""
+        places = np.vstack([self.own, self.others])
+        within = np.clip(places, box.min, box.max)
+        own, *others = np.hypot(*(places - within).T)
+        return all(own < other for other in others)
 
 
 # ---- Modes

@@ -30,7 +30,8 @@ def plot_sweep(
     """Draw a variable of a sweep or of a grid study: a line along one dimension, or colours over
     two.
 
-    A second dimension of words, such as the direction of a sweep, gives a line for each. What
+    Values that vary together, such as paired samples, are points over one of their columns. A second
+    dimension of words or of discs, such as the direction of a sweep, gives a line for each. What
     starts come to is drawn as bars of their shares, at each energy or along a parameter. A hatched
     cell is "unresolved": its value is right, but all neighbours differ from it by a tenth of the
     scale or more, so that the grid misses what lies between.
@@ -40,7 +41,7 @@ def plot_sweep(
     study : such as `disc_model.sweep`, `run_study`, `hysteresis` and `basins` return; of one or two dimensions of
         several values
     variable : the shares of starts, the growth rate, the outcome or the first number there is if not given
-    x : the dimension along the horizontal axis; the first of numbers if not given
+    x : the dimension, or the column of paired values, along the horizontal axis; the first of numbers if not given
     log : whether the scale of the variable is logarithmic
     ax, legend, labels, title : as in `Result.plot`
 

@@ -8,14 +8,18 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.data.variables import PHASES, flag_names
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import COLUMN, PHASE_COLOURS, panels, sample, wide
+from disc_model.figures.drawing import BLACK, COLUMN, PHASE_COLOURS, halo, panels, sample, wide
 from disc_model.figures.kinds.cases import Portrait
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.runs import sampled, stated, window_of
 from disc_model.figures.types import Artist, Axes, Figure
 
-LINES = {"stick": 0.5, "slip": 0.5, "separation": 1.2}
-"""Widths of the lines of phases, distinct in grey print, points."""
+LINES = {"stick": 0.8, "slip": 0.5, "separation": 1.2}
+"""Widths of the lines of phases, points."""
+EDGED = "stick"
+"""The phase whose line has a black edge: in grey print the three are thin, thick and dark."""
+EDGE = 0.5
+"""Width of this edge, points."""
 
 
 def draw(plot: Portrait, case: xr.DataTree) -> Figure:
@@ -58,6 +62,8 @@ def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> list[Artist]
         height = np.where(inside, samples[y].values * in_y, np.nan)
         look: dict[str, Any] = {"color": PHASE_COLOURS[name], "label": name}
         width = wide(LINES[name])
+        if name == EDGED:
+            look["path_effects"] = halo(width + 2 * wide(EDGE), BLACK)
         ax.plot(samples[x].values * in_x, height, linewidth=width, rasterized=True, **look)
         handles.append(sample(linewidth=width + 0.5, **look))
     ax.margins(0.04)

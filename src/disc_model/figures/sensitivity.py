@@ -45,7 +45,7 @@ def draw(plot: Sensitivity, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     names = [names[i] for i in order]
 
     width = plot.inches
-    height = 1.2 + 0.2 * len(names)
+    height = 1.35 + 0.2 * len(names)
     figure, axes = row_of_panels(width, len(cells), height, height, sharey=True, sharex=True)
     for ax, cell, thirds in zip(axes, cells, each[:, order], strict=True):
         _draw_rows(ax, thirds, float(cell.samples["probability_unstable"]))
@@ -57,7 +57,7 @@ def draw(plot: Sensitivity, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     axes[0].set_yticks(range(len(names)), labels=labels)
     axes[0].minorticks_off()
     handles = axes[0].get_legend_handles_labels()[0]
-    figure_legend(figure, handles, loc="outside lower center", columns=2)
+    figure_legend(figure, handles, loc="outside lower center", columns=3)
     return figure
 
 
@@ -65,7 +65,9 @@ def _draw_rows(ax: Axes, thirds: Array, at_all: float) -> None:
     """Draw the probabilities in the lowest and highest third of each parameter, shape
     (parameters, parts, 3), and the one at all values."""
     rows = np.arange(len(thirds), dtype=float)
-    ax.axvline(at_all, color=BLACK, linewidth=wide(0.7), linestyle=(0, (3, 2)))
+    ax.axvline(
+        at_all, color=BLACK, linewidth=wide(0.7), linestyle=(0, (3, 2)), label="all of its values"
+    )
     ax.hlines(rows, thirds[:, 0, 0], thirds[:, -1, 0], color=GREY, linewidth=wide(0.8))
     for end, up, face, label in (
         (0, -ASIDE, "white", "lowest third of its values"),

@@ -14,11 +14,13 @@ from disc_model.figures.drawing import (
     letters,
     mark,
     panels,
+    sample,
     say,
     say_beside,
     wide,
 )
 from disc_model.figures.kinds.motions import SlidingModes
+from disc_model.figures.legends import figure_legend
 from disc_model.figures.names import name_of, named_modes
 from disc_model.figures.selection import parts_along, stretches, titles_of
 from disc_model.figures.sliding_outcome import ROUNDING
@@ -69,7 +71,20 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
         _name_frequencies(top, column, highest)
         _name_decays(bottom, column, greatest)
     letters(axes, titles_of(parts))
+    _legend(figure, columns)
     return figure
+
+
+def _legend(figure: Figure, columns: Sequence[xr.Dataset]) -> None:
+    """Name the widths of the lines that are drawn."""
+    rates = np.concatenate([column["mode_growth_rate"].values.ravel() for column in columns])
+    largest = np.concatenate([column["largest_growth_rate"].values.ravel() for column in columns])
+    handles = []
+    if (rates <= ROUNDING).any():
+        handles.append(sample(color=GREY, linewidth=wide(DECAYS), label="mode decays"))
+    if (largest > ROUNDING).any():
+        handles.append(sample(color=BLACK, linewidth=wide(GROWS), label="mode grows"))
+    figure_legend(figure, handles)
 
 
 def _limits(study: xr.Dataset) -> tuple[float, float]:

@@ -113,7 +113,18 @@ def draw_spectrum(
 
 
 def name_lines(ax: Axes, peaks: Sequence[tuple[float, float]]) -> None:
-    """Write the frequencies, Hz, of the strongest lines beside their peaks."""
+    """Write the frequencies, Hz, of the strongest lines beside their peaks, on the side away from
+    the nearest other line if there is room."""
     names = Names(ax, MOST_NAMED)
+    every = [frequency for frequency, _ in peaks]
     for frequency, height in sorted(peaks, key=lambda peak: -peak[1]):
-        names.add(f"{frequency:.1f} Hz", (frequency, height), BESIDE, fontsize=large(7))
+        sides = BESIDE
+        if _nearest(frequency, every) > frequency:
+            sides = BESIDE[::-1]
+        names.add(f"{frequency:.1f} Hz", (frequency, height), sides, fontsize=large(7))
+
+
+def _nearest(frequency: float, every: Sequence[float]) -> float:
+    """The frequency of the line nearest another one; zero without any."""
+    others = [other for other in every if other != frequency]
+    return min(others, key=lambda other: abs(other - frequency), default=0.0)

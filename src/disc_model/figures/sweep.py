@@ -1,7 +1,7 @@
 """Pictures of sweeps and of grid studies: lines along one dimension, colours over two."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import label_of, measured, what_case
+from disc_model.parameters import Disc
 
 SHARES = ("basin_fraction_by_energy", "basin_fraction")
 PREFERRED = (
@@ -50,8 +51,11 @@ def plot_sweep(
         (isinstance(x, str | None), "x", x, "must be a name"),
         (isinstance(log, bool), "log", log, "must be True or False"),
     )
-    varying = _varying(study)  # type: ignore[arg-type]  # checked
-    drawn = _chosen_axes(varying, _chosen_variable(varying, variable), x)
+    whole = _varying(_with_names_of_discs(study))  # type: ignore[arg-type]  # checked
+    varying, column = _along_pairs(whole, x)
+    drawn = _chosen_axes(varying, _chosen_variable(varying, variable), column or x)
+    if column:
+        drawn = replace(drawn, mapped=False, joined=False)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.9, title=_case_of(varying)) as page:
         _draw(page, varying, drawn, log)
     return page.ax
@@ -65,12 +69,14 @@ class Drawn:
     """A variable, and its dimensions: along the horizontal axis, and up or by line, if any.
 
     mapped : whether the second dimension goes up, in a map
+    joined : whether lines join the points; not those of paired values, which have no order
     """
 
     variable: str
     across: str
     second: str | None
     mapped: bool
+    joined: bool = True
 
 
 def _varying(study: xr.Dataset) -> xr.Dataset:
@@ -83,6 +89,34 @@ def _varying(study: xr.Dataset) -> xr.Dataset:
     return study.squeeze(
         [dim for dim, size in study.sizes.items() if size == 1 and dim not in kept]
     )
+
+
+def _with_names_of_discs(study: xr.Dataset) -> xr.Dataset:
+    """The study with names for the discs along its dimensions, by their order and frequencies."""
+    named = {}
+    for name, values in study.coords.items():
+        discs = [value for value in values.values.flat if isinstance(value, Disc)]
+        if discs and values.ndim == 1:
+            shown = [str(disc).removeprefix("Disc(").removesuffix(")") for disc in discs]
+            words = [f"disc {i}: {text}" for i, text in enumerate(shown, start=1)]
+            named[name] = (values.dims, words, values.attrs)
+    return study.assign_coords(named)
+
+
+def _along_pairs(study: xr.Dataset, x: str) -> tuple[xr.Dataset, str]:
+    """The study along one of the columns of numbers that vary together, the first of them unless
+    `x` is another, and its name; "" if none vary together."""
+    for dim in study.get("status", study).dims:
+        columns = [
+            str(name)
+            for name, values in study.coords.items()
+            if values.dims == (dim,) and name != dim and values.dtype.kind in "fi"
+        ]
+        if dim not in study.coords and columns:
+            column = x or columns[0]
+            require((column in columns, "x", x, f"must be one of {', '.join(columns)}"))
+            return study.swap_dims({dim: column}), column
+    return study, ""
 
 
 def _numeric_dims(study: xr.Dataset) -> list[str]:
@@ -105,8 +139,6 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     usual = next(iter([*preferred, *numeric, *choices]), "")
     named = variable or usual
     rule = f"must be one over the grid{suggestion(named, choices)}"
-    if any(dim not in study.coords for dim in study.get("status", study).dims):
-        rule = "varies along paired values: study.plot.scatter(x=..., y=...) of xarray draws points"
     require((named in choices, "variable", named, rule))
     return named
 
@@ -142,7 +174,7 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, log: bool) -> None:
     if drawn.variable in SHARES and not log:
         page.explain(_draw_bars(page.ax, study, drawn), beside="below")
     elif not drawn.mapped:
-        draw_lines(page.ax, study, drawn.variable, drawn.across, log)
+        draw_lines(page.ax, study, drawn.variable, drawn.across, log, joined=drawn.joined)
         page.explain(page.ax.get_legend_handles_labels()[0])
     else:
         plane = study.transpose(drawn.second, drawn.across, ...)

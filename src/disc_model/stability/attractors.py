@@ -8,6 +8,7 @@ without exponents.
 import math
 import sys
 from collections.abc import Iterator, Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
 from itertools import chain, pairwise
 from typing import NamedTuple
@@ -232,6 +233,12 @@ class Basins:
             if kick:
                 start = perturb(p, start, u=-kick * self.static)
             self.follow(start)
+
+    def copy(self) -> "Basins":
+        """The same, to follow other starts from: what they find is not added to this one."""
+        other = copy(self)
+        other.known = [*self.known]
+        return other
 
     def _find_quiet_cycle(self) -> None:
         """Add the cycle near the static start to `known`, if it is stable."""

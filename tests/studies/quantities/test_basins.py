@@ -30,6 +30,9 @@ class Made:
         self.p = p
         self.known = [QUIET, APART]
 
+    def copy(self) -> "Made":
+        return self
+
     @staticmethod
     def least(p: Parameters, i: int) -> float:
         return 0.02 * (i + 1)
@@ -112,3 +115,33 @@ def test_a_bisection_that_finds_no_energy_without_separation_says_how_low_it_wen
     table = found(energies=[0.5], n_starts=1).arrays
     assert np.isnan(table["critical_energy_lower"][0])
     assert 0 < table["critical_energy"][0] < 0.5 * 2.0**-37
+
+
+def test_attractors_of_a_case_are_found_once_for_all_its_starts(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """169 starts of one case each looked for them."""
+    cases = []
+    known = []
+
+    class Counted(Made):
+        def __init__(self, p, horizon, **_) -> None:
+            super().__init__(p, horizon)
+            cases.append(p.Omega)
+
+        def copy(self) -> Made:
+            other = Counted.__new__(Counted)
+            other.p = self.p
+            other.known = [*self.known]
+            return other
+
+        def follow(self, state: tuple[float, int]) -> OutcomeResult:
+            known.append(len(self.known))
+            self.known.append(QUIET)
+            return OutcomeResult(QUIET.kind, 50.0, attractor=QUIET)
+
+    monkeypatch.setattr(attractors, "Basins", Counted)
+    points = [Point(Parameters(N=385, Omega=Omega)) for Omega in (14, 14, 14, 15)]
+    compute(AttractorBasins(), points)
+    assert cases == [14, 15]
+    assert known == [2] * 4, "what a point gives depends on none before it"

@@ -14,7 +14,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import NullFormatter
 
 from disc_model.benchmarks.figures.looks import LINES, OUTLINE, SETTINGS, TEXTS, Look, row_panels
-from disc_model.figures.drawing import BLACK, GREY, PAGE, letter, panels
+from disc_model.figures.drawing import BLACK, PAGE, letter, panels
 from disc_model.figures.types import Axes, Figure
 
 ANSWERS: dict[str, str] = TEXTS["answers"]
@@ -26,6 +26,9 @@ MODELS = ("rigid", "residual")
 _RED = "#B2182B"
 _GREEN = "#E4F1E4"
 _PALE = "#F4F4F4"
+_DARK = "#595959"
+_PLATE = {"facecolor": "white", "linewidth": 0, "pad": 1.0}
+"""Behind red words, which are hardly seen on blue and green."""
 
 
 def answers(dataset: xr.Dataset) -> Figure:
@@ -166,7 +169,7 @@ def _price(part: pd.DataFrame, colors: ScalarMappable) -> _Cell:
     if right.empty and wrong:
         return _Cell(_PALE, [_Words("wrong", 6.5, _RED)])
     if right.empty:
-        return _Cell(_PALE, [_Words("no answer", 6.5, GREY)])
+        return _Cell(_PALE, [_Words("no answer", 6.5, _DARK)])
 
     best = right.iloc[0]
     seconds = best["seconds"]
@@ -202,5 +205,5 @@ def _draw_cell(ax: Axes, place: tuple[int, int], cell: _Cell) -> None:
             va="center",
             fontsize=words.size,
             color=words.color,
-            path_effects=OUTLINE if words.color == _RED else None,
+            bbox=_PLATE if words.color == _RED else None,
         )

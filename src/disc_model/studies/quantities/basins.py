@@ -8,10 +8,10 @@ ones unchanged.
 from collections import Counter
 from collections.abc import Callable, Sequence
 from itertools import chain
-from typing import Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, PrivateAttr
 
 from disc_model.analysis.classify import share
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
@@ -29,6 +29,10 @@ from disc_model.studies.quantity import (
     with_ends,
 )
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
+
+if TYPE_CHECKING:
+    from disc_model.parameters import Parameters
+    from disc_model.stability.attractors import Basins
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
 CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])  # outcomes of a start
@@ -78,6 +82,9 @@ class AttractorBasins(Start, Quantity):
     is bisected"""
     precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05
     """relative precision of the critical energy"""
+
+    _found: Any = PrivateAttr(default=None)
+    """Attractors of the last point's case, for points of a batch that differ only in their starts."""
 
     _rules = (
         (lambda o: [*o.energies] == sorted({*o.energies}), "energies must ascend"),
@@ -143,14 +150,14 @@ class AttractorBasins(Start, Quantity):
         """Failed starts have a fraction of their own, and the point fails if all starts do."""
         from disc_model.simulation.starts import make_initial_state
         from disc_model.simulation.states import static_start
-        from disc_model.stability.attractors import Basins, random_perturbation
+        from disc_model.stability.attractors import random_perturbation
 
         p = point.parameters
         modes_or_none = p.n_diameters >= 0 or not any(self.energies)
         rule = "must be 0 on a rigid disc, which has no modes to perturb; perturb f of the start"
         require((modes_or_none, "energies", self.energies, rule))
         start = make_initial_state(p, point.start, self.tol) or static_start(p)
-        basins = Basins(p, self.horizon, near=self.attractor_tol, tol=self.tol)
+        basins = self._basins_of(p)
 
         def follow(energy: float, i: int, j: int) -> OutcomeResult:
             """The outcome of a perturbation of any energy in the direction of start i of the j-th
@@ -179,6 +186,15 @@ class AttractorBasins(Start, Quantity):
             return values, ""
         message = f"{len(failed)} of {len(every)} starts failed, such as {failed[0].message}"
         return values, message
+
+    def _basins_of(self, p: "Parameters") -> "Basins":
+        """The attractors of a case that its own starts come to, as yet without those of others: what
+        a point gives does not depend on the points before it."""
+        from disc_model.stability.attractors import Basins
+
+        if self._found is None or self._found.p != p:
+            self._found = Basins(p, self.horizon, near=self.attractor_tol, tol=self.tol)
+        return self._found.copy()
 
     def _fractions(
         self, results: Sequence[Sequence[OutcomeResult]], every: Sequence[OutcomeResult]
