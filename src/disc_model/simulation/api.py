@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -98,12 +96,12 @@ def _with_windows_to_the_stop(request: Request, windows: Windows) -> Request:
     if not from_the_end:
         return request
 
-    unrecorded = dataclasses.replace(request, windows={}, events=False)
+    unrecorded = request._replace(windows={}, events=False)
     stopped = Run(unrecorded).complete().final_state.time
     if stopped <= request.start:
         return request
     resolved = resolved_windows(from_the_end, request.start, stopped)
-    return dataclasses.replace(request, windows={**request.windows, **resolved})
+    return request._replace(windows={**request.windows, **resolved})
 
 
 def snapshots(
