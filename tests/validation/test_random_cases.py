@@ -57,13 +57,30 @@ def drawn_case(rng):
         n_diameters=int(rng.choice([-1, 0, 1, 1, 1, 2, 2, 3, 4, 5])), n_circles=int(rng.choice([0, 0, 0, 0, 1, 2])),
         normalization=normalization, contact=str(rng.choice(["unilateral", "unilateral", "unilateral", "bilateral"])),
         contact_compliance={"rigid": 0.0, "number": spread(rng, 1e-7, 1e-5), "residual": "residual"}[give],
-        contact_force=str(rng.choice(["vertical", "normal"])), friction_offset=sometimes(0.4, spread(rng, 1e-4, 1e-2)),
+        contact_force=str(rng.choice(["vertical", "normal"])), contact_arc=sometimes(0.3, rng.uniform(0.02, 1.0)),
+        friction_offset=rng.choice(np.array([0.0, spread(rng, 1e-4, 1e-2), "surface"], object), p=[0.6, 0.25, 0.15]),
     )  # fmt: skip
+    if blocks(p) == 1:  # see `drawn_ramps`
+        p = p.replace(
+            friction_law=str(rng.choice(["hyperbolic", "exponential"])),
+            friction_decay=sometimes(0.4, spread(rng, 0.3, 100), math.inf),
+            viscous_friction=sometimes(0.3, spread(rng, 1e-4, 3e-2)),
+        )
     # damping ratio of the fastest mode: beyond, an explicit integrator takes ever smaller steps
     ratio = sometimes(0.8, spread(rng, 1e-5, 0.3))
     return p.replace(
         D_star=2 * ratio * p.D / (plate_modes(p)["omega"].max() if p.n_diameters >= 0 else 1.0)
     )
+
+
+def blocks(p):
+    """Blocks of lanes that the pairs of modes fill."""
+    return 1 if p.n_diameters * (p.n_circles + 1) <= 4 else 2
+
+
+def varies(p):
+    """Whether friction depends on the slip speed."""
+    return p.viscous_friction > 0 or (math.isfinite(p.friction_decay) and p.mu_s > p.mu_k)
 
 
 def fastest(p):
@@ -79,10 +96,9 @@ def fastest(p):
 def drawn_ramps(rng, p, span):
     """None, or one or two."""
     names = [str(name) for name in rng.permutation(["Omega", "N"])[: rng.choice([0, 0, 1, 2])]]
-    if p.n_diameters * (p.n_circles + 1) > 4 and (
-        p.contact_compliance != 0 or p.contact_force == "normal"
-    ):
-        names = []  # with two blocks of modes: kernels more that would be compiled for a minute each
+    other_contact = p.contact_compliance != 0 or p.contact_force == "normal"
+    if varies(p) or (blocks(p) > 1 and other_contact):
+        names = []  # kernels more that would be compiled for a minute each
     ramps = []
     for name in names:
         begin = span * rng.uniform(0, 0.6)
