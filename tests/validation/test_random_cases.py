@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Execution, Parameters, Ramp, Window, plate_modes, simulate
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.simulation.states import static_start
+from disc_model.simulation.states import static_start, surface_rate
 from tests.contact_laws import course_of, turned
 from tests.references import stored, taylor
 
@@ -123,7 +123,8 @@ def drawn_start(rng, p, time):
     psi, omega, l = (modes[name].to_numpy() for name in ("psi", "omega", "diameters"))
     pair = l > 0
     size = np.abs(p.N * psi / omega**2)
-    f = {
+    # over the material under the slider
+    rate = {
         "stick": 0.0,
         "slip": direction * spread(rng, 0.1, 3) * p.Omega,
         "separation": rng.normal() * 2 * p.Omega,
@@ -138,7 +139,7 @@ def drawn_start(rng, p, time):
         alpha = omega * alpha
         beta = omega * beta * pair
         w = float(psi @ a)
-        velocity = float(psi @ (alpha + l * f * b))
+        velocity = float(psi @ (alpha + l * rate * b))
         u = w
         u_velocity = velocity
         if phase == "separation":
@@ -148,9 +149,10 @@ def drawn_start(rng, p, time):
             u = w - give * p.N * spread(rng, 0.1, 3)
             u_velocity = velocity + 0.03 * rng.normal()
         start = rest.replace(
-            phase=phase, direction=direction, psi=angle, f=f, u=u, u_velocity=u_velocity, a=a, b=b, alpha=alpha,
+            phase=phase, direction=direction, psi=angle, f=rate, u=u, u_velocity=u_velocity, a=a, b=b, alpha=alpha,
             beta=beta,
         )  # fmt: skip
+        start = start.replace(f=rate + surface_rate(p, start))
         R, T = reference(p, start).forces(phase, direction)
         # on a steeper slope slip may have no solution, or two
         steep = p.contact_force == "normal" and p.mu_s * abs(np.sum(l * psi * b)) > 0.5 * p.r_0
