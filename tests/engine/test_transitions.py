@@ -94,6 +94,18 @@ def test_an_error_of_the_force_opens_a_gap_by_compliance_or_by_acceleration(give
         assert transitions.force_error(model, state, TOLERANCE) == pytest.approx(force, rel=1e-6)
 
 
+def test_errors_of_pull_and_force_accelerate_slip_that_has_just_begun() -> None:
+    p = Parameters(N=200, Omega=10, c_p=0.5)
+    case = engine_case(p)
+    state = build_state(case.model)
+    psi = 1.01 * p.mu_s * p.N / (p.r_0 * p.k_p)
+    write_state(case, static_start(p).replace(psi=psi), state)
+    transitions.enter_slip(case.model, state, 1.0)
+    pull = p.k_p * psi + p.c_p * p.Omega
+    wanted = TOLERANCE * case.model.unit / p.m * (pull + p.mu_k * p.N / p.r_0)
+    assert transitions.slip_error(case.model, state, TOLERANCE) == pytest.approx(wanted, rel=1e-6)
+
+
 def test_rounding_of_the_pull_on_a_moving_surface_is_that_of_its_modes() -> None:
     """Two modes that accelerate the surface against each other, by far more than the spring."""
     p = Parameters(N=200, Omega=10, friction_offset=0.02)
