@@ -39,7 +39,7 @@ COUNTS = [
 ]
 """Counts in words, by their number."""
 NOISE = 1e-6
-"""Relative difference to which results of two processors agree (docs/accuracy.md).
+"""Relative difference to which results of two processors agree (docs/verification.md).
 
 Where a last bit decides, `tolerances` of statements.yaml says so.
 """

@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 import xarray as xr
-from docs.drawings.brake_energy import powers
 from docs.sentences import NUMBER, ROOT, Value, numbers_of
 
 import disc_model as dm
@@ -172,8 +171,10 @@ class Sources:
     # ---- grid studies of the paper's disc
 
     def grid(self, study: str) -> xr.Dataset:
-        """Return the dataset of a study, without axes of one value."""
-        return _load(self.results / study / f"{study}.nc").to_dataset().squeeze()
+        """Return the dataset of a study, without axes of one value but that of discs."""
+        dataset = _load(self.results / study / f"{study}.nc").to_dataset()
+        single = [name for name, count in dataset.sizes.items() if count == 1 and name != "disc"]
+        return dataset.squeeze(single)
 
     def separating_cells(self, normalization: str) -> int:
         """Return the number of points of the map over speed and preload that separate."""
@@ -191,11 +192,11 @@ class Sources:
         They are all, those where only one of the two separates, and of these the inferred ones.
         """
         cells = self.grid("map_N").sel(normalization="as_published")
-        scan = self.grid("critical_speed")["scan_first_separation"].rename(scan_Omega="Omega")
+        scan = self.grid("critical_speed")["scan_outcome"].rename(scan_Omega="Omega")
         cells, scan = xr.align(cells, scan, join="inner")
         mapped = flag_names(cells["outcome"].transpose("N", "Omega")) == "separation"
         inferred = flag_names(cells["method"].transpose("N", "Omega")) == "inferred"
-        differ = mapped != np.isfinite(scan.transpose("N", "Omega").values)
+        differ = mapped != (flag_names(scan.transpose("N", "Omega")) == "separation")
         return differ.size, int(differ.sum()), int((differ & inferred).sum())
 
     def lowest_speeds(self) -> np.ndarray:
@@ -279,6 +280,16 @@ class Sources:
         kinds = flag_names(point["attractor_kind"]).tolist()
         return float(point[name][kinds.index("separating")])
 
+    def speeds_with(self, *wanted: str) -> np.ndarray:
+        """Return the speeds at which starts at 385 N lead to all of some kinds of motion, rad/s."""
+        study = self.grid("basins")
+        speeds = []
+        for Omega in study["Omega"].values:
+            kinds = flag_names(study["attractor_kind"].sel(Omega=Omega))
+            if set(wanted) <= set(kinds.tolist()):
+                speeds.append(float(Omega))
+        return np.array(speeds)
+
     # ---- uncertain parameters
 
     def uncertain(self, study: str, N: float) -> xr.Dataset:
@@ -313,14 +324,13 @@ class Sources:
 
     # ---- the brake-like disc
 
-    def brake(self, disc: str, N: float, Omega: float, contact: str = "unilateral") -> float:
+    def brake(self, N: float, Omega: float, contact: str = "unilateral") -> float:
         """Return the range of the slider late in the motion, in thicknesses of the ring."""
-        point = self.grid("brake_outcome").sel(disc=disc, N=N, Omega=Omega, contact=contact)
+        point = self.grid("brake_outcome").sel(disc="surface", N=N, Omega=Omega, contact=contact)
         return float(point["u_max"] - point["u_min"]) / THICKNESS
 
-    def brake_ranges(self, contact: str = "unilateral", least: float = 60) -> xr.DataArray:
-        """Return the ranges of the slider with tangential motion, in thicknesses of the ring, from
-        a speed in rad/s on."""
+    def brake_ranges(self, contact: str = "unilateral", least: float = 50) -> xr.DataArray:
+        """Return these ranges from a speed in rad/s on."""
         study = self.grid("brake_outcome").sel(disc="surface", contact=contact)
         study = study.where(study["Omega"] >= least, drop=True)
         return (study["u_max"] - study["u_min"]) / THICKNESS
@@ -329,15 +339,26 @@ class Sources:
         """Return these ranges in bilateral contact over those with separation."""
         return self.brake_ranges("bilateral") / self.brake_ranges()
 
-    def brake_separation(self, disc: str, N: float, Omega: float) -> float:
+    def brake_separation(self, N: float, Omega: float) -> float:
         """Return the time of the first separation, s."""
-        study = self.grid("brake_outcome")
-        point = study.sel(disc=disc, N=N, Omega=Omega, contact="unilateral")
+        study = self.grid("brake_outcome").sel(disc="surface", contact="unilateral")
+        point = study.sel(N=N, Omega=Omega)
         return float(point["first_separation"])
 
-    def brake_energy(self, contact: str, part: str) -> float:
-        """Return the mean power of a part at 8 kN and 80 rad/s late in the motion, kW."""
-        return abs(powers(80, contact)[part]) / 1e3
+    def brake_separating(self) -> float:
+        """Return the least speed at which the slider separates with both preloads, rad/s."""
+        study = self.grid("brake_outcome").sel(disc="surface", contact="unilateral")
+        separate = study["first_separation"].notnull().all("N")
+        return float(study["Omega"].where(separate).min())
+
+    def two_pads(self, disc: str) -> xr.DataArray:
+        """Return the largest growth rate of steady sliding between two pads at 8 kN each, 1/s."""
+        study = self.grid("brake_two_pads").sel(disc=disc, value=16000)
+        return study["largest_growth_rate"]
+
+    def escaped(self, N: float) -> int:
+        """Return how many of the starts 1 nm apart separate."""
+        return int(self.grid("escape")["first_separation"].sel(N=N).notnull().sum())
 
     def brake_mode(self, Omega: float) -> float:
         """Return the frequency of the mode of steady sliding that grows fastest at 8 kN, Hz."""
@@ -351,20 +372,10 @@ class Sources:
         study = self.grid("brake_convergence").sel(disc=disc, contact_compliance=compliance)
         return study["largest_growth_rate"]
 
-    def brake_growth_at(self, disc: str, compliance: float, Omega: float) -> float:
-        """Return this growth rate at a speed of the study, 1/s."""
-        rates = self.brake_growth(disc, compliance)
-        return float(rates[rates["value"].values.tolist().index(Omega)])
-
     def brake_onset(self, disc: str, compliance: float) -> float:
         """Return the least speed of the study at which sliding grows, rad/s."""
         rates = self.brake_growth(disc, compliance)
         return float(rates["value"].where(rates > 0.01).min())
-
-    def brake_cycle(self, arc: float, N: float, Omega: float) -> float:
-        """Return the growth rate of the stick-slip cycle under a pad of some arc, rad, 1/s."""
-        study = self.grid("brake_growth").sel(disc="surface, damping ratio 0.001")
-        return float(study["growth_rate"].sel(contact_arc=arc, N=N, Omega=Omega))
 
     def brake_cycles_without(self, damping: str, arc: float) -> float:
         """Return the largest growth rate of the cycle without tangential motion, 1/s."""
@@ -475,7 +486,7 @@ class Sources:
 
     def accuracy(self) -> np.ndarray:
         """Return errors of event times divided by the default tolerance, by case."""
-        page = (ROOT / "docs" / "accuracy.md").read_text(encoding="utf-8")
+        page = (ROOT / "docs" / "verification.md").read_text(encoding="utf-8")
         section = page.partition("\n## Event times\n")[2].partition("\n## ")[0]
         rows = [line.split("|") for line in section.splitlines() if line.startswith("|")]
         return np.array([float(row[4]) for row in rows[2:]])

@@ -29,10 +29,17 @@ SPEED = {"work_precision", "work_precision_avx2", "answers"}
 """Measurements for the passages on speed."""
 PAGES = ("README.md", "docs/method.md", "docs/benchmark.md")
 """Pages with passages."""
-FIGURES = ("overview", "failure_maps", "prices", "answer_maps", "contact_truncation", "scaling")
+FIGURES = ("overview", "failure_maps", "prices", "contact_truncation", "scaling")
 """Figures that are shown in docs/gallery."""
 LETTERS = dict(zip(JUDGED, "ab", strict=True))
 """Panel letters of the scenes in the overview."""
+PARTS_OF_TIME = {
+    "simulation": "simulation",
+    "newton": "Newton's method",
+    "return_maps": "other return maps",
+    "rest": "everything else",
+}
+"""Heads of a table by variables of `disc_model.benchmarks.shares`."""
 Rows = list[dict[str, Any]]
 Table = dict[str, dict[Any, Any]]
 """Cells by the names of line and column."""
@@ -190,6 +197,15 @@ def scaling_numbers(scaling: xr.Dataset) -> dict[str, dict[str, Rows]]:
     return numbers
 
 
+def share_numbers(shares: xr.Dataset) -> Rows:
+    """Return rows of `disc_model.benchmarks.shares`, each with percentages of its time."""
+    rows = shares.to_dataframe().to_dict("records")
+    for row in rows:
+        for part in PARTS_OF_TIME:
+            row[part] = 100 * row[part] / row["seconds"]
+    return rows
+
+
 # ---- Passages
 
 
@@ -206,8 +222,21 @@ def passages(speed: Mapping[str, Any]) -> dict[str, str]:
     table = "\n".join(markdown_table(frame.columns, frame.itertuples(index=False)))
 
     template = _environment().get_template("benchmark_passages.jinja")
-    context = template.new_context({"speed": speed, "costs_table": table})
+    numbers = {"speed": speed, "costs_table": table, "shares_table": _shares_table(speed["shares"])}
+    context = template.new_context(numbers)
     return {name: "".join(block(context)) for name, block in template.blocks.items()}
+
+
+def _shares_table(shares: Rows) -> str:
+    """Return the table of where the time of quantities goes, the costliest points first."""
+    heads = ["quantity", "s a point", "simulated s a point", *PARTS_OF_TIME.values()]
+    rows = []
+    for row in sorted(shares, key=lambda row: -row["seconds"] / row["points"]):
+        cells = [f"`{row['quantity']}`"]
+        cells += [plain(row[name] / row["points"]) for name in ("seconds", "simulated")]
+        cells += [f"{row[part]:.0f} %" for part in PARTS_OF_TIME]
+        rows.append(cells)
+    return "\n".join(markdown_table(heads, rows))
 
 
 def _environment() -> jinja2.Environment:
@@ -278,6 +307,25 @@ def fill(text: str, known: Mapping[str, str]) -> str:
 # ---- Files
 
 
+def measured_numbers(folder: Path) -> dict[str, Any]:
+    """Return the numbers of what was measured, from the datasets in a folder."""
+    datasets = {}
+    for name in (*SPEED, "scaling", "shares"):
+        path = folder / f"{name}.nc"
+        if path.is_file():
+            datasets[name] = load(path).to_dataset()
+    numbers: dict[str, Any] = {}
+    if datasets.keys() >= SPEED:
+        numbers = speed_numbers(
+            datasets["work_precision"], datasets["work_precision_avx2"], datasets["answers"]
+        )
+    if "shares" in datasets:
+        numbers["shares"] = share_numbers(datasets["shares"])
+    if "scaling" in datasets:
+        numbers["scaling"] = scaling_numbers(datasets["scaling"])
+    return numbers
+
+
 @script
 def main(bench: str = "results/bench", root: str = "") -> None:
     """Write passages and pictures.
@@ -302,20 +350,3 @@ def main(bench: str = "results/bench", root: str = "") -> None:
         source = folder / "figures" / f"{name}.png"
         if source.is_file():  # else the picture stays as it was
             shrink(source, top / "docs" / "gallery" / f"{name}.png")
-
-
-def measured_numbers(folder: Path) -> dict[str, Any]:
-    """Return the numbers of what was measured, from the datasets in a folder."""
-    datasets = {}
-    for name in (*SPEED, "scaling"):
-        path = folder / f"{name}.nc"
-        if path.is_file():
-            datasets[name] = load(path).to_dataset()
-    numbers: dict[str, Any] = {}
-    if datasets.keys() >= SPEED:
-        numbers = speed_numbers(
-            datasets["work_precision"], datasets["work_precision_avx2"], datasets["answers"]
-        )
-    if "scaling" in datasets:
-        numbers["scaling"] = scaling_numbers(datasets["scaling"])
-    return numbers

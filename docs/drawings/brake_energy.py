@@ -1,16 +1,10 @@
-"""Draw the powers of docs/findings.md on the brake-like disc: what friction on its surface
-supplies, and what takes it.
-
-python docs/drawings/brake_energy.py    writes brake_energy.svg beside this file, after some seconds of simulation
-"""
+"""Compute powers on the brake-like disc: what friction on its surface supplies, and what takes it."""
 
 from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
-from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 import disc_model as dm
@@ -18,31 +12,29 @@ from disc_model.disc.plate import modal_damping, mode_arrays, tangential_amplitu
 from disc_model.simulation.api import snapshots
 
 ROOT = Path(__file__).parents[2]
-FONT: Any = {"font.size": 9, "svg.hashsalt": "brake_energy", "font.family": "DejaVu Sans"}
-CASES = [(Omega, contact) for Omega in (80, 120) for contact in ("unilateral", "bilateral")]
-"""Speeds in rad/s at 8 kN, and contacts."""
 BEGIN, LENGTH, RATE = 8.0, 0.5, 20000
 """s, from when and how long powers are averaged; samples per s."""
-PARTS = {
-    "friction on the surface": "#0072B2",
-    "slope under the slider": "#56B4E9",
-    "damping of the disc": "#767676",
-    "impacts": "#D55E00",
-}
+PARTS = ("friction on the surface", "slope under the slider", "damping of the disc", "impacts")
 
 
 @cache
-def powers(Omega: float, contact: str) -> dict[str, float]:
-    """Mean powers at 8 kN from the static start, W, negative where the vibration loses; and others,
-    which are named.
+def powers(Omega: float, contact: str, compliance: float = 0.0) -> dict[str, float]:
+    """Return mean powers at 8 kN from the static start, W, negative where the vibration loses.
 
-    The impacts' is the rest of the balance of the disc and of the slider's vertical motion
-    (docs/model.md, Energy).
+    Others are named. That of impacts is the rest of the balance of the disc and of the slider's
+    vertical motion (docs/model.md, Energy). In a compliant contact it is that of the contact's
+    elasticity, whose mean vanishes.
+
+    Parameters
+    ----------
+    Omega : speed, rad/s
+    contact : ``unilateral`` or ``bilateral``
+    compliance : of the contact, m/N
     """
     disc = dm.Disc.from_csv(ROOT / "config" / "discs" / "brake.csv")
     p = dm.Parameters(
         N=8000, Omega=Omega, disc=disc, r_0=0.1, k=1e6, k_p=1e6, m=0.5, mu_s=0.45, mu_k=0.35,
-        friction_offset="surface", contact=contact,
+        friction_offset="surface", contact=contact, contact_compliance=compliance,
     )  # fmt: skip
     start = dm.simulate(p, BEGIN, events=False).final_state
     times = start.time + np.arange(int(LENGTH * RATE)) / RATE
@@ -70,40 +62,18 @@ def powers(Omega: float, contact: str) -> dict[str, float]:
     energy += 0.5 * p.m * v**2 + 0.5 * p.k * (u - run.u_0) ** 2 + p.N * (u - run.u_0)
     surface = np.mean(friction * speed)
     slope = np.mean(P * rate * (b @ (modes.diameters * modes.psi)))
-    damping = -np.mean((alpha**2 + beta**2) @ modal_damping(p))
+    by_mode = np.mean(alpha**2 + beta**2, axis=0) * modal_damping(p)
+    damping = -by_mode.sum()
     impacts = (energy[-1] - energy[0]) / (times[P.size - 1] - times[0]) - surface - slope - damping
     named = dict(zip(PARTS, map(float, (surface, slope, damping, impacts)), strict=True))
+    of_modes = {}
+    for omega, taken in zip(modes.omega, by_mode, strict=True):
+        of_modes[f"damping at {omega / (2 * np.pi):.0f} Hz"] = float(taken)
     drive = p.Omega * p.r_0**2 * np.mean(F)
     heat = p.r_0 * np.mean(friction * rate)
     return named | {
         "drive": float(drive),
         "heat": float(heat),
         "surface speed": float(run.scalars()["surface_speed"]),
+        **of_modes,
     }
-
-
-def main() -> None:
-    with plt.rc_context(FONT):
-        figure, ax = plt.subplots(figsize=(7.2, 3.2), layout="constrained")
-        width = 0.8 / len(PARTS)
-        for i, (name, colour) in enumerate(PARTS.items()):
-            heights = [powers(*case)[name] / 1e3 for case in CASES]
-            ax.bar(
-                np.arange(len(CASES)) + (i - 1.5) * width, heights, width, color=colour, label=name
-            )
-        ax.axhline(0, color="black", linewidth=0.8)
-        words = {"unilateral": "with separation", "bilateral": "bilateral contact"}
-        ax.set_xticks(
-            range(len(CASES)), [f"{Omega} rad/s\n{words[contact]}" for Omega, contact in CASES]
-        )
-        ax.set_ylabel("Power into the vibration (kW)")
-        figure.legend(loc="outside right center", frameon=False)
-        figure.savefig(
-            Path(__file__).with_suffix(".svg"), metadata={"Date": None}, facecolor="white"
-        )
-        for case in CASES:
-            print(*case, *(f"{name} {value:.4g};" for name, value in powers(*case).items()))
-
-
-if __name__ == "__main__":
-    main()

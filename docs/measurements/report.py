@@ -7,8 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from docs.measurements import load, robustness, stick_slip, wheel
-from docs.measurements.comparison import Comparison, within
-from docs.measurements.signals import LEAST_FALLS
+from docs.measurements.comparison import Comparison
 from matplotlib.figure import Figure
 
 import disc_model as dm
@@ -74,108 +73,33 @@ def slips() -> str:
 
 
 def thresholds() -> str:
-    """Return A1 and A2 with intervals: a row for each quantity and run, a column for each least
-    fall."""
+    """Return A1 and A2 with verdicts by intervals: a row for each run, and in each cell a ratio for
+    each least fall."""
     columns = robustness.ratios()
-    rows = []
+    rows: dict[str, dict[str, str]] = {}
     for ratios in zip(*columns.values(), strict=True):
+        quantity, run = ratios[0].what.split(", ", 1)
         cells = []
         for each in ratios:
             mark = {"yes": "", "no": " ✗", "undecided": " ?"}[each.verdict]
-            cells.append(f"{each.value:.2f} ({each.low:.2f} to {each.high:.2f}){mark}")
-        rows.append([ratios[0].what, *cells])
-    head = ["predicted over measured", *(f"{least_fall:.2f}" for least_fall in LEAST_FALLS)]
-    return table(head, rows)
-
-
-def friction() -> str:
-    """Return the force before a slip, kinetic friction and the mean force of each run, and numbers of
-    slips by the least fall."""
-    rows = []
-    for run in (*stick_slip.runs(), stick_slip.SLIDING):
-        record = stick_slip.record(run)
-        levels = ["-", "-", "-"]
-        if run != stick_slip.SLIDING:
-            before, kinetic = stick_slip.friction(run)
-            by_constants = f"{stick_slip.force_before(run):.3f}"
-            if run == stick_slip.CALIBRATION:
-                by_constants = "fitted"
-            levels = [f"{before:.3f}", by_constants, f"{kinetic:.3f}"]
-        counts = [f"{record[f'slips_{least_fall}']:.0f}" for least_fall in LEAST_FALLS]
-        mean = f"{record['mean_force']:.3f}"
-        rows.append([stick_slip.name(run), *levels, mean, ", ".join(counts)])
-    falls = ", ".join(f"{least_fall:.2f}" for least_fall in LEAST_FALLS)
-    head = (
-        "run",
-        "force before a slip, $f_1$",
-        "by the two constants",
-        "kinetic",
-        "mean force over weight",
-        f"slips by falls over {falls}",
-    )
-    return table(head, rows)
-
-
-def baselines() -> str:
-    """Return falls and periods of the model, those that need no model, and the least that any
-    constants of friction allow."""
-    medians = stick_slip.medians()
-    falls = {each.what: each for each in medians["fall"]}
-    periods = {each.what: each for each in medians["period"]}
-    rows = []
-    for each in stick_slip.baselines():
-        row = [each.what]
-        for model, plain, least in (
-            (falls[each.what].ratio, each.fall, each.least_fall),
-            (periods[each.what].ratio, each.period, each.least_period),
-        ):
-            for ratio in (model, plain):
-                row.append(crossed(f"{ratio:.2f}", within(1.0, ratio, stick_slip.MEDIANS)))
-            row.append(crossed(f"{least:.2f}", least <= 1 + stick_slip.MEDIANS))
-        rows.append(row)
-    head = (
-        "over the measured",
-        "fall, model",
-        "fall, carried over",
-        "least fall, any friction",
-        "period, model",
-        "period, by 1/(k v)",
-        "least period, any friction",
-    )
-    return table(head, rows)
-
-
-def mass() -> str:
-    """Return the residuals and the predictions of a block with the fitted mass, and mark what is of
-    the slips to whose periods it was fitted."""
-    fit = stick_slip.moving_mass()
-    medians = stick_slip.medians(fit.parameters["m"].value)
-    rows: dict[str, list[str]] = {stick_slip.name(run): [] for run in stick_slip.runs()}
-    for quantity in ("period", "fall", "duration"):
-        cells = {}
-        for each in medians[quantity]:
-            cell = crossed(f"{each.ratio:.2f}", each.agrees)
-            if f" {stick_slip.FASTEST} " in each.what:
-                cell += " (fitted)" if quantity == "period" else " (same slips)"
-            cells[each.what] = cell
-        for run, row in rows.items():
-            row.append(cells.get(run, "friction from here"))
-    head = ("predicted over measured", "period", "fall", "duration")
-    return table(head, [[run, *cells] for run, cells in rows.items()])
+            cells.append(f"{each.value:.2f}{mark}")
+        rows.setdefault(run, {})[quantity] = ", ".join(cells)
+    quantities = ("duration", "period", "fall")
+    lines = []
+    for run, cell_of in rows.items():
+        lines.append([run, *(cell_of.get(quantity, "fitted") for quantity in quantities)])
+    return table(("run", *quantities), lines)
 
 
 def spread() -> str:
-    """Return A3, its ratios with other least falls, and those of the calibrating run's own spread."""
-    rows = compared(stick_slip.spreads())
-    others = LEAST_FALLS[1:]
-    for least_fall in others:
-        for row, each in zip(rows, stick_slip.spreads(least_fall), strict=True):
-            row.append(crossed(f"{each.ratio:.2f}", each.agrees))
-    for row, each in zip(rows, stick_slip.carried_spreads(), strict=True):
-        row.append(crossed(f"{each.ratio:.2f}", each.agrees))
-    head = ["run", "measured", "predicted", "ratio", "agrees"]
-    head += [f"ratio, {least_fall:.2f}" for least_fall in others]
-    return table([*head, "ratio, carried over"], rows)
+    """Return A3, and the ratios of the calibrating run's own spread."""
+    rows = []
+    for each, carried in zip(stick_slip.spreads(), stick_slip.carried_spreads(), strict=True):
+        ratios = []
+        for comparison in (each, carried):
+            ratios.append(crossed(f"{comparison.ratio:.2f}", comparison.agrees))
+        rows.append([each.what, digits(each.measured), digits(each.predicted), *ratios])
+    return table(("run", "measured", "predicted", "ratio", "ratio, carried over"), rows)
 
 
 def shapes() -> str:
@@ -183,18 +107,10 @@ def shapes() -> str:
     rows = []
     for each in wheel.shapes():
         cells = []
-        for error in (each.real, each.complex, each.alone, each.fitted):
+        for error in (each.real, each.complex):
             cells.append(crossed(f"{error:.3f}", error < wheel.SHAPES))
         rows.append([each.mode, *cells, f"{each.other:.2f}"])
-    head = (
-        "mode",
-        "real parts",
-        "complex",
-        "one mode fitted, complex",
-        "two modes fitted, complex",
-        "another number, real parts",
-    )
-    return table(head, rows)
+    return table(("mode", "real parts", "complex", "another number, real parts"), rows)
 
 
 def frequencies() -> str:
@@ -242,9 +158,6 @@ def loads() -> str:
 SECTIONS: dict[str, Callable[[], str]] = {
     "slips": slips,
     "thresholds": thresholds,
-    "baselines": baselines,
-    "friction": friction,
-    "mass": mass,
     "spread": spread,
     "shapes": shapes,
     "frequencies": frequencies,

@@ -48,7 +48,7 @@ def ratios() -> dict[float, list[Ratio]]:
     """Return A1 and A2 with intervals, for each least fall."""
     found: dict[float, list[Ratio]] = {}
     for least_fall in LEAST_FALLS:
-        compared = stick_slip.medians(least_fall=least_fall)
+        compared = stick_slip.medians(least_fall)
         found[least_fall] = []
         for quantity in QUANTITIES:
             by_run = {each.what: each for each in compared[quantity]}

@@ -17,6 +17,8 @@ STIFFNESSES = (168, 1002, 2254)
 """N/m."""
 SPEEDS = (42, 1100, 4300)
 """Of the drive, µm/s."""
+FASTEST = 4300
+"""The largest of these."""
 CALIBRATION = (1002, 42)
 """Stiffness and speed of the run from whose slips friction is taken."""
 SLIDING = (2254, 42)
@@ -90,13 +92,13 @@ def block(run: tuple[int, int], mu_s: float, mu_k: float, mass: float = MASS) ->
 
 
 def predicted(
-    run: tuple[int, int], mu_s: float, mu_k: float, mass: float = MASS, least_fall: float = FALL
+    run: tuple[int, int], mu_s: float, mu_k: float, least_fall: float = FALL
 ) -> pd.DataFrame:
     """Return the slips of a simulated run, found as in the measured ones.
 
     The simulated force has neither noise nor the steps of the measured one.
     """
-    result = simulated(run, mu_s, mu_k, mass)
+    result = simulated(run, mu_s, mu_k)
     p = result.parameters
     force = p.k_p * p.r_0 * result["late"]["psi"].to_numpy() / p.N
     found = slips(force, least_fall)
@@ -146,16 +148,13 @@ def friction(run: tuple[int, int] = CALIBRATION, least_fall: float = FALL) -> tu
     return float(np.median(static)), float(np.median(kinetic))
 
 
-def medians(mass: float = MASS, least_fall: float = FALL) -> dict[str, list[Comparison]]:
-    """Return A1, durations of slips in all runs, and A2, periods and falls in the others.
-
-    A block of another moving `mass` (kg) and the same weight is used afterwards only.
-    """
+def medians(least_fall: float = FALL) -> dict[str, list[Comparison]]:
+    """Return A1, durations of slips in all runs, and A2, periods and falls in the others."""
     mu_s, mu_k = friction(least_fall=least_fall)
     found: dict[str, list[Comparison]] = {quantity: [] for quantity in QUANTITIES}
     for run in runs():
         seen = measured(run, least_fall)
-        model = predicted(run, mu_s, mu_k, mass, least_fall)
+        model = predicted(run, mu_s, mu_k, least_fall)
         for quantity, (of, unit) in QUANTITIES.items():
             if quantity != "duration" and run == CALIBRATION:
                 continue
@@ -238,17 +237,16 @@ class Swing(NamedTuple):
     fall: np.ndarray
 
 
-def swing(run: tuple[int, int], difference: ArrayLike, mass: float = MASS) -> Swing:
+def swing(run: tuple[int, int], difference: ArrayLike) -> Swing:
     """Return the motion of a block whose static friction exceeds the kinetic one by `difference`, a
     number or an array.
 
     In slip the force swings about the kinetic one, by the angular frequency sqrt(k/m), and begins
     and ends with the rate of stick. The period is never less than 2 pi sqrt(m/k), and the force
-    falls in half a swing, whatever the friction and the speed. `mass` (kg) is the moving one; the
-    weight is the stated one.
+    falls in half a swing, whatever the friction and the speed.
     """
     stiffness, speed = run[0], 1e-6 * run[1]
-    omega = np.sqrt(stiffness / mass)
+    omega = np.sqrt(stiffness / MASS)
     reach = np.asarray(difference) * MASS * GRAVITY / stiffness
     slip = (2 * np.pi - 2 * np.arctan(reach * omega / speed)) / omega
     stick = 2 * reach / speed
@@ -267,10 +265,10 @@ def force_before(run: tuple[int, int]) -> float:
     return float(mu_k + swing(run, mu_s - mu_k).fall / 2)
 
 
-def force_of_speed(run: tuple[int, int], mass: float = MASS) -> float:
+def force_of_speed(run: tuple[int, int]) -> float:
     """Return v sqrt(k m) / m g, the half fall of the force over the weight that a block would have
-    without a difference of static and kinetic friction, by its moving `mass` (kg)."""
-    return float(swing(run, 0.0, mass).fall / 2)
+    without a difference of static and kinetic friction."""
+    return float(swing(run, 0.0).fall / 2)
 
 
 # ---- Afterwards, not planned: what needs no model, and what no friction can mend
@@ -317,20 +315,6 @@ def baselines(least_fall: float = FALL) -> list[Baseline]:
     return found
 
 
-def typical_factor(ratios: ArrayLike) -> float:
-    """Return the geometric mean of the factors, at least 1, by which ratios differ from 1."""
-    return float(np.exp(np.mean(np.abs(np.log(ratios)))))
-
-
-def difference_for_fall(run: tuple[int, int], value: float) -> float:
-    """Return the difference of static and kinetic friction with which a block with the stated mass
-    and stiffness has a given fall of the force over the weight; nan if none does."""
-    least = 2 * force_of_speed(run)
-    if value < least:
-        return float("nan")
-    return float(np.sqrt(value**2 - least**2) / 2)
-
-
 def stick_stiffness(run: tuple[int, int], least_fall: float = FALL) -> float:
     """Return the median stiffness (N/m) by which the force rises from a slip to the next, while the
     drive goes on.
@@ -344,30 +328,3 @@ def stick_stiffness(run: tuple[int, int], least_fall: float = FALL) -> float:
     lasting = np.diff(table["start_s"]) - table["duration_s"].to_numpy()[:-1]
     travel = 1e-6 * run[1] * lasting
     return float(np.median((before - after) * MASS * GRAVITY / travel))
-
-
-def deflection_step(run: tuple[int, int]) -> float:
-    """Return the deflection of the spring (µm) that makes the least step of the force."""
-    return float(1e6 * record(run)["quantum"] * MASS * GRAVITY / run[0])
-
-
-# ---- Afterwards, not planned: friction of all runs, and a mass that explains the fastest ones
-
-FASTEST = 4300
-"""Speed of the runs to whose periods the moving mass is fitted, µm/s."""
-
-
-def moving_mass(least_fall: float = FALL) -> dm.Fit:
-    """Fit the moving mass to the periods of the three fastest runs; load and friction stay."""
-    mu_s, mu_k = friction(least_fall=least_fall)
-    base = block(CALIBRATION, mu_s, mu_k)
-    measurements = []
-    for stiffness in STIFFNESSES:
-        table = measured((stiffness, FASTEST), least_fall)
-        gaps = np.diff(table["start_s"])
-        error = 1.25 * quartiles(gaps) / 1.35 / np.sqrt(len(gaps))
-        sampling = 1 / RATE / np.sqrt(12)
-        at = {"k_p": float(stiffness), "Omega": 1e-6 * FASTEST / RADIUS}
-        uncertainty = float(np.hypot(error, sampling))
-        measurements.append(dm.Measurement("period", period(table), uncertainty, at=at))
-    return dm.fit(base, ["m"], measurements)

@@ -136,6 +136,15 @@ def test_the_range_is_that_of_one_period_around_the_loss() -> None:
         separation_location(time, np.array([], dtype=int))
 
 
+def test_the_period_is_that_of_the_dominant_oscillation() -> None:
+    """Four periods of a sine that leaves at its top: half of one lies on either side, of which the
+    next has three times the height."""
+    share = np.arange(4000) / 4000
+    height = np.where(share < 0.45, 1.0, 3.0) * np.sin(2 * np.pi * 4 * share)
+    top = round(4000 * 0.3125)  # of the second period; the third begins at 0.5
+    assert separation_location(height, np.array([top])) == pytest.approx(1.0, abs=1e-3)
+
+
 # ---- shares
 
 
@@ -208,6 +217,30 @@ def test_a_decay_is_not_seen_in_a_record_that_is_much_shorter() -> None:
 
 def test_events_that_become_rarer_are_a_change() -> None:
     assert settling(1e4 * np.log1p(TIME / 1e4), BEAT).answer is Settled.CHANGING
+
+
+@pytest.mark.parametrize("size", [1e-6, 1e6])
+def test_whether_a_motion_has_settled_does_not_depend_on_its_unit(size: float) -> None:
+    drifting = BEAT + 1e-3 * TIME
+    known = settling(TIME, drifting)
+    found = settling(TIME, size * drifting)
+    assert found.answer is known.answer is Settled.CHANGING
+    assert found.rate == pytest.approx(known.rate, rel=1e-9)
+    assert found.least == pytest.approx(known.least, rel=1e-9)
+
+
+def test_the_rate_of_a_drift_is_over_the_width_of_the_motion() -> None:
+    """Twice the standard deviation of a sine, sqrt(2) of its amplitude."""
+    sine = np.sin(TURN * TIME)  # a whole number of periods in each window
+    found = settling(TIME, 3.0 * sine + 1e-3 * TIME)
+    # within a window the drift itself adds to the width
+    assert found.rate == pytest.approx(1e-3 / (3 * 2**0.5), rel=1e-3)
+
+
+def test_the_error_of_a_slope_is_that_of_students_distribution() -> None:
+    """At 99 %, of a line through the values in the windows."""
+    freedom = classify.WINDOWS - 2
+    assert stats.t.ppf(0.995, freedom) == pytest.approx(classify.QUANTILE, abs=1e-3)
 
 
 @pytest.mark.parametrize("rate", [-10 * classify.SLOWEST, 10 * classify.SLOWEST])

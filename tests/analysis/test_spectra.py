@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from disc_model.analysis import spectra
+from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
 from disc_model.parameters import Parameters
 
 RATE = 4000.0
@@ -223,6 +224,19 @@ def test_the_detuning_is_how_far_the_multiple_lies_above_the_mode() -> None:
         assert found.sign == -1
         assert found.detuning == pytest.approx(detuning, abs=1e-9)
         assert found.frequency == pytest.approx(frequency)
+
+
+def test_modes_at_rest_are_those_of_disc_and_slider_together() -> None:
+    """In Hz, ascending; the one of a pair that has its node at the slider keeps its frequency."""
+    p = Parameters(N=385, Omega=15.0)
+    found = spectra.modes_at_rest(p)
+    every = [mode.frequency for mode in found]
+    assert every == pytest.approx(coupled_natural_frequencies(p) / (2 * np.pi), rel=1e-12)
+    free = [mode.frequency for mode in found if not mode.bound]
+    modes = plate_modes(p)
+    pairs = modes[modes["diameters"] > 0]["omega"]
+    assert free == pytest.approx(sorted(pairs / (2 * np.pi)), rel=1e-12)
+    assert [mode.diameters for mode in found] == [1, 0, 1, 2, 2, 3, 3, 4, 4]
 
 
 @pytest.mark.parametrize(

@@ -56,12 +56,30 @@ def test_a_run_on_speed_has_the_costs_that_are_laid_down(run: dict[str, Any]) ->
 
 
 def test_passages_say_the_numbers_of_a_run(run: dict[str, Any]) -> None:
-    numbers = {**run, "cycle": [{"ms": 1.23}], "scaling": SPEED["scaling"]}
+    shares = [
+        {
+            "quantity": quantity, "points": 4, "seconds": seconds, "simulated": 4000.0,
+            "simulation": 60.0, "newton": 25.0, "return_maps": 10.0, "rest": 5.0,
+        }
+        for quantity, seconds in (("floquet", 0.02), ("outcome", 1.0))
+    ]  # fmt: skip
+    more = {"cycle": [{"ms": 1.23}], "scaling": SPEED["scaling"], "shares": shares}
+    numbers = {**run, **more}
     text = "".join(pages.passages(numbers).values())
     assert "1.2 ms" in text
     assert "| heyoka | 630 | - |" in text
     assert "Of heyoka's time, 25 % for (a) and 25 % for (b) is spent in Python" in text
     assert "only, the package takes 1 ms for (a). heyoka, which" in text
+    assert "| `outcome` | 0.25 | 1,000 | 60 % | 25 % | 10 % | 5 % |\n| `floquet` | 0.005 |" in text
+
+
+def test_times_of_a_quantity_become_percentages() -> None:
+    columns = {"seconds": 2.0, "simulation": 1.0, "newton": 0.5, "return_maps": 0.3, "rest": 0.2}
+    dataset = xr.Dataset({name: ("row", [value]) for name, value in columns.items()})
+    (row,) = pages.share_numbers(dataset)
+    assert row["seconds"] == 2.0
+    parts = [row[part] for part in ("simulation", "newton", "return_maps", "rest")]
+    assert parts == pytest.approx([50, 25, 15, 10])
 
 
 def test_datasets_of_two_machines_make_no_run(dataset: xr.Dataset, priced: xr.Dataset) -> None:

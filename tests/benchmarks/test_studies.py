@@ -14,10 +14,13 @@ from disc_model.benchmarks.methods import METHODS, Method
 from disc_model.benchmarks.questions import AnswerStatus, AnswerVerdict, reference
 from disc_model.benchmarks.scaling import scaling
 from disc_model.benchmarks.scenes import Verdict
+from disc_model.benchmarks.shares import SAMPLES, shares
 from disc_model.benchmarks.truncation import contact_study
 from disc_model.benchmarks.work_precision import measured_points, table
 from disc_model.data.variables import flag_names
 from disc_model.simulation.api import simulate
+from disc_model.studies.registry import QUANTITIES
+from disc_model.studies.study import parse_study
 from tests.benchmarks.conftest import SET_UP, SETTINGS, Known
 
 RIGHT, WRONG, SILENT = AnswerVerdict
@@ -243,6 +246,31 @@ def test_what_truncation_does_to_a_study() -> None:
     line = axes[6].lines[0]
     drawn = line.get_ydata()
     np.testing.assert_allclose(drawn, 1e3 * late)
+
+
+@pytest.mark.compiled
+def test_the_time_of_a_quantity_is_that_of_its_parts() -> None:
+    axes = {"N": [385], "Omega": [15.1]}
+    samples = {
+        "outcome": {"options": {"horizon": 30, "early_end": False}, "axes": axes},
+        "floquet": {"axes": axes},
+    }
+    dataset = shares(samples)
+    assert dataset["quantity"].values.tolist() == ["outcome", "floquet"]
+    assert dataset["points"].values.tolist() == [1, 1]
+    parts = [dataset[name].values for name in ("simulation", "newton", "return_maps", "rest")]
+    np.testing.assert_allclose(np.sum(parts, axis=0), dataset["seconds"].values)
+    assert (np.array(parts) >= 0).all()
+    # to the horizon in legs, and the last second again; a growth rate needs no simulation
+    assert dataset["simulated"].values[0] >= 30
+    assert dataset["simulated"].values[1] == dataset["simulation"].values[1] == 0
+    assert dataset["newton"].values[1] > 0
+
+
+def test_every_quantity_has_a_sample_of_its_time() -> None:
+    assert SAMPLES.keys() == QUANTITIES.keys()
+    for quantity, sample in SAMPLES.items():
+        parse_study({"study": "shares", "quantity": quantity, **sample})
 
 
 @pytest.mark.compiled

@@ -15,7 +15,7 @@ from tests import needs
 pytestmark = needs.FINITE_ELEMENTS.mark
 
 P = dm.Parameters(N=0, Omega=0, normalization="orthonormal")
-PAGE = Path(__file__).parents[2] / "docs" / "own_disc.md"
+PAGE = Path(__file__).parents[2] / "docs" / "brake_disc.md"
 RING = [(0.06, 0.1, -0.005, 0.005), (0.1, 0.12, -0.005, 0.005)]
 IRON = {"E": P.E, "nu": P.nu, "rho": P.rho}
 

@@ -214,3 +214,26 @@ def test_the_first_modes_of_a_table_are_chosen_by_the_motion(
     assert choice.modes == 2 * modes - 1
     assert choice.rich == (8,)
     assert choice.error == pytest.approx(error)
+
+
+BRAKES = Path(__file__).parents[2] / "config" / "discs"
+
+
+@pytest.mark.parametrize(
+    ("pads", "one"),
+    [
+        ("brake_two_pads", "brake"),
+        ("brake_two_pads_48_modes", "brake_48_modes"),
+        ("brake_two_pads_heavily_damped", "brake_48_modes"),
+    ],
+)
+def test_between_two_pads_only_the_couple_of_friction_moves_the_brake_disc(
+    pads: str, one: str
+) -> None:
+    """Of equal modes; the ring is 12 mm thick, and the slider at 0.1 m."""
+    two = dm.Disc.from_csv(BRAKES / f"{pads}.csv")
+    disc = dm.Disc.from_csv(BRAKES / f"{one}.csv")
+    assert two.omega == disc.omega
+    couple = -0.006 * np.array(disc.diameters) * disc.amplitude / 0.1
+    # nine digits in the file
+    np.testing.assert_allclose(two.tangential, couple, rtol=1e-8)

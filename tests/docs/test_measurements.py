@@ -45,7 +45,7 @@ def said_on(name: str) -> str:
 
 
 def fastest() -> list[tuple[int, int]]:
-    """Return the runs to whose periods the moving mass is fitted."""
+    """Return the runs at the highest speed."""
     return [run for run in stick_slip.runs() if run[1] == stick_slip.FASTEST]
 
 
@@ -71,11 +71,6 @@ def test_the_spread_of_slips_is_computed() -> None:
     assert agreeing[1] == agreeing[2]
     assert len(agreeing[0]) == 4
     assert "in that run, it agrees in four:" in SENTENCES
-    slowest = stick_slip.spreads()[0]
-    assert slowest.what == "168 N/m, 42 µm/s"
-    assert f"168 N/m and 42 µm/s the prediction, {slowest.predicted:.3f}, is nearly" in SENTENCES
-    carried = stick_slip.carried_spreads()[0].predicted
-    assert slowest.predicted == pytest.approx(carried, rel=0.05)  # "nearly"
     medians = stick_slip.medians()
     agree = agreeing[0]
     falls = [each.ratio for each in medians["fall"] if each.what in agree]
@@ -96,17 +91,16 @@ def test_the_spread_of_slips_agrees_more_often_if_it_is_carried_over() -> None:
 
 def test_cells_that_fitted_numbers_make_are_marked() -> None:
     """The calibrating run's own row in each table that predicts from its friction."""
-    marks = {"slips": ["fitted"] * 2, "friction": ["fitted"], "mass": ["friction from here"] * 2}
+    marks = {"slips": ["fitted"] * 2, "thresholds": ["fitted"] * 2}
     for name, expected in marks.items():
         shown = report.marked(name).search(PAGE)
         assert shown is not None
         row = next(line for line in shown[0].splitlines() if f"| {CALIBRATION} |" in line)
         cells = [cell.strip() for cell in row.split("|")]
         assert [cell for cell in cells if cell in expected] == expected, name
-    for name in ("baselines", "spread"):
-        shown = report.marked(name).search(PAGE)
-        assert shown is not None
-        assert CALIBRATION not in shown[0]
+    shown = report.marked("spread").search(PAGE)
+    assert shown is not None
+    assert CALIBRATION not in shown[0]
     # by the constants that were found from it, its force before a slip is the measured one
     identical = stick_slip.friction()[0]
     assert stick_slip.force_before(stick_slip.CALIBRATION) == pytest.approx(identical, abs=1e-4)
@@ -127,7 +121,6 @@ def test_the_picture_shows_no_fitted_number_as_predicted() -> None:
 def test_the_plan_has_not_changed() -> None:
     """The rows of its table are those of the commit that the page names, before any comparison."""
     assert "commit `060375d1`, twelve minutes before that of the comparisons" in SENTENCES
-    assert "in commit `060375d1`" in said_on("findings.md")
     plan = PAGE.split("## The plan")[1].split("## Sources")[0]
     rows = "".join(f"{line}\n" for line in plan.splitlines() if line.startswith("| "))
     digest = hashlib.sha256(rows.encode()).hexdigest()
@@ -156,8 +149,6 @@ def test_the_headline_on_slips_holds_with_every_least_fall(
     assert f"highest speed periods are {too_long} times too long" in SENTENCES
     assert f"**, {too_far} times, with every least fall" in SENTENCES
     assert f"**, {too_long} times, with every least fall" in SENTENCES
-    assert f"[{too_long} times too long](measurements.md)" in said_on("findings.md")
-    assert "in the seven other runs compared" in said_on("findings.md")
 
 
 def test_no_constants_of_friction_give_the_fast_periods_nor_two_falls() -> None:
@@ -176,7 +167,7 @@ def test_no_constants_of_friction_give_the_fast_periods_nor_two_falls() -> None:
         assert beyond["fall", least_fall] == {"1002 N/m, 4300 µm/s", "2254 N/m, 4300 µm/s"}
 
     values = {}
-    for run in ((1002, 4300), (2254, 4300), (2254, 1100)):
+    for run in ((1002, 4300), (2254, 4300)):
         every = [robustness.least("fall", run, least_fall) for least_fall in LEAST_FALLS]
         values[run] = every
     stiff = [each.value for each in values[2254, 4300]]
@@ -184,15 +175,7 @@ def test_no_constants_of_friction_give_the_fast_periods_nor_two_falls() -> None:
     assert len(middle) == 1
     said = f"this is {middle.pop()} times the measured fall at 1002 N/m, and {span(stiff)} times at"
     assert said in SENTENCES
-    undecided = values[2254, 1100]
-    assert undecided[0].low < 1 < undecided[0].high
-    said = f"least possible fall is {undecided[0].value:.2f} times the measured one, but its"
-    assert said in SENTENCES
-    assert {f"{each.value:.2f}" for each in undecided[1:]} == {"0.97"}
-    assert "with larger least falls it is 0.97" in SENTENCES
     assert "These periods and two of the seven falls are out of reach of any two" in SENTENCES
-    two = "no two constants of friction give these periods, nor two of the seven falls"
-    assert two in said_on("findings.md")
     # the planned tolerance, which one of the two keeps
     assert values[1002, 4300][0].value < 1 + stick_slip.MEDIANS < min(stiff)
     assert "of these two, the first is within the planned 20 %" in SENTENCES
@@ -210,8 +193,6 @@ def test_the_least_of_any_friction_is_that_of_the_simulated_block() -> None:
         other = stick_slip.swing(run, difference)
         assert other.period > least.period
         assert other.fall > least.fall
-        assert stick_slip.difference_for_fall(run, float(other.fall)) == pytest.approx(difference)
-    assert math.isnan(stick_slip.difference_for_fall(run, 0.99 * float(least.fall)))
 
 
 def count_within(ratios: list[float]) -> int:
@@ -224,59 +205,26 @@ def test_what_needs_no_model_is_compared_as_the_page_says() -> None:
     medians = stick_slip.medians()
     plain = stick_slip.baselines()
     model = {}
-    for quantity in ("fall", "period", "duration"):
+    for quantity in ("fall", "period"):
         others = [each for each in medians[quantity] if each.what != CALIBRATION]
         assert [each.what for each in others] == [each.what for each in plain]
         model[quantity] = [each.ratio for each in others]
     carried = [each.fall for each in plain]
     scaled = [each.period for each in plain]
-    lasting = [each.duration for each in plain]
     free = [each.least_period for each in plain]
 
     counts = [count_within(each) for each in (model["fall"], carried)]
     assert counts == [0, 1]
     assert "none of seven agrees by the model, and one if carried over" in SENTENCES
-    factor = stick_slip.typical_factor
-    factors = f"factor of {factor(model['fall']):.2f} and {factor(carried):.2f}, in the geometric"
-    assert factors in SENTENCES
-    assert carried[0] == pytest.approx(model["fall"][0], rel=0.05)  # "nearly the same"
-
     counts = [count_within(each) for each in (model["period"], scaled, free)]
     assert counts == [0, 1, 2]
     assert "none agrees by the model, one by 1/(k v), and two by a free swing" in SENTENCES
-    factors = [f"{factor(each):.2f}" for each in (model["period"], scaled, free)]
-    assert f"factors are {factors[0]}, {factors[1]} and {factors[2]}, so" in SENTENCES
-
-    counts = [count_within(each) for each in (model["duration"], lasting)]
-    assert counts == [3, 2]
-    assert "of the same runs three medians agree, and two if carried over" in SENTENCES
-    factors = f"factors of {factor(model['duration']):.2f} and {factor(lasting):.2f}"
-    assert factors in SENTENCES
-
-
-def test_another_difference_of_friction_gives_the_other_falls() -> None:
-    runs = [(168, 42), (168, 1100), (168, 4300), (1002, 1100)]
-    ends = []
-    for run in runs:
-        seen = stick_slip.fall(stick_slip.measured(run))
-        few = stick_slip.difference_for_fall(run, (1 - stick_slip.MEDIANS) * seen)
-        many = stick_slip.difference_for_fall(run, (1 + stick_slip.MEDIANS) * seen)
-        ends.append((few, many))
-    low = np.nanmax([few for few, _ in ends])  # nan: any difference, down to none, will do
-    high = min(many for _, many in ends)
-    assert low < high
-    assert f"friction, {low:.3f} to {high:.3f}, brings the three at 168 N/m" in SENTENCES
-    own = stick_slip.fall(stick_slip.measured(stick_slip.CALIBRATION))
-    needed = stick_slip.difference_for_fall(stick_slip.CALIBRATION, own)
-    assert f"calibrating run's fall needs {needed:.3f}" in SENTENCES
 
 
 def test_stiffness_by_the_rise_of_the_force_is_what_the_page_says() -> None:
     found = [f"{stick_slip.stick_stiffness(run):.0f}" for run in ((168, 42), (1002, 42))]
     said = f"springs of {found[0]} and {found[1]} N/m, where 168 and 1002 are stated"
     assert said in SENTENCES
-    steps = [stick_slip.deflection_step((stiffness, 1100)) for stiffness in stick_slip.STIFFNESSES]
-    assert f"Its steps are {span(steps, '.1f')} µm of deflection" in SENTENCES
 
 
 @pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
@@ -297,7 +245,7 @@ def test_verdicts_that_depend_on_the_least_fall_are_said_to(
 ) -> None:
     counts = []
     for least_fall in LEAST_FALLS:
-        periods = stick_slip.medians(least_fall=least_fall)["period"]
+        periods = stick_slip.medians(least_fall)["period"]
         counts.append(sum(each.agrees for each in periods))
     assert f"periods, {counts[0]}, {counts[1]} and {counts[2]} are within 20 %" in SENTENCES
     slowest = []
@@ -339,12 +287,6 @@ def test_sentences_on_slips_are_computed() -> None:
 
 
 def test_friction_of_the_runs_differs_as_the_page_says() -> None:
-    other = (168, 4300)
-    kinetic = stick_slip.friction(other)[1] / stick_slip.friction()[1]
-    means = [stick_slip.record(run)["mean_force"] for run in (other, stick_slip.CALIBRATION)]
-    assert f"kinetic friction is {kinetic:.2f} times" in SENTENCES
-    ratio = means[0] / means[1]
-    assert f"needs no slips, {ratio:.2f} times" in SENTENCES
     equal = f"{stick_slip.friction((1002, 4300))[1]:.3f} against {stick_slip.friction()[1]:.3f}"
     assert f"kinetic friction does carry over, {equal}, and yet the fall" in SENTENCES
     own = stick_slip.record(stick_slip.CALIBRATION)["mean_force"]
@@ -387,16 +329,6 @@ def test_the_force_before_a_slip_is_compared_with_that_of_two_constants() -> Non
 
     slow = f"{terms[stick_slip.CALIBRATION]:.4f} against {static - kinetic:.3f}"
     assert f"It is {slow} in the calibrating run" in SENTENCES
-    assert f"4300 µm/s it is {span([terms[run] for run in fast], '.3f')}, and" in SENTENCES
-    ratios = {run: stick_slip.friction(run)[0] / expected[run] for run in fast}
-    softest = ratios[stick_slip.INERTIAL]
-    assert f"$f_1$ is {softest:.2f} times that of the two constants" in SENTENCES
-    stiffest = (2254, stick_slip.FASTEST)
-    assert f"it is {ratios[stiffest]:.2f} times, but two errors cancel" in SENTENCES
-    before, own = stick_slip.friction(stiffest)
-    halves = f"{before - own:.3f}, where the constants give {expected[stiffest] - kinetic:.3f}"
-    assert f"kinetic friction is {own / kinetic:.2f} times that" in SENTENCES
-    assert f"half of the fall {halves}" in SENTENCES
 
 
 def test_period_and_fall_are_one_disagreement_where_the_block_mostly_sticks() -> None:
@@ -406,10 +338,8 @@ def test_period_and_fall_are_one_disagreement_where_the_block_mostly_sticks() ->
     for run, share in shares.items():
         if run[1] == 42:
             assert share > 0.95
-    percent = 100 * shares[(168, 1100)]
-    assert f"the slider sticks for {percent:.0f} % of the predicted period" in SENTENCES
-    others = [share for run, share in shares.items() if run[1] != 42 and run != (168, 1100)]
-    assert max(others) < 0.6
+    others = [share for run, share in shares.items() if run[1] != 42]
+    assert max(others) < 0.8
 
 
 @pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
@@ -424,121 +354,6 @@ def test_the_model_sticks_and_slips_in_every_run() -> None:
     assert sum(each.agrees for each in regimes) == 6
     assert "the six runs that agree, besides the calibrating one, show nothing" in SENTENCES
     assert [each.what for each in regimes if not each.agrees] == ["2254 N/m, 42 µm/s"]
-    share = 100 * stick_slip.stick_share(stick_slip.INERTIAL)
-    assert f"the model sticks there for {share:.0f} % of the time" in SENTENCES
-
-
-@pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
-def test_the_fitted_mass_is_said_to_be_inconsistent() -> None:
-    fit = stick_slip.moving_mass()
-    assert not fit.consistent
-    assert "proves nothing, because it was fitted after they had been seen" in SENTENCES
-    weights = {stick_slip.block(run, 0.3, 0.2, fit.parameters["m"].value).N for run in fastest()}
-    assert weights == {stick_slip.MASS * stick_slip.GRAVITY}
-    assert "Weight and friction are kept" in SENTENCES
-    mass = fit.parameters["m"].value
-    grams = 1e3 * mass
-    share = mass / stick_slip.MASS
-    said = f"gives {grams:.1f} g, {share:.2f} of the stated one, with χ² = "
-    said += f"{fit.chi_squared:.0f} and {fit.freedom} degrees of freedom"
-    assert said in SENTENCES
-    periods = [each for each in stick_slip.medians(mass)["period"] if " 4300 " in each.what]
-    worst = max(periods, key=lambda each: abs(each.ratio - 1))
-    assert worst.what == "168 N/m, 4300 µm/s"
-    kinetic = stick_slip.friction(stick_slip.INERTIAL)[1] / stick_slip.friction()[1]
-    said = f"The largest residual, {100 * (worst.ratio - 1):.0f} %, is at 168 N/m, where kinetic "
-    said += f"friction is {kinetic:.2f} times"
-    assert said in SENTENCES
-    others = [stick_slip.moving_mass(least_fall) for least_fall in LEAST_FALLS[1:]]
-    for each in others:
-        assert not each.consistent
-    masses = " and ".join(f"{1e3 * each.parameters['m'].value:.1f}" for each in others)
-    squares = " and ".join(f"{each.chi_squared:.0f}" for each in others)
-    assert f"the mass is {masses} g, and χ² is {squares}" in SENTENCES
-
-
-@pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
-def test_predictions_with_the_fitted_mass_are_told_from_residuals() -> None:
-    mass = stick_slip.moving_mass().parameters["m"].value
-    medians = stick_slip.medians(mass)
-    shown = report.marked("mass").search(PAGE)
-    assert shown is not None
-    rows = [line for line in shown[0].splitlines() if "µm/s" in line]
-    stiff = [" 4300 " in row for row in rows]
-    fitted = ["(fitted)" in row for row in rows]
-    assert stiff == fitted
-    # their fall and duration are marked, too
-    assert [row.count("(same slips)") for row in rows] == [2 * is_fitted for is_fitted in fitted]
-
-    periods = {each.what: each for each in medians["period"] if " 4300 " not in each.what}
-    assert len(periods) == 4
-    disagreeing = [each.what for each in periods.values() if not each.agrees]
-    assert disagreeing == ["168 N/m, 42 µm/s", "168 N/m, 1100 µm/s"]
-    percent = 100 * (periods["168 N/m, 1100 µm/s"].ratio - 1)
-    factor = periods["168 N/m, 42 µm/s"].ratio
-    assert f"two at 168 N/m do not, by {percent:.0f} % and by a factor of {factor:.2f}" in SENTENCES
-    agreeing = [each.what for each in medians["fall"] if each.agrees]
-    assert agreeing == ["1002 N/m, 4300 µm/s", "2254 N/m, 4300 µm/s"]
-    assert "The only two falls that agree are of runs to whose periods the mass" in SENTENCES
-    static, kinetic = stick_slip.friction()
-    parts = [stick_slip.force_of_speed(run, mass) for run in fastest()[1:]]
-    from_mass = " and ".join(f"{part:.3f}" for part in parts)
-    said = f"it is {from_mass} there, and the difference of static and kinetic friction"
-    assert f"{said} {static - kinetic:.3f}" in SENTENCES
-    durations = [each for each in medians["duration"] if each.what != CALIBRATION]
-    for each in durations:
-        assert each.agrees
-    values = span([each.ratio for each in durations])
-    assert f"calibrating run, {values} times the measured ones" in SENTENCES
-    assert len(durations) == 7
-    assert sum(" 4300 " in each.what for each in durations) == 3
-    assert "Three of these seven are of fitted runs" in SENTENCES
-    carried = []
-    for run in stick_slip.others():
-        if run[1] != stick_slip.FASTEST:
-            fast = stick_slip.duration(stick_slip.measured((run[0], stick_slip.FASTEST)))
-            carried.append(fast / stick_slip.duration(stick_slip.measured(run)))
-    assert len(carried) == 4
-    assert count_within(carried) == 4
-    assert f"same spring, are {span(carried)} times the measured ones" in SENTENCES
-    fast_periods = []
-    for stiffness in (1002, 2254):
-        fast = stick_slip.period(stick_slip.measured((stiffness, stick_slip.FASTEST)))
-        fast_periods.append(fast / stick_slip.period(stick_slip.measured((stiffness, 1100))))
-    assert [abs(ratio - 1) <= stick_slip.MEDIANS for ratio in fast_periods] == [False, True]
-    assert "one of which, at 2254 N/m, would do so if the fast run's period" in SENTENCES
-    changed = []
-    for table in (stick_slip.medians(), medians):
-        changed += [each.ratio for each in table["duration"] if each.what == CALIBRATION]
-    worse = f"the duration gets worse, from {changed[0]:.2f} to {changed[1]:.2f}"
-    assert worse in SENTENCES
-
-
-@pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
-def test_verdicts_of_the_fitted_mass_depend_on_the_least_fall_as_the_page_says() -> None:
-    periods = []
-    durations = []
-    for least_fall in LEAST_FALLS[1:]:
-        mass = stick_slip.moving_mass(least_fall).parameters["m"].value
-        medians = stick_slip.medians(mass, least_fall)
-        predicted = [each for each in medians["period"] if " 4300 " not in each.what]
-        periods.append([each for each in predicted if not each.agrees])
-        others = [each for each in medians["duration"] if each.what != CALIBRATION]
-        durations.append([each for each in others if not each.agrees])
-        falls = [each for each in medians["fall"] if " 4300 " not in each.what]
-        assert [each.agrees for each in falls] == [False] * 4
-    assert "outside of them none of four agrees**, with any least fall" in SENTENCES
-
-    assert [each.what for each in periods[0]] == ["168 N/m, 42 µm/s"]
-    assert periods[1] == []
-    factor = periods[0][0].ratio
-    said = f"0.03 one of the four disagrees, by a factor of {factor:.2f}, and with 0.04 none"
-    assert said in SENTENCES
-    assert durations[0] == []
-    assert [each.what for each in durations[1]] == ["2254 N/m, 1100 µm/s"]
-    assert (
-        f"2254 N/m and 1100 µm/s fails by the model, with {durations[1][0].ratio:.2f}" in SENTENCES
-    )
 
 
 # ---- What the pages say of discs and loads
@@ -555,7 +370,6 @@ def test_sentences_on_shapes_are_computed() -> None:
     for each in errors:
         if each not in failing:
             assert max(each.real, each.complex, each.alone, each.fitted) < wheel.SHAPES
-    assert f"residues of both differ by {failing[0].fitted:.3f}" in SENTENCES
     pair = wheel.peaks("2 fitted").loc[4]
     first, second = pair["frequency_Hz"]
     assert f"finds {first:.1f} and {second:.1f} Hz" in SENTENCES
@@ -574,12 +388,6 @@ def test_the_page_names_the_peaks_that_were_left_out() -> None:
     heights = " and ".join(f"{100 * value:.0f}" for value in left_out["strength"])
     assert f"at {said['frequency_Hz']} Hz, with {heights} % of the height" in SENTENCES
     assert f"{said['error_real']} in the real parts and {said['error_complex']} in" in SENTENCES
-    alone = wheel.omitted("1 fitted")
-    real = " and ".join(f"{value:.3f}" for value in alone["error_real"])
-    whole = " and ".join(f"{value:.3f}" for value in alone["error_complex"])
-    assert f"By residues of one fitted mode these are {real}, and {whole}: the second" in SENTENCES
-    assert (alone["error_real"] < wheel.SHAPES).tolist() == [False, True]
-    assert (alone["error_complex"] >= wheel.SHAPES).all()
     ratios = " and ".join(f"{100 * value:.2f}" for value in left_out["damping_ratio"])
     assert f"the two peaks that were left out have {ratios} %" in SENTENCES
     assert f"the two weaker peaks, with {ratios} %, were left out" in SENTENCES
@@ -624,16 +432,11 @@ def test_sentences_on_frequencies_are_computed() -> None:
     squares = wheel.squares()
     assert f"alone gives ratios of {span(squares)}, of which one is within 5 %" in SENTENCES
     assert sum(abs(ratio - 1) <= wheel.FREQUENCIES for ratio in squares) == 1
-    assert f"The fit gives {wheel.thickness('wheel'):.0f} mm" in SENTENCES
+    assert f"the fit gives {wheel.thickness('wheel'):.0f} mm" in SENTENCES
     bronze = f"{wheel.thickness('bronze disc'):.1f} mm"
-    assert f"the fitted thickness is {bronze}, but the body is 87 mm high**" in SENTENCES
-    assert f"the {bronze} of the bronze plate have no counterpart" in SENTENCES
+    assert f"the fitted thickness is {bronze}, but the body is 87 mm high." in SENTENCES
     assert min(wheel.BRONZE.values()) > wheel.BRONZE_ONE
     assert f"at {wheel.BRONZE_ONE} Hz, below all others" in SENTENCES
-    middle = wheel.peaks("2 fitted")["frequency_Hz"].loc[4].mean()
-    assert f"mean of the split pair, {middle:.1f} Hz" in SENTENCES
-    ratio = frequencies[1].predicted / middle
-    assert f"becomes {ratio:.3f}" in SENTENCES
 
 
 def test_sentences_on_damping_and_loads_are_computed() -> None:
@@ -644,11 +447,6 @@ def test_sentences_on_damping_and_loads_are_computed() -> None:
     assert f"up to {highest:.0f} times too high" in SENTENCES
     constant = [each.ratio for each in laws if each.what.endswith("damping_ratio")]
     assert f"up to {max(constant):.1f} times too high" in SENTENCES
-    pair = wheel.peaks("2 fitted")["damping_ratio"].loc[4]
-    split = " and ".join(f"{100 * each:.3f}" for each in pair)
-    assert f"the two have {split} %" in SENTENCES
-    assert pair.max() < wheel.peaks("read")["damping_ratio"][4]
-
     ranges = load.ranges()
     differs = f"differs between loads by {span(list(ranges.values()))} times within a series"
     assert SENTENCES.count(differs) == 2

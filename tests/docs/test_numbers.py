@@ -9,10 +9,14 @@ from docs.sources import Sources
 from disc_model.data.dataset import MissingFile
 from docs import sentences
 
-WHOLE_PAGES = ["README.md"] + [
-    f"docs/{name}.md" for name in ("findings", "details", "details_friction", "note")
-]
-"""Pages all of whose numbers are accounted for."""
+WHOLE_PAGES = {
+    "README.md": "",
+    "docs/findings.md": "",
+    "docs/evidence.md": "",
+    "docs/note.md": "",
+    "docs/brake_disc.md": "## What friction on the surface does",
+}
+"""Pages all of whose numbers are accounted for, from a heading on if one is given."""
 
 
 @pytest.mark.parametrize("statement", sentences.statements(), ids=lambda each: each.text[:60])
@@ -68,7 +72,9 @@ def without_known_numbers(text: str) -> str:
 @pytest.mark.parametrize("page", WHOLE_PAGES)
 def test_every_number_is_of_a_statement(page: str) -> None:
     """Or docs/statements.yaml lists it as no result."""
-    text = without_known_numbers(sentences.pages()[page])
+    text = sentences.pages()[page]
+    start = text.index(WHOLE_PAGES[page])
+    text = without_known_numbers(text[start:])
     assert re.findall(r"[^\n|]{,60}\d[^\n|]{,30}", text) == []
 
 

@@ -242,6 +242,21 @@ def late_range() -> Figure:
     return drawn("late_range", study, by="disc", thickness=0.004)
 
 
+def escape() -> Figure:
+    """Starts at two preloads, of which some separate, none, or some have failed."""
+    dims = ("N", "perturbation_u")
+    times = np.array([[12.0, NAN, 8.0, 20.0], [NAN, NAN, NAN, NAN]])
+    failures = np.zeros(times.shape, np.int8)
+    failures[1, 0] = 1
+    data = {
+        "status": (dims, failures, {"flag_meanings": "ok failed"}),
+        "first_separation": (dims, times, attributes("first_separation")),
+    }
+    axes = over(N=[120.0, 310.0]) | {"perturbation_u": 1e-9 * np.arange(4)}
+    study = xr.Dataset(data, axes, stated(horizon=30.0))
+    return drawn("escape", study, starts="perturbation_u")
+
+
 # ---- Steady sliding
 
 
@@ -508,6 +523,7 @@ DESCRIBED: dict[str, Callable[[], Figure]] = {
     "heat map": heat_map,
     "heat map in decades": lambda: heat_map(log=True),
     "late range": late_range,
+    "escape": escape,
     "ramps": ramps,
     "region map": region_map,
     "region map with curves": lambda: region_map(with_curves=True),

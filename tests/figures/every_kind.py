@@ -443,6 +443,32 @@ def late_range() -> Example:
     )
 
 
+def escape() -> Example:
+    dims = ("N", "perturbation_u")
+    times = np.array([[12.0, np.nan, 8.0, 20.0], [np.nan, np.nan, np.nan, 25.0]])
+    data = {
+        "status": (dims, np.zeros(times.shape, np.int8), OK),
+        "first_separation": (dims, times, attributes("first_separation")),
+    }
+    axes = over(N=LOADS[:2]) | {"perturbation_u": 1e-9 * np.arange(4)}
+    study = xr.Dataset(data, axes, stated(horizon=30.0))
+    return Example(
+        {"starts": "perturbation_u"},
+        {"study": study},
+        (
+            Shown(0, "x", "Time", [0.0, 8, 12, 20, 30, 0, 25, 30], "s", "linear"),
+            Shown(
+                0,
+                "y",
+                "Share of starts that have separated",
+                [0.0, 0.25, 0.5, 0.75, 0.75, 0, 0.25, 0.25],
+                "",
+                "linear",
+            ),
+        ),
+    )
+
+
 def bifurcation() -> Example:
     psi = np.array([[0.040, 0.061], [0.043, 0.066], [0.045, 0.071]])
     phases = ("none", "stick", "slip", "separation")
@@ -595,6 +621,7 @@ EXAMPLES: dict[str, Callable[[], Example]] = {
         phase_map,
         range_law,
         late_range,
+        escape,
         bifurcation,
         sensitivity,
         campbell,

@@ -27,7 +27,7 @@ def test_a_kind_is_drawn_by_a_test(name: str) -> None:
             else {}
         )
         assert {*kind.quantities} <= {*quantity_names()}
-        assert {*kind(**plane).dims} <= {*Parameters.model_fields}
+        assert {*kind(**plane).dims} <= {*Parameters.model_fields, "perturbation_u"}
     assert any(f'"{name}"' in test.read_text() for test in TESTS)
 
 

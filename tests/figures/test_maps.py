@@ -119,6 +119,32 @@ def outcomes(
     return xr.Dataset({"outcome": (dims, codes, words)}, axes, attrs)
 
 
+def test_contact_is_lost_at_the_range_of_the_mode_that_friction_feeds() -> None:
+    """Of two modes, the second moves more in the plane; at 100 Hz its inertia is far above k."""
+    dims = ("Omega", "N", "disc", "contact")
+    contacts = ["unilateral", "bilateral"]
+    axes = {"Omega": [10.0, 20], "N": [8000.0], "disc": ["a"], "contact": contacts}
+    study = outcomes(dims, axes, np.full((2, 1, 1, 2), 3))
+    values = np.full((2, 1, 1, 2), 0.01)
+    study = study.assign(
+        u_max=(dims, values), u_min=(dims, -values), surface_speed=(dims, 50 * values)
+    )
+    omega = [10.0, 200 * np.pi]
+    disc = {"a": {"omega": omega, "tangential": [0.1, -0.4]}}
+    study.attrs = {
+        "base": '{"disc": "table", "k": 1e4, "m": 0.5, "c": 0}',
+        "discs": json.dumps(disc),
+    }
+    figure = draw("late_range", study, by="disc", thickness=0.01)
+    assert len(figure.axes) == 2
+    (lost,) = [line for line in figure.axes[0].lines if line.get_linestyle() == ":"]
+    expected = 2 * 8000 / (0.5 * omega[1] ** 2 - 1e4) / 0.01
+    assert lost.get_ydata()[0] == pytest.approx(expected)
+    (reversal,) = [line for line in figure.axes[1].lines if line.get_linestyle() == ":"]
+    assert reversal.get_ydata()[0] == 1
+    assert max(figure.axes[1].lines[0].get_ydata()) == pytest.approx(0.5)
+
+
 def test_ranges_late_in_the_motion_are_in_thicknesses() -> None:
     dims = ("Omega", "N", "disc", "contact")
     axes = {

@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib import pyplot
 from matplotlib.colors import to_rgb
 from matplotlib.text import Annotation
 
@@ -13,6 +14,9 @@ from disc_model.figures import ramps as drawn
 from disc_model.figures.basins import LARGEST
 from disc_model.figures.bifurcation import MARKS
 from disc_model.figures.borders import Curve
+from disc_model.figures.branches import Sweep
+from disc_model.figures.branches import _draw_sweep as draw_sweep
+from disc_model.figures.campbell import peaks
 from disc_model.figures.classes import LOOKS
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
 from disc_model.studies.quantities.branches import Branches
@@ -179,6 +183,57 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(
     )
 
 
+def test_the_limit_of_slow_ramps_is_below_all_onsets(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of folds at 12, 15 and 17 rad/s, with onsets from 16 rad/s on."""
+    folds = [
+        Curve(np.array([speed, speed]), np.array([380.0, 390.0]), "fold")
+        for speed in (12.0, 15.0, 17.0)
+    ]
+    monkeypatch.setattr(drawn, "curves_of", lambda _: folds)
+    study = xr.Dataset(attrs={"base": '{"N": 385}'})
+    onset = np.array([18.0, np.nan, 16.0])
+    assert drawn._end_of_cycle(study, {"curves": xr.Dataset()}, onset) == 15.0
+    assert drawn._end_of_cycle(study, {}, onset) is None
+
+
+# ---- branches and peaks
+
+
+def test_a_sweep_has_an_arrow_where_its_range_jumps_by_more_than_ten() -> None:
+    _, ax = pyplot.subplots()
+    heights = np.array([1.0, 9.0, 1.0, 11.0, 0.9])
+    every = np.ones(5, dtype=bool)
+    draw_sweep(ax, Sweep(np.arange(5.0), heights, ~every, every, "^"))
+    arrows = [text for text in ax.texts if text.arrow_patch is not None]
+    assert [(arrow.xyann[0], arrow.xy[0]) for arrow in arrows] == [(2.0, 3.0), (3.0, 4.0)]
+    pyplot.close("all")
+
+
+def test_peaks_are_the_highest_rates_from_a_tenth_on_with_their_crossings() -> None:
+    """A peak of 0.05/s is none; of two within a hundredth of the speeds the higher one is; one at
+    3 rad/s has the crossing of its own leading mode rather than a nearer one of another mode."""
+    speeds = np.linspace(0, 10, 201)
+    rate = np.full(201, -0.2)
+    for place, height in ((60, 3.0), (61, 2.95), (120, 0.05), (160, 0.5)):
+        rate[place] = height
+        rate[place + 1] = max(rate[place + 1], height - 0.09)
+    modes = np.column_stack([rate - 1, rate])
+    study = xr.Dataset(
+        {
+            "growth_rate": ("Omega", rate),
+            "cycle_growth_rate": (("Omega", "mode"), modes),
+            "crossing_Omega": ("crossing", [3.0, 3.05, 8.5]),
+            "crossing_mode": ("crossing", [1, 2, 2]),
+        },
+        {"Omega": speeds, "mode": [1, 2]},
+    )
+    first, second = peaks(study)
+    assert (first.place, second.place) == (60, 160)
+    assert first.crossing is not None
+    assert first.crossing["crossing_Omega"] == 3.05
+    assert second.crossing is None, "none is near"
+
+
 # ---- the range law
 
 
@@ -272,12 +327,14 @@ def test_zooms_must_ascend() -> None:
 
 def test_the_map_of_phases_names_the_pieces_near_the_motion() -> None:
     phase = np.linspace(0.6, 0.98, 39)
+    around = np.tile([0.05, -0.05, np.nan], 13)
     study = xr.Dataset(
         {
             "map_phase": ("probe", phase),
             "map_next_phase": ("probe", np.where(phase < 0.8, phase + 0.1, phase - 0.05)),
             "map_separations": ("probe", np.where(phase < 0.8, 17.0, 2.0)),
-            "map_slope": ("probe", np.where(phase < 0.8, 0.94, 0.97)),
+            # beside 0.94 and 0.97 slopes vary, also to unknown ones
+            "map_slope": ("probe", np.where(phase < 0.8, 0.94, 0.97) + around),
             "release_phase": ("release", np.array([0.76, 0.86, 0.81, np.nan])),
         },
         attrs={"base": '{"normalization": "as_published"}'},
@@ -286,7 +343,7 @@ def test_the_map_of_phases_names_the_pieces_near_the_motion() -> None:
     assert not whole.texts
     assert {text.get_text() for text in near.texts} == {
         "17 separations,\nslope 0.94",
-        "2 separations,\nslope 0.97",
+        "2 separations,\nslope 0.98",  # 0.97 and a fifth of 0.05: of five slopes that are known
     }
     rings = [line for line in near.lines if line.get_marker() == "o"]
     assert rings[0].get_xydata().tolist() == [[0.76, 0.86], [0.86, 0.81]]
@@ -295,3 +352,21 @@ def test_the_map_of_phases_names_the_pieces_near_the_motion() -> None:
 def test_phases_have_marks_of_their_own() -> None:
     """In grey print, dots of slip and separation were alike."""
     assert len({look["marker"] for look in MARKS.values()}) == len(MARKS)
+
+
+def test_the_share_of_starts_that_have_separated_rises_at_each_separation() -> None:
+    """Of four starts that were computed two separate, and one more has failed."""
+    dims = ("N", "perturbation_u")
+    data = {
+        "status": (dims, [[0, 0, 0, 0, 1]], {"flag_meanings": "ok failed"}),
+        "first_separation": (dims, [[9.0, np.nan, 4.0, np.nan, np.nan]]),
+    }
+    axes = {"N": [550.0], "perturbation_u": 1e-9 * np.arange(5)}
+    study = xr.Dataset(data, axes, {"options": '{"horizon": 20}', "base": '{"disc": "table"}'})
+    (ax,) = draw("escape", study).axes
+    line, interval = ax.lines
+    np.testing.assert_allclose(line.get_xdata(), [0, 4, 9, 20])
+    np.testing.assert_allclose(line.get_ydata(), [0, 0.25, 0.5, 0.5])
+    low, high = interval.get_ydata()
+    assert low < 0.5 < high
+    assert 0.5 - low == pytest.approx(high - 0.5)

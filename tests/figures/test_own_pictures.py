@@ -7,15 +7,19 @@ from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model.data.variables import CycleStatus
-from disc_model.figures.disc import Motion
+from disc_model.figures.disc import Motion, scale_of
 from disc_model.figures.film import film as film_of
 from disc_model.simulation.api import snapshots
+from disc_model.stability.critical import Critical
 from disc_model.stability.cycle import FloquetResult
+from tests.figures.described import drawn
+from tests.figures.every_kind import flag
 from tests.figures.measured import Shown, assert_shows, drawn_values
 from tests.figures.reading import lines
 
@@ -118,6 +122,27 @@ def test_critical_values_are_over_the_parameter_and_growth_per_second() -> None:
     assert_shows(figure, Shown(0, "y", "Growth rate of the cycle", critical.growth_rate, "1/s"))
 
 
+def test_what_is_unstable_is_shaded_in_the_unit_of_the_axis() -> None:
+    """The in-plane spring in kN/m, of 1e3 N/m; outside, the motion is stable."""
+    made = Critical(
+        parameters=P,
+        name="k_p",
+        value=2.1e4,
+        crossings=np.array([2.1e4, 2.3e4, 2.6e4]),
+        unstable_above=np.array([True, False, True]),
+        values=np.array([2e4, 2.5e4, 3e4]),
+        growth_rate=np.array([-0.1, -0.2, 0.3]),
+        resolution=5e3,
+    )
+    ax = figure_of(made.plot()).axes[0]
+    assert ax.get_xlabel() == "In-plane spring $k_p$ (kN/m)"
+    spans = [(patch.get_x(), patch.get_x() + patch.get_width()) for patch in ax.patches]
+    assert spans == [pytest.approx((21, 23)), pytest.approx((26, 30))]
+    assert ax.get_xlim() == (20, 30)
+    names = [text.get_text() for text in ax.figure.legends[0].get_texts()]
+    assert names == ["unstable near the static start", "cycles computed"]
+
+
 def test_neutral_curves_have_both_parameters_in_their_units() -> None:
     curves = dm.neutral_curves(P, {"Omega": (14, 15.5), "k_p": (1.9e4, 2.1e4)}, [2e4], points=5)
     figure = figure_of(curves.plot())
@@ -138,6 +163,17 @@ def test_modes_have_their_frequencies_in_hertz() -> None:
     titles = [ax.get_title(loc="center") for ax in dm.plot_modes(P)]
     shown = [float(re.search(r"([\d.]+) Hz", title)[1]) for title in titles]
     assert shown == pytest.approx((modes["omega"] / (2 * np.pi)).tolist(), abs=0.5)
+    kinds = zip(modes["diameters"], modes["circles"], strict=True)
+    names = [f"({diameters}, {circles})" for diameters, circles in kinds]
+    assert [title.partition("  ")[0] for title in titles] == names
+    with_circles = P.replace(n_diameters=1, n_circles=1)
+    titles = [ax.get_title(loc="center") for ax in dm.plot_modes(with_circles)]
+    assert {title.partition("  ")[0] for title in titles} == {
+        "(0, 0)",
+        "(1, 0)",
+        "(0, 1)",
+        "(1, 1)",
+    }
 
 
 def test_a_film_is_in_milliseconds_newtons_and_millimetres() -> None:
@@ -155,3 +191,62 @@ def test_a_film_is_in_milliseconds_newtons_and_millimetres() -> None:
     assert_shows(figure, Shown(2, "y", "Contact force P", late["P"][::50], "N"))
     assert_shows(figure, Shown(1, "y", "Deflection at r_0", [states[3].u], "m"))
     assert circle.get_title().startswith("50.0 ms")
+    scale = scale_of(Motion.of(P, states))
+    assert circle.get_ylim() == pytest.approx((scale.vmin, scale.vmax))
+    film._draw_frame(1)
+    _, dot = figure.axes[2].lines
+    assert dot.get_xdata()[0] == pytest.approx(1e3 * (times[1] - times[0]))
+    force = np.interp(times[1], late["time"].values, late["P"].values)
+    assert dot.get_ydata()[0] == pytest.approx(force)
+
+
+def test_the_most_decisive_parameter_is_on_top_by_its_largest_change() -> None:
+    """One parameter decides at one preload alone, another a little at both."""
+    samples = 30
+    share = (np.arange(samples) + 0.5) / samples
+    values = np.stack([share, np.roll(share, 7), np.roll(share, 13)], axis=-1)
+    words = np.full((2, samples), "stable", dtype=object)
+    words[0, share > 1 / 3] = "unstable"
+    study = xr.Dataset(
+        {
+            "parameter_values": (("N", "sample", "parameter"), np.stack([values, values])),
+            "cycle": flag(("N", "sample"), words, ("failed", "stable", "unstable")),
+            "status": flag(("N", "sample"), np.full((2, samples), "ok"), ("ok", "excluded")),
+            "probability_unstable": ("N", [2 / 3, 0.0]),
+        },
+        {"N": [200.0, 385.0], "parameter": ["k", "mu_s", "c_p"]},
+    )
+    study["N"].attrs.update(units="N", long_name="preload")
+    figure = drawn("sensitivity", study)
+    names = [text.get_text() for text in figure.axes[0].get_yticklabels()]
+    assert names[-1] == "k"
+    lowest, highest = figure.axes[0].containers
+    assert lowest[0].get_xdata()[-1] == 0.0
+    assert highest[0].get_xdata()[-1] == 1.0
+
+
+def test_a_map_has_the_colours_of_its_numbers_in_the_unit_of_its_bar() -> None:
+    heights = xr.DataArray(
+        [[1e-3, 4e-3], [2e-3, 3e-3]], dims=("N", "Omega"), name="u_max", attrs={"units": "m"}
+    )
+    study = heights.to_dataset().assign_coords(N=[100.0, 200.0], Omega=[10.0, 20.0])
+    ax = dm.plot_sweep(study, "u_max")
+    [mesh] = [shape for shape in ax.collections if shape.get_array() is not None]
+    bar = ax.figure.axes[1]
+    if bar.get_ylabel().endswith("(mm)"):
+        factor = 1e3
+    else:
+        factor = 1.0
+    assert mesh.norm.vmin == pytest.approx(1e-3 * factor)
+    assert mesh.norm.vmax == pytest.approx(4e-3 * factor)
+    assert bar.get_ylim() == pytest.approx((1e-3 * factor, 4e-3 * factor))
+
+
+def test_the_note_of_a_picture_stands_at_the_left() -> None:
+    cycle = FloquetResult(P, 1e-12, CycleStatus.OK, "", 0.015, np.array([0.5 + 0j]))
+    ax = figure_of(cycle.plot()).axes[0]
+    assert ax.get_title(loc="left").startswith("unstable, growth rate")
+    assert ax.get_title(loc="center") == ""
+    slow = FloquetResult(P, 1e-12, CycleStatus.OK, "", 1.5, np.array([0.5 + 0j]))
+    said = " ".join(figure_of(slow.plot()).axes[0].get_title(loc="left").split())
+    assert said.endswith("period 1.5 s")

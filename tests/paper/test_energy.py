@@ -5,7 +5,15 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from disc_model.paper.energy import Powers, at_width, in_the_end, power_history
+from disc_model.disc.plate import modal_damping, mode_arrays, modes_at_point
+from disc_model.paper.energy import (
+    Powers,
+    angles_round,
+    at_width,
+    damping_by_diameters,
+    in_the_end,
+    power_history,
+)
 from disc_model.paper.measures import Absent
 from disc_model.parameters import Parameters
 
@@ -77,3 +85,14 @@ def test_powers_are_interpolated_in_the_square_of_the_width_where_it_is_first_re
     assert at_width(history, np.sqrt(8.0)) == pytest.approx(numbered(2 + 2 / 3)[0])
     with pytest.raises(Absent, match=r"comes to 5e\+03 mm only"):
         at_width(history, 5.0)
+
+
+def test_damping_belongs_to_the_diameters_of_the_wave_that_moves() -> None:
+    """A wave of three diameters, whose velocity is 0.2 m/s at r_0, at rest in time."""
+    theta = angles_round(GROWS)
+    samples = [{"w_point_velocity": np.full(5, 0.2 * np.cos(3 * angle))} for angle in theta]
+    taken = damping_by_diameters(GROWS, theta, samples)
+    of_wave = np.flatnonzero(mode_arrays(GROWS).diameters == 3)[0]
+    psi = modes_at_point(GROWS).psi[of_wave]
+    expected = modal_damping(GROWS)[of_wave] * (0.2 / psi) ** 2
+    assert taken == pytest.approx([0, 0, 0, expected, 0], abs=1e-12 * expected)

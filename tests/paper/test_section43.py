@@ -11,7 +11,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
 from disc_model.paper import growth
 from disc_model.paper.measures import Range
-from disc_model.paper.model import AMBIGUOUS, FALSE, PART, TRUE, Answer
+from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_TESTED, PART, TRUE, Answer
 from disc_model.paper.section43 import (
     LOADS,
     SPEEDS,
@@ -340,7 +340,7 @@ def test_the_stiffer_spring_grows_faster_and_separates_sooner(
     ("widths", "separates", "cause", "verdict"),
     [
         ([30, 30, 30, 30], False, False, TRUE),
-        ([30, 30, 30, 30], False, True, PART),
+        ([30, 30, 30, 30], False, True, NOT_TESTED),
         ([30, 30, 30, 30], True, False, FALSE),
         ([19, 19, 30, 30], False, False, FALSE),  # it has not doubled
         ([30, 30, 19, 19], False, False, FALSE),  # it still grows, by more than a half

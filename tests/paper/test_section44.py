@@ -10,7 +10,7 @@ import pytest
 
 from disc_model.analysis.spectra import Line
 from disc_model.paper import paper_tables, section44
-from disc_model.paper.model import FALSE, PART, TRUE
+from disc_model.paper.model import FALSE, NOT_TESTED, PART, TRUE
 from disc_model.paper.section44 import (
     caused_by_friction,
     close_to_natural,
@@ -120,10 +120,11 @@ def test_the_drive_splits_the_rate_of_stick_and_slip(
     [
         ([0.0, 0.4, -0.4, 0.1, 0.2, 0.3], 0, TRUE),
         ([0.0, 0.6, -0.6, 0.6, 0.2, 0.3], 3, PART),
-        ([0.0, 0.6, -0.6, 0.6, 0.7, 0.3], 4, FALSE),
+        ([0.0, 0.6, -0.6, 0.6, 0.7, 0.7], 5, PART),
+        ([0.6, 0.6, -0.6, 0.6, 0.7, 0.7], 6, FALSE),
     ],
 )
-def test_half_of_the_higher_lines_may_be_far_from_natural_frequencies(
+def test_some_of_the_higher_lines_may_be_far_from_natural_frequencies(
     off: list[float], far: int, verdict: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     natural = np.array([130.0, 200.0, 270.0, 340.0])
@@ -133,7 +134,7 @@ def test_half_of_the_higher_lines_may_be_far_from_natural_frequencies(
     found = close_to_natural(known(), within=0.5)
     assert found.verdict == verdict
     assert found.values["far"] == (far, 6)
-    assert found.values["rows"][0] == "130.0 Hz (130.0 Hz)"
+    assert found.values["rows"][0] == f"{near[0]:.1f} Hz (130.0 Hz)"
 
 
 def test_power_is_that_of_squares_of_amplitudes(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -204,9 +205,9 @@ def test_fuzz_stays_for_four_seconds_after_separation(after: float, stays: bool)
 @pytest.mark.parametrize(
     ("disc", "slider", "verdict"),
     [
-        ((0.1, 0.4), (0.1, 0.4), PART),
+        ((0.1, 0.4), (0.1, 0.4), NOT_TESTED),
         ((0.1, 0.4), (0.4, 0.4), FALSE),  # the slider's stays
-        ((0.1, 0.1), (0.1, 0.1), PART),
+        ((0.1, 0.1), (0.1, 0.1), NOT_TESTED),
         ((0.1, 0.4), (0.1, 0.1), FALSE),
         ((0.4, 0.4), (0.4, 0.4), FALSE),
     ],

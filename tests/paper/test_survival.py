@@ -13,7 +13,7 @@ import yaml
 
 from disc_model import Parameters, residual_flexibility
 from disc_model.data.variables import STATUSES
-from disc_model.paper import SURVIVAL_GRIDS
+from disc_model.paper import SURVIVAL_GRIDS, section2, survival
 from disc_model.paper.measures import CaseView
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, judge
 from disc_model.paper.survival import CHANGED, CONCLUSIONS, MODELS, by_model, evidence_of, page_of
@@ -175,6 +175,10 @@ GRID_CASES = [
     (ONSET, onset("qqsqss", *MORE_STABLE, fold=20.0), TRUE),
     (ONSET, onset("qqsqss", *MORE_STABLE, fold=19.95), FALSE),  # at the speed, the cycle is beyond
     (ONSET, onset("xqsqgs", *MORE_STABLE), NOT_COMPUTED),
+    (ONSET, onset("qqsqgs", -0.1, -0.2, 0.1, -0.1, 0.05, 5e-4), TRUE),  # neither stable nor not
+    (ONSET, onset("ssssss", *[0.1] * 6), NOT_COMPUTED),  # no cycle is stable
+    (FOLD, at_fold(BELOW_FOLD, 15.1, 17.0), TRUE),  # one of two speeds is the fold's
+    (FOLD, at_fold(NO_FOLD, 25.0), NOT_COMPUTED),  # the cycle is stable below, and not above
     (FOLD, at_fold(BELOW_FOLD, 15.1), TRUE),  # at 15.05, within 15.0 .. 15.1
     (FOLD, at_fold(OFF_FOLD, 15.1), FALSE),  # at 15.17
     (FOLD, at_fold(NO_FOLD, 15.1), NOT_COMPUTED),  # a curve that was missed may be the fold
@@ -183,6 +187,7 @@ GRID_CASES = [
     (FOLD, at_fold(BELOW_FOLD, 40.0), NOT_COMPUTED),  # where no growth rate is known
     (FOLD, at_fold(FAILED, 15.1), NOT_COMPUTED),
     (CRITICAL, critical(30.0, 20.0, 12.0, NAN), TRUE),
+    (CRITICAL, critical(30.0, NAN, 12.0, NAN), NOT_COMPUTED),  # two speeds do not fall and rise
     (CRITICAL, critical(30.0, 12.0, 20.0, 14.0), PART),  # at the end of the scan it falls again
     (CRITICAL, critical(30.0, 20.0, 12.0, 12.2), FALSE),  # no more than speeds are known to
     (NORMAL, damping("c", GROWING, GROWING - 0.15), TRUE),
@@ -191,6 +196,7 @@ GRID_CASES = [
     (IN_PLANE, in_plane(MANY - 0.05), FALSE),
     (IN_PLANE, in_plane(raised(1, 0, 0.05)), TRUE),  # a stable cycle grows
     (IN_PLANE, in_plane(raised(1, 0, NAN), "no_cycle"), TRUE),
+    (IN_PLANE, in_plane(raised(1, 0, -0.02)), FALSE),  # it decays more slowly, and is stable still
     (IN_PLANE, in_plane(MANY[:, :3] - 0.05), NOT_COMPUTED),  # few cycles say nothing
     (IN_PLANE, damping("c", GROWING, GROWING), NOT_COMPUTED),  # of the other damper
 ]
@@ -275,6 +281,7 @@ REPEATING = np.tile([0.01, 0.012, 0.011], 2000)
 DRIFTING = 0.01 * (1 + 0.1 * np.sin(2.399963 * np.arange(6000)))
 CHAOTIC = 0.01 * (0.7 + 0.6 * logistic(4.0, 8000))
 FEW = np.full(20, 2.0)
+TOO_FEW = np.full(30, 1.9)  # a period would show in twenty, but need not be the shortest
 
 SMALLER = "Smaller vibration"
 STICK = "Stick vanishes"
@@ -283,6 +290,7 @@ PERIODIC = "Not periodic afterwards"
 CASES = [
     (SMALLER, (case(9, 1, 1, 1.05), BILATERAL), TRUE),  # what is early does not count
     (SMALLER, (case(1, 1, 1, 1.3), BILATERAL), NOT_COMPUTED),  # it still grows
+    (SMALLER, (case(1, 1, 2.9, 3.5), BILATERAL), NOT_COMPUTED),  # it grows through the other
     (SMALLER, (case(1, 1, 4, 4), BILATERAL), FALSE),
     (SMALLER, (case(1, 1, 1, 1), UNTIL_PARADOX), TRUE),  # bilateral contact grew until the end
     (STICK, (case(stick=5e-4),), TRUE),
@@ -291,12 +299,33 @@ CASES = [
     (PERIODIC, (case(intervals=CHAOTIC), case(N=300, intervals=DRIFTING)), TRUE),
     (PERIODIC, (case(intervals=CHAOTIC), case(N=300, intervals=REPEATING)), FALSE),
     (PERIODIC, (case(intervals=CHAOTIC), case(N=300, intervals=FEW)), NOT_COMPUTED),
+    (PERIODIC, (case(intervals=CHAOTIC), case(N=300, intervals=TOO_FEW)), NOT_COMPUTED),
 ]
 
 
 @pytest.mark.parametrize(("title", "cases", "verdict"), CASES)
 def test_conclusions_about_cases(title: str, cases: Sequence[CaseView], verdict: str) -> None:
     assert judged(title, *cases).verdict == verdict
+
+
+def test_a_case_separates_below_a_share_of_the_critical_speed() -> None:
+    separating = case()
+    part = 20.0 / section2.moving_load_speed(separating.parameters)
+    assert survival.below_critical(separating, share=1.01 * part).verdict == TRUE
+    assert survival.below_critical(separating, share=0.99 * part).verdict == NOT_COMPUTED
+    rows = survival.below_critical(separating, share=1.01 * part).values["rows"]
+    assert rows == [(separating.place, pytest.approx(part))]
+
+
+@pytest.mark.parametrize(("above", "few"), [(1, True), (3, False)])
+def test_a_damper_that_destabilises_a_tenth_of_the_points_does_at_few(
+    above: int, few: bool
+) -> None:
+    rates = MANY - 0.05
+    rates[1, :above] = 0.05
+    found = judged(IN_PLANE, **in_plane(rates))
+    assert found.verdict == TRUE
+    assert ("few points only" in found.notes) is few
 
 
 # ---- Models

@@ -32,7 +32,7 @@ def labelled(name: str, **attrs: str) -> CaseView:
 
 
 def test_there_are_few_enough_rows_to_read_each_with_its_quotation() -> None:
-    assert len(ROWS) <= 80
+    assert len(ROWS) <= 84  # five of the last sentences had no row
     assert len({row.quote for row in ROWS}) == len(ROWS)
     assert len({row.id for row in ROWS}) == len(ROWS)
 

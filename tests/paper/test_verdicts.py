@@ -17,7 +17,7 @@ from disc_model.disc.plate import plate_modes
 from disc_model.paper import energy, growth, ledger, section2, section44
 from disc_model.paper.energy import Powers
 from disc_model.paper.measures import CaseView, views
-from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, VERDICTS
+from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, VERDICTS, Answer
 from tests.damages import DAMAGES, damaged
 from tests.paper import evidence
 
@@ -99,6 +99,14 @@ def as_the_precursor_has_it(p: Parameters) -> float:
     return 0.1 - p.mu_s
 
 
+def without_contact(
+    case: CaseView, kind: str, times_of: Callable[[CaseView, str], Any] = CaseView.times_of
+) -> Any:
+    """Return the times of a case's events of one kind, as if no separation ended."""
+    times = times_of(case, kind)
+    return times[:0] if kind == "reattachment" else times
+
+
 def of_a_disc(row: str, **functions: Callable[[Parameters], Any]) -> World:
     """Return the world of another disc, for one row.
 
@@ -108,7 +116,7 @@ def of_a_disc(row: str, **functions: Callable[[Parameters], Any]) -> World:
     functions : by which its module judges it
     """
     module = section2
-    if row in ("T2e", "F29"):
+    if row in ("T2e", "F29", "C5"):
         module = section44
     return World(functions={module: functions}, rows=(row,))
 
@@ -145,6 +153,12 @@ WORLDS = {
     "a plate without mass and stiffness": of_a_disc("E17", plate_modes=massless),
     "natural frequencies where the lines are": of_a_disc(
         "T2e", coupled_natural_frequencies=lambda p: 2 * np.pi * np.array([135.3, 202.9, 270.5])
+    ),
+    "lines at natural frequencies": of_a_disc(
+        "C5", close_to_natural=lambda case, within: Answer(TRUE, far=(0, 6))
+    ),
+    "separations without an end": World(
+        functions={CaseView: {"times_of": without_contact}}, rows=("C1r",)
     ),
     "the stiff disc": of_a_disc("F29", plate_modes=lambda p: plate_modes(p.replace(E=150e9))),
     "friction that changes nothing": of_sliding(lambda p: p.Omega - 1000.0),

@@ -18,11 +18,11 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.states import State, static_start
+from disc_model.simulation.states import State, slip_rate, static_start
 from disc_model.stability import attractors
 from disc_model.stability.attractors import Arrival, Basins, random_perturbation
 from disc_model.stability.outcome import Attractor, OutcomeResult, Stage, find_outcome, growing
-from disc_model.stability.segments import Segment, final_segment
+from disc_model.stability.segments import Segment, final_segment, segment_of
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
@@ -438,3 +438,78 @@ def test_a_stay_is_doubled_until_it_has_settled_and_no_further(
     wanted = [(speed, stay) for speed in speeds for stay in stays[speed]]
     assert simulated == wanted
     assert [speed for speed, _ in described] == speeds
+    # from a value inside the sweep rises to the last, and falls to the first
+    later = attractors.sweep(p, "Omega", [10, 11, 12], 2.0, 20.0, 0.5, 1e-8, lowest=1)
+    assert [step for step, *_ in later] == [(0, 1), (0, 2), (1, 2), (1, 1), (1, 0)]
+
+
+# ------------------------------------------------------------------------ Cycles and perturbations
+@pytest.mark.parametrize(
+    ("times", "most", "longest"),
+    [
+        (np.arange(0.5, 20, 1.0), 99, 2),  # five of the last 5 s: half of them
+        (np.arange(0.5, 20, 0.2), 8, 8),  # no more than are asked for
+        (np.array([1.0, 2.0, 3.0, 4.0]), 99, 2),  # of the whole leg if a slow motion has none there
+        (np.array([19.0]), 99, 1),
+    ],
+)
+def test_periods_of_up_to_half_the_late_releases_are_tried(
+    times: np.ndarray, most: int, longest: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[int] = []
+    release = SimpleNamespace(reached=True, x=np.zeros(1))
+    map_ = SimpleNamespace(next_release=lambda state: release)
+    monkeypatch.setattr(attractors, "ReturnMap", lambda p, patient: map_)
+    monkeypatch.setattr(attractors, "find_cycle_near", lambda *_: None)
+    monkeypatch.setattr(
+        attractors, "find_close_return", lambda map_, x, period: asked.append(period)
+    )
+    events = pd.DataFrame({"time": times, "kind": "stick_to_slip"})
+    leg: Any = SimpleNamespace(events=events, final_state=SimpleNamespace(time=20.0))
+    assert attractors.cycle_reached(P14, leg, most) is None
+    assert asked == [longest]
+
+
+def test_a_perturbation_leaves_contact_and_the_slip_speed_as_they_are() -> None:
+    """The slider's height follows the disc under it, and its rotation the disc's surface: the state
+    is consistent, so that the engine changes nothing of it."""
+    p = Parameters(N=385, Omega=14, friction_offset=5e-3)
+    events = simulate(p, 0.5).events
+    released = events["time"][events["kind"] == "stick_to_slip"].iloc[0]
+    state = simulate(p, released + 1e-4).final_state
+    assert state.phase == "slip"
+    kicked = random_perturbation(p, state, 1e-3, (1, 2, 3))
+    # far more than rounding
+    assert abs(kicked.f - state.f) > 1e-3
+    assert slip_rate(p, kicked) == pytest.approx(slip_rate(p, state), rel=1e-9)
+    known = simulate(p, 1e-12, initial_state=kicked.replace(time=0.0)).final_state
+    assert known.u == pytest.approx(kicked.u, rel=1e-6)
+    assert known.u_velocity == pytest.approx(kicked.u_velocity, rel=1e-6)
+
+
+def test_the_static_deflection_of_basins_is_that_of_the_start(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    kicks: list[float] = []
+    p = Parameters(N=385, Omega=14)
+    rest = static_start(p).u
+    monkeypatch.setattr(Basins, "_find_quiet_cycle", lambda self: None)
+    monkeypatch.setattr(Basins, "follow", lambda self, state: kicks.append(state.u / rest))
+    found = Basins(p, 1.0)
+    assert found.static == pytest.approx(abs(rest), rel=1e-12)
+    assert kicks == pytest.approx([1.0, 1.25, 1.5, 2.0, 3.0]), "further down"
+
+
+# ------------------------------------------------------------------------ Segments
+def test_a_segment_has_heights_from_static_equilibrium_and_shares_of_its_time() -> None:
+    samples = {"late": {"P": np.array([3.0, 0.0, 9.0]), "u": np.array([-0.03, -0.01, -0.02])}}
+    statistics = {"time_stick": 1.0, "time_slip": 2.5, "time_separation": 0.5, "separations": 12}
+    result: Any = SimpleNamespace(samples=samples, u_0=-0.015, statistics=statistics)
+    found = segment_of(result)
+    assert (found.P_min, found.P_max) == (0.0, 9.0)
+    assert (found.u_min, found.u_max) == pytest.approx((-0.015, 0.005))
+    assert found.range == pytest.approx(0.02)
+    assert found.stick_fraction == 0.25
+    assert found.slip_fraction == 0.625
+    assert found.separation_fraction == 0.125
+    assert found.separation_rate == 3.0

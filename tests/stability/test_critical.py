@@ -2,6 +2,7 @@
 
 import math
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -291,3 +292,30 @@ def test_a_pair_may_have_met_the_axis_if_its_way_there_and_back_is_no_longer_tha
     longest = 0.45 / critical.MAY_HAVE_MET
     found = critical._returns_from_axis(before, after, longest)
     assert found == pytest.approx([0.2 / 0.3, 0.3 / 0.4])
+
+
+def test_a_pair_that_comes_to_the_axis_between_two_values_is_looked_for_in_the_middle() -> None:
+    """Two real multipliers at one value, and a pair beside them at the other."""
+    angle = 0.01
+    pair = 0.99 * np.exp(1j * np.array([angle, -angle]))
+    real = np.array([0.992 + 0j, 0.988 + 0j])
+    assert 0.5 in critical._shares_of_change(real, pair)
+    assert 0.5 in critical._shares_of_change(pair, real)
+    assert 0.5 not in critical._shares_of_change(pair, 0.99 * pair)
+
+
+@pytest.mark.parametrize(("share", "computed"), [(0.5, 3), (0.05, 2), (0.95, 2)])
+def test_no_value_is_computed_very_close_to_another(
+    share: float, computed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def shares(low: object, high: object) -> list[float]:
+        return [share]
+
+    monkeypatch.setattr(critical, "_doubtful_shares", shares)
+    scan = critical._Scan(Parameters(N=1, Omega=1), "c", 1e-12)
+    found: Any = SimpleNamespace(motion="steady_sliding")
+    monkeypatch.setattr(critical, "find_cycle", lambda p, tol: found)
+    for value in (0.0, 1.0):
+        scan.is_stable(value)
+    scan.refine(0.3)
+    assert len(scan.cycles) == computed

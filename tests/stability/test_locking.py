@@ -1,10 +1,13 @@
 """Periods of motions with stick and separation, with a test that can fail, and their multipliers."""
 
 import math
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
+import xarray as xr
 
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
@@ -54,6 +57,92 @@ def test_a_quasi_periodic_record_shows_none() -> None:
 def test_equal_intervals_with_other_numbers_of_vibrations_are_no_period() -> None:
     vibrations = np.array([2, 3, 2, 2, 3, 2, 2, 2])
     assert lock_of(record(np.full(8, 0.1), vibrations)) is None
+
+
+def run_of(rows: list[tuple[float, str, float]], p: Parameters = CASE, **samples: Any) -> Any:
+    """A made-up run with events: times, kinds and contact forces."""
+    table = pd.DataFrame(rows, columns=["time", "kind", "P"])
+    force = xr.Dataset({"P": ("time", samples["force"])}, {"time": samples["time"]})
+
+    class Run:
+        events = table
+        parameters = p
+
+        def __getitem__(self, name: str) -> xr.Dataset:
+            assert name == "force"
+            return force
+
+    return Run()
+
+
+NOTHING: dict[str, Any] = {"time": [0.0], "force": [0.0]}
+
+
+def test_the_phase_of_a_release_is_its_time_since_a_loss_of_contact_over_their_interval() -> None:
+    apart = [(1.0 + 0.1 * i, "separation", 0.0) for i in range(6)]
+    released = [
+        (0.95, "stick_to_slip", 1.0),  # before the first loss of contact
+        (1.13, "stick_to_slip", 20.0),
+        (1.36, "stick_to_slip", 30.0),
+    ]
+    found = releases_of(run_of(sorted(apart + released), **NOTHING))
+    assert found is not None
+    assert found.times.tolist() == [1.13, 1.36]
+    assert found.phases == pytest.approx([0.3, 0.6])
+    assert found.vibrations.tolist() == [2]
+    assert found.vibration == pytest.approx(0.1)
+    assert found.force.tolist() == [20.0, 30.0]
+    # with a loss of contact known before the run, and its interval
+    found = releases_of(run_of(sorted(apart + released), **NOTHING), since=(0.9, 0.2))
+    assert found is not None
+    assert found.times.tolist() == [0.95, 1.13, 1.36]
+    assert found.phases == pytest.approx([0.25, 0.15, 0.3])
+    assert found.vibration == 0.2
+    assert releases_of(run_of(sorted(apart[:2] + released), **NOTHING)) is None
+
+
+def test_the_multiplier_of_swings_is_that_of_the_formula() -> None:
+    """Two slips of a slider without damper, released under a force that falls linearly."""
+    p = CASE
+    swing = math.sqrt(p.k_p / p.m)
+    time = np.arange(0, 0.2, 1e-5)
+    rate = -900.0  # N/s
+    force = 150.0 + rate * time
+    lasts = (0.004, 0.006)
+    releases = (0.02, 0.05)
+    rows = []
+    for released, length in zip(releases, lasts, strict=True):
+        rows += [(released, "stick_to_slip", 0.0), (released + length, "slip_to_stick", 0.0)]
+    run = run_of(rows, time=time, force=force)
+    expected = 1.0
+    for released, length in zip(releases, lasts, strict=True):
+        rho = p.Omega - p.mu_s * rate / (p.r_0 * p.k_p)
+        at_end = 150.0 + rate * released
+        kappa = (p.mu_s - p.mu_k) * at_end / (p.r_0 * p.m * swing * rho)
+        expected *= math.cos(swing * length) - kappa * math.sin(swing * length)
+    lock = locking.Lock(2, 9, 0.06, 0.0)
+    assert locking.swing_multiplier(p, run, lock) == pytest.approx(expected, rel=1e-9)
+    falling = p.replace(friction_decay=2.0)
+    assert math.isnan(locking.swing_multiplier(falling, run, lock))
+    assert math.isnan(locking.swing_multiplier(p, run, lock._replace(releases=3)))
+
+
+@pytest.mark.parametrize(("separations", "is_there"), [(9, True), (8, False)])
+def test_a_cycle_of_other_separations_is_not_that_of_the_motion(
+    separations: int, is_there: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    orbit = SimpleNamespace(
+        counts=SimpleNamespace(separations=separations), jacobian=np.diag([0.3, -0.7])
+    )
+    release = SimpleNamespace(reached=True, x=np.zeros(2))
+    map_ = SimpleNamespace(next_release=lambda state: release)
+    monkeypatch.setattr(locking, "ReturnMap", lambda p, patient: map_)
+    monkeypatch.setattr(locking, "newton", lambda *_, **__: orbit)
+    state: Any = None
+    found = locking.multipliers_of(CASE, state, locking.Lock(2, 9, 0.06, 0.0))
+    assert (found is not None) is is_there
+    if found is not None:
+        assert found.tolist() == [-0.7, 0.3]
 
 
 # ---- The motion at 200 N

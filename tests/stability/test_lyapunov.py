@@ -1,9 +1,12 @@
 """Largest Lyapunov exponents."""
 
+import math
+
 import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters, Status, floquet, plate_modes, steady_sliding
+from disc_model.engine import columns
 from disc_model.simulation.states import static_start
 from disc_model.stability.lyapunov import _averaged, lyapunov_exponents
 from tests.stability.test_attractor import paradox
@@ -138,3 +141,30 @@ def test_halves_agree_within_a_share_or_within_a_rate(
     assert found.exponents == pytest.approx([(first + second) / 2], abs=1e-12)
     assert found.duration == pytest.approx(1.6)
     assert found.converged.tolist() == [converged]
+
+
+def logs_of(*rates: float) -> np.ndarray:
+    """Logarithms of growth over 32 intervals of half a second."""
+    return np.tile(0.5 * np.array(rates), (32, 1))
+
+
+@pytest.mark.parametrize(
+    ("rates", "releases", "exponents", "trivial"),
+    [
+        ((0.01, 2.0, -3.0), 4, [2.0, -3.0], 0.01),  # the one along the motion is between others
+        ((0.01, -2.0, -3.0), 4, [-2.0, -3.0], 0.01),
+        ((0.01, 2.0, -3.0), 0, [2.0, 0.01], math.nan),  # without events there is none
+    ],
+)
+def test_the_exponent_along_the_motion_is_left_out_wherever_it_is(
+    rates: tuple[float, ...], releases: int, exponents: list[float], trivial: float
+) -> None:
+    log = np.zeros(1 + max(columns.RELEASES, columns.STICKS, columns.SEPARATIONS))
+    log[columns.RELEASES] = releases
+    log[columns.SEPARATIONS] = 0
+    end = static_start(STICK)
+    found = _averaged(Status.OK, logs_of(*rates), 0.5, 2, log, end, True)
+    assert found.exponents == pytest.approx(exponents)
+    assert found.trivial_exponent == pytest.approx(trivial, nan_ok=True)
+    assert found.duration == 16.0
+    assert found.converged.tolist() == [True, True]

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.result import Result
@@ -121,6 +122,8 @@ def test_critical_speed_scans_the_simulated_motions(law: str) -> None:
         assert found["scan_first_separation"].values == pytest.approx(
             times, rel=SAME_TIME, nan_ok=True
         )
+        separates = flag_names(found["scan_outcome"]) == "separation"
+        assert separates.tolist() == np.isfinite(times).tolist()
         lowest = speeds[np.isfinite(times)][0]
         assert found["critical_speed"].item() == pytest.approx(lowest, rel=1e-11)
 

@@ -15,13 +15,15 @@ from disc_model.figures import selection
 from disc_model.figures.render import render
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
+from disc_model.studies import grid as parts_of
 from disc_model.studies import run
 from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import failures, merge_batches
 from disc_model.studies.quantity import Point
 from disc_model.studies.run import run_batch
+from disc_model.studies.study import parse_study
 from tests.studies.conftest import computed, study
-from tests.studies.refused import parse_grid
+from tests.studies.refused import faults_of, parse_grid
 
 
 def points(grid: GridStudy) -> list[list[list[Any]]]:
@@ -136,3 +138,94 @@ def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: P
     assert list(selection.gaps(study, study["period"])) == []
     for name, plot in grid.plots.items():
         render(plot, {"study": xr.DataTree(study)}).savefig(tmp_path / f"{name}.png")
+
+
+# ---- parts of a grid
+
+
+def test_a_plane_is_cut_into_stretches_that_share_their_ends() -> None:
+    values = [(float(i),) for i in range(18)]
+    cuts = parts_of._cuts(values, 8)
+    assert [cut.along for cut in cuts] == [tuple(range(9)), tuple(range(8, 18))]
+    # the last value of a stretch belongs to the next one
+    assert [len(cut.within) for cut in cuts] == [8, 10]
+    [whole] = parts_of._cuts(values[:5], 8)
+    assert len(whole.within) == 5
+
+
+def test_a_value_belongs_to_the_first_block_that_has_it() -> None:
+    made = parts_of.Dimension(["c"], [[(2.0,), (0.0,)], [(2.0,), (3.0,)], [(0.0,)]])
+    assert made.blocks == [[(0.0,), (2.0,)], [(3.0,)]]
+    assert made.values == ((0.0,), (2.0,), (3.0,))
+
+
+@pytest.mark.parametrize(("value", "place"), [(0.3, 1), (0.1 + 0.2, 1), (0.301, None), (5.0, 2)])
+def test_a_mark_has_the_place_of_its_value_to_rounding(value: float, place: int | None) -> None:
+    assert parts_of._index_of(value, (0.1, 0.3, 5.0)) == place
+
+
+def test_implausible_values_are_looked_for_at_both_ends_of_an_axis() -> None:
+    raw = {"study": "s", "quantity": "floquet", "base": {"N": 200, "Omega": 20}}
+    usual = parse_grid({**raw, "axes": {"D_star": [1e-5, 2e-5, 3e-5]}})
+    assert not [*usual.doubts]
+    thick = parse_grid({**raw, "axes": {"h": [0.002, 0.01, 0.05]}})
+    [told] = thick.doubts
+    assert "h = 0.05 m" in told
+
+
+CROSSED = {
+    "study": "s",
+    "quantity": "campbell",
+    "base": {"n_diameters": 1},
+    "axes": {"N": [200, 300], "Omega": [10, 11, 12]},
+}
+
+
+@pytest.mark.parametrize(
+    ("figure", "fault"),
+    [
+        ({"variable": "n_crossings", "x": "N"}, ""),  # one number over all speeds
+        ({"variable": "n_crossings", "x": "Omega"}, "figures.f.x='Omega'"),
+        ({"variable": "crossing_frequency", "x": "crossing", "by": "N"}, ""),
+        ({"variable": "growth_rate", "x": "Omega", "by": "N"}, ""),
+        ({"variable": "growth_rate", "x": "crossing", "by": "N"}, "figures.f.x='crossing'"),
+        ({"variable": "cycle_frequency", "x": "mode", "at": {"N": 200, "Omega": 11}}, ""),
+    ],
+)
+def test_figures_of_a_summary_have_its_dimensions(figure: dict[str, Any], fault: str) -> None:
+    raw = CROSSED | {"figures": {"f": {"kind": "curve", **figure}}}
+    if not fault:
+        assert [*parse_grid(raw).plots] == ["f"]
+        return
+    found = faults_of(parse_study, raw)
+    assert any(each.startswith(fault) for each in found), found
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"options": {"parameter": "mu_s"}, "where": "mu_s < 1"}, "mu_s is varied by the quantity"),
+        (
+            {"options": {"parameter": "mu_k_over_mu_s"}, "where": "mu_k < 1"},
+            "mu_k is varied by the quantity",
+        ),
+        (
+            {
+                "options": {"parameter": "mu_s"},
+                "base": {"mu_k_over_mu_s": 0.5},
+                "where": "mu_k < 1",
+            },
+            "mu_k is varied by the quantity",
+        ),
+        ({"options": {"parameter": "k"}, "where": "mu_z < 1"}, "mu_z is no value of a point"),
+    ],
+)
+def test_a_rule_may_compare_nothing_that_the_quantity_varies(
+    changes: dict[str, Any], words: str
+) -> None:
+    scan = {"start": 0.3, "stop": 0.5, "count": 2}
+    raw = {"study": "s", "quantity": "sliding", "axes": {"c": [0.0, 1.0]}, **changes}
+    raw["options"] = {"scan": scan, **changes["options"]}
+    raw["base"] = {"N": 200, "Omega": 20, **changes.get("base", {})}
+    found = faults_of(parse_study, raw)
+    assert any(words in each for each in found), found

@@ -176,6 +176,55 @@ def test_times_are_said_in_words() -> None:
     assert {value: plan.duration_text(value) for value in shown} == shown
 
 
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [
+        (0.99, "less than 1 s"),
+        (1.0, "1 s"),
+        (99.0, "99 s"),
+        (99.7, "1.7 min"),  # it was 1e+02 s
+        (100.0, "1.7 min"),
+        (5900.0, "98 min"),
+        (5990.0, "1.7 h"),  # it was 1e+02 min
+        (6000.0, "1.7 h"),
+        (400_000.0, "110 h"),  # it was 1.1e+02 h
+    ],
+)
+def test_a_time_has_two_digits_and_no_power_of_ten(seconds: float, text: str) -> None:
+    assert plan.duration_text(seconds) == text
+
+
+def test_the_law_of_costs_counts_modes_frequencies_and_laws() -> None:
+    """Twice the slider's frequency has twice as many releases; laws of contact add up as factors."""
+    case = Parameters(**PLATE)
+    usual = unit_costs(case)
+    fast = unit_costs(case.replace(m=case.m / 4))
+    assert fast.second == pytest.approx(2 * usual.second, rel=1e-12)
+    assert fast.cycle == pytest.approx(usual.cycle, rel=1e-12), "one release counts"
+    # a slider hardly ever slips below 0.3 of the paper's frequency
+    slow = unit_costs(case.replace(k_p=case.k_p / 400))
+    assert slow.second == pytest.approx(0.3 * usual.second, rel=1e-12)
+    laws: dict[str, dict[str, Any]] = {
+        "compliant": {"contact_compliance": 1e-8},
+        "normal": {"contact_force": "normal"},
+        "falling": {"friction_decay": 2.0},
+        "viscous": {"viscous_friction": 0.01},
+    }
+    measured = {
+        "compliant": (3.0, 2.2),
+        "normal": (1.7, 1.15),
+        "falling": (1.7, 1.2),
+        "viscous": (1.7, 1.2),
+    }
+    for name, law in laws.items():
+        costs = unit_costs(case.replace(**law))
+        found = (costs.second / usual.second, costs.cycle / usual.cycle)
+        assert found == pytest.approx(measured[name], rel=1e-12), name
+    every = laws["compliant"] | laws["normal"] | laws["falling"] | laws["viscous"]
+    together = unit_costs(case.replace(**every))
+    assert together.second == pytest.approx(3.0 * 1.7 * 1.7 * usual.second, rel=1e-12)
+
+
 def test_the_machine_s_factor_is_about_the_same_twice() -> None:
     first = machine_factor()
     second = machine_factor()

@@ -1,6 +1,7 @@
 """Quantities of a case and studies as functions: the same numbers as those of the workflow's
 batches."""
 
+import inspect
 import json
 from collections.abc import Callable
 from typing import Any
@@ -10,6 +11,8 @@ import pytest
 
 import disc_model as dm
 from disc_model.data.variables import flag_names
+from disc_model.studies import functions
+from disc_model.studies.registry import quantity_of
 from disc_model.studies.whole_study import run_study
 
 P = dm.Parameters(N=385, Omega=14)
@@ -76,3 +79,86 @@ def test_a_study_of_cases_is_a_tree() -> None:
     case = {"title": "one", "parameters": {"N": 385, "Omega": 14}, "t_end": 0.1}
     tree = run_study({"study": "s", "cases": {"A": case}})
     assert json.loads(tree["A"].attrs["parameters"])["N"] == 385
+
+
+SPELLED_OUT = [
+    (
+        dm.outcome,
+        {"horizon": 7, "evaluation_time": 0.5, "after_separation": 2, "early_end": False},
+        {"horizon": 7, "evaluation_time": 0.5, "after_separation": 2, "early_end": False},
+    ),
+    (
+        dm.critical_speed,
+        {"scan": (3, 9), "step": 2, "horizon": 7, "precision": 0.5, "early_end": False},
+        {
+            "scan": {"start": 3, "stop": 9, "step": 2},
+            "horizons": [7],
+            "precision": 0.5,
+            "early_end": False,
+        },
+    ),
+    (
+        dm.basins,
+        {
+            "energies": [0.1, 0.2],
+            "n_starts": 3,
+            "horizon": 7,
+            "seed": 5,
+            "attractor_tol": 0.2,
+            "n_bisection_directions": 4,
+        },
+        {
+            "energies": [0.1, 0.2],
+            "n_starts": 3,
+            "horizon": 7,
+            "seed": 5,
+            "attractor_tol": 0.2,
+            "n_bisection_directions": 4,
+        },
+    ),
+    (
+        dm.hysteresis,
+        {"scan": (3, 9), "dwell": 4, "step": 2, "max_dwell": 8, "evaluation_time": 3},
+        {
+            "scan": {"start": 3, "stop": 9, "step": 2},
+            "dwell": 4,
+            "max_dwell": 8,
+            "evaluation_time": 3,
+        },
+    ),
+]
+FUNCTIONS = [function for function, *_ in SPELLED_OUT]
+STARTED = (dm.outcome, dm.basins)  # functions whose motion may begin elsewhere
+
+
+@pytest.mark.parametrize(("function", "arguments", "options"), SPELLED_OUT)
+def test_every_argument_of_a_function_reaches_the_option_of_its_name(
+    function: Any, arguments: Any, options: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    handed: list[Any] = []
+    monkeypatch.setattr(functions, "_quantity", lambda *parts: handed.extend(parts))
+    start = {"start": {"u": 1e-3}} if function in STARTED else {}
+    function(P, tol=1e-9, **arguments, **start)
+    name, case, found, *starts = handed
+    assert name == function.__name__
+    assert case is P
+    assert found == {**options, "tol": 1e-9}
+    assert starts == [{"u": 1e-3}] * len(start)
+
+
+@pytest.mark.parametrize("function", FUNCTIONS)
+def test_what_a_function_is_not_told_is_as_in_a_study(function: Any) -> None:
+    fields = quantity_of(function.__name__).model_fields
+    compared = 0
+    for name, argument in inspect.signature(function).parameters.items():
+        if name not in fields or fields[name].is_required():
+            continue
+        compared += 1
+        assert argument.default == fields[name].default, name
+    assert compared >= 3
+
+
+@pytest.mark.parametrize("ends", [14, (14,), (14, 15, 16)])
+def test_a_scan_has_two_ends(ends: Any) -> None:
+    with pytest.raises(dm.ParameterError, match=r"^scan=.*: must be two numbers in rad/s"):
+        dm.critical_speed(P, ends)

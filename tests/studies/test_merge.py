@@ -118,3 +118,34 @@ def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:
     ):
         with pytest.raises(MergeError, match="not those of the grid"):
             merge_batches(some, grid, {})
+
+
+def test_a_study_states_the_discs_of_all_batches() -> None:
+    table = {"diameters": [0], "omega": [1500.0], "amplitude": [2.0], "damping_ratio": [1e-3]}
+    discs = {"a": table, "b": {**table, "omega": [1600.0]}}
+    raw = {"study": "s", "quantity": "floquet", "discs": discs, "batch": {"size": 1}}
+    raw |= {"base": {"N": 200, "Omega": 20}, "axes": {"disc": ["a", "b"]}}
+    grid = parse_grid(raw)
+    assert len(grid.batches) == 2
+    point = {"status": ("point", np.array([0], np.int8), {"flag_meanings": "ok failed"})}
+    batches = []
+    for text in grid.batches.values():
+        [name] = json.loads(text)["discs"]
+        coords = {"disc": ("point", [name])}
+        batches.append(xr.Dataset(point, coords, {"specification": text}))
+    merged = merge_batches(batches, grid.grid, {})
+    stated = json.loads(merged.attrs["discs"])
+    assert {name: disc["omega"] for name, disc in stated.items()} == {"a": [1500], "b": [1600]}
+
+
+def test_what_a_rule_leaves_out_is_missing_and_no_number() -> None:
+    done = computed(
+        quantity="floquet",
+        base={"k_p": 0, "Omega": 10},
+        axes={"N": [100, 200], "c": [0.0, 1.0]},
+        where="c < 150/N",
+    )
+    assert done["status"].attrs["flag_meanings"].split()[-1] == "excluded"
+    assert done["status"].values[1, 1] == len(done["status"].attrs["flag_meanings"].split()) - 1
+    assert np.isnan(done["period"].values[1, 1])
+    assert done["message"].values[1, 1] == ""

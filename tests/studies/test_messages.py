@@ -87,3 +87,11 @@ def test_an_interruption_is_one_line_whatever_fails_by_it(shown: RunMessages) ->
     # type: ignore[attr-defined]
     assert said[0].msg == INTERRUPTED
     assert said[0].event is None
+
+
+def test_the_command_of_a_failed_job_is_cut(shown: RunMessages) -> None:
+    failed = record("", event="job_error", shellcmd="run " + "point " * 1000)
+    shown.filter(failed)
+    assert len(failed.shellcmd) <= 300
+    assert failed.shellcmd.startswith("run point")
+    assert failed.shellcmd.endswith(" ...")

@@ -5,12 +5,15 @@ import json
 import numpy as np
 import pytest
 
+from disc_model import floquet
 from disc_model.data.variables import flag_names
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
+from disc_model.simulation.states import State, static_start
 from disc_model.studies.grid import Dimension
-from disc_model.studies.motions import SAMPLES, run_motions
+from disc_model.studies.motions import SAMPLES, Motions, run_motions
+from disc_model.studies.quantity import Point, Quantity
 from disc_model.studies.registry import quantity_of
 from tests.studies.refused import parse_grid
 
@@ -81,3 +84,40 @@ def test_a_quantity_shows_the_motion_that_it_tells_of(
     if Omega > 15:
         expected.add("separation")
     assert phases == expected
+
+
+class FromRest(Quantity):
+    """A quantity whose motions begin at the static start."""
+
+    def state_at(self, point: Point) -> State:
+        return static_start(point.parameters)
+
+
+def length_of(p: Parameters) -> float:
+    values, _ = Motions(FromRest()).compute_point(Point(p))
+    return float(values["length"])
+
+
+def test_a_history_is_two_cycles_long() -> None:
+    """Of the cycle itself; of the free swing of the slider where nothing is released; and a tenth of
+    a second at most."""
+    p = Parameters(N=385, Omega=14)
+    found = histories("floquet", [385], [14.0]).isel(point=0)
+    period = floquet(p).period
+    free = 2 * np.pi * np.sqrt(p.m / p.k_p)
+    assert period > free
+    assert float(found["length"]) == pytest.approx(2 * period, rel=1e-9)
+    assert length_of(p.replace(Omega=0)) == pytest.approx(2 * free, rel=1e-12)
+    # its free swing lasts 0.14 s
+    assert length_of(p.replace(Omega=0, k_p=200)) == pytest.approx(0.1)
+    assert length_of(p.replace(Omega=0, k_p=0)) == pytest.approx(0.1)
+
+
+def test_phases_of_a_history_are_those_of_its_samples() -> None:
+    found = histories("floquet", [385], [14.0]).isel(point=0)
+    words = flag_names(found["phase"])
+    # a cycle begins at the end of stick, and sticks again at its end
+    assert words[1] == "slip"
+    half = (SAMPLES - 1) // 2
+    assert words[half] == "stick"
+    assert words[-2] == "stick"

@@ -9,10 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from disc_model import floquet
 from disc_model.data.variables import Variable, flag_names
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
+from disc_model.studies.batch import read_infinity
 from disc_model.studies.costs import PAPER
-from disc_model.studies.quantity import STATUS, STATUSES, Point, Quantity
+from disc_model.studies.quantity import STATUS, STATUSES, Point, Quantity, Range, holds, with_ends
 from disc_model.studies.registry import quantity_names, quantity_of
 from tests.studies.conftest import compute, computed
 
@@ -129,3 +132,76 @@ def test_a_mistake_in_the_program_is_no_status() -> None:
 
     with pytest.raises(KeyError):
         compute(made_up_quantity(compute_point), [P])
+
+
+# ---- ranges and rules
+
+
+def test_ranges_have_equal_steps_or_equal_ratios_and_both_ends() -> None:
+    assert Range(start=1, stop=2, step=0.25).values == [1, 1.25, 1.5, 1.75, 2]
+    assert Range(start=0.1, stop=0.5, count=5).values == [0.1, 0.2, 0.3, 0.4, 0.5]
+    assert Range(start=2, stop=162, count=5, scale="log").values == [2, 6, 18, 54, 162]
+    assert Range(start=1, stop=2, step=0.25).intervals == 4
+
+
+@pytest.mark.parametrize(
+    ("rule", "kept"),
+    [
+        ("mu_k <= mu_s", True),
+        ("mu_k < 0.2 or N > 300", False),
+        ("1/c > 0", False),  # cannot be evaluated
+        ("contact == 'unilateral'", True),
+        ("contact < 1", False),
+        ("mu_k_over_mu_s == 0.5", True),
+        ("k == 50000", True),  # a value that is not given has that of Table 1
+    ],
+)
+def test_a_rule_compares_all_values_of_a_point(rule: str, kept: bool) -> None:
+    point = {"N": 200, "mu_s": 0.4, "mu_k_over_mu_s": 0.5, "c": 0, "contact": "unilateral"}
+    assert holds([rule], point) is kept
+    assert holds(["N > 100", rule], point) is kept
+
+
+def test_a_share_comes_before_the_ends_of_its_interval() -> None:
+    found = with_ends("share", (0.3, 0.1, 0.6))
+    assert found == {"share": 0.3, "share_low": 0.1, "share_high": 0.6}
+
+
+def test_the_word_for_infinity_is_a_number_where_numbers_stand() -> None:
+    assert read_infinity("friction_decay", "inf") == math.inf
+    assert read_infinity("disc", "inf") == "inf", "the name of a table"
+    assert read_infinity("start", "inf") == "inf"
+    assert read_infinity("N", 3.0) == 3.0
+
+
+# ---- single columns
+
+
+def test_the_leading_multiplier_of_a_point_is_that_of_its_cycle() -> None:
+    p = Parameters(N=300, Omega=14, n_diameters=1)
+    cycle = floquet(p)
+    values, _ = quantity_of("floquet")().compute_point(Point(p))
+    largest = cycle.multipliers[np.argmax(np.abs(cycle.multipliers))]
+    assert abs(complex(values["multiplier_re"], values["multiplier_im"])) == abs(largest)
+    assert values["growth_rate"] == pytest.approx(np.log(abs(largest)) / cycle.period)
+    assert values["stick_fraction"] == cycle.stick_fraction
+
+
+def test_exponents_have_converged_or_not_or_are_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = SimpleNamespace(
+        status=Status.OK,
+        exponents=np.array([0.3, -0.2, -np.inf]),
+        errors=np.array([0.1, 0.2, np.nan]),
+        converged=np.array([True, False, False]),
+        trivial_exponent=0.01,
+        duration=7.0,
+        separations=3,
+    )
+    monkeypatch.setattr("disc_model.stability.lyapunov.lyapunov_exponents", lambda *_, **__: found)
+    monkeypatch.setattr("disc_model.simulation.starts.state_after", lambda *_: None)
+    quantity = quantity_of("lyapunov").model_validate({"transient": 1, "duration": 7})
+    values, _ = quantity.compute_point(P)
+    words = quantity.COLUMNS["converged"].flags
+    assert [words[i] for i in values["converged"]] == ["yes", "no", "unknown"]
+    assert values["averaging_time"] == 7.0
+    assert values["separations"] == 3

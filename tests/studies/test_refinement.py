@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from disc_model.analysis.spectra import modes_at_rest
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.parameters import Parameters
 from disc_model.stability.linear_motion import NearCycle
@@ -42,9 +43,14 @@ class MadeUp:
         self.outcome: Callable[[Index], OutcomeResult] = lambda index: quiet()
         self.starts: dict[Index, NearCycle] = {}
         self.computed: list[Index] = []
+        self.extrapolate = True
+        self.compared: list[tuple[float, ...]] = []
 
-    def find_outcome(self, p: Parameters, horizon: float, **_: Any) -> OutcomeResult:
+    def find_outcome(
+        self, p: Parameters, horizon: float, *, compared_with: tuple[float, ...], **_: Any
+    ) -> OutcomeResult:
         index = place(p)
+        self.compared.append(compared_with)
         self.computed.append(index)
         return self.outcome(index)
 
@@ -53,7 +59,9 @@ class MadeUp:
 
     def tile(self, rows: int, columns: int, cell: int) -> Tile:
         points = [[Parameters(N=i + 1, Omega=j + 1) for j in range(columns)] for i in range(rows)]
-        options = TileOptions(horizon=100.0, tol=1e-8, initial_cell_size=cell)
+        options = TileOptions(
+            horizon=100.0, tol=1e-8, extrapolate=self.extrapolate, initial_cell_size=cell
+        )
         tile = Tile(points, [], options)
         tile.compute()
         return tile
@@ -99,6 +107,27 @@ def test_multipliers_decide_where_the_start_stays_near_its_cycle(plane: MadeUp) 
 def test_a_row_says_how_its_outcome_is_known(plane: MadeUp, simulated: float, method: str) -> None:
     plane.outcome = lambda index: OutcomeResult(Outcome.OTHER_CYCLE, simulated)
     assert row_at(plane.tile(1, 1, 1), (0, 0))["method"] == method
+
+
+@pytest.mark.parametrize(("extrapolate", "compared"), [(True, (100.0,)), (False, ())])
+def test_separations_are_only_compared_with_the_horizon_unless_their_times_are_asked_for(
+    plane: MadeUp, extrapolate: bool, compared: tuple[float, ...]
+) -> None:
+    plane.extrapolate = extrapolate
+    plane.tile(1, 1, 1)
+    assert plane.compared == [compared]
+
+
+def test_an_extrapolated_separation_has_no_time(plane: MadeUp) -> None:
+    first = separation()
+    first.first_separation = 40.0
+    plane.outcome = lambda index: first
+    assert row_at(plane.tile(1, 1, 1), (0, 0))["first_separation"] == 40.0
+    first.extrapolated = True
+    row = row_at(plane.tile(1, 1, 1), (0, 0))
+    assert row["outcome"] == Outcome.SEPARATION
+    assert row["method"] == "extrapolation"
+    assert np.isnan(row["first_separation"])
 
 
 def test_separation_is_inferred_only_in_cells_that_separate_at_corners_and_in_the_middle(
@@ -153,3 +182,106 @@ def test_cycles_are_joined_if_they_are_close_or_newton_s_method_leads_from_one_t
     row = row_at(plane.tile(1, 2, 1), (0, 0))
     assert row["branch_continues_second"] == joined
     assert row["branch_continues_first"] == "no"
+
+
+# ---- cells, and what a row says
+
+
+@pytest.mark.parametrize(
+    ("size", "cell", "edges"),
+    [(1, 8, [0, 0]), (9, 8, [0, 8]), (10, 8, [0, 4, 9]), (17, 8, [0, 8, 16]), (6, 2, [0, 2, 3, 5])],
+)
+def test_first_cells_are_at_most_as_long_as_asked_for(
+    size: int, cell: int, edges: list[int]
+) -> None:
+    assert refinement._edges(size, cell) == edges
+
+
+def test_cells_are_halved_down_to_neighbours() -> None:
+    assert refinement._halves(4, 8) == [(4, 6), (6, 8)]
+    assert refinement._halves(4, 7) == [(4, 5), (5, 7)]
+    assert refinement._halves(4, 5) == [(4, 5)]
+    assert refinement._halves(4, 4) == [(4, 4)]
+
+
+def test_the_middle_of_a_cell_is_the_place_nearest_to_its_centre() -> None:
+    cell = [(i, j) for i in range(2, 7) for j in range(3, 6)]
+    assert refinement._middle(cell) == (4, 4)
+    # of four that are equally near, the first
+    assert refinement._middle([(0, 0), (0, 1), (1, 0), (1, 1)]) == (0, 0)
+
+
+def test_places_that_figures_mark_are_computed_whatever_is_around(plane: MadeUp) -> None:
+    plane.outcome = lambda index: separation()
+    points = [[Parameters(N=i + 1, Omega=j + 1) for j in range(9)] for i in range(9)]
+    tile = Tile(points, [(7, 6)], TileOptions(horizon=100.0, tol=1e-8, initial_cell_size=8))
+    tile.compute()
+    assert (7, 6) in plane.computed
+    assert row_at(tile, (7, 6))["method"] == "simulation"
+    assert row_at(tile, (6, 7))["method"] == "inferred"
+    assert len(plane.computed) == len(set(plane.computed)), "none is computed twice"
+
+
+def test_a_row_has_the_cycle_in_its_own_units(plane: MadeUp) -> None:
+    """The period is over that of the lowest mode of disc and slider at rest, in which the slider
+    takes part."""
+    plane.starts = {(0, 0): near(stable=True)}
+    row = row_at(plane.tile(1, 1, 1), (0, 0))
+    case = Parameters(N=100, Omega=10)
+    lowest = min(mode.frequency for mode in modes_at_rest(case) if mode.bound)
+    assert row["period_ratio"] == pytest.approx(0.015 * lowest, rel=1e-12)
+    assert row["period"] == 0.015
+    assert row["growth_rate"] == 0.1
+    assert row["releases"] == 1
+    assert row["cycle"] == "followed"
+
+
+@pytest.mark.parametrize(
+    ("start", "outcome", "word"),
+    [
+        (NO_CYCLE, Outcome.STEADY_SLIDING, "steady_sliding"),
+        (NO_CYCLE, Outcome.SEPARATION, "no_cycle"),
+        (NearCycle(*[None] * 6), Outcome.SEPARATION, "nearby_only"),
+    ],
+)
+def test_without_a_cycle_to_follow_a_row_says_why(
+    plane: MadeUp, start: Any, outcome: Outcome, word: str
+) -> None:
+    point = refinement.TilePoint(Parameters(N=1, Omega=1), start, "", OutcomeResult(outcome, 1.0))
+    assert refinement._word_without_cycle(point) == word
+
+
+def test_the_cycle_that_a_motion_comes_to_later_is_shown_unless_it_followed_one_before() -> None:
+    own = near()
+    later = near(x=3.0)
+    reached = OutcomeResult(Outcome.SEPARATION, 1.0, near=later)
+    point = refinement.TilePoint(Parameters(N=1, Omega=1), own, "", reached)
+    assert point.followed is own, "it grew away from that"
+    point.result = OutcomeResult(Outcome.QUIET, 1.0, near=later)
+    assert point.followed is later
+    point.start = NO_CYCLE
+    point.result = reached
+    assert point.followed is later
+    point.result = None
+    assert point.followed is None
+
+
+def test_other_cycles_are_counted_where_neighbours_lead_to_them(
+    plane: MadeUp, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Those carried over that lie apart from the known ones, in units of the deflection, and that
+    Newton's method confirms; four at most."""
+
+    def stays(map_: Any, guess: np.ndarray, **_: Any) -> Any:
+        return SimpleNamespace(start=guess)
+
+    plane.outcome = lambda index: quiet()
+    apart = {(0, 0): near(stable=True), (0, 1): near(stable=True, x=0.03)}
+    plane.starts = apart
+    monkeypatch.setattr(refinement, "newton", stays)
+    assert [row["other_cycles"] for row, _ in plane.tile(1, 2, 1).rows()[0]] == [1, 1]
+    plane.starts = {**apart, (0, 1): near(stable=True, x=0.019)}
+    assert [row["other_cycles"] for row, _ in plane.tile(1, 2, 1).rows()[0]] == [0, 0]
+    plane.starts = {(0, j): near(stable=True, x=float(j)) for j in range(6)}
+    counts = [row["other_cycles"] for row, _ in plane.tile(1, 6, 1).rows()[0]]
+    assert counts == [3] * 6, "four with its own, carried both ways"

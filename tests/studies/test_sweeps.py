@@ -1,5 +1,6 @@
 """Sweeps: what is called, by whom, and what is gathered."""
 
+import json
 import re
 import threading
 from collections.abc import Callable
@@ -14,6 +15,7 @@ import pytest
 import xarray as xr
 
 import disc_model as dm
+from disc_model.studies import workers
 from disc_model.studies.sweeps import sweep
 from disc_model.studies.whole_study import run_study
 
@@ -102,6 +104,76 @@ def test_what_a_sweep_gathers_keeps_its_kind() -> None:
     assert swept["heavy"].values.tolist() == [False, True]
     np.testing.assert_array_equal(swept["light"], [1.0, np.nan])
     assert swept["message"].values.tolist() == ["of 100 N", "of 200 N"]
+
+
+def test_arrays_of_other_lengths_end_in_what_is_missing() -> None:
+    """Complex numbers and words too; whole numbers become real ones, so that they can be missing."""
+
+    def function(case: dm.Parameters) -> dict[str, Any]:
+        count = int(case.N)
+        result: dict[str, Any] = {
+            "roots": np.arange(count) + 1j,
+            "words": np.array(["ab", "c", "d"][:count]),
+            "numbers": np.arange(count),
+            "plane": np.zeros((2, 2)),
+        }
+        if count > 1:
+            result["late"] = "x"
+        return result
+
+    swept = sweep(function, P, N=[1, 3])
+    np.testing.assert_array_equal(swept["roots"], [[1j, np.nan, np.nan], [1j, 1 + 1j, 2 + 1j]])
+    assert swept["words"].values.tolist() == [["ab", "", ""], ["ab", "c", "d"]]
+    np.testing.assert_array_equal(swept["numbers"], [[0.0, np.nan, np.nan], [0.0, 1.0, 2.0]])
+    assert swept["late"].values.tolist() == ["", "x"]
+    assert "plane" not in swept, "of one dimension at most"
+    assert swept["roots"].dims == ("N", "roots_index")
+
+
+def test_coordinates_of_a_function_stay_its_own() -> None:
+    def function(case: dm.Parameters) -> xr.Dataset:
+        times = np.array([0.0, 0.5, 1.0])
+        return xr.Dataset({"height": ("time", case.N * times)}, {"time": times})
+
+    swept = sweep(function, P, N=[1, 2], Omega=[3.0])
+    assert swept["height"].dims == ("N", "Omega", "time")
+    assert swept["time"].dims == ("time",)
+    np.testing.assert_array_equal(swept["height"].sel(N=2).squeeze(), [0.0, 1.0, 2.0])
+
+
+def test_results_of_each_class_have_their_own_units_and_names() -> None:
+    """A growth rate is of a cycle or of steady sliding, by whose it is."""
+    case = P.replace(n_diameters=1)
+    cycle = sweep(dm.floquet, case, N=[300])
+    assert cycle["growth_rate"].attrs["long_name"] == (
+        "growth rate of disturbances of the stick-slip cycle"
+    )
+    assert cycle["sliding_growth_rate"].attrs["long_name"].endswith("steady sliding")
+    assert cycle["period"].attrs["units"] == "s"
+    assert cycle["tol"].attrs["units"] == "1"
+    found = dm.floquet(case.replace(N=300))
+    assert cycle["stable"].item() is found.stable
+    assert cycle["sliding_growth_rate"].item() == found.sliding.growth_rate
+    sliding = sweep(dm.steady_sliding, case, N=[300])
+    assert sliding["growth_rate"].attrs["long_name"] == (
+        "growth rate of disturbances of steady sliding"
+    )
+    assert sliding["psi"].attrs["units"] == "rad"
+    critical = sweep(dm.critical, case, N=[300], name="mu_s", bounds=(0.3, 0.5), points=2)
+    assert critical["value"].attrs["long_name"].startswith("critical value of coefficient")
+    exponents = sweep(dm.lyapunov_exponents, case, N=[300], duration=0.2, count=1)
+    assert exponents["exponents"].attrs["units"] == "s-1"
+    assert exponents["duration"].attrs["units"] == "s"
+    assert exponents["separations"].attrs["units"] == "1"
+
+
+def test_a_sweep_states_its_base_and_its_function() -> None:
+    swept = sweep(products, P.replace(mu_k_over_mu_s=0.5), N=[1, 2])
+    assert json.loads(swept.attrs["base"])["mu_k_over_mu_s"] == 0.5
+    assert json.loads(swept.attrs["parameters"])["Omega"] == 14
+    assert swept.attrs["function"] == "products"
+    assert swept["N"].dtype.kind == "f", "also of whole numbers"
+    assert swept["N"].attrs["units"] == "N"
 
 
 # ---- Values that vary together
@@ -242,6 +314,8 @@ def test_an_error_leaves_out_the_calls_that_have_not_begun() -> None:
         ({"executor": 3}, r"^executor=3: must have the method submit"),
         ({"executor": ThreadPool}, r"^executor=.*: must have the method submit"),
         ({"executor": Backwards(), "workers": 2}, r"^executor=.*: takes the place of workers"),
+        ({"executor": Backwards(), "processes": True}, r"^executor=.*: takes the place of workers"),
+        ({"workers": 0}, r"^workers=0: must be a whole number >= 1"),
         ({"workers": 2, "processes": True}, r"^processes=True: needs a function that other"),
         ({"progress": "yes"}, r"^progress='yes': must be True or False"),
     ],
@@ -269,3 +343,21 @@ def test_a_bar_stays_where_a_call_ended_the_sweep(capsys: pytest.CaptureFixture[
     with pytest.raises(RuntimeError):
         sweep(function, P, N=[1, 2, 3], progress=True)
     assert "1/3" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("processes", "kind"), [(False, "ThreadPoolExecutor"), (True, "ProcessPoolExecutor")]
+)
+def test_as_many_workers_are_started_as_are_asked_for(
+    processes: bool, kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[int] = []
+
+    def pool(number: int) -> ThreadPoolExecutor:
+        started.append(number)
+        return ThreadPoolExecutor(number)
+
+    monkeypatch.setattr(workers, kind, pool)
+    swept = sweep(products, P, N=[1, 2, 3], workers=3, processes=processes)
+    assert started == [3]
+    np.testing.assert_allclose(swept["load"], P.mu_k * np.array([1, 2, 3]))

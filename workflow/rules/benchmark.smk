@@ -22,6 +22,7 @@ STUDIES = {
     "answer_maps": "answer_maps.answer_map",
     "failure_maps": "failure_maps.failure_map",
     "scaling": "scaling.scaling",
+    "shares": "shares.shares",
 }
 BENCH_FIGURES = {
     "overview": f"{BENCH}/work_precision.nc",
@@ -39,6 +40,7 @@ rule bench:
         f"{BENCH}/work_precision.csv",
         f"{BENCH}/work_precision_avx2.csv",
         f"{BENCH}/answers.csv",
+        f"{BENCH}/shares.nc",
         collect(
             f"{BENCH}/figures/{{figure}}.{{suffix}}",
             figure=BENCH_FIGURES,
@@ -54,7 +56,7 @@ rule measure:
     log:
         f"{BENCH}/logs/measure/{{part}}{{target}}.log",
     wildcard_constraints:
-        part="work_precision|contact_truncation|scaling|(answers|answer_maps|failure_maps)/[A-Za-z0-9_-]+",
+        part="work_precision|contact_truncation|scaling|shares|(answers|answer_maps|failure_maps)/[A-Za-z0-9_-]+",
     conda:
         "../envs/disc_model.yaml"
     threads: 1024

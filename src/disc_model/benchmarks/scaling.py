@@ -84,7 +84,7 @@ def measure(
     """
     options: dict[str, float] = {}
     if quantity == "outcome":
-        options["horizon"] = horizon
+        options = {"horizon": horizon, "extrapolate": True}
     diameters, circles = model
     speeds, preloads = grid
     axes = {"Omega": _centres(*SPEEDS, speeds), "N": _centres(*PRELOADS, preloads)}

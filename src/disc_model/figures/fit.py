@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from disc_model.display import counted
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, large, mark, wide
 from disc_model.figures.types import Axes
@@ -68,7 +69,8 @@ def _draw_deviations(ax: Axes, fit: Fit) -> None:
     span = max(LEAST_SPAN, 1.1 * float(np.abs(fit.deviations).max()))
     ax.set_xlabel("Deviation (standard deviations)")
     ax.set_xlim(-span, span)
-    ax.set_title(f"chi squared {fit.chi_squared:.3g}, {fit.freedom} degrees of freedom")
+    freedom = counted(fit.freedom, "degree")
+    ax.set_title(f"chi squared {fit.chi_squared:.3g}, {freedom} of freedom")
 
 
 def _rows(fit: Fit) -> np.ndarray:

@@ -1,11 +1,13 @@
 """Late in the motion: range of the slider over the speed, with separation and with it ignored."""
 
+import json
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from disc_model.analysis.contact_loss import pinned_range
 from disc_model.data.variables import flag_names
 from disc_model.figures.drawing import (
     BLACK,
@@ -24,32 +26,52 @@ from disc_model.figures.kinds.motions import LateRange
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import SPEED
+from disc_model.parameters import Parameters
 
 LOAD_COLOURS = (BLACK, BLUE, GREEN, PURPLE)
-SMALLEST = 1e-6
-"""Thicknesses, least range drawn: a quiet cycle moves the slider by less than a millionth of a metre."""
 LARGEST = 10.0  # thicknesses
+DECADES = 1e5
+"""Largest range drawn over the least one."""
 LINES = {"unilateral": "-", "bilateral": "--"}
 OPEN_END = ("growing", "undecided")
 """Outcomes of which a longer time would change the range."""
 
 
 def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-    """Draw a panel for each disc, and in it a line for each preload and contact."""
+    """Draw a panel for each disc, and in it a line for each preload and contact.
+
+    A disc whose surface moves has one more panel, of the speed of its surface.
+    """
     ranges = (study["u_max"] - study["u_min"]) / plot.thickness
     outcomes = study["outcome"].copy(data=flag_names(study["outcome"]))
     names = study[plot.by].values
-    width = plot.inches
-    figure, axes = row_of_panels(width, len(names), 3.0, 2.4, sharex=True, sharey=True)
-    for ax, name in zip(axes, names, strict=True):
+    moving = _moving(study, plot.by)
+    figure, axes = row_of_panels(plot.inches, len(names) + len(moving), 3.0, 2.4, sharex=True)
+    titles = [plot.names.get(str(name), str(name)) for name in names]
+    for ax, name in zip(axes, names, strict=False):
         chosen = {plot.by: name}
+        ax.axhspan(1, 1e3, color="0.93", zorder=0)
         _draw_panel(ax, ranges.sel(chosen), outcomes.sel(chosen))
-        ax.margins(x=0.05)
+        if name in moving:
+            _draw_lost_contact(ax, study, str(name), plot.thickness)
         ax.set_yscale("log")
-        ax.set_ylim((SMALLEST, LARGEST))
-        ax.set_xlabel(SPEED)
+        ax.set_ylim((LARGEST / DECADES, LARGEST))
         ax.set_ylabel("Slider, peak to peak (thicknesses)")
-        ax.label_outer()
+        if ax is not axes[0]:
+            ax.sharey(axes[0])
+            ax.tick_params(labelleft=False)
+            ax.set_ylabel("")
+    for ax, name in zip(axes[len(names) :], moving, strict=True):
+        chosen = {plot.by: name}
+        _draw_panel(ax, study["surface_speed"].sel(chosen), outcomes.sel(chosen))
+        ax.axhline(1, color=GREY, linestyle=":", linewidth=wide(1.0))
+        ax.set_ylim(bottom=0)
+        _note(ax, 1, "friction reverses", 0.97, ha="right", va="top")
+        ax.set_ylabel("Speed of the surface / of the drive")
+        titles.append("speed in the plane")
+    for ax in axes:
+        ax.margins(x=0.05)
+        ax.set_xlabel(SPEED)
     axes[0].text(
         0.03,
         0.99,
@@ -59,9 +81,39 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
         va="top",
         c=GREY,
     )
-    letters(axes, [plot.names.get(str(name), str(name)) for name in names])
+    letters(axes, titles)
     _legend(figure, study["N"].values)
     return figure
+
+
+def _moving(study: xr.Dataset, by: str) -> list[Any]:
+    """Return the discs whose surface moves somewhere in the study."""
+    if "surface_speed" not in study:
+        return []
+    return [name for name in study[by].values if (study["surface_speed"].sel({by: name}) > 0).any()]
+
+
+def _draw_lost_contact(ax: Axes, study: xr.Dataset, name: str, thickness: float) -> None:
+    """Draw at which range contact is lost, for each preload.
+
+    The vibration is that of the mode with the largest tangential motion, which friction feeds.
+    """
+    disc = json.loads(study.attrs["discs"])[name]
+    fed = np.argmax(np.abs(disc["tangential"]))
+    frequency = float(disc["omega"][fed]) / (2 * np.pi)
+    base = json.loads(study.attrs["base"])
+    slider = {key: base[key] for key in ("k", "m", "c")}
+    for load, colour in zip(study["N"].values, LOAD_COLOURS, strict=False):
+        p = Parameters(N=float(load), Omega=1.0, **slider)
+        lost = pinned_range(p, frequency) / thickness
+        ax.axhline(lost, color=colour, linestyle=":", linewidth=wide(1.0))
+        _note(ax, lost, "contact is lost", color=colour)
+
+
+def _note(ax: Axes, height: float, text: str, along: float = 0.03, **look: Any) -> None:
+    """Name a horizontal line, at a share of the axes' width."""
+    look = {"color": GREY, "size": large(6), "va": "bottom", **look}
+    ax.annotate(text, (along, height), xycoords=("axes fraction", "data"), **look)
 
 
 def _marks() -> dict[str, dict[str, Any]]:
@@ -77,7 +129,6 @@ def _marks() -> dict[str, dict[str, Any]]:
 
 def _draw_panel(ax: Axes, ranges: xr.DataArray, outcomes: xr.DataArray) -> None:
     """Draw lines over the speed for each preload and contact, with marks of their outcomes."""
-    ax.axhspan(1, 1e3, color="0.93", zorder=0)
     speeds = ranges["Omega"].values
     for load, colour in zip(ranges["N"].values, LOAD_COLOURS, strict=False):
         for contact, line in LINES.items():

@@ -11,17 +11,7 @@ from numpy.typing import NDArray
 from disc_model.data import dataset
 from disc_model.data.variables import values_text
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import (
-    BLACK,
-    GREY,
-    PAGE,
-    SEPARATED,
-    SKY,
-    large,
-    letters,
-    new_figure,
-    wide,
-)
+from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, SKY, letters, new_figure
 from disc_model.figures.kinds.cases import PoincareSections
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.runs import sampled, show_thickness, stated
@@ -36,8 +26,8 @@ LOOKS: dict[str, dict[str, Any]] = {
 """Marks by stage, told apart by shape as well as by colour; later ones are drawn over earlier ones."""
 
 
-SMALL = 0.2  # share of both axes below which a section has an inset
-INSET = (0.66, 0.2, 0.34, 0.32)  # away from the bar of the thickness
+SMALL = 0.2  # share of both common axes below which a section has axes of its own
+BESIDE_LETTER = 0.09  # share of the axes' width
 MANY = 2000  # points from which marks are drawn as pixels
 
 
@@ -96,10 +86,6 @@ class Axis(NamedTuple):
         """Part of the axis that the points take."""
         return float(np.ptp(self.values) / (self.high - self.low))
 
-    @property
-    def unit(self) -> str:
-        return self.label.rpartition("(")[2].rstrip(")")
-
 
 def draw_sections(
     axes: Sequence[Axes],
@@ -108,19 +94,27 @@ def draw_sections(
     compared: Sequence[xr.Dataset] = (),
     heading: str = "",
 ) -> list[Artist]:
-    """Draw velocity over displacement, what is small in insets too, on axes for all sections, and
-    what the motion does after a heading; returns entries of a legend."""
+    """Draw velocity over displacement, and what the motion does after a heading.
+
+    All sections have common axes, but one that is small on them has its own, which its title says.
+    Returns entries of a legend.
+    """
     found = stages_of(case, samples)
     for ax, name in zip(axes, SECTIONS, strict=True):
         x = _axis(name, samples, compared)
         y = _axis(f"{name}_velocity", samples, compared)
+        if max(x.share, y.share) < SMALL:
+            own_x = _axis(name, samples, ())
+            own_y = _axis(f"{name}_velocity", samples, ())
+            note = f"enlarged {own_x.share / x.share:.0f} times"
+            ax.text(BESIDE_LETTER, 1.03, note, transform=ax.transAxes, color=GREY)
+            x = own_x
+            y = own_y
         ax.set_xlabel(x.label)
         ax.set_ylabel(y.label)
         ax.set_xlim((x.low, x.high))
         ax.set_ylim((y.low, y.high))
         _draw_points(ax, x, y, found.masks)
-        if max(x.share, y.share) < SMALL:
-            _draw_inset(ax, x, y, found.masks)
     show_thickness(axes[1], case, "x")
     axes[0].set_title(", ".join(filter(None, [heading, found.fate])), loc="right")
 
@@ -149,13 +143,3 @@ def _draw_points(ax: Axes, x: Axis, y: Axis, masks: Mapping[str, Mask]) -> None:
         many = bool(mask.sum() > MANY)
         look = LOOKS[stage]
         ax.scatter(x.values[mask], y.values[mask], zorder=above, rasterized=many, **look)
-
-
-def _draw_inset(ax: Axes, x: Axis, y: Axis, masks: Mapping[str, Mask]) -> None:
-    """Draw points once more, on axes of their own extent."""
-    inset = ax.inset_axes(INSET)
-    _draw_points(inset, x, y, masks)
-    inset.set_xlabel(x.unit, fontsize=large(7), labelpad=1)
-    inset.set_ylabel(y.unit, fontsize=large(7), labelpad=1)
-    inset.margins(0.08)
-    ax.indicate_inset(inset.viewLim.bounds, edgecolor=GREY, linewidth=wide(0.6))

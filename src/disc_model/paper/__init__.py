@@ -6,6 +6,7 @@ Here are the names that the workflow reads.
 SCANS = (
     "basins",
     "bonded",
+    "brake_outcome",
     "critical_speed",
     "hysteresis",
     "map_D_star",

@@ -64,33 +64,60 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[An
     )
     omega = _by_mode(p, mode_arrays(p).omega)
     psi = _by_mode(p, modes_at_point(p).psi)
-    damping = _by_mode(p, modal_damping(p))
-
-    # coefficients of 1, cosines and sines of the angle, and their rates
-    waves = _waves(theta, p.n_diameters).T
-    displacement = np.linalg.solve(waves, _stacked(samples, "w_point"))
-    rate = np.linalg.solve(waves, _stacked(samples, "w_point_velocity"))
+    modal_speed = _modal(p, theta, samples, "w_point_velocity")
 
     under_slider = _waves(p.Omega * time - drive, p.n_diameters)
-    material = np.sum(rate * under_slider, axis=0)
+    material = np.sum(psi * modal_speed * under_slider, axis=0)
     power = force * (velocity - material)
 
     # twice the energy: modes of unit modal mass, the slider, its spring and preload
-    modal_speed = rate / psi
-    modal_force = omega * displacement / psi
+    modal_force = omega * _modal(p, theta, samples, "w_point")
     height = u - u_0
     energy = np.sum(modal_speed**2 + modal_force**2, axis=0)
     energy += p.m * velocity**2 + p.k * height**2 + 2 * p.N * height
 
-    damped = np.sum(damping * modal_speed**2, axis=0) + p.c * velocity**2
+    of_modes = damping_by_diameters(p, theta, samples).sum()
     duration = float(time[-1] - time[0])
     return Powers(
         width=float(np.ptp(u)),
         pushes=float(np.mean(power * (force > 0))),
         pulls=float(np.mean(power * (force < 0))),
-        damped=float(np.mean(damped)),
+        damped=float(of_modes + p.c * np.mean(velocity**2)),
         gained=float(energy[-1] - energy[0]) / 2 / duration,
     )
+
+
+def damping_by_diameters(
+    p: Parameters, theta: Array, samples: Sequence[Mapping[Any, Any]]
+) -> Array:
+    """Return mean powers in W that the damping of the disc takes, by the modes' nodal diameters.
+
+    Parameters
+    ----------
+    p : the case
+    theta : angles at which the disc was sampled, rad
+    samples : variables over time by name, at each of these angles
+    """
+    modal_speed = _modal(p, theta, samples, "w_point_velocity")
+    taken = np.mean(_by_mode(p, modal_damping(p)) * modal_speed**2, axis=1)
+    orders = np.arange(p.n_diameters + 1)
+    diameters = np.concatenate([orders, orders[1:]])
+    return np.asarray(np.bincount(diameters, weights=taken), dtype=float)
+
+
+def _modal(p: Parameters, theta: Array, samples: Sequence[Mapping[Any, Any]], name: str) -> Array:
+    """Return modal coordinates of unit modal mass, or their rates, shape (modes, times).
+
+    Parameters
+    ----------
+    p : the case
+    theta : angles at which the disc was sampled, rad
+    samples : variables over time by name, at each of these angles
+    name : displacement or velocity of the disc at these angles
+    """
+    waves = _waves(theta, p.n_diameters).T
+    coefficients = np.linalg.solve(waves, _stacked(samples, name))
+    return np.asarray(coefficients / _by_mode(p, modes_at_point(p).psi))
 
 
 def _by_mode(p: Parameters, values: Array) -> Array:
@@ -117,6 +144,25 @@ def _waves(angle: Array, most: int) -> Array:
     return np.concatenate([ones, np.cos(multiples), np.sin(multiples)])
 
 
+def angles_round(p: Parameters) -> Array:
+    """Return as many angles round the disc as it has modes, rad."""
+    count = 2 * p.n_diameters + 1
+    return 2 * np.pi * np.arange(count) / count
+
+
+def windows_round(
+    p: Parameters, start: float, stop: float, rate: float = RATE
+) -> dict[str, Window]:
+    """Return windows that sample the disc at `angles_round` between two times in s.
+
+    The rate is in samples per second.
+    """
+    return {
+        f"at {angle:g}": Window(start=start, stop=stop, rate=rate, theta=angle)
+        for angle in angles_round(p).tolist()
+    }
+
+
 def power_history(p: Parameters, until: float, widest: float = math.inf) -> list[Powers]:
     """Return powers at `STAGES` times of the motion from the static start.
 
@@ -126,17 +172,12 @@ def power_history(p: Parameters, until: float, widest: float = math.inf) -> list
     until : the last time, s
     widest : range of the slider's height in m beyond which the motion is not followed
     """
-    angles = 2 * p.n_diameters + 1
-    theta = 2 * np.pi * np.arange(angles) / angles
+    theta = angles_round(p)
     state = None
     history: list[Powers] = []
     times = np.linspace(0.0, until, STAGES + 1).tolist()
     for begin, end in pairwise(times):
-        start = max(begin, end - LENGTH)
-        windows = {
-            f"at {angle:g}": Window(start=start, stop=end, rate=RATE, theta=angle)
-            for angle in theta.tolist()
-        }
+        windows = windows_round(p, max(begin, end - LENGTH), end)
         run = simulate(p, end, windows, initial_state=state).raise_for_status()
         state = run.final_state
         samples = list(run.samples.values())

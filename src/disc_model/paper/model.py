@@ -22,8 +22,9 @@ TRUE = "true"
 PART = "true in part"
 FALSE = "false"
 AMBIGUOUS = "ambiguous in the paper"
+NOT_TESTED = "cause not tested"
 NOT_COMPUTED = "not computed"
-VERDICTS = (TRUE, PART, FALSE, AMBIGUOUS, NOT_COMPUTED)
+VERDICTS = (TRUE, PART, FALSE, AMBIGUOUS, NOT_TESTED, NOT_COMPUTED)
 
 
 def read_texts(name: str) -> Any:

@@ -10,20 +10,23 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.stats import spearmanr
 
-from disc_model.analysis.classify import SAME, distinct_points, separation_location
+from disc_model.analysis import spectra
+from disc_model.analysis.classify import SAME, Settled, distinct_points, separation_location
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, values_text
-from disc_model.paper import growth, measures
+from disc_model.paper import growth, measures, paper_tables
 from disc_model.paper.measures import STRETCH, Array, CaseView, extent
 from disc_model.paper.model import (
     AMBIGUOUS,
     FALSE,
     NOT_COMPUTED,
+    NOT_TESTED,
     PART,
     TRUE,
     Answer,
     graded,
     partly,
+    verdict_on,
 )
 from disc_model.parameters import Parameters
 
@@ -31,6 +34,9 @@ LOADS = (50, 125, 200, 300, 385, 600)
 """Preloads of the paper and beyond, N."""
 SPEEDS = (10, 15, 20, 30, 40)
 """Speeds of the paper and beyond, rad/s."""
+
+EARLY_LENGTH = 10.0
+"""Length of the stretch of the window ``early`` whose spectrum is taken, s."""
 
 SAMPLING = 1.02
 """Factor by which the range of a steady contact force may differ; sampling adds far less."""
@@ -72,7 +78,7 @@ def stays_small(
     share : of the preload, below which the range of the contact force is small
     within : greatest spread of the intervals between releases, over their mean
     last : number of the last points of the section that are compared, if any
-    same : share of their range up to which they count as equal
+    same : share of their range up to which they count as equal; the answer also counts by 1 %
     """
     intervals = case.intervals()
     mean = intervals.mean()
@@ -84,7 +90,7 @@ def stays_small(
     widths: tuple[float, ...] = ()
     small = True
     if last:
-        points = [_different_points(case, last, limit) for limit in (same, 1e-4)]
+        points = [_different_points(case, last, limit) for limit in (same, 1e-2)]
         disc = case.disc.width
         widths = (1e3 * disc, 1e6 * case.late_range("u").width)
         small = disc / 2 < case["h"] and points[0] <= last / 2
@@ -312,7 +318,7 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
     case : the run
     factor : by which the range of the contact force must have grown
     bounded : factor by which its median range may still grow over the last half of the run
-    cause : whether the statement names a cause, which is not shown
+    cause : whether the statement names a cause, which no run takes away
     """
     end = case["time_reached"]
     needed = 4 * STRETCH
@@ -326,7 +332,9 @@ def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = Fa
     before = float(np.median(widths[count:]))
     grown = last > factor * case.early.width
     holds = not case.separates and grown and last < bounded * before
-    verdict = partly(holds, cause)
+    verdict = verdict_on(holds)
+    if holds and cause:
+        verdict = NOT_TESTED
     return Answer(verdict, fate=steadiness_text(case), before=before, last=last)
 
 
@@ -416,7 +424,64 @@ def faster_and_sooner(soft: CaseView, base: CaseView) -> Answer:
     )
 
 
-# ---- Motions after separation
+# ---- Motions before and after separation
+
+
+def two_frequencies(case: CaseView, *, share: float, least: float) -> Answer:
+    """Judge whether the disc vibrates at two frequencies before it separates.
+
+    They are the stick-slip rate and the drive's frequency, with their combinations.
+
+    Parameters
+    ----------
+    case : the run, with the window ``early``
+    share : of the power, which combinations must have
+    least : share of the power in which the stick-slip rate must take part
+    """
+    start = float(case.samples("early")["time"].values[0])
+    stop = start + EARLY_LENGTH
+    first = case["first_separation"]
+    if not stop < first:
+        raise Missing(f"case {case.name} separates at {first:g} s, before {stop:g} s")
+    rate = case.signal("early", start, stop, "psi").lines(1, above=2 * case.drive)[0].frequency
+    total = 0.0
+    combined = 0.0
+    with_rate = 0.0
+    for line in case.signal("early", start, stop).lines(above=1.0, floor=1e-3):
+        power = line.amplitude**2
+        total += power
+        name = spectra.identify(line.frequency, rate, case.drive)
+        if abs(name.deviation) <= paper_tables.COMBINED:
+            combined += power
+            with_rate += power * (name.n > 0)
+    return Answer(
+        combined >= share * total and with_rate >= least * total,
+        span=(start, stop),
+        rate=rate,
+        drive=case.drive,
+        part=combined / total,
+        with_rate=with_rate / total,
+    )
+
+
+def unstable_periodic(case: CaseView, *, last: float, same: float) -> Answer:
+    """Judge whether slider and disc move periodically in the end, and the motion is unstable.
+
+    Parameters
+    ----------
+    case : the run
+    last : number of the last points of the section that are compared
+    same : share of their range up to which they count as equal
+    """
+    points = _different_points(case, last, same)
+    settled = case.settling().answer is Settled.SETTLED
+    return Answer(
+        graded([case.late_motion.period > 0, points <= last / 2, not settled]),
+        span=case.kept_span,
+        motion=case.motion,
+        points=points,
+        settled=settled,
+    )
 
 
 def wanders(case: CaseView, near: CaseView, *, last: float, same: float) -> Answer:

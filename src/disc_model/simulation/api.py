@@ -42,7 +42,7 @@ def simulate(  # noqa: PLR0913
     windows : samples to keep, by name: a `Window` at a fixed rate, or `Poincare` for one sample a turn
     events : whether to keep the table of events (events are always counted)
     tol : expected error of event times after one second of motion, s, 1e-15 to 1e-2. Near a resonance of the
-        stick-slip rate with the fastest mode, under any law, errors are up to 60 times as large (docs/accuracy.md).
+        stick-slip rate with the fastest mode, under any law, errors are up to 60 times as large (docs/verification.md).
         Instead of a larger value than 1.25e-7 (2e-6 on a compliant contact), this limit is used, and recorded in the
         result
     initial_state : state at the start; None is the static start (static equilibrium, stick, spring relaxed)

@@ -704,7 +704,7 @@ def finite_numbers(values: ArrayLike) -> Array | None:
 
 # Local truncation error for a tolerance of 1, on rigid and on compliant contact. With it the errors
 # of event times over a second equal the tolerance, as measured against the long-double references
-# (docs/accuracy.md). Compliant contact takes three times as many steps, and errors accumulate in
+# (docs/verification.md). Compliant contact takes three times as many steps, and errors accumulate in
 # the weakly damped vibration of the slider on it.
 LOCAL = (80.0, 5.0)
 LOOSEST = 1e-5  # looser is no cheaper, because the series must reach from event to event anyway, and may miss events

@@ -5,6 +5,7 @@ well.
 """
 
 import math
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -121,6 +122,38 @@ class NearCycle:
             return True
         return self._is_linear(distance, thresholds.TEST_TIMES[0])
 
+    def extrapolate(self, latest: float) -> "Departure | None":
+        """Where a motion that slowly leaves an unstable cycle comes to as long as the linear map
+        describes it, no later than at a time (s); None if it leaves faster, or is there already.
+
+        The growth rate's excess over the leading multiplier's is measured at that distance. It rises
+        with the square of the distance, so that half of it has come together on the way.
+        """
+        cycle = self.cycle
+        if cycle.growth_rate > thresholds.SLOW_DEPARTURE:
+            return None
+        right = left_vector(self.jacobian.T)
+        part = float(abs(self.leading @ self.distance)) / float(abs(self.leading @ right))
+        growth = math.log(abs(cycle.multipliers[0]))
+        # the test after it ends within `NEAR`
+        tested = thresholds.TEST_TIMES[-1][-1]
+        factor = math.exp(cycle.growth_rate * tested)
+        for share in thresholds.DEPARTURES:
+            size = share * thresholds.NEAR / factor * self.map.deflection
+            periods = math.floor(math.log(size / max(part, sys.float_info.min)) / growth)
+            periods = min(periods, self.periods_left(latest))
+            if periods <= 0:
+                return None
+            distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
+            if not np.linalg.norm(distance) <= thresholds.NEAR * self.map.deflection:
+                continue
+            excess = self._excess_rate(distance)
+            if excess is not None and abs(excess) <= thresholds.LARGEST_EXCESS:
+                time = self.time + periods * cycle.period
+                gained = excess * tested / (factor**2 - 1)
+                return Departure(self.x + distance, time - gained, periods)
+        return None
+
     def periods_left(self, horizon: float) -> int:
         """Periods of the cycle from `time` to the horizon (s)."""
         return max(0, math.ceil((horizon - self.time) / self.cycle.period))
@@ -182,6 +215,15 @@ def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
     if cycle.status is not CycleStatus.OK:
         return cycle
     return _relate(map_, cycle, map_.first_release)
+
+
+class Departure(NamedTuple):
+    """Where a motion that leaves an unstable cycle comes to: a point of the section, the time (s),
+    and the number of periods since it was at the cycle."""
+
+    x: Array
+    time: float
+    periods: int
 
 
 class CloseReturn(NamedTuple):

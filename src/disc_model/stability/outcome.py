@@ -67,6 +67,8 @@ class OutcomeResult:
     failed : the simulation that ended early
     changes, times : changes from one period to the next, over the static deflection, and times of these (s)
     distance : from the cycle, over the static deflection, at the end of the search
+    extrapolated : whether the linear map has replaced the simulation of a slow departure; the first
+        separation is then known within `thresholds.BORDER` only
     """
 
     outcome: Outcome | None = None
@@ -80,6 +82,7 @@ class OutcomeResult:
     changes: list[float] = field(default_factory=list)
     times: list[float] = field(default_factory=list)
     distance: float = np.nan
+    extrapolated: bool = False
     segment: Segment | None = None
     stage: Stage | None = None
 
@@ -92,6 +95,11 @@ class OutcomeResult:
     def separates(self) -> bool:
         """Whether the motion loses contact again and again."""
         return self.attractor is not None and self.attractor.segment.separation_rate > 0
+
+    @property
+    def timed_separation(self) -> float:
+        """Time of the first separation (s) where the whole motion was simulated; nan elsewhere."""
+        return np.nan if self.extrapolated else self.first_separation
 
     @property
     def status(self) -> Status:
@@ -113,6 +121,7 @@ def find_outcome(
     start: State | None = None,
     early: bool = True,
     late: float = 0.0,
+    compared_with: Sequence[float] = (),
 ) -> OutcomeResult:
     """Find the outcome of a motion within a horizon (s), or its separation if that comes first.
 
@@ -120,10 +129,15 @@ def find_outcome(
     start : initial state; None is the static start
     early : whether the search ends once the outcome is shown; otherwise the motion is followed to the horizon
     late : s, length of the segment before the horizon that is described
+    compared_with : s, times with which the first separation is only to be compared
 
     Multipliers alone prove that a motion approaches a stable cycle. Any other motion is simulated
     from its start, in the same legs whatever the horizon, so that searches with the same `tol` find
     the same first separation.
+
+    Where the first separation is only compared with some times, slow departures from unstable
+    cycles are extrapolated instead, see `NearCycle.extrapolate`. A motion whose separation
+    comes near to one of those times is simulated from its start all the same.
     """
     start_cycle: NearCycle | None = None
     map_: ReturnMap | None = None
@@ -136,8 +150,20 @@ def find_outcome(
             near = cycle_of_static_start(p)
         if isinstance(near, NearCycle):
             start_cycle = near
-    options = SearchOptions(horizon, tol, start, early, late)
-    return _OutcomeSearch(p, options, map_, start_cycle).run()
+    options = SearchOptions(horizon, tol, start, early, late, bool(compared_with))
+    rough = _OutcomeSearch(p, options, map_, start_cycle).run()
+    if not rough.extrapolated or not _is_near_any(rough.first_separation, compared_with):
+        return rough
+    options = replace(options, extrapolate=False)
+    simulated = _OutcomeSearch(p, options, map_, start_cycle).run()
+    simulated.simulated += rough.simulated
+    return simulated
+
+
+def _is_near_any(time: float, others: Sequence[float]) -> bool:
+    """Whether a time is nearer to one of some others than the error of an extrapolation; nan is
+    not."""
+    return any(abs(time - other) <= thresholds.BORDER * other for other in others)
 
 
 @dataclass(frozen=True)
@@ -149,6 +175,7 @@ class SearchOptions:
     start: State | None
     early: bool
     late: float
+    extrapolate: bool = False
 
 
 class _OutcomeSearch:
@@ -163,6 +190,8 @@ class _OutcomeSearch:
     cycle : the cycle that the motion follows in the stage `NEAR_CYCLE`
     departed_from : the last unstable cycle that the motion has followed
     expected_cycle : an unstable cycle near the static start, until the motion follows it
+    horizon : s, at which the search ends; beyond that of the options after an extrapolation, as far
+        as its error may reach
     """
 
     def __init__(
@@ -181,6 +210,7 @@ class _OutcomeSearch:
         self.cycle: NearCycle | None = None
         self.departed_from: NearCycle | None = None
         self.expected_cycle: NearCycle | None = None
+        self.horizon = options.horizon
 
     def run(self) -> OutcomeResult:
         """Go from stage to stage until one ends the search."""
@@ -215,10 +245,12 @@ class _OutcomeSearch:
         near = self.cycle
         assert near is not None
         result = self.result
-        # an unstable cycle: the motion departs, and is simulated until it comes to something else
+        # an unstable cycle: the motion departs, and is followed until it comes to something else
         if not near.cycle.stable:
             result.near = result.near or near
             self.departed_from = near
+            if self.options.extrapolate:
+                self._extrapolate_departure(near)
             return Stage.ON_ITS_WAY
         # a stable cycle: the motion is on it for good
         result.near = near
@@ -227,12 +259,26 @@ class _OutcomeSearch:
         result.distance = float(np.linalg.norm(near.distance)) / near.map.deflection
         return Stage.SETTLED
 
+    def _extrapolate_departure(self, near: NearCycle) -> None:
+        """Go on from where a slow departure ceases to be linear."""
+        departure = near.extrapolate(self.options.horizon)
+        if departure is None or departure.time <= self.result.time:
+            return
+        state = near.map.state(departure.x)
+        self.result.state = state.replace(time=departure.time)
+        self.result.time = departure.time
+        self.result.extrapolated = True
+        self._note_close_return(near.map, departure.x)
+        # nothing is to be seen before the departure has grown by a factor of e
+        self.leg = min(max(self.leg, 1 / near.cycle.growth_rate), thresholds.LONGEST_LEG)
+        self.horizon = (1 + thresholds.BORDER) * self.options.horizon
+
     def _simulate_on(self) -> Stage:
         """Stage ON_ITS_WAY: simulate a leg, and examine the motion at its end."""
         result = self.result
 
         # the horizon: nothing was proven within it
-        if result.time >= self.options.horizon:
+        if result.time >= self.horizon:
             grows = self.departed_from is not None or growing(result.changes)
             result.outcome = Outcome.GROWING if grows else Outcome.UNDECIDED
             return Stage.HORIZON
@@ -248,7 +294,7 @@ class _OutcomeSearch:
             return Stage.FAILED
 
         # rest, or stable steady sliding
-        examined = self.options.early or result.time >= self.options.horizon
+        examined = self.options.early or result.time >= self.horizon
         equilibrium = None
         if examined:
             equilibrium = find_equilibrium(self.p, leg)
@@ -263,9 +309,7 @@ class _OutcomeSearch:
         release = self.map.next_release(leg.final_state)
         if not release.reached:
             return Stage.ON_ITS_WAY
-        close_return = find_close_return(self.map, release.x)
-        result.times.append(result.time)
-        result.changes.append(np.nan if close_return is None else close_return.change)
+        close_return = self._note_close_return(self.map, release.x)
 
         # a cycle that the motion follows from there on
         if examined:
@@ -274,11 +318,18 @@ class _OutcomeSearch:
                 return Stage.NEAR_CYCLE
         return Stage.ON_ITS_WAY
 
+    def _note_close_return(self, map_: ReturnMap, x: Array) -> CloseReturn | None:
+        """Note how nearly the motion repeats from a point of the section on."""
+        close_return = find_close_return(map_, x)
+        self.result.times.append(self.result.time)
+        self.result.changes.append(np.nan if close_return is None else close_return.change)
+        return close_return
+
     def _simulate_leg(self) -> Result:
         """Simulate a leg to its end or the first separation; the segment to be described is a leg
         of its own."""
         result = self.result
-        horizon = self.options.horizon
+        horizon = self.horizon
         late = self.options.late
         mark = horizon
         if result.time < horizon - late:

@@ -15,7 +15,8 @@ from disc_model.stability import thresholds
 @dataclass(frozen=True)
 class Segment:
     """Ranges of contact force (N) and height over static equilibrium (m); shares of time;
-    separations per s."""
+    separations per s; and the largest speed of the disc's surface over that of the drive, 0 where
+    the surface does not move."""
 
     P_min: float
     P_max: float
@@ -25,6 +26,7 @@ class Segment:
     slip_fraction: float
     separation_fraction: float
     separation_rate: float
+    surface_speed: float = 0.0
 
     @property
     def range(self) -> float:
@@ -81,6 +83,7 @@ def segment_of(result: Result) -> Segment:
         slip_fraction=share.slip,
         separation_fraction=share.separation,
         separation_rate=share.separation_rate,
+        surface_speed=result.statistics.get("surface_speed", 0.0),
     )
 
 

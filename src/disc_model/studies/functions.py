@@ -81,6 +81,7 @@ def outcome(
     evaluation_time: float = 1.0,
     after_separation: float = 5.0,
     early_end: bool = True,
+    extrapolate: bool = False,
     tol: float = 1e-10,
 ) -> xr.Dataset:
     """Long-term behaviour within a horizon, such as "quiet" or "separation", with ranges and phases
@@ -94,6 +95,8 @@ def outcome(
     evaluation_time : s, length of the last stretch, over which ranges and shares of the phases are taken
     after_separation : s, simulated after the first separation, so that the stretch shows the motion it leads to
     early_end : whether the simulation ends once a stable cycle or steady sliding is shown to be reached
+    extrapolate : whether slow departures from cycles are extrapolated, which halves the time; the time of a separation
+        after them, unless it is near the horizon, is known to about 1 % only, and not given
     tol : as in `simulate`
 
     Returns
@@ -118,6 +121,7 @@ def outcome(
         "evaluation_time": evaluation_time,
         "after_separation": after_separation,
         "early_end": early_end,
+        "extrapolate": extrapolate,
         "tol": tol,
     }
     return _quantity("outcome", case, options, start)
@@ -131,6 +135,7 @@ def critical_speed(
     step: float = 1.0,
     precision: float = 0.1,
     early_end: bool = True,
+    extrapolate: bool = True,
     tol: float = 1e-10,
 ) -> xr.Dataset:
     """The lowest speed of a scan with separation within a horizon, and all speeds where separation
@@ -145,12 +150,15 @@ def critical_speed(
     horizon : s, or several, each with a critical speed of its own
     step : rad/s, of the scan
     precision : rad/s, to which crossings are bisected; `step` must be a multiple
+    extrapolate : whether slow departures from cycles are extrapolated, which halves the time; separations after them
+        are compared with the horizon, but have no time
     early_end, tol : as in `outcome`
 
     Returns
     -------
     xarray.Dataset
-        `critical_speed` (rad/s, nan if there is none) and crossings by horizon; first separations along the scan
+        `critical_speed` (rad/s, nan if there is none) and crossings by horizon; outcomes and first separations along
+        the scan
 
     Raises
     ------
@@ -169,6 +177,7 @@ def critical_speed(
         "scan": _scan(scan, step),
         "precision": precision,
         "early_end": early_end,
+        "extrapolate": extrapolate,
         "tol": tol,
     }
     return _quantity("critical_speed", case, options)

@@ -9,6 +9,8 @@ from disc_model.simulation.case import CaseSpec
 from disc_model.studies.costs import unit_costs
 from disc_model.studies.grid import GridStudy
 
+ROUNDED_TO_100 = 99.5  # least number that has three digits once it is rounded to two
+
 
 class Plan(NamedTuple):
     """What is to be done for one grid, or for all named cases.
@@ -60,11 +62,12 @@ def duration_text(seconds: float) -> str:
     """A time that is known roughly, in words."""
     if seconds < 1:
         return "less than 1 s"
-    if seconds < 100:
+    if seconds < ROUNDED_TO_100:
         return f"{seconds:.2g} s"
-    if seconds < 6000:
+    if seconds < 60 * ROUNDED_TO_100:
         return f"{seconds / 60:.2g} min"
-    return f"{seconds / 3600:.2g} h"
+    hours = float(f"{seconds / 3600:.2g}")
+    return f"{hours:g} h"
 
 
 def _is_there(folder: Path, name: str) -> bool:

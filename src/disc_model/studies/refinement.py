@@ -33,11 +33,12 @@ MOST_CYCLES = 4  # known at a point; further ones cost too much
 
 
 class TileOptions(NamedTuple):
-    """Options of a tile: horizon (s) and tolerance of its motions, and intervals along the side of
-    its first cells."""
+    """Options of a tile: horizon (s) and tolerance of its motions, whether their slow departures are
+    extrapolated, and intervals along the side of its first cells."""
 
     horizon: float
     tol: float
+    extrapolate: bool
     initial_cell_size: int
 
 
@@ -160,7 +161,11 @@ class Tile:
             return p
 
         def find(start: Any) -> OutcomeResult:
-            return find_outcome(p, self.options.horizon, tol=self.options.tol, near=start)
+            options = self.options
+            times = (options.horizon,) if options.extrapolate else ()
+            return find_outcome(
+                p, options.horizon, tol=options.tol, near=start, compared_with=times
+            )
 
         return _result_or_error(find, point.start)
 
@@ -300,12 +305,15 @@ def _outcome_columns(point: TilePoint) -> dict[str, Any]:
     if not isinstance(result, OutcomeResult):
         method = "inferred" if point.inferred else "multipliers"
         return {"outcome": point.shown, "method": method}
+    method = "simulation" if result.simulated else "multipliers"
+    if result.extrapolated:
+        method = "extrapolation"
     return {
-        "method": "simulation" if result.simulated else "multipliers",
+        "method": method,
         "status": result.status,
         "outcome": result.word,
         "simulated_time": result.simulated,
-        "first_separation": result.first_separation,
+        "first_separation": result.timed_separation,
     }
 
 

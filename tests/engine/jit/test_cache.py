@@ -5,10 +5,12 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import numba
 import pytest
-from filelock import FileLock
+from filelock import FileLock, Timeout
+from numba.core.caching import FunctionCache
 
 from disc_model import Parameters, floquet, simulate
 from disc_model.engine import loop
@@ -93,7 +95,7 @@ def test_a_process_waits_while_another_compiles_the_same_kernel(
     released = []
 
     def compile_elsewhere() -> None:
-        with FileLock(tmp_path / "kernel.lock"):
+        with cache.lock("kernel", "types"):
             taken.set()
             time.sleep(0.2)
             released.append(time.perf_counter())
@@ -101,9 +103,47 @@ def test_a_process_waits_while_another_compiles_the_same_kernel(
     other = threading.Thread(target=compile_elsewhere)
     other.start()
     taken.wait()
-    with cache.lock("kernel"):
+    with cache.lock("kernel", "types"):
         assert time.perf_counter() >= released[0]
     other.join()
+
+
+def test_a_process_does_not_wait_while_another_compiles_a_kernel_for_other_types(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A process that only had to load a kernel waited until another had compiled that kernel for
+    another law of contact."""
+    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
+    entered = threading.Event()
+
+    def load() -> None:
+        with cache.lock("kernel", "other types"):
+            entered.set()
+
+    with cache.lock("kernel", "types"):
+        loading = threading.Thread(target=load)
+        loading.start()
+        # seconds are plenty to lock a file of one's own
+        assert entered.wait(timeout=10)
+    loading.join()
+
+
+def test_processes_write_the_index_of_kernels_one_after_another(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """numba reads the index, chooses the next free file and writes the index again."""
+    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
+    locked = []
+
+    def save(self: Any, sig: Any, data: Any) -> None:
+        others = FileLock(next(tmp_path.glob("index-*.lock")), timeout=0)
+        with pytest.raises(Timeout):
+            others.acquire()
+        locked.append(sig)
+
+    monkeypatch.setattr(FunctionCache, "save_overload", save)
+    cache.KernelCache.save_overload(object.__new__(cache.KernelCache), "types", None)
+    assert locked == ["types"]
 
 
 @pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="nothing is compiled")

@@ -92,3 +92,23 @@ def test_directions_depend_on_the_seed_the_energy_and_the_start(
     monkeypatch.setattr(attractors, "random_perturbation", kicked)
     found(energies=[0.05, 1.0], n_starts=2, seed=7, n_bisection_directions=0)
     assert set(keys) == {(7, 0, 0), (7, 0, 1), (7, 1, 0), (7, 1, 1)}
+
+
+def test_what_separates_by_itself_needs_no_energy(
+    made: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Made, "least", staticmethod(lambda p, i: -1.0))
+    table = found(energies=[0.05, 1.0], n_starts=2).arrays
+    assert table["critical_energy"] == 0.0
+    assert np.isnan(table["critical_energy_lower"][0])
+    assert table["critical_energy_sampled"] == 0.05
+
+
+def test_a_bisection_that_finds_no_energy_without_separation_says_how_low_it_went(
+    made: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All energies separate but 0 itself."""
+    monkeypatch.setattr(Made, "least", staticmethod(lambda p, i: 0.0))
+    table = found(energies=[0.5], n_starts=1).arrays
+    assert np.isnan(table["critical_energy_lower"][0])
+    assert 0 < table["critical_energy"][0] < 0.5 * 2.0**-37

@@ -5,11 +5,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from disc_model.analysis.classify import Settling
 from disc_model.data.variables import Outcome
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Poincare, Start
 from disc_model.simulation.starts import make_initial_state
+from disc_model.stability import attractors
 from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.quantity import Point
 from tests.stability.test_attractor import SMALL
@@ -78,6 +80,10 @@ def test_samples_once_a_turn_begin_with_the_first_after_the_transient(
     start = make_initial_state(p, Start(), options.tol)
     turns = {"turns": Poincare(theta=2.0)}
     run = simulate(p, 4.5 * turn, turns, tol=options.tol, initial_state=start)
+    # both runs end between two turns, half a turn apart
+    end = (first + 2.5) * turn
+    own = simulate(p, end, tol=options.tol, initial_state=start).statistics
+    assert values["stick_fraction"] == pytest.approx(own["time_stick"] / end, rel=1e-6)
     every = run["turns"]
     for name in ("psi", "u", "P", "w_point"):
         expected = every[name].values[first : first + 3]
@@ -143,3 +149,25 @@ def test_2000_seconds_more_change_nothing_where_the_motion_is_said_to_have_settl
     largest = psi.max()
     tolerance = max(0.1 * span, 1e-3 * largest)
     assert first == pytest.approx(last, abs=tolerance)
+
+
+@pytest.mark.compiled
+def test_samples_at_events_are_the_last_of_the_five_seconds_after_the_transient(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The drive point runs ahead of the slider as it slips: its angle grows by Omega - f."""
+    monkeypatch.setattr(attractors, "arrival", lambda p, legs: attractors.Arrival(Settling()))
+    p = Parameters(N=385, Omega=14, n_diameters=1)
+    options = Bifurcation(section="event", transient=0.5, max_transient=0.9, samples=4)
+    values, message = options.compute_point(Point(p))
+    assert message.startswith("not settled after 0.5 s: undecided")
+    begun = simulate(p, 0.5, tol=options.tol)
+    later = simulate(p, 5.5, tol=options.tol, initial_state=begun.final_state).events
+    released = later[later["kind"] == "stick_to_slip"].iloc[-4:]
+    assert values["psi"] == pytest.approx(released["psi"].to_numpy(), rel=1e-9)
+    assert values["P"] == pytest.approx(released["P"].to_numpy(), rel=1e-9)
+    speed = p.Omega - released["f"].to_numpy()
+    assert values["psi_velocity"] == pytest.approx(speed, rel=1e-9)
+    assert values["phase"] == ["stick"] * 4
+    assert values["kind"] is Outcome.UNDECIDED
+    assert values["stick_fraction"] == pytest.approx(begun.statistics["time_stick"] / 0.5, rel=1e-9)

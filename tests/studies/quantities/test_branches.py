@@ -1,9 +1,14 @@
 """Branches of cycles against one parameter, beside a sweep."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 from disc_model.parameters import Parameters
+from disc_model.stability import attractors
+from disc_model.stability.attractors import Arrival
+from disc_model.studies.quantities import branches
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantity import Point
 from tests.studies.conftest import Table, compute
@@ -52,3 +57,72 @@ def test_a_sweep_jumps_to_a_branch_that_separates(table: Table) -> None:
     assert (
         np.min(np.abs(np.array(ranges) / table.arrays["sweep_range"][0, 0, 2] - 1)) < 0.01
     )  # as samples see a range
+
+
+ROW = {
+    "value": np.array([1.0, 2.0, 4.0]),
+    "period": np.exp([0.0, 1.0, 2.0]),
+    "range": np.exp([0.0, -1.0, -2.0]),
+}
+"""A branch whose logarithms of period and range are straight between its points."""
+
+
+@pytest.mark.parametrize(
+    ("value", "period", "size", "passes"),
+    [
+        (1.25, 0.25, -0.25, True),
+        (3.5, 1.75, -1.75, True),
+        (3.5, 1.75 + 1.9e-4, -1.75, True),
+        (3.5, 1.75 + 2.1e-4, -1.75, False),
+        (3.5, 1.75, -1.36, True),
+        (3.5, 1.75, -1.34, False),
+        (4.5, 2.25, -2.25, False),  # beyond its last point
+        (1.0, 0.0, 0.0, True),
+    ],
+)
+def test_a_branch_passes_a_cycle_of_about_its_period_and_range(
+    value: float, period: float, size: float, passes: bool
+) -> None:
+    assert branches._passes(ROW, value, np.exp(period), np.exp(size)) is passes
+
+
+def test_stretches_of_one_number_of_separations_are_joined() -> None:
+    points = [
+        branches._BranchPoint(float(i), 1.0, -0.1, 0.01, separations)
+        for i, separations in enumerate([0, 0, 2, 2, 2, 1])
+    ]
+    found = branches._stretches(points)
+    assert [[point.value for point in stretch] for stretch in found] == [
+        [0, 1],
+        [1, 2, 3, 4],
+        [4, 5],
+    ]
+    for stretch, separations in zip(found, (0, 2, 1), strict=True):
+        assert {point.separations for point in stretch} == {separations}
+
+
+def test_folds_have_room_among_the_points_of_a_branch() -> None:
+    """One of at least six points may be a fold."""
+    for most in (3, 60, 300):
+        options = Branches.model_validate(OPTIONS | {"max_points": most})
+        found = branches._most_points(options)
+        assert found + found // 5 <= max(most, 3)
+    assert branches._most_points(Branches.model_validate(OPTIONS | {"max_points": 300})) == 250
+
+
+@pytest.mark.parametrize(("sweep_from", "first"), [(None, 0), (15.0, 1), (14.9, 1), (15.25, 2)])
+def test_the_rising_sweep_begins_at_the_value_that_is_asked_for(
+    sweep_from: float | None, first: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[Any] = []
+
+    def sweep(p: Parameters, name: str, values: list[float], *how: Any) -> list[Arrival]:
+        asked.append((name, values, *how))
+        return []
+
+    monkeypatch.setattr(attractors, "sweep", sweep)
+    options = Branches.model_validate({**OPTIONS, "sweep_from": sweep_from, "max_dwell": 90})
+    values, _ = options.compute_point(Point(Parameters(N=385, Omega=0)))
+    assert asked == [("Omega", [14.75, 15.0, 15.25], 60, 90, 1, 1e-10, first)]
+    assert values["n_branches"] == 0
+    assert len(values["sliding_growth_rate"]) == 3

@@ -12,7 +12,12 @@ from disc_model.data.variables import flag_names
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability.outcome import OutcomeResult
-from disc_model.studies.quantities.critical_speed import CriticalSpeed
+from disc_model.studies.quantities.critical_speed import (
+    CriticalSpeed,
+    _crossings,
+    _first_separation,
+    _middles,
+)
 from disc_model.studies.quantity import Point
 from tests.studies.conftest import SCAN, compute
 
@@ -54,6 +59,58 @@ def test_a_speed_that_failed_hides_those_above_it(
     assert found.messages == [f"Omega={lost:g}: lost"]
 
 
+INF = np.inf
+ON_LATTICE = {0: INF, 4: 90.0, 5: 20.0, 9: INF, 20: np.nan, 21: 5.0}
+"""First separations in s by places on the lattice of the precision."""
+
+
+def test_intervals_in_which_separation_begins_or_ends_are_halved() -> None:
+    assert _middles(ON_LATTICE, 100.0) == [2, 7]
+    assert _middles(ON_LATTICE, 50.0) == [7], "between 4 and 5 there is no place"
+    assert _middles(ON_LATTICE, 10.0) == [], "and beside what is unknown none is looked for"
+
+
+@pytest.mark.parametrize(
+    ("horizon", "lowest", "speeds", "kinds"),
+    [
+        (100.0, 4.0, [4.0, 9.0], ["begins", "ends"]),
+        (90.0, 4.0, [4.0, 9.0], ["begins", "ends"]),  # at the horizon itself
+        (50.0, 5.0, [5.0, 9.0], ["begins", "ends"]),
+        (10.0, np.nan, [], []),  # a speed that is unknown hides the one above it
+    ],
+)
+def test_a_crossing_is_the_upper_end_of_its_interval(
+    horizon: float, lowest: float, speeds: list[float], kinds: list[str]
+) -> None:
+    found = _crossings(ON_LATTICE, horizon, float)
+    np.testing.assert_equal(found["critical_speed"], lowest)
+    assert found["crossing"] == speeds
+    assert found["crossing_kind"] == kinds
+    assert found["n_crossings"] == len(speeds)
+
+
+def test_a_motion_without_separation_separates_never_unless_it_failed() -> None:
+    assert _first_separation(OutcomeResult(first_separation=3.0)) == 3.0
+    assert _first_separation(OutcomeResult()) == INF
+    lost: Any = SimpleNamespace(status=Status.NON_FINITE, message="lost")
+    assert np.isnan(_first_separation(OutcomeResult(failed=lost)))
+
+
+def test_all_simulations_are_counted_with_their_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    followed = []
+
+    def motion(p: Parameters, horizon: float, **_: Any) -> OutcomeResult:
+        followed.append(p.Omega)
+        return OutcomeResult(simulated=10.0 + len(followed))
+
+    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", motion)
+    options = CriticalSpeed.model_validate({"horizons": [900], "scan": SCAN, "precision": 0.1})
+    found = compute(options, [Point(Parameters(N=200, Omega=1))]).arrays
+    assert followed == [12, 12.5, 13, 13.5, 14, 14.5, 15]
+    assert found["simulations"].tolist() == [7]
+    assert found["simulated_time"].tolist() == [70.0 + 28.0]
+
+
 RESULTS = Path(__file__).parents[3] / "results"
 
 
@@ -74,11 +131,15 @@ def test_scan_and_map_of_the_results_agree(study: str, least: int) -> None:
     in_map = xr.DataArray(
         flag_names(mapped["outcome"]) == "separation", dims=mapped["outcome"].dims
     )
-    in_scan = scan["scan_first_separation"] <= 1000  # the map's horizon, s
+    # both have a horizon of 1000 s
+    in_scan = xr.DataArray(
+        flag_names(scan["scan_outcome"]) == "separation", dims=scan["scan_outcome"].dims
+    )
     assert (in_scan == in_map).all()
     simulated = mapped["first_separation"].values
-    there = np.isfinite(simulated)
+    wanted = scan["scan_first_separation"].transpose(*mapped["first_separation"].dims).values
+    # of extrapolated motions neither has a time
+    there = np.isfinite(simulated) & np.isfinite(wanted)
     assert there.any()
     # both follow the same motion, in the same steps
-    wanted = scan["scan_first_separation"].transpose(*mapped["first_separation"].dims).values
     assert simulated[there] == pytest.approx(wanted[there], rel=1e-12)

@@ -1,5 +1,7 @@
 """What the quantity `locking` says of motions that repeat, and of those that do not."""
 
+import math
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -7,6 +9,7 @@ import pytest
 
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
+from disc_model.stability import locking
 from disc_model.studies.quantities.locking import Locking
 from disc_model.studies.quantity import Point
 
@@ -56,3 +59,57 @@ def test_a_motion_of_a_disc_with_nodal_circles_is_undecided() -> None:
     assert found["motion"] == "undecided"
     assert "period_releases" not in found
     assert np.isfinite(found["separations_per_release"])
+
+
+@pytest.mark.parametrize(("size", "motion"), [(0.5, "locked"), (1.5, "undecided")])
+def test_only_a_stable_cycle_proves_that_a_motion_is_locked(
+    size: float, motion: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A disturbance of the size 0.5 after 0.06 s decays at ln(0.5)/0.06."""
+    lock = locking.Lock(3, 9, 0.06, 0.0)
+    multipliers = size * np.array([1j, -1j, 0.4])
+    made: dict[str, Any] = {
+        "releases_of": lambda run: run,
+        "lock_of": lambda found: lock,
+        "multipliers_of": lambda p, state, lock: multipliers,
+        "swing_multiplier": lambda p, run, lock: 0.7,
+    }
+    for name, function in made.items():
+        monkeypatch.setattr(locking, name, function)
+    monkeypatch.setattr("disc_model.simulation.api.simulate", lambda *_, **__: None)
+    values: dict[str, Any] = {"motion": "locked"}
+    run: Any = SimpleNamespace(parameters=Parameters(N=200, Omega=20), final_state=None)
+    message = Locking()._prove(run, values)
+    assert values["motion"] == motion
+    if motion == "undecided":
+        assert message == "no stable cycle of 3 releases was found at the motion"
+        return
+    assert message == ""
+    assert values["leading_multiplier"] == 0.5
+    assert values["growth_rate"] == pytest.approx(math.log(0.5) / 0.06)
+    assert values["real_multiplier"] == pytest.approx(0.2)
+    assert values["swing_multiplier"] == 0.7
+
+
+@pytest.mark.parametrize(
+    ("repeats_in", "lengths"), [(0.0, [20, 40, 80, 160]), (40.0, [20, 40]), (20.0, [20])]
+)
+def test_a_record_is_doubled_until_it_shows_what_the_motion_is(
+    repeats_in: float, lengths: list[float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    recorded: list[float] = []
+
+    def simulate(p: Parameters, *, duration: float, tol: float, initial_state: Any) -> Any:
+        recorded.append(duration)
+        return SimpleNamespace(status=SimpleNamespace(complete=True))
+
+    def read(self: Locking, run: Any) -> dict[str, Any]:
+        shown = recorded[-1] == repeats_in
+        return {"motion": "in_contact" if shown else "undecided"}
+
+    monkeypatch.setattr("disc_model.simulation.api.simulate", simulate)
+    monkeypatch.setattr("disc_model.simulation.starts.state_after", lambda *_: None)
+    monkeypatch.setattr(Locking, "_read", read)
+    values, _ = Locking().compute_point(Point(Parameters(N=200, Omega=20)))
+    assert recorded == lengths
+    assert values["record_time"] == lengths[-1]

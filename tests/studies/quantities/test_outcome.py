@@ -71,3 +71,22 @@ def test_the_rate_of_the_residual_is_that_of_its_natural_logarithm(
     del times[3:], changes[3:]
     arrays, _ = outcomes([Parameters(N=300, Omega=20)], horizon=200)
     assert np.isnan(arrays["return_map_residual_rate"][0])
+
+
+@pytest.mark.parametrize(("time", "settles"), [(40.0, True), (200.0, False)])
+def test_a_motion_settles_if_it_is_left_before_the_horizon(
+    time: float, settles: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    segment = stretch(separation_rate=0, separation_fraction=0)
+
+    def find_outcome(p: Parameters, horizon: float, **_: object) -> OutcomeResult:
+        return OutcomeResult(Outcome.QUIET, horizon, time=time, segment=segment, distance=0.02)
+
+    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", find_outcome)
+    arrays, words = outcomes([Parameters(N=300, Omega=20)], horizon=200)
+    assert words == ["quiet"]
+    assert np.isfinite(arrays["settling_time"][0]) == settles
+    assert arrays["time_reached"][0] == time
+    assert arrays["cycle_distance"][0] == 0.02
+    assert arrays["P_max"][0] == segment.P_max
+    assert arrays["slip_fraction"][0] == segment.slip_fraction

@@ -10,7 +10,7 @@ import xarray as xr
 from scipy import stats
 
 from disc_model.parameters import Parameters
-from disc_model.studies.distributions import quantile
+from disc_model.studies.distributions import BLOCK, quantile, unit_draws
 from disc_model.studies.quantities import sensitivity
 from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity
 from disc_model.studies.quantity import Row
@@ -117,3 +117,21 @@ def made_up(**changes: Any) -> xr.Dataset:
         return computed(
             **study({"k": UNIFORM, "mu_s": UNIFORM}, options={"samples": 64}, **changes)
         )
+
+
+def test_blocks_of_samples_are_one_sequence() -> None:
+    whole = stats.qmc.Sobol(3, scramble=True, rng=np.random.default_rng(5)).random(4 * BLOCK)
+    for block in range(4):
+        expected = whole[block * BLOCK : (block + 1) * BLOCK]
+        np.testing.assert_array_equal(unit_draws(5, 3, block), expected)
+    assert not np.array_equal(unit_draws(6, 3, 0), unit_draws(5, 3, 0))
+
+
+@pytest.mark.parametrize(
+    ("samples", "blocks"), [(16, [16]), (64, [64]), (128, [64, 64]), (512, [64, 64, 128, 256])]
+)
+def test_blocks_of_samples_double_their_number(samples: int, blocks: list[int]) -> None:
+    made = Sensitivity.model_validate({"distributions": {"k": UNIFORM}, "samples": samples})
+    found = made.dimensions["sample"]
+    assert [len(block) for block in found] == blocks
+    assert [number for block in found for number in block] == list(range(samples))

@@ -58,3 +58,12 @@ def test_where_there_is_no_sliding_the_message_says_at_which_value() -> None:
     assert message.startswith("Omega=0: The disc is not driven")
     assert np.isnan(values["largest_growth_rate"][0])
     assert np.isfinite(values["largest_growth_rate"][1:]).all()
+
+
+def test_modes_beyond_the_room_are_left_out_and_those_within_stay() -> None:
+    scan = {"start": 10, "stop": 50, "count": 3}
+    every, _ = Sliding(scan=scan).compute_point(Point(FALLING))
+    few, _ = Sliding(scan=scan, modes=4).compute_point(Point(FALLING))
+    assert few["frequency"].shape == (3, 4)
+    np.testing.assert_array_equal(few["frequency"], every["frequency"][:, :4])
+    np.testing.assert_array_equal(few["mode_growth_rate"], every["mode_growth_rate"][:, :4])

@@ -67,7 +67,7 @@ def kernel(function):
         if signature in compiled.overloads:
             return compile_or_load(signature)
         # numba's lock first: a thread with only one of the two would wait for one with the other
-        with global_compiler_lock, cache.lock(compiled.__name__):
+        with global_compiler_lock, cache.lock(compiled.__name__, signature):
             return compile_or_load(signature)
 
     compiled.compile = compile_in_turn

@@ -71,7 +71,9 @@ class KernelCache(FunctionCache):
     def save_overload(self, sig: Any, data: Any) -> None:
         """Save a kernel if possible: a full or read-only disk costs time, not the result."""
         try:
-            super().save_overload(sig, data)
+            # numba reads the index and writes it again: two processes would give one file two kernels
+            with lock("index"):
+                super().save_overload(sig, data)
         except OSError as error:
             reason = f"compiled kernels cannot be kept there ({error.strerror})"
             text = f"{folder()}: {reason}; every process compiles them again"
@@ -79,13 +81,14 @@ class KernelCache(FunctionCache):
 
 
 @contextmanager
-def lock(name: str) -> Iterator[None]:
-    """Let other processes wait that come to the lock of the same kernel, where files can be
-    locked."""
+def lock(name: str, signature: Any = "") -> Iterator[None]:
+    """Let other processes wait that come to the lock of the same kernel for the same types, where
+    files can be locked."""
+    types = hashlib.sha256(str(signature).encode()).hexdigest()[:12]
     with ExitStack() as stack:
         with suppress(OSError, NotImplementedError):
             folder().mkdir(parents=True, exist_ok=True)
-            stack.enter_context(FileLock(folder() / f"{name}.lock"))
+            stack.enter_context(FileLock(folder() / f"{name}-{types}.lock"))
         yield
 
 

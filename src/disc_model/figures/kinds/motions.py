@@ -41,6 +41,9 @@ class LateRange(Plot):
     """Peak-to-peak displacement of the slider against the speed, with separation and with it
     ignored.
 
+    For discs whose surface moves, there are lines where contact is lost, and panels of the speed of
+    the surface, with a line where it reaches that of the drive.
+
     by : dimension with a panel for each value
     thickness : of the disc, m; that of the paper unless given
     names : words for values of `by`
@@ -59,6 +62,23 @@ class LateRange(Plot):
     def faults(self, values: Values) -> Iterator[Fault]:
         yield from super().faults(values)
         yield from unknown("names", self.names, self.by, values.get(self.by, ()))
+
+
+class EscapeShares(Plot):
+    """Share of starts that have separated against time, a line for each value of a parameter.
+
+    starts : dimension of the starts
+    by : dimension with a line for each value
+    """
+
+    quantities = ("outcome",)
+    kind: Literal["escape"] = "escape"
+    starts: str = "perturbation_u"
+    by: str = "N"
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        return (self.starts, self.by)
 
 
 class BasinShares(Plot):

@@ -10,7 +10,7 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import AfterValidator, Field
 
-from disc_model.data.variables import SCALARS, Variable
+from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Variable
 from disc_model.studies.quantity import (
     STATUS,
     Coordinate,
@@ -37,6 +37,8 @@ class CriticalSpeed(Quantity):
     """tolerance of simulations: error of event times after a second of motion"""
     early_end: bool = True
     """whether a simulation ends as soon as its outcome is known"""
+    extrapolate: bool = True
+    """whether slow departures from cycles are extrapolated, which halves the time; their separations are not timed"""
     horizons: Annotated[
         tuple[Seconds, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))
     ]
@@ -76,7 +78,13 @@ class CriticalSpeed(Quantity):
         "crossing_kind": _crossing(
             "1", "whether separation begins or ends as the speed rises", KINDS
         ),
-        "scan_first_separation": SCALARS["first_separation"]._replace(dims=("scan_Omega",)),
+        "scan_outcome": Variable(
+            "1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON
+        )._replace(dims=("scan_Omega",)),
+        "scan_first_separation": SCALARS["first_separation"]._replace(
+            dims=("scan_Omega",),
+            long_name="time of the first separation, where no departure was extrapolated",
+        ),
         "scan_status": STATUS._replace(dims=("scan_Omega",)),
         "simulations": Variable("1", "number of simulations", whole=True),
         "simulated_time": Variable("s", "simulated time of all of them"),
@@ -102,10 +110,17 @@ class CriticalSpeed(Quantity):
         motions: dict[int, OutcomeResult] = {}
         known: dict[int, float] = {}
 
+        times = self.horizons if self.extrapolate else ()
+
         def look(i: int) -> None:
             """Follow the motion from the static start at a speed, up to the longest horizon."""
-            case = p.replace(Omega=self._speed(i))
-            result = find_outcome(case, self.horizons[-1], tol=self.tol, early=self.early_end)
+            result = find_outcome(
+                p.replace(Omega=self._speed(i)),
+                self.horizons[-1],
+                tol=self.tol,
+                early=self.early_end,
+                compared_with=times,
+            )
             # return maps would take megabytes each for a disc of many modes
             motions[i] = replace(result, near=None)
             known[i] = _first_separation(result)
@@ -123,7 +138,8 @@ class CriticalSpeed(Quantity):
         failed = {i: result for i, result in motions.items() if result.status != "ok"}
         values: dict[str, Any] = {
             "status": next((result.status for result in failed.values()), "ok"),
-            "scan_first_separation": [motions[i].first_separation for i in scanned],
+            "scan_outcome": [motions[i].word for i in scanned],
+            "scan_first_separation": [motions[i].timed_separation for i in scanned],
             "scan_status": [motions[i].status for i in scanned],
             "simulations": len(motions),
             "simulated_time": sum(result.simulated for result in motions.values()),

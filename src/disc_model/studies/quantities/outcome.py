@@ -32,6 +32,8 @@ class HorizonOutcome(Start, Quantity):
     """tolerance of simulations: error of event times after a second of motion"""
     early_end: bool = True
     """whether a simulation ends as soon as its outcome is known"""
+    extrapolate: bool = False
+    """whether slow departures from cycles are extrapolated, which halves the time; their separations are not timed"""
     horizon: Seconds
     """longest simulated time"""
     evaluation_time: Seconds = 1.0
@@ -73,6 +75,11 @@ class HorizonOutcome(Start, Quantity):
         "slip_fraction": Variable("1", "share of the late stretch spent slipping"),
         "separation_fraction": Variable("1", "share of the late stretch spent separated"),
         "separation_rate": Variable("s-1", "separations per second over the late stretch"),
+        "surface_speed": Variable(
+            "1",
+            "largest speed of the disc's surface at the slider relative to the drive's, over the late"
+            " stretch",
+        ),
     }
 
     def cost(self, unit: UnitCosts) -> float:
@@ -85,7 +92,7 @@ class HorizonOutcome(Start, Quantity):
         values: dict[str, Any] = {
             "status": "ok" if last.status.complete else last.status.value,
             "outcome": reached.word,
-            "first_separation": reached.first_separation,
+            "first_separation": reached.timed_separation,
             "time_reached": reached.time,
             "cycle_distance": reached.distance,
         }
@@ -127,7 +134,13 @@ def _late(
     length = options.evaluation_time
     start = make_initial_state(p, point.start, options.tol)
     reached = find_outcome(
-        p, options.horizon, tol=options.tol, start=start, early=options.early_end, late=length
+        p,
+        options.horizon,
+        tol=options.tol,
+        start=start,
+        early=options.early_end,
+        late=length,
+        compared_with=(options.horizon,) if options.extrapolate else (),
     )
     if reached.outcome is Outcome.SEPARATION:
         return reached, *final_segment(

@@ -10,7 +10,7 @@ from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Variable
 from disc_model.studies.quantity import COME_TO, STATUS, Made, Point, Quantity, State, UnitCosts
 from disc_model.units import Count, Seconds, Tolerance
 
-METHODS = ("none", "multipliers", "simulation", "inferred")
+METHODS = ("none", "multipliers", "simulation", "inferred", "extrapolation")
 JOINED = ("no", "yes")
 _CONTINUES = "whether the cycle continues into the next point's along the plane's"
 CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
@@ -24,6 +24,8 @@ class Regions(Quantity):
     """tolerance of simulations: error of event times after a second of motion"""
     horizon: Seconds
     """longest simulated time"""
+    extrapolate: bool = True
+    """whether slow departures from cycles are extrapolated, which halves the time; their separations are not timed"""
     initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8
     """side of the first cells, in intervals of the grid"""
     motions: ClassVar = 4
@@ -36,10 +38,13 @@ class Regions(Quantity):
         ),
         "method": Variable(
             "1",
-            "how the outcome is known; inferred: separation, as at the cell's corners and middle",
+            "how the outcome is known; extrapolation: simulated from where a departure ceases to be linear; "
+            "inferred: separation, as at the cell's corners and middle",
             METHODS,
         ),
-        "first_separation": SCALARS["first_separation"],
+        "first_separation": SCALARS["first_separation"]._replace(
+            long_name="time of the first separation, where no departure was extrapolated"
+        ),
         "simulated_time": Variable("s", "simulated time"),
         "cycle": Variable(
             "1",
@@ -91,7 +96,7 @@ class Regions(Quantity):
         """Rows and messages of a tile, of which at least the places `sampled` are computed."""
         from disc_model.studies.refinement import Tile, TileOptions
 
-        options = TileOptions(self.horizon, self.tol, self.initial_cell_size)
+        options = TileOptions(self.horizon, self.tol, self.extrapolate, self.initial_cell_size)
         tile = Tile(points, sampled, options)
         tile.compute()
         return tile.rows()

@@ -1,0 +1,126 @@
+"""How much stress the vibration of the brake-like disc means, by finite elements.
+
+python docs/brake_stress.py    prints stress in each mode that friction feeds, and at what the study says
+
+The vibration is linear, so stress is proportional to the speed of the surface in the plane.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from scipy.sparse.linalg import eigsh
+
+from disc_model.disc.files.mesh import mesh_of
+from disc_model.disc.files.section import Material, _matrices, _points
+
+ROOT = Path(__file__).parents[1]
+DRAWING = (
+    (0.075, 0.100, 0.000, 0.012),
+    (0.100, 0.135, 0.000, 0.012),
+    (0.067, 0.075, -0.040, 0.012),
+    (0.035, 0.067, -0.040, -0.032),
+)
+"""Section of docs/brake_disc.md: r from, r to, z from, z to in m."""
+IRON = Material(110e9, 0.26, 7200.0)
+SLIDER = (0.1, 0.012)
+CLAMPED = 0.035
+"""Radius at which the hat is held, m."""
+DIAMETERS = 1
+SHARES = (0.01, 0.05, 0.2)
+"""Of the volume."""
+HIGHEST = 2 * math.pi * 2000
+"""rad/s, above the mode at 1.76 kHz and below the next one of a nodal diameter."""
+
+
+class Stress(NamedTuple):
+    """Stress of a mode where its surface moves with 1 m/s in the plane.
+
+    The sharp corner between ring and neck has no greatest stress, which rises as elements become
+    smaller, so that stress is told by the share of the volume that has more.
+
+    frequency : Hz
+    by_share : von Mises stress that the `SHARES` of the volume exceed, Pa
+    """
+
+    frequency: float
+    by_share: np.ndarray
+
+
+def stress_per_speed(size: float) -> Stress:
+    """Return the stress of the mode that friction feeds, with elements of a size in m."""
+    import skfem
+
+    mesh = mesh_of(DRAWING, size)
+    element = skfem.ElementComposite(*[skfem.ElementQuad2()] * 3)
+    basis = skfem.Basis(mesh, element, intorder=6)
+    points = _points(basis, SLIDER)
+    held = basis.get_dofs(lambda x: x[0] < CLAMPED + 1e-9).all()
+    stiffness, mass = _matrices(basis, DIAMETERS, IRON)
+    free = basis.complement_dofs(held)
+    squares, shapes = eigsh(
+        stiffness[free][:, free].tocsc(), 4, mass[free][:, free].tocsc(), sigma=0.0
+    )
+    fed = np.flatnonzero(squares < HIGHEST**2)[-1]
+    omega = math.sqrt(squares[fed])
+    shape = np.zeros(basis.N)
+    shape[free] = shapes[:, fed]
+
+    # the speed of the surface is omega times its displacement
+    shape /= omega * abs(shape[points.circular])
+    stress = _von_mises(basis, shape)
+    r = basis.global_coordinates().value[0]
+    weights = (basis.dx * r).ravel()
+    order = np.argsort(-stress.ravel())
+    exceeding = np.cumsum(weights[order]) / weights.sum()
+    by_share = np.interp(SHARES, exceeding, stress.ravel()[order])
+    return Stress(omega / math.tau, by_share)
+
+
+def _von_mises(basis: Any, shape: np.ndarray) -> np.ndarray:
+    """Return the largest von Mises stress round the disc at each quadrature point, Pa.
+
+    Normal stresses and that in the section vary as cos(theta), the others as sin(theta); a standing
+    wave has the former at its antinodes and the latter at its nodes.
+    """
+    u, w, v = basis.interpolate(shape)
+    r = basis.global_coordinates().value[0]
+    shear = IRON.E / 2 / (1 + IRON.nu)
+    lame = IRON.E * IRON.nu / ((1 + IRON.nu) * (1 - 2 * IRON.nu))
+    radial = u.grad[0]
+    axial = w.grad[1]
+    hoop = (u.value + DIAMETERS * v.value) / r
+    in_section = shear * (u.grad[1] + w.grad[0])
+    in_plane = shear * (v.grad[0] - (DIAMETERS * u.value + v.value) / r)
+    across = shear * (v.grad[1] - DIAMETERS * w.value / r)
+
+    pressure = lame * (radial + axial + hoop)
+    normal = [pressure + 2 * shear * strain for strain in (radial, axial, hoop)]
+    pairs = ((0, 1), (1, 2), (2, 0))
+    differences = sum((normal[i] - normal[j]) ** 2 for i, j in pairs) / 2
+    at_antinodes = differences + 3 * in_section**2
+    at_nodes = 3 * (in_plane**2 + across**2)
+    return np.sqrt(np.maximum(at_antinodes, at_nodes))
+
+
+def main() -> None:
+    for size in (0.004, 0.002, 0.001):
+        found = stress_per_speed(size)
+        stress = ", ".join(f"{1e-6 * each:.0f}" for each in found.by_share)
+        print(f"elements of {1e3 * size:g} mm, {found.frequency:.0f} Hz: {stress} MPa s/m")
+    study = xr.open_dataset(ROOT / "results" / "brake_outcome" / "brake_outcome.nc")
+    motions = study.sel(disc="surface", contact="unilateral")
+    speeds = motions["surface_speed"] * motions["Omega"] * 0.1
+    for N in motions["N"].values:
+        for Omega in motions["Omega"].values:
+            speed = float(speeds.sel(N=N, Omega=Omega))
+            stress = ", ".join(f"{1e-6 * each * speed:.0f}" for each in found.by_share)
+            print(f"{N:g} N, {Omega:g} rad/s, {speed:.2f} m/s: {stress} MPa")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,60 @@
+"""Share of starts that have separated, against time."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from matplotlib.lines import Line2D
+
+from disc_model.analysis.classify import share
+from disc_model.data.variables import stated_in
+from disc_model.figures.drawing import BLACK, BLUE, GREEN, PURPLE, VERMILION, panels, wide
+from disc_model.figures.kinds.motions import EscapeShares
+from disc_model.figures.legends import figure_legend
+from disc_model.figures.selection import failed
+from disc_model.figures.types import Array, Axes, Figure
+from disc_model.figures.words import named_value
+
+COLOURS = (VERMILION, BLUE, BLACK, GREEN, PURPLE)
+
+
+def draw(plot: EscapeShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
+    """Draw a line for each value, and the Wilson interval of its share at the horizon."""
+    study = study.squeeze([dim for dim in study.dims if dim not in plot.dims])
+    horizon = float(stated_in(study, "options")["horizon"])
+    figure, [ax] = panels(plot.inches, 3.0)
+    handles = []
+    for place, value in enumerate(study[plot.by].values):
+        row = study.sel({plot.by: value})
+        times = row["first_separation"].values[~failed(row).values]
+        colour = COLOURS[place % len(COLOURS)]
+        line = _draw_share(ax, times, horizon, colour)
+        line.set_label(named_value(row, plot.by))
+        handles.append(line)
+    ax.set_xlabel("Time (s)")
+    ax.set_ylabel("Share of starts that have separated")
+    ax.set_xlim(0, horizon)
+    ax.set_ylim(-0.03, 1.03)
+    figure_legend(figure, handles, loc="outside lower center", columns=len(handles))
+    return figure
+
+
+def _draw_share(ax: Axes, times: Array, horizon: float, colour: str) -> Line2D:
+    """Draw how the share of starts that have separated grows, and its confidence at the horizon.
+
+    Parameters
+    ----------
+    ax : the panel
+    times : of first separations, s; nan where a start has none
+    horizon : s
+    colour : of the line
+    """
+    separated = np.sort(times[np.isfinite(times)])
+    shares = np.arange(separated.size + 1) / times.size
+    steps = [0.0, *separated, horizon]
+    (line,) = ax.step(steps, [*shares, shares[-1]], where="post", color=colour, linewidth=wide(1.2))
+    _, low, high = share(separated.size, times.size)
+    ax.plot(
+        [horizon, horizon], [low, high], color=colour, linewidth=wide(3), alpha=0.5, clip_on=False
+    )
+    return line

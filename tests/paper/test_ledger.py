@@ -1,0 +1,70 @@
+"""The top of the ledger's page: what is counted, what is said, and where words lead."""
+
+import pandas as pd
+import pytest
+
+from disc_model.paper import ledger
+from disc_model.paper.ledger import ROWS, check_claims, summary
+from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE
+
+NUMBERS = " ".join(str(number) for number in range(1, 40))
+TEXTS = ledger.read_texts("paper/ledger.yaml")
+
+
+@pytest.fixture(scope="module")
+def undecided() -> pd.DataFrame:
+    """The table without a verdict."""
+    return check_claims({}).assign(verdict=NOT_COMPUTED)
+
+
+def said(table: pd.DataFrame, part: str) -> list[str]:
+    return [item["id"] for item in summary(table)[part]]
+
+
+@pytest.mark.parametrize(
+    ("part", "verdict", "other"),
+    [("headline", TRUE, FALSE), ("stands", TRUE, FALSE), ("falls", FALSE, TRUE)],
+)
+def test_a_sentence_is_said_if_its_row_has_the_verdict_of_which_it_speaks(
+    undecided: pd.DataFrame, part: str, verdict: str, other: str
+) -> None:
+    row, *others = TEXTS[part]
+    table = undecided.set_index("id")
+    table.loc[row, ["verdict", "here"]] = [verdict, NUMBERS]
+    for further in others:
+        table.loc[further, "verdict"] = other
+    assert said(table.reset_index(), part) == [row]
+    assert said(undecided, part) == []
+
+
+def test_errors_in_print_are_counted_apart(undecided: pd.DataFrame) -> None:
+    in_print = [row.id for row in ROWS if row.print_error]
+    assert in_print
+    found = summary(undecided)
+    assert found["errors"] == len(in_print)
+    assert sum(found["counts"].values()) == len(ROWS) - len(in_print)
+    assert found["counts"][NOT_COMPUTED] == len(ROWS) - len(in_print)
+    assert found["parts"].to_numpy().sum() == len(ROWS) - len(in_print)
+    counts = undecided.set_index("id")["counts"]
+    for row in ROWS:
+        expected = "after the fact" if row.after_the_fact else ""
+        if row.print_error:
+            expected = "error in print"
+        assert counts[row.id] == expected
+
+
+def test_words_of_figures_and_data_lead_to_their_files(undecided: pd.DataFrame) -> None:
+    assert ledger._link("fig07") == "figures/fig07.png"
+    assert ledger._link("map_N") == "../map_N/figures/map_N.png"
+    table = undecided.set_index("id")
+    links: dict[str, str] = {}
+    for row in ROWS:
+        links.update(table.loc[row.id, "figures"])
+        data = table.loc[row.id, "data"]
+        for name in row.cases:
+            assert data[name] == f"cases/{name}.nc"
+        for name in row.scans:
+            assert data[name] == f"../{name}/{name}.nc"
+    assert links["Fig. 7"] == "figures/fig07.png"
+    assert links["Fig. 10"] == "figures/fig10.png"
+    assert not any(words.startswith("Fig. 0") for words in links)
