@@ -289,6 +289,32 @@ def test_derivatives_through_a_switch(law: str, switch: str) -> None:
     assert np.all(np.abs(got - expected) <= allowed * np.abs(expected).max(axis=1, keepdims=True))
 
 
+@pytest.mark.parametrize("switch", ["release", "release backwards"])
+def test_stick_that_friction_cannot_hold_ends_at_once_for_neighbouring_motions_too(
+    switch: str,
+) -> None:
+    """The pull exceeds friction by 20 N from the start, so that no disturbance delays the release."""
+    p, start = about_to(switch, "vertical")
+    beyond = 20.0 / (p.k_p * p.r_0)
+    start.psi += -beyond if "backwards" in switch else beyond
+    disturbances = Disturbances(p, start)
+    span = 1e-5
+
+    def end(q: taylor.Problem, start: stored.State) -> np.ndarray:
+        run = taylor.Reference(q, start).run(span)
+        assert [(event["time"], event["kind"]) for event in run.events] == [(0.0, "stick_to_slip")]
+        return flat(q, run.state())
+
+    engine = disturbances.run()
+    sizes = disturbances.sizes
+    sizes[2:4] = np.inf  # u and u' are the disc's
+    assert engine.fly(span) == transitions.TIME_OVER
+    got = disturbances.read(engine) / sizes
+    expected = disturbances.expected(end) / sizes
+    # as through a switch
+    assert np.all(np.abs(got - expected) <= 1e-9 * np.abs(expected).max(axis=1, keepdims=True))
+
+
 LOSSES = [("vertical", switch) for switch in SWITCHES if "lost" in switch]
 LOSSES += [("vertical_coupled", switch) for _, switch in LOSSES if "stick" not in switch]
 

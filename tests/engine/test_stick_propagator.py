@@ -5,10 +5,10 @@ import pytest
 
 from disc_model import Execution, Parameters, Window, simulate
 from disc_model.engine import dense_output, stick_modes, stick_propagator
-from disc_model.engine.laws import stick_loads, vertical_in_stick
+from disc_model.engine.laws import hold_per_radius, stick_loads, vertical_in_stick
 from disc_model.engine.model import Model, build_state
 from disc_model.engine.series import Series, build_series, load_state
-from disc_model.engine.state import PSI, U_VELOCITY, EngineState, U
+from disc_model.engine.state import PSI, SURFACE_TURN, U_VELOCITY, EngineState, U
 from disc_model.engine.stick import stick_series
 from disc_model.engine.transitions import instant, stick_force
 from disc_model.simulation.states import engine_case
@@ -25,7 +25,11 @@ VARIANTS = {
     "coupled": {"friction_offset": 0.02, "c_p": 0.5},
 }
 COMPLIANT = {"contact_compliance": 2.5e-7, "c": 20.0, "D_star": 1e-2}
-ALL = VARIANTS | {"compliant": COMPLIANT, "compliant coupled": COMPLIANT | VARIANTS["coupled"]}
+ALL = VARIANTS | {
+    "compliant": COMPLIANT,
+    "compliant coupled": COMPLIANT | VARIANTS["coupled"],
+    "compliant block": COMPLIANT | {"n_diameters": -1},
+}
 
 
 def _propagate(model: Model, s: Series, state: EngineState, x: float) -> float:
@@ -43,6 +47,8 @@ def _lively(model: Model, seed: int = 1) -> EngineState:
     state.e[:] += 3e-3 * rng.normal(size=len(state.e)) * used
     state.y[:] += 1e-6
     state.x[PSI] = -0.01
+    if model.has_moving_surface:
+        state.x[SURFACE_TURN] = 0.03
     return state
 
 
@@ -62,12 +68,14 @@ def test_closed_form_is_the_series(variant: str, x: float) -> None:
     load_state(model, s, taylor)
     stick_series(model, s, ORDER)
     dense_output.state_at(model, s, ORDER, x, 0.0, taylor)
-    size = max(np.abs(taylor.z).max(), np.abs(taylor.y).max(initial=0.0))
+    size = max(np.abs(taylor.z).max(initial=abs(model.u_0)), np.abs(taylor.y).max(initial=0.0))
     for name, unit in {"e": model.unit, "g": model.unit, "z": 1.0, "y": 1.0}.items():
         np.testing.assert_allclose(
             getattr(closed, name), getattr(taylor, name), atol=1e-14 * size / unit, rtol=0
         )
     assert closed.x[PSI] == pytest.approx(taylor.x[PSI], rel=1e-15)
+    # of two angles that grow from it, whose difference is the closed form's
+    assert closed.x[SURFACE_TURN] == pytest.approx(taylor.x[SURFACE_TURN], rel=1e-15)
     if model.has_compliance:
         assert closed.x[U] == pytest.approx(taylor.x[U], abs=1e-14 * size)
         assert closed.x[U_VELOCITY] == pytest.approx(
@@ -100,6 +108,45 @@ def test_the_gain_of_a_mode_is_its_swing_of_the_contact_force(compliance: float)
         swing = max(abs(stick_force(model, excited(model, mode, angle)) - p.N) for angle in angles)
         # the other modes' share of 1e-9 N is rounding of sums of thousands
         assert model.modes.gain[mode] == pytest.approx(swing, rel=1e-4, abs=1e-7)
+
+
+def held(model: Model, state: EngineState, psi: float) -> float:
+    """H in stick, N, if psi would be this angle on a surface at rest."""
+    state.x[PSI] = psi - model.tangential @ state.z / model.r_0
+    i, _ = instant(model, state)
+    return float(model.r_0 * hold_per_radius(model, i))
+
+
+COUPLED = [
+    {"friction_offset": 0.02, "c_p": 5.0, "D_star": 1e-2, "contact_compliance": give}
+    for give in (0.0, 2.5e-7)
+]
+
+
+@pytest.mark.parametrize("law", COUPLED)
+def test_the_gain_of_a_mode_is_its_swing_of_the_force_that_holds_the_slider(law) -> None:
+    model = engine_case(Parameters(N=300, Omega=5, n_diameters=2, **law)).model
+    angles = np.linspace(0, 2 * np.pi, 361)
+    for mode in np.flatnonzero(model.modes.turn):
+        forces = [held(model, excited(model, mode, angle), 0.01) for angle in angles]
+        # the other modes' share is rounding of sums of thousands of newtons
+        assert model.modes.hold_gain[mode] == pytest.approx(np.ptp(forces) / 2, rel=1e-4, abs=1e-7)
+
+
+@pytest.mark.parametrize("law", COUPLED)
+def test_the_force_that_holds_the_slider_on_a_bent_surface_is_that_of_the_laws(law) -> None:
+    """Without vibration: the surface gives way to the pull of the spring and, later, to its growth."""
+    p = Parameters(N=300, Omega=5, n_diameters=2, **law)
+    model = engine_case(p).model
+    modes = model.modes
+    psi = 0.01
+    pull = p.k_p * psi + p.c_p * p.Omega
+    rate = p.k_p * p.Omega
+    state = build_state(model)
+    response = modes.pull_rest.reshape(2, -1)
+    state.disc[:] = modes.rest + p.r_0 * (pull * response[0] + rate * response[1])
+    wanted = p.r_0 * (pull * modes.hold[0] + rate * modes.hold[1])
+    assert held(model, state, psi) == pytest.approx(wanted, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -175,6 +222,27 @@ def test_a_spring_that_pulls_hard_already_leaves_less_time() -> None:
     assert _propagate(model, s, state, 0.0) == pytest.approx(
         0.1 * stick_modes.LONGEST_STICK, rel=1e-12
     )
+
+
+@pytest.mark.parametrize("law", [pytest.param(law, marks=COMPILES) for law in COUPLED])
+def test_without_vibration_stick_on_a_moving_surface_lasts_as_long_as_promised(law) -> None:
+    """The surface that follows the pull lags behind it."""
+    p = Parameters(N=300, Omega=5, n_diameters=2, **law)
+    model = engine_case(p).model
+    s = build_series(model, ORDER)
+    state = build_state(model)
+    pull = 0.6 * p.mu_s * p.N / p.r_0
+    response = model.modes.pull_rest.reshape(2, -1)
+    bent = pull * response[0] + p.k_p * p.Omega * response[1]
+    state.disc[:] = model.modes.rest + p.r_0 * bent
+    state.x[PSI] = (pull - p.c_p * p.Omega) / p.k_p - model.tangential @ state.z / p.r_0
+    length = stick_propagator.closed_form_length(model, s, state)
+    assert stick_propagator.SHORTEST_STICK <= length < stick_modes.LONGEST_STICK
+    stick_propagator.propagate_stick(model, s, length, state)
+    i, _ = instant(model, state)
+    pull, P = stick_loads(model, i, vertical_in_stick(model, i))
+    # amplitudes of a vibration that is rounding of the deflection, 1e-16 of it
+    assert pull == pytest.approx(p.mu_s * P, rel=1e-9)
 
 
 @pytest.mark.compiled

@@ -70,3 +70,50 @@ def test_a_slider_that_touches_down_without_speed_slips_to_the_side_of_its_sprin
     # the contact force is still too small to stop it
     assert list(result.events.kind) == ["reattachment"]
     assert np.sign(result.final_state.f) == np.sign(psi)
+
+
+# ------------------------------------------------------------------------ errors where a phase begins
+TOLERANCE = 1e-3
+"""Of the series: so large that rounding is nothing beside it."""
+
+
+@pytest.mark.parametrize("give", [0.0, 1e-6])
+def test_an_error_of_the_force_opens_a_gap_by_compliance_or_by_acceleration(give: float) -> None:
+    """The coefficients of order 0 to 2 of the gap, in time units."""
+    p = Parameters(N=200, Omega=10, contact_compliance=give)
+    model = engine_case(p).model
+    state = build_state(model)
+    force = TOLERANCE * p.N
+    wanted = [force * give, 0.0, 0.0]
+    if not give:
+        wanted[2] = model.unit**2 / 2 * force * (1 / p.m + model.inverse_effective_mass)
+    own = [transitions.gap_error(model, state, order, TOLERANCE) for order in range(3)]
+    # 1e-13 of the disc's deflection of some millimetres counts as rounding
+    assert own == pytest.approx(wanted, rel=1e-6, abs=1e-14)
+    if give:
+        assert transitions.force_error(model, state, TOLERANCE) == pytest.approx(force, rel=1e-6)
+
+
+def test_errors_of_pull_and_force_accelerate_slip_that_has_just_begun() -> None:
+    p = Parameters(N=200, Omega=10, c_p=0.5)
+    case = engine_case(p)
+    state = build_state(case.model)
+    psi = 1.01 * p.mu_s * p.N / (p.r_0 * p.k_p)
+    write_state(case, static_start(p).replace(psi=psi), state)
+    transitions.enter_slip(case.model, state, 1.0)
+    pull = p.k_p * psi + p.c_p * p.Omega
+    wanted = TOLERANCE * case.model.unit / p.m * (pull + p.mu_k * p.N / p.r_0)
+    assert transitions.slip_error(case.model, state, TOLERANCE) == pytest.approx(wanted, rel=1e-6)
+
+
+def test_rounding_of_the_pull_on_a_moving_surface_is_that_of_its_modes() -> None:
+    """Two modes that accelerate the surface against each other, by far more than the spring."""
+    p = Parameters(N=200, Omega=10, friction_offset=0.02)
+    model = engine_case(p).model
+    state = build_state(model)
+    acceleration = 1e9  # m/s^2 of each
+    lanes = np.flatnonzero(model.tangential)[:2]
+    state.z[lanes] = [1.0, -1.0] * (acceleration / (model.tangential * model.stiffness)[lanes])
+    pulled = transitions.slip_error(model, state, 0.0)
+    rounding = transitions.ROUNDING * 2 * acceleration / p.r_0
+    assert pulled > model.unit * rounding

@@ -41,7 +41,8 @@ class Problem:
 
     ``rates`` are those of Omega (rad/s^2) and N (N/s), from the time ``since`` on; ``offset`` is
     that of the friction surface (m), and ``tangential`` the modes' amplitudes there (1/sqrt(kg)) if
-    they do not follow from it.  A pad's arc is in the amplitudes already.
+    they do not follow from it.  A pad's arc is in the amplitudes already; ``point`` has those of a
+    single point.
     """
 
     since = LONG(0)
@@ -65,6 +66,11 @@ class Problem:
         self.l = np.array([LONG(x) for x in l], LONG)
         self.w2 = w * w
         self.d = self._damping(values, w)
+        # a pad's amplitudes are means, sin(x) / x of a point's
+        half = self.l * LONG(values.get("contact_arc", 0)) / 2
+        mean = np.ones_like(half)
+        mean[half > 0] = np.sin(half[half > 0]) / half[half > 0]
+        self.point = self.s / mean
         if tangential is None:
             self.t = -LONG(offset) / self.r_0 * self.l * self.s
         else:
@@ -470,8 +476,8 @@ class Reference:
         R, _ = self.forces(self.phase, self.direction)
         held = self.phase != "separation" and q.rigid
         u, u_velocity = (w, velocity) if held else (self.u, self.v)
-        along = q.s * np.cos(turn)
-        across = q.s * np.sin(turn)
+        along = q.point * np.cos(turn)
+        across = q.point * np.sin(turn)
         point = along @ self.a + across @ self.b
         point_velocity = along @ self.alpha + across @ self.beta
         turning = q.Omega + q.Omega_rate * (self.time - q.since) - self.f

@@ -350,6 +350,10 @@ MOVING = {
     "compliant": {**COUPLE, **LAWS["compliant"]},
     "falling": {**COUPLE, "friction_decay": 2.0},
     "exponential": FALLING["vertical_coupled_exponential"],
+    "compliant_normal_exponential": FALLING["compliant_normal_exponential"],
+    "viscous": {**COUPLE, "viscous_friction": 0.005},
+    "bilateral": BILATERAL,
+    "pad": {**COUPLE, "contact_arc": 0.4},
 }
 
 

@@ -178,6 +178,35 @@ def test_event_times_are_as_exact_as_the_tolerance_says(decay, law):
         assert np.abs(simulate(p, 1.5, tol=tol).events["time"] - right).max() < 3 * tol
 
 
+@pytest.mark.slow
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    ("law", "largest"),
+    [
+        ({}, 32),
+        ({"contact_force": "normal"}, 59),
+        ({"friction_offset": "surface"}, 18),
+        ({"friction_decay": 30.0, "viscous_friction": 0.01}, 22),
+        ({"friction_decay": 30.0, "viscous_friction": 0.01, "friction_law": "exponential"}, 21),
+    ],
+)
+def test_near_a_resonance_errors_are_as_large_as_the_page_says(law, largest):
+    """In units of `tol`, at most speeds below three; of the largest the last digit may differ
+    between processors."""
+    errors = []
+    for Omega in np.arange(8, 30, 0.25):
+        p = Parameters(N=385, Omega=float(Omega), **law)
+        right = simulate(p, 1.0, tol=1e-15).events["time"]
+        each = [
+            np.abs(simulate(p, 1.0, tol=tol).events["time"] - right).max() / tol
+            for tol in (1e-8, 1e-10)
+        ]
+        errors.append(each)
+    loose, default = np.array(errors).T
+    assert max(loose.max(), default.max()) == pytest.approx(largest, rel=0.1)
+    assert np.sum(default < 3) >= 78
+
+
 def test_a_decay_beyond_rounding_is_refused():
     with pytest.raises(
         ParameterError, match="friction_decay=10000000000000: must be at most 1e12 s/m, or inf"

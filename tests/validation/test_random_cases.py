@@ -7,7 +7,7 @@ import pytest
 
 from disc_model import Execution, Parameters, Ramp, Window, plate_modes, simulate
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.simulation.states import static_start
+from disc_model.simulation.states import static_start, surface_rate
 from tests.contact_laws import course_of, turned
 from tests.references import stored, taylor
 
@@ -57,13 +57,30 @@ def drawn_case(rng):
         n_diameters=int(rng.choice([-1, 0, 1, 1, 1, 2, 2, 3, 4, 5])), n_circles=int(rng.choice([0, 0, 0, 0, 1, 2])),
         normalization=normalization, contact=str(rng.choice(["unilateral", "unilateral", "unilateral", "bilateral"])),
         contact_compliance={"rigid": 0.0, "number": spread(rng, 1e-7, 1e-5), "residual": "residual"}[give],
-        contact_force=str(rng.choice(["vertical", "normal"])), friction_offset=sometimes(0.4, spread(rng, 1e-4, 1e-2)),
+        contact_force=str(rng.choice(["vertical", "normal"])), contact_arc=sometimes(0.3, rng.uniform(0.02, 1.0)),
+        friction_offset=rng.choice(np.array([0.0, spread(rng, 1e-4, 1e-2), "surface"], object), p=[0.6, 0.25, 0.15]),
     )  # fmt: skip
+    if blocks(p) == 1:  # see `drawn_ramps`
+        p = p.replace(
+            friction_law=str(rng.choice(["hyperbolic", "exponential"])),
+            friction_decay=sometimes(0.4, spread(rng, 0.3, 100), math.inf),
+            viscous_friction=sometimes(0.3, spread(rng, 1e-4, 3e-2)),
+        )
     # damping ratio of the fastest mode: beyond, an explicit integrator takes ever smaller steps
     ratio = sometimes(0.8, spread(rng, 1e-5, 0.3))
     return p.replace(
         D_star=2 * ratio * p.D / (plate_modes(p)["omega"].max() if p.n_diameters >= 0 else 1.0)
     )
+
+
+def blocks(p):
+    """Blocks of lanes that the pairs of modes fill."""
+    return 1 if p.n_diameters * (p.n_circles + 1) <= 4 else 2
+
+
+def varies(p):
+    """Whether friction depends on the slip speed."""
+    return p.viscous_friction > 0 or (math.isfinite(p.friction_decay) and p.mu_s > p.mu_k)
 
 
 def fastest(p):
@@ -79,10 +96,9 @@ def fastest(p):
 def drawn_ramps(rng, p, span):
     """None, or one or two."""
     names = [str(name) for name in rng.permutation(["Omega", "N"])[: rng.choice([0, 0, 1, 2])]]
-    if p.n_diameters * (p.n_circles + 1) > 4 and (
-        p.contact_compliance != 0 or p.contact_force == "normal"
-    ):
-        names = []  # with two blocks of modes: kernels more that would be compiled for a minute each
+    other_contact = p.contact_compliance != 0 or p.contact_force == "normal"
+    if varies(p) or (blocks(p) > 1 and other_contact):
+        names = []  # kernels more that would be compiled for a minute each
     ramps = []
     for name in names:
         begin = span * rng.uniform(0, 0.6)
@@ -107,7 +123,8 @@ def drawn_start(rng, p, time):
     psi, omega, l = (modes[name].to_numpy() for name in ("psi", "omega", "diameters"))
     pair = l > 0
     size = np.abs(p.N * psi / omega**2)
-    f = {
+    # over the material under the slider
+    rate = {
         "stick": 0.0,
         "slip": direction * spread(rng, 0.1, 3) * p.Omega,
         "separation": rng.normal() * 2 * p.Omega,
@@ -122,7 +139,7 @@ def drawn_start(rng, p, time):
         alpha = omega * alpha
         beta = omega * beta * pair
         w = float(psi @ a)
-        velocity = float(psi @ (alpha + l * f * b))
+        velocity = float(psi @ (alpha + l * rate * b))
         u = w
         u_velocity = velocity
         if phase == "separation":
@@ -132,9 +149,10 @@ def drawn_start(rng, p, time):
             u = w - give * p.N * spread(rng, 0.1, 3)
             u_velocity = velocity + 0.03 * rng.normal()
         start = rest.replace(
-            phase=phase, direction=direction, psi=angle, f=f, u=u, u_velocity=u_velocity, a=a, b=b, alpha=alpha,
+            phase=phase, direction=direction, psi=angle, f=rate, u=u, u_velocity=u_velocity, a=a, b=b, alpha=alpha,
             beta=beta,
         )  # fmt: skip
+        start = start.replace(f=rate + surface_rate(p, start))
         R, T = reference(p, start).forces(phase, direction)
         # on a steeper slope slip may have no solution, or two
         steep = p.contact_force == "normal" and p.mu_s * abs(np.sum(l * psi * b)) > 0.5 * p.r_0

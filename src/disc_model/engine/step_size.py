@@ -43,14 +43,7 @@ def step_size(model, series, order, tolerance, phase):
         largest_velocity(model, series, 0),
         largest_velocity(model, series, 1),
     )
-    speed = _scale(series.drive[0], abs(series.f[0]), abs(series.f[1]))
-    weight = 1.0
-    if model.has_varying_friction and phase == SLIP and model.decay > 0.0:
-        # slow slip grows by itself, and where friction falls the series converges like that of a
-        # fraction
-        slow = abs(series.f[0]) + 1.0 / model.decay
-        speed = min(speed, slow) if speed > 0.0 else slow
-        weight = 10.0
+    speed, weight = _speed_scale(model, series, phase)
     error = _relative(last_velocity, velocity)
     error += weight * _relative(_last_two(series.f, order, typical), speed)
 
@@ -68,6 +61,20 @@ def step_size(model, series, order, tolerance, phase):
     if model.has_exponential_friction and phase == SLIP:
         return _before_friction_rises(model, series, order, length)
     return length
+
+
+@inlined
+def _speed_scale(model, series, phase):
+    """Return what the error of f is compared with, rad/s, and how much it counts."""
+    speed = _scale(series.drive[0], abs(series.f[0]), abs(series.f[1]))
+    if model.has_varying_friction and phase == SLIP and model.decay > 0.0:
+        # slow slip grows by itself, and where friction falls the series converges like that of a
+        # fraction
+        slow = abs(series.f[0]) + 1.0 / model.decay
+        if speed > 0.0:
+            slow = min(speed, slow)
+        return slow, 10.0
+    return speed, 1.0
 
 
 @inlined

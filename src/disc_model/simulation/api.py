@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -43,8 +41,10 @@ def simulate(  # noqa: PLR0913
     duration : s, from the initial state's time, instead of t_end
     windows : samples to keep, by name: a `Window` at a fixed rate, or `Poincare` for one sample a turn
     events : whether to keep the table of events (events are always counted)
-    tol : expected error of event times after one second of motion, s, 1e-15 to 1e-2 (docs/verification.md). Instead of
-        a larger value than 1.25e-7 (2e-6 on a compliant contact), this limit is used, and recorded in the result
+    tol : expected error of event times after one second of motion, s, 1e-15 to 1e-2. Near a resonance of the
+        stick-slip rate with the fastest mode, under any law, errors are up to 60 times as large (docs/verification.md).
+        Instead of a larger value than 1.25e-7 (2e-6 on a compliant contact), this limit is used, and recorded in the
+        result
     initial_state : state at the start; None is the static start (static equilibrium, stick, spring relaxed)
     stop_at : None, or "first_separation" to end at the first loss of contact
     ramps : slow changes of Omega or N, in absolute time: a ramp may have begun before the initial state's time
@@ -98,12 +98,12 @@ def _with_windows_to_the_stop(request: Request, windows: Windows) -> Request:
     if not from_the_end:
         return request
 
-    unrecorded = dataclasses.replace(request, windows={}, events=False)
+    unrecorded = request._replace(windows={}, events=False)
     stopped = Run(unrecorded).complete().final_state.time
     if stopped <= request.start:
         return request
     resolved = resolved_windows(from_the_end, request.start, stopped)
-    return dataclasses.replace(request, windows={**request.windows, **resolved})
+    return request._replace(windows={**request.windows, **resolved})
 
 
 def snapshots(

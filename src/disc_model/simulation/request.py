@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import Annotated, Any, NamedTuple
 
 from pydantic import Field
@@ -41,8 +40,7 @@ class Execution(Strict):
     max_steps: Annotated[Count, Field(ge=1)] | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class Request:
+class Request(NamedTuple):
     """What a run is to compute. Every value obeys the rules of `disc_model.simulate`.
 
     Attributes
@@ -96,9 +94,9 @@ def checked_request(  # noqa: PLR0913
     )
 
     # windows and ramps have rules on the times of the run, which are valid from here on
-    if windows is None:
-        windows = {}
-    sampled = resolved_windows(windows, span.start, span.end)
+    sampled: Windows = {}
+    if windows is not None:
+        sampled = resolved_windows(windows, span.start, span.end)
     if isinstance(ramps, Ramp):
         ramps = (ramps,)
     sections = any(isinstance(window, Poincare) for window in sampled.values())

@@ -122,12 +122,13 @@ class Run:
         piece = self.pieces[index]
         self.index = index
         self.model = self.case.model
+        kind = self.case.kind
         if self.request.ramps:
             self.limits = self.limits._replace(t_end=min(self.request.t_end, piece.end))
         if index > 0:  # the first piece has the Omega and N of the case
             rates = {name: getattr(piece, name) for name in ("Omega", "Omega_rate", "N", "N_rate")}
             self.model = on_ramp(self.model, piece.begin, piece.angle, **rates)
-        kind = flags_of(self.model)  # they determine the types of all arguments
+            kind = flags_of(self.model)
         if kind not in _ENGINES:
             with compiling():
                 _ENGINES[kind] = compiled_for(loop.run, self._arguments())

@@ -30,7 +30,7 @@ from disc_model.disc.plate import (
 )
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.engine import state as motion
-from disc_model.engine.model import Contact, DiscModes, Model, build_model, build_state
+from disc_model.engine.model import Contact, DiscModes, Model, build_model, build_state, flags_of
 from disc_model.engine.series import Series, build_series
 from disc_model.engine.state import SEPARATION, SLIP, STICK, EngineState
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
@@ -406,6 +406,7 @@ class EngineCase:
 
     key: str  # `State.case_key`
     model: Model
+    kind: tuple[Any, ...]  # `flags_of` the model: they determine the types of all arguments
     start: EngineState  # the static start
     amplitudes: np.ndarray  # `State.mode_amplitudes`
     present: (
@@ -453,7 +454,15 @@ def engine_case(p: Parameters) -> EngineCase:
     point[2, places[1, pairs]] = (modes.diameters * modes.psi)[pairs]
     point[3, places[3, pairs]] = tangential[pairs] / p.r_0
     return EngineCase(
-        p.key, model, start, modes.psi, present, places.ravel()[present], point, defaultdict(list)
+        key=p.key,
+        model=model,
+        kind=flags_of(model),
+        start=start,
+        amplitudes=modes.psi,
+        present=present,
+        places=places.ravel()[present],
+        point=point,
+        idle=defaultdict(list),
     )
 
 
@@ -477,24 +486,37 @@ def read_state(
     modal = np.zeros(4 * len(case.amplitudes))
     modal[case.present] = state.disc[case.places]
     modal.setflags(write=False)
+    a, b, alpha, beta = modal.reshape(4, -1)
     phase = motion.phase_of(state)
-    values: dict[str, Any] = motion.scalars_of(state)
-    rate = values.pop("g")
-    if phase == SLIP and rate * motion.direction_of(state) < 0:
+    direction = motion.direction_of(state)
+    scalars = motion.scalars_of(state)
+    rate = scalars["g"]
+    if phase == SLIP and rate * direction < 0:
         rate = 0.0  # slip that has just begun or is about to end, and g is rounding
     w, velocity, slope, surface = case.point.dot(state.disc).tolist()
-    values["f"] = rate + surface
+    u = scalars["u"]
+    u_velocity = scalars["u_velocity"]
     if phase != SEPARATION and not case.model.has_compliance:
-        values["u"] = w
-        values["u_velocity"] = velocity + rate * slope
+        u = w
+        u_velocity = velocity + rate * slope
     return State(
+        time=scalars["time"],
         phase=PHASES[phase],
-        direction=motion.direction_of(state),
-        _roots=motion.known_roots(state),
+        direction=direction,
+        psi=scalars["psi"],
+        f=rate + surface,
+        u=u,
+        u_velocity=u_velocity,
+        a=a,
+        b=b,
+        alpha=alpha,
+        beta=beta,
+        time_low=scalars["time_low"],
+        surface_turn=scalars["surface_turn"],
+        drive_angle=drive_angle,
         case_key=key or case.key,
         mode_amplitudes=case.amplitudes,
-        drive_angle=drive_angle,
-        **values | dict(zip(MODAL, modal.reshape(4, -1), strict=True)),
+        _roots=motion.known_roots(state),
     )
 
 
