@@ -1,7 +1,7 @@
 """Tiles of a plane: what is computed of them, presumed and filled, with made-up motions and
 cycles."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from types import SimpleNamespace
 from typing import Any
 
@@ -57,12 +57,12 @@ class MadeUp:
     def start(self, p: Parameters) -> Any:
         return self.starts.get(place(p), NO_CYCLE)
 
-    def tile(self, rows: int, columns: int, cell: int) -> Tile:
+    def tile(self, rows: int, columns: int, cell: int, sampled: Sequence[Index] = ()) -> Tile:
         points = [[Parameters(N=i + 1, Omega=j + 1) for j in range(columns)] for i in range(rows)]
         options = TileOptions(
             horizon=100.0, tol=1e-8, extrapolate=self.extrapolate, initial_cell_size=cell
         )
-        tile = Tile(points, [], options)
+        tile = Tile(points, sampled, options)
         tile.compute()
         return tile
 
@@ -116,6 +116,13 @@ def test_separations_are_only_compared_with_the_horizon_unless_their_times_are_a
     plane.extrapolate = extrapolate
     plane.tile(1, 1, 1)
     assert plane.compared == [compared]
+
+
+def test_a_separation_at_a_marked_place_is_timed(plane: MadeUp) -> None:
+    """Tables of the paper's cases had no times of marked points that were extrapolated."""
+    plane.tile(1, 2, 1, sampled=[(0, 1)])
+    compared = dict(zip(plane.computed, plane.compared, strict=True))
+    assert compared == {(0, 0): (100.0,), (0, 1): ()}
 
 
 def test_an_extrapolated_separation_has_no_time(plane: MadeUp) -> None:
@@ -213,9 +220,7 @@ def test_the_middle_of_a_cell_is_the_place_nearest_to_its_centre() -> None:
 
 def test_places_that_figures_mark_are_computed_whatever_is_around(plane: MadeUp) -> None:
     plane.outcome = lambda index: separation()
-    points = [[Parameters(N=i + 1, Omega=j + 1) for j in range(9)] for i in range(9)]
-    tile = Tile(points, [(7, 6)], TileOptions(horizon=100.0, tol=1e-8, initial_cell_size=8))
-    tile.compute()
+    tile = plane.tile(9, 9, 8, sampled=[(7, 6)])
     assert (7, 6) in plane.computed
     assert row_at(tile, (7, 6))["method"] == "simulation"
     assert row_at(tile, (6, 7))["method"] == "inferred"

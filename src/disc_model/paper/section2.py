@@ -80,10 +80,12 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
 
     # with modes by Eq. (17), points that only seem to keep contact are simulated to the horizon
     points = separating_points({study.attrs["study"]: study for study in maps})
-    times = first_separations(points)
+    as_published = 0
     in_contact = 0
     grow = []
     for figure, point in points.items():
+        published = str(flag_names(point.sel(normalization="as_published")["outcome"]))
+        as_published += published == "separation"
         outcome = str(flag_names(point.sel(normalization="orthonormal")["outcome"]))
         if outcome == "separation":
             continue
@@ -96,9 +98,9 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
             grow.append(horizon)
 
     counts = (
-        len(times),
-        times["as_published"].count(),
-        len(times) - in_contact,
+        len(points),
+        as_published,
+        len(points) - in_contact,
         in_contact - len(grow),
         len(grow),
     )

@@ -95,7 +95,8 @@ class TilePoint:
 
 
 class Tile:
-    """A tile of the plane; the outcome at the places `sampled` is always computed.
+    """A tile of the plane; the outcome at the places `sampled` is always computed, and the time of a
+    separation there.
 
     Attributes
     ----------
@@ -151,18 +152,25 @@ class Tile:
         """Return the outcome of the static start at a point, computed once."""
         point = self.points[index]
         if point.result is None:
-            point.result = self._result(point)
+            point.result = self._result(point, timed=index in self.sampled)
         return point.word
 
-    def _result(self, point: TilePoint) -> OutcomeResult | Exception:
-        """Return the outcome at a point, or the error that ends its computation."""
+    def _result(self, point: TilePoint, *, timed: bool) -> OutcomeResult | Exception:
+        """Return the outcome at a point, or the error that ends its computation.
+
+        Parameters
+        ----------
+        point : of the tile
+        timed : whether a separation needs its time, so that nothing is extrapolated
+        """
         p = point.parameters
         if isinstance(p, Exception):
             return p
 
         def find(start: Any) -> OutcomeResult:
             options = self.options
-            times = (options.horizon,) if options.extrapolate else ()
+            extrapolate = options.extrapolate and not timed
+            times = (options.horizon,) if extrapolate else ()
             return find_outcome(
                 p, options.horizon, tol=options.tol, near=start, compared_with=times
             )
