@@ -84,6 +84,16 @@ def test_a_motion_that_is_linear_to_the_horizon_is_not_simulated() -> None:
     assert result.simulated < 1.0  # what the shift in time leaves
 
 
+def test_a_motion_that_settles_after_its_departure_is_simulated_from_the_start() -> None:
+    """At 450 N and 15 rad/s the extrapolated motion came to another cycle, the simulated one
+    separates."""
+    p = Parameters(N=450, Omega=15, normalization="orthonormal")
+    result = find_outcome(p, 1000.0, compared_with=(1000.0,))
+    assert result.outcome is Outcome.SEPARATION
+    assert not result.extrapolated
+    assert result.first_separation == find_outcome(p, 1000.0).first_separation
+
+
 def test_fast_departures_and_stable_cycles_are_not_extrapolated() -> None:
     fast = near_start(Parameters(N=450, Omega=20))
     assert fast.cycle.growth_rate > thresholds.SLOW_DEPARTURE

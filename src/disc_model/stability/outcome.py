@@ -136,8 +136,9 @@ def find_outcome(
     the same first separation.
 
     Where the first separation is only compared with some times, slow departures from unstable
-    cycles are extrapolated instead, see `NearCycle.extrapolate`. A motion whose separation
-    comes near to one of those times is simulated from its start all the same.
+    cycles are extrapolated instead, see `NearCycle.extrapolate`. A motion whose separation comes
+    near to one of those times, or that settles, is simulated from its start all the same: a small
+    error decides to which attractor an irregular motion comes.
     """
     start_cycle: NearCycle | None = None
     map_: ReturnMap | None = None
@@ -152,7 +153,10 @@ def find_outcome(
             start_cycle = near
     options = SearchOptions(horizon, tol, start, early, late, bool(compared_with))
     rough = _OutcomeSearch(p, options, map_, start_cycle).run()
-    if not rough.extrapolated or not _is_near_any(rough.first_separation, compared_with):
+    if not rough.extrapolated:
+        return rough
+    settled = rough.stage is Stage.SETTLED
+    if not settled and not _is_near_any(rough.first_separation, compared_with):
         return rough
     options = replace(options, extrapolate=False)
     simulated = _OutcomeSearch(p, options, map_, start_cycle).run()
