@@ -48,6 +48,17 @@ def test_cells_are_dotted_where_disturbances_decay() -> None:
     pyplot.close(figure)
 
 
+def test_cells_are_not_dotted_by_the_sign_of_rounding() -> None:
+    """An undamped slider (c_p = 0) has a rate of some 1e-13/s, of either sign, where no mode grows."""
+    rates = np.array([[-6e-13, 3e-13, -2e-10], [-0.1, 0.2, -1e-13]])
+    neutral = plane().assign(growth_rate=(("N", "Omega"), rates))
+    figure, ax = pyplot.subplots()
+    growth_panels(figure, [ax], [neutral])
+    (dotted,) = hatched(ax, STABLE.hatch)
+    assert len(middles(dotted)) == 1
+    pyplot.close(figure)
+
+
 def test_marks_are_black_on_light_cells_and_white_on_dark_ones() -> None:
     _, ax = pyplot.subplots()
     white = [1, 1, 1, 1]

@@ -203,6 +203,16 @@ def test_steady_sliding_says_why_there_is_none(changes, status):
         assert math.isnan(found.contact_force)
 
 
+def test_neutral_sliding_is_not_called_stable_by_rounding():
+    """Without a damper the slider's motion in the plane neither grows nor decays; the sign of its rate
+    was that of rounding, and changed from point to point."""
+    undamped = P.replace(n_diameters=0, D_star=1e-3)
+    neutral = steady_sliding(undamped)
+    assert "neutral" in neutral.message
+    assert not neutral.stable
+    assert steady_sliding(undamped.replace(c_p=1.0)).stable
+
+
 # ------------------------------------------------------------------------ modes
 def test_modes_are_the_eigenvalues_of_steady_sliding():
     """With what brake engineers read from them: frequency in Hz, damping ratio, number of unstable

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from functools import partial
 from multiprocessing.pool import ThreadPool
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -174,6 +175,18 @@ def test_a_sweep_states_its_base_and_its_function() -> None:
     assert swept.attrs["function"] == "products"
     assert swept["N"].dtype.kind == "f", "also of whole numbers"
     assert swept["N"].attrs["units"] == "N"
+
+
+def test_a_sweep_states_the_arguments_of_its_function(tmp_path: Path) -> None:
+    """Without its horizon a map of outcomes cannot be repeated."""
+    swept = sweep(dm.outcome, P, Omega=[14.0], horizon=1)
+    assert json.loads(swept.attrs["options"]) == {"horizon": 1}
+    dm.save(swept, tmp_path / "swept.nc")
+    assert dm.load(tmp_path / "swept.nc").attrs["options"] == swept.attrs["options"]
+
+    windows = {"late": dm.Window(last=0.1, rate=1e3)}
+    simulated = sweep(dm.simulate, P, Omega=[14.0], t_end=0.2, windows=windows)
+    assert "rate=1000" in json.loads(simulated.attrs["options"])["windows"]["late"]
 
 
 # ---- Values that vary together

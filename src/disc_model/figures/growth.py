@@ -17,6 +17,7 @@ from disc_model.figures.words import label_of
 
 GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates are larger
 LINEAR_SHARE = 1 / 30  # of the greatest rate, up to which the scale is nearly linear
+ROUNDING = 1e-9  # 1/s, growth rates of undamped modes by rounding
 NEGATIVE = "negative"
 MAP_LOOKS = {**LOOKS, NEGATIVE: STABLE, UNRESOLVED.label: UNRESOLVED}
 """Looks of all that a map of growth rates shows beside its colours."""
@@ -45,8 +46,8 @@ def growth_panels(
 ) -> list[Artist]:
     """Draw a growth rate (1/s) on one scale of colours, a panel for each plane.
 
-    Cells are dotted where it is negative and hatched where it is unresolved. A point without a rate
-    has the look of its class. Returns entries of a legend.
+    Cells are dotted where it is negative by more than rounding, and hatched where it is unresolved.
+    A point without a rate has the look of its class. Returns entries of a legend.
     """
     norm = growth_norm(np.concatenate([plane[name].values.ravel() for plane in planes]))
     used: set[str] = set()
@@ -60,7 +61,8 @@ def growth_panels(
         painted = paint(ax, edges, words, MAP_LOOKS)
         colours = np.where(np.isfinite(rates)[..., None], mesh.to_rgba(rates), painted)
         used |= set(words.flat)
-        for mark, cells in ((NEGATIVE, rates < 0), (UNRESOLVED.label, isolated(plane, name))):
+        decaying = rates < -ROUNDING
+        for mark, cells in ((NEGATIVE, decaying), (UNRESOLVED.label, isolated(plane, name))):
             if cells.any():
                 lay_over(ax, edges, cells, MAP_LOOKS[mark], colours)
                 used.add(mark)

@@ -19,11 +19,11 @@ from disc_model.figures.drawing import (
     say_beside,
     wide,
 )
+from disc_model.figures.growth import ROUNDING
 from disc_model.figures.kinds.motions import SlidingModes
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.names import name_of, named_modes
 from disc_model.figures.selection import parts_along, stretches, titles_of
-from disc_model.figures.sliding_outcome import ROUNDING
 from disc_model.figures.types import Array, Axes, Figure
 from disc_model.figures.words import measured
 

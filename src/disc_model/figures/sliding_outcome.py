@@ -9,13 +9,12 @@ from disc_model.data.variables import axis_of, flag_names
 from disc_model.figures.cells import edges_of, entries, paint
 from disc_model.figures.classes import LOOKS, STABLE, Look
 from disc_model.figures.drawing import letters, row_of_panels
+from disc_model.figures.growth import ROUNDING
 from disc_model.figures.kinds.maps import SlidingOutcome
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import alike, common_points, parts_along, titles_of
 from disc_model.figures.types import Figure, Words
 
-ROUNDING = 1e-9
-"""1/s, growth rates of undamped modes by rounding."""
 AGREEMENTS: Mapping[str, Look] = {
     "stable_quiet": STABLE._replace(label="stable, and the motion quiet", face=LOOKS["quiet"].face),
     "stable_grows": STABLE._replace(

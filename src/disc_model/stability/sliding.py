@@ -113,9 +113,9 @@ class SteadySliding(Summarised, Drawn):
 
     @property
     def stable(self) -> bool:
-        """Whether the growth rate is negative, so that small disturbances decay; if neutral,
-        rounding decides."""
-        return self.growth_rate < 0
+        """Whether the growth rate is negative by more than rounding, so that small disturbances
+        decay; False if neutral, as with an undamped slider (c_p = 0) when no mode grows."""
+        return self.growth_rate < -_rounding(self.eigenvalues)
 
     @property
     def growing(self) -> ComplexArray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -51,7 +52,8 @@ def sweep(
     xarray.Dataset
         Numbers, words and arrays of the results along the dimensions in their order, that of `zip` last. `status` is
         "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic;
-        `message` then says which
+        `message` then says which. Attributes state the `function`, its other arguments (`options`, in JSON) and the
+        `parameters` of the case
 
     Raises
     ------
@@ -85,7 +87,13 @@ def sweep(
     sizes = {dimension.name: len(dimension) for dimension in call.dimensions}
     variables, fixed = stacked(rows, sizes)
     base = canonical_json({**case.stated, "disc": case.canonical.get("disc")})
-    attrs = {"function": call.title, "parameters": case.canonical_json, "base": base}
+    options = json.dumps(call.options, sort_keys=True, default=repr)
+    attrs = {
+        "function": call.title,
+        "options": options,
+        "parameters": case.canonical_json,
+        "base": base,
+    }
     return xr.Dataset(variables, {**fixed, **coordinates}, attrs)
 
 
