@@ -257,8 +257,9 @@ def hysteresis(
     ----------
     case : the case; its own speed is not used
     scan : rad/s, the lowest and the highest speed
-    dwell : s at each speed; doubled until the motion has settled, up to `max_dwell`
+    dwell : s at each speed; doubled until the motion has settled
     step : rad/s, between speeds
+    max_dwell : s, longest stay at a speed
     evaluation_time : s, the last stretch of a stay, which is described
     tol : as in `simulate`
 
