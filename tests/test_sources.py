@@ -1,6 +1,7 @@
 """The sources on which results depend: what decides them is in, and what does not is left out."""
 
 import ast
+import re
 import subprocess
 from pathlib import Path
 
@@ -110,6 +111,67 @@ def test_what_the_physics_imports_is_among_its_sources(parts: tuple[str, ...]) -
 def test_a_quantity_depends_on_its_own_file_and_the_physics_alone(quantity: str) -> None:
     path = PACKAGE / quantity_file(quantity)
     assert imports_of(path) - modules_of(*BATCHES).keys() - ASIDE.keys() == set()
+
+
+# ---- Rules
+
+ROOT = PACKAGE.parents[1]
+RULES = "\n".join(path.read_text() for path in sorted((ROOT / "workflow/rules").glob("*.smk")))
+HASHED = re.findall(r"code_of\(\s*\"(\w+)\",([^()]*(?:\([^()]*\)[^()]*)?)\)", RULES)
+"""Rules, and the parts of the package that they name as their sources."""
+STARRED = {
+    "*PHYSICS": PHYSICS,
+    "*BATCHES": BATCHES,
+    "*MERGING": MERGING,
+    "*drawing_of(w)": ("figures", "data"),
+}
+"""Several parts at once, by the words of a rule."""
+UNDECISIVE = {  # imported, but deciding no content of a file, with the reason
+    **ASIDE,
+    "fitting.fit": "is shown by a figure of no study",
+    "simulation.named_case": "is run before",
+    "studies.whole_study": "computes without files",
+}
+
+
+def modules_behind(script: Path, known: set[str]) -> set[str]:
+    """Modules of the package that a script imports, and those that these import, without known
+    ones and what those import."""
+    found: set[str] = set()
+    waiting = [script]
+    while waiting:
+        path = waiting.pop()
+        waiting += _folders_behind(path)
+        new = imports_of(path) - known - found
+        waiting += [PACKAGE.joinpath(*name.split(".")).with_suffix(".py") for name in new]
+        found |= new
+    return found
+
+
+def _folders_behind(path: Path) -> list[Path]:
+    """First files of the folders of the package from which a module imports."""
+    found = []
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("disc_model."):
+            first = PACKAGE.parent.joinpath(*str(node.module).split("."), "__init__.py")
+            if first.is_file() and first != path:
+                found.append(first)
+    return found
+
+
+@pytest.mark.parametrize(("rule", "words"), HASHED)
+def test_a_rule_names_the_parts_that_its_script_imports(rule: str, words: str) -> None:
+    """The explorer kept names and colours of classes that had changed in the figures.
+
+    What the physics decides reaches a rule by its input, so that only what lies above counts.
+    """
+    parts: list[str] = []
+    for word in filter(None, map(str.strip, words.split(","))):
+        parts += STARRED.get(word, () if word.startswith("own_file") else [word.strip('"')])
+    known = {*modules_of(*BATCHES), *UNDECISIVE}
+    behind = modules_behind(ROOT / "workflow/scripts" / f"{rule}.py", known)
+    left_out = behind - modules_of(*parts).keys()
+    assert not left_out, f'code_of("{rule}", ...) leaves out {", ".join(sorted(left_out))}'
 
 
 def test_no_result_depends_on_figures() -> None:

@@ -10,7 +10,7 @@ from matplotlib.patches import PathPatch
 
 from disc_model.figures.cells import edges_of, lay_over
 from disc_model.figures.classes import STABLE
-from disc_model.figures.growth import growth_panels
+from disc_model.figures.growth import growth_norm, growth_panels
 from disc_model.figures.heat_map import draw_maps
 
 SPEEDS = [10.0, 11.0, 12.0]
@@ -31,6 +31,13 @@ def middles(patch: PathPatch) -> set[tuple[float, float]]:
     """The middles of the cells that a patch hatches; a path closes each cell once more."""
     corners = patch.get_path().vertices.reshape(-1, 5, 2)[:, :4]
     return {tuple(np.round(cell, 6)) for cell in corners.mean(axis=1)}
+
+
+def test_a_few_large_rates_do_not_pale_all_others() -> None:
+    """Two unresolved cells of 660/s left the map of a brake, of 20/s and less, in shades of grey."""
+    common = np.linspace(-20, 20, 200)
+    assert 19 < growth_norm(np.append(common, [660.0, 400.0])).vmax <= 20
+    assert growth_norm(np.append(common[::10], 400.0)).vmax == 400  # one of twenty is not rare
 
 
 def test_cells_are_dotted_where_disturbances_decay() -> None:

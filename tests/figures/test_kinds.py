@@ -1,6 +1,4 @@
-"""All kinds of figures: how they are found, and that each is drawn somewhere here."""
-
-from pathlib import Path
+"""All kinds of figures: how they are found, and that each has an example, which is drawn."""
 
 import pytest
 
@@ -9,13 +7,12 @@ from disc_model.figures.kinds import KINDS, CasePlot, General, Plot, kind_of
 from disc_model.figures.render import DRAWINGS
 from disc_model.parameters import Parameters
 from disc_model.studies.registry import quantity_names
+from tests.figures.every_kind import EXAMPLES
 from tests.processes import python
-
-TESTS = [path for path in Path(__file__).parent.glob("test_*.py") if path.name != "test_kinds.py"]
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_a_kind_is_drawn_by_a_test(name: str) -> None:
+def test_a_kind_shows_a_quantity_over_parameters_and_has_an_example(name: str) -> None:
     kind = KINDS[name]
     assert issubclass(kind, CasePlot | Plot)
     if issubclass(kind, Plot) and not issubclass(kind, General):
@@ -28,7 +25,7 @@ def test_a_kind_is_drawn_by_a_test(name: str) -> None:
         )
         assert {*kind.quantities} <= {*quantity_names()}
         assert {*kind(**plane).dims} <= {*Parameters.model_fields, "perturbation_u"}
-    assert any(f'"{name}"' in test.read_text() for test in TESTS)
+    assert name in EXAMPLES, f"add a function {name} to tests/figures/every_kind.py"
 
 
 def test_kinds_are_listed_by_their_names_and_each_has_a_drawing() -> None:

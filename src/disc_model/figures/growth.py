@@ -16,6 +16,7 @@ from disc_model.figures.types import Array, Artist, Axes, FigureBase, Mask, Word
 from disc_model.figures.words import label_of
 
 GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates are larger
+COMMON = 0.98  # share of rates within the scale then, since a few large ones would pale the others
 LINEAR_SHARE = 1 / 30  # of the greatest rate, up to which the scale is nearly linear
 ROUNDING = 1e-9  # 1/s, growth rates of undamped modes by rounding
 NEGATIVE = "negative"
@@ -34,7 +35,7 @@ def growth_norm(rates: Array) -> AsinhNorm:
     sizes = np.abs(rates[np.isfinite(rates)])
     greatest = GREATEST
     if sizes.size and np.median(sizes) > GREATEST:
-        greatest = float(sizes.max())
+        greatest = float(np.quantile(sizes, COMMON, method="higher"))
     return AsinhNorm(linear_width=LINEAR_SHARE * greatest, vmin=-greatest, vmax=greatest)
 
 

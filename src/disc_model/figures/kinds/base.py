@@ -181,7 +181,11 @@ class Plot(Kind):
 
     def wrong_dims(self, values: Values) -> Iterator[Fault]:
         """Required dimensions that the study lacks, and dimensions of the study that the figure
-        cannot show."""
+        cannot show.
+
+        A kind that replaces this rule sets `several`, or refuses several normalizations as this one
+        does: of those, the others would be left out of the drawing without a word.
+        """
         missing = [name for name in self.dims if name not in values]
         further = [name for name in values if values[name] and name not in self.allowed]
         if missing:
