@@ -59,8 +59,8 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         dict.fromkeys(("initial_state", "windows", "stop_at", "duration"), "None")
         | {"events": "True"},
     ),
-    (dm.outcome, {"case": P}, {"start": "None", "early_end": "True"}),
-    (dm.critical_speed, {"case": P}, {"early_end": "True"}),
+    (dm.outcome, {"case": P}, {"start": "None", "early_end": "True", "extrapolate": "True"}),
+    (dm.critical_speed, {"case": P}, {"early_end": "True", "extrapolate": "True"}),
     (dm.basins, {"case": P}, {"start": "None", "seed": "huge"}),
     (dm.hysteresis, {"case": P, "scan": (10, 12), "dwell": 5}, {}),
     (

@@ -7,8 +7,9 @@ import pytest
 import xarray as xr
 from matplotlib.colors import to_rgb
 
-from disc_model.data.variables import EVENT_KINDS, PHASES, STATUSES, Outcome
+from disc_model.data.variables import EVENT_KINDS, LONG_TERM_OUTCOMES, PHASES, STATUSES, Outcome
 from disc_model.explorer import study_contents
+from disc_model.figures.basins import STACKED
 from disc_model.figures.classes import LOOKS, UNRESOLVED, Look, lightness, looks_of
 from disc_model.studies.registry import quantity_names, quantity_of
 from tests.figures.reading import draw, labels
@@ -26,6 +27,12 @@ GREY_APART = 0.1  # difference of lightness that a grey print shows
 
 def distance(one: Look, other: Look) -> float:
     return float(np.linalg.norm(np.subtract(to_rgb(one.face), to_rgb(other.face))))
+
+
+def test_every_outcome_has_a_look_and_a_place_in_stacks() -> None:
+    """A word without a look has a colour by chance, and one without a place is not drawn."""
+    assert not {*Outcome} - {*LOOKS}, "add to LOOKS in figures/classes.py"
+    assert not {*LONG_TERM_OUTCOMES} - {*STACKED}, "add to STACKED in figures/basins.py"
 
 
 @pytest.mark.parametrize("words", FLAGS.values(), ids=FLAGS)

@@ -84,17 +84,39 @@ def test_a_study_of_cases_is_a_tree() -> None:
 SPELLED_OUT = [
     (
         dm.outcome,
-        {"horizon": 7, "evaluation_time": 0.5, "after_separation": 2, "early_end": False},
-        {"horizon": 7, "evaluation_time": 0.5, "after_separation": 2, "early_end": False},
+        {
+            "horizon": 7,
+            "evaluation_time": 0.5,
+            "after_separation": 2,
+            "early_end": False,
+            "extrapolate": True,
+        },
+        {
+            "horizon": 7,
+            "evaluation_time": 0.5,
+            "after_separation": 2,
+            "early_end": False,
+            "extrapolate": True,
+        },
     ),
     (
         dm.critical_speed,
-        {"scan": (3, 9), "step": 2, "horizon": 7, "precision": 0.5, "early_end": False},
+        {
+            "scan": (3, 9),
+            "step": 2,
+            "horizon": 7,
+            "precision": 0.5,
+            "max_crossings": 3,
+            "early_end": False,
+            "extrapolate": False,
+        },
         {
             "scan": {"start": 3, "stop": 9, "step": 2},
             "horizons": [7],
             "precision": 0.5,
+            "max_crossings": 3,
             "early_end": False,
+            "extrapolate": False,
         },
     ),
     (
@@ -102,6 +124,8 @@ SPELLED_OUT = [
         {
             "energies": [0.1, 0.2],
             "n_starts": 3,
+            "precision": 0.2,
+            "confidence": 0.9,
             "horizon": 7,
             "seed": 5,
             "attractor_tol": 0.2,
@@ -110,6 +134,8 @@ SPELLED_OUT = [
         {
             "energies": [0.1, 0.2],
             "n_starts": 3,
+            "precision": 0.2,
+            "confidence": 0.9,
             "horizon": 7,
             "seed": 5,
             "attractor_tol": 0.2,
@@ -144,6 +170,17 @@ def test_every_argument_of_a_function_reaches_the_option_of_its_name(
     assert case is P
     assert found == {**options, "tol": 1e-9}
     assert starts == [{"u": 1e-3}] * len(start)
+
+
+# Options under another name in a function: `start` has those of `Start`, `horizon` and `step` others.
+SPELLED_OTHERWISE = {"prerun", "perturbation", "horizons"}
+
+
+@pytest.mark.parametrize("function", FUNCTIONS)
+def test_every_option_is_an_argument_of_the_function(function: Any) -> None:
+    options = {*quantity_of(function.__name__).model_fields} - SPELLED_OTHERWISE
+    missing = options - {*inspect.signature(function).parameters}
+    assert not missing, f"add to {function.__name__} in studies/functions.py: {missing}"
 
 
 @pytest.mark.parametrize("function", FUNCTIONS)

@@ -299,6 +299,8 @@ width."""
 
 
 class Settled(StrEnum):
+    """Answers to the question whether a motion has settled, in the words of datasets."""
+
     UNDECIDED = "undecided"
     CHANGING = "changing"
     SETTLED = "settled"

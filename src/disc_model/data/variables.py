@@ -72,8 +72,9 @@ LONG_TERM_OUTCOMES = (
     "failed",
     *(word for word in Outcome if word not in (Outcome.GROWING, Outcome.SEPARATION)),
 )
-_SETTLED = (Outcome.SEPARATING, Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
-OUTCOMES_TO_HORIZON = ("failed", *(word for word in Outcome if word not in _SETTLED))
+# words for motions that are followed beyond a separation
+_BEYOND_SEPARATION = (Outcome.SEPARATING, Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
+OUTCOMES_TO_HORIZON = ("failed", *(word for word in Outcome if word not in _BEYOND_SEPARATION))
 
 
 class Variable(NamedTuple):

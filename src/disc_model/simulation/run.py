@@ -108,13 +108,13 @@ class Run:
             step_cost *= 6
             audit_interval = 1
         return loop.Limits(
-            order,
-            states.series_tolerance(request.tol, self.compliant),
-            request.t_end,
-            request.stop_at is None,
-            int(min(most, MOST_STEPS)),
-            max(1, STEPS_PER_PAUSE // step_cost),
-            audit_interval,
+            order=order,
+            tolerance=states.series_tolerance(request.tol, self.compliant),
+            t_end=request.t_end,
+            may_separate=request.stop_at is None,
+            max_steps=int(min(most, MOST_STEPS)),
+            pause_after=max(1, STEPS_PER_PAUSE // step_cost),
+            audit_every=audit_interval,
         )
 
     def _enter(self, index: int) -> None:

@@ -46,8 +46,12 @@ from disc_model.stability.segments import Segment, final_segment, segment_of, sw
 
 
 class Arrival(NamedTuple):
-    """Whether a motion has settled, with the rest or sliding, or the stable cycle by its
-    multipliers, as proof."""
+    """Whether a motion has settled, with what proves it; without proof, a record decides.
+
+    settling : the answer, with rates
+    calm : rest or steady sliding that is reached; None if neither is proven
+    near : stable cycle that the motion follows by its multipliers; None if that is not proven
+    """
 
     settling: Settling
     calm: Outcome | None = None

@@ -127,13 +127,14 @@ def outcome(
     return _quantity("outcome", case, options, start)
 
 
-def critical_speed(
+def critical_speed(  # noqa: PLR0913
     case: Parameters,
     scan: tuple[float, float] = (5.0, 30.0),
     horizon: float | Sequence[float] = 1000.0,
     *,
     step: float = 1.0,
     precision: float = 0.1,
+    max_crossings: int = 12,
     early_end: bool = True,
     extrapolate: bool = True,
     tol: float = 1e-10,
@@ -150,6 +151,7 @@ def critical_speed(
     horizon : s, or several, each with a critical speed of its own
     step : rad/s, of the scan
     precision : rad/s, to which crossings are bisected; `step` must be a multiple
+    max_crossings : largest number of crossings that are kept
     extrapolate : whether slow departures from cycles are extrapolated, which halves the time; separations after them
         are compared with the horizon, but have no time
     early_end, tol : as in `outcome`
@@ -176,6 +178,7 @@ def critical_speed(
         "horizons": np.atleast_1d(horizon).tolist(),
         "scan": _scan(scan, step),
         "precision": precision,
+        "max_crossings": max_crossings,
         "early_end": early_end,
         "extrapolate": extrapolate,
         "tol": tol,
@@ -193,6 +196,8 @@ def basins(  # noqa: PLR0913
     seed: int = 1,
     attractor_tol: float = 0.1,
     n_bisection_directions: int = 1,
+    precision: float = 0.05,
+    confidence: float = 0.95,
     tol: float = 1e-10,
 ) -> xr.Dataset:
     """Attractors of a case, the share of starts that comes to each, and the least energy that leads
@@ -209,6 +214,8 @@ def basins(  # noqa: PLR0913
     attractor_tol : relative difference of ranges at which a motion counts as having come to a known attractor; 0 to
         follow each to the horizon
     n_bisection_directions : number of directions in which the critical energy is bisected
+    precision : relative precision of the critical energy
+    confidence : level of the confidence intervals of fractions
     tol : as in `simulate`
 
     Returns
@@ -236,6 +243,8 @@ def basins(  # noqa: PLR0913
         "seed": seed,
         "attractor_tol": attractor_tol,
         "n_bisection_directions": n_bisection_directions,
+        "precision": precision,
+        "confidence": confidence,
         "tol": tol,
     }
     return _quantity("basins", case, options, start)
