@@ -229,6 +229,18 @@ def test_whether_a_motion_has_settled_does_not_depend_on_its_unit(size: float) -
     assert found.least == pytest.approx(known.least, rel=1e-9)
 
 
+def test_the_rate_of_a_change_is_that_of_a_clear_one() -> None:
+    """The number of samples changes faster than the mean, but only by its scatter."""
+    sizes = [60, 200, 60, 200, 60, 200, 60, 260]
+    windows = [100 * i + 100 * np.arange(n) / n for i, n in enumerate(sizes)]
+    time = np.concatenate(windows)
+    alternating = np.where(np.arange(time.size) % 2, 1.0, -1.0)
+    found = settling(time, alternating + 8e-4 * time)
+    assert found.answer is Settled.CHANGING
+    # over the width of the motion, 2; windows of few samples have means that are a little off
+    assert found.rate == pytest.approx(4e-4, rel=0.01)
+
+
 def test_the_rate_of_a_drift_is_over_the_width_of_the_motion() -> None:
     """Twice the standard deviation of a sine, sqrt(2) of its amplitude."""
     sine = np.sin(TURN * TIME)  # a whole number of periods in each window

@@ -5,12 +5,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib import pyplot
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures import critical_speed
-from disc_model.figures.borders import Curve
+from disc_model.figures.borders import Curve, parts_of
 from disc_model.figures.drawing import BLUE, SEPARATED
 from disc_model.figures.onsets import branches
 from tests.figures.reading import draw, labels, lines
@@ -107,3 +108,30 @@ def test_only_the_longest_horizon_is_drawn(speeds: xr.Dataset) -> None:
     assert [line.get_label() for line in ax.lines] == ["separation begins, within 1000 s"]
     onsets = ax.lines[0].get_xdata()
     assert np.nanmin(onsets) == np.nanmin(speeds["critical_speed"].sel(horizon=1000))
+
+
+def test_loads_that_were_not_swept_are_not_shaded() -> None:
+    """The cycle is stable at all loads, but the sweep down says nothing beyond its own."""
+    ax = pyplot.figure().subplots()
+    swept = {"N": [200.0, 400.0], "sweep_Omega": [10.0, 20.0]}
+    sweep = xr.Dataset({"offset_speed": ("N", [12.0, 14.0])}, swept)
+    loads = [100.0, 200, 300, 400, 500]
+    speeds = [11.0, 13, 15]
+    stable = np.full((5, 3), -1.0)
+    cycle = xr.Dataset({"growth_rate": (("N", "Omega"), stable)}, {"N": loads, "Omega": speeds})
+    critical_speed._stable_cycles(ax, sweep, cycle)
+    [mesh] = [each for each in ax.collections if isinstance(each, QuadMesh)]
+    shaded = ~np.ma.getmaskarray(mesh.get_array()).reshape(5, 3)
+    # from 12 rad/s at 200 N, 13 at 300 N, and 14 at 400 N
+    assert shaded.astype(int).tolist() == [[0, 0, 0], [0, 1, 1], [0, 1, 1], [0, 0, 1], [0, 0, 0]]
+
+
+@pytest.mark.parametrize(("kind", "drawn"), [("fold", True), ("neutral", False)])
+def test_a_fold_bounds_a_cycle_beyond_which_there_is_none(kind: str, drawn: bool) -> None:
+    """Beyond a neutral curve there is an unstable one."""
+    axes = {"N": np.arange(100.0, 501, 50), "Omega": np.arange(10.0, 17)}
+    rate = np.full((9, 7), -1.0)
+    rate[:, 4:] = np.nan
+    cycle = xr.Dataset({"growth_rate": (("N", "Omega"), rate)}, axes)
+    curve = Curve(np.full(5, 13.4), np.linspace(150, 450, 5), kind)
+    assert bool(parts_of([curve], cycle)) == drawn

@@ -68,3 +68,16 @@ def test_words_of_figures_and_data_lead_to_their_files(undecided: pd.DataFrame) 
     assert links["Fig. 7"] == "figures/fig07.png"
     assert links["Fig. 10"] == "figures/fig10.png"
     assert not any(words.startswith("Fig. 0") for words in links)
+
+
+def test_a_verdict_that_only_one_normalisation_has_changes_if_the_first_has_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A statement that was not computed as published has no verdict that could change."""
+    verdicts = pd.DataFrame(
+        {ledger.OLD: [NOT_COMPUTED, TRUE, TRUE], ledger.NEW: [TRUE, NOT_COMPUTED, TRUE]},
+        index=["appears", "vanishes", "stays"],
+    )
+    monkeypatch.setattr(ledger, "_verdicts", lambda *_: verdicts)
+    _, _, changed = ledger.compare({}, {})["verdicts"]
+    assert [*changed.index] == ["vanishes"]

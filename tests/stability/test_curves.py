@@ -1,5 +1,7 @@
 """Seeds of curves of stability, and places on them."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -20,6 +22,24 @@ def test_a_seed_met_on_the_way_to_another_modulus_is_a_cycle_there():
     map_ = ReturnMap(seed.case)
     # rounding, and what a corrector leaves; with the coordinates of 150 GPa it is 1e-4
     assert map_.evaluate(seed.point).residual < 1e-9 * map_.deflection
+
+
+@pytest.mark.parametrize(("rates", "place"), [([0.1, 0.2, 0.1, -0.1], 2), ([0.1] * 4, 0)])
+def test_a_seed_is_the_first_special_point_beside_a_stable_cycle(
+    rates: list[float], place: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whether that is stable before it or after it; without one, the first of all."""
+    special = [
+        SimpleNamespace(
+            kind="neimark_sacker", after=after, case=after, point=None, multiplier=1j, period=0.01
+        )
+        for after in (0, 2)
+    ]
+    branch = SimpleNamespace(special=special, growth_rate=np.array(rates), ended="")
+    monkeypatch.setattr(curves, "continue_cycle", lambda *_, **__: branch)
+    seed = curves._border(Parameters(N=385, Omega=15), "Omega", 20.0, 1e-12, [])
+    assert seed is not None
+    assert seed.case == place
 
 
 @pytest.mark.compiled

@@ -151,6 +151,8 @@ def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
         ({"N": 0}, CycleStatus.NO_STICK_SLIP),
         ({"mu_s": 0, "mu_k": 0}, CycleStatus.NO_STICK_SLIP),
         ({"k_p": 0}, CycleStatus.AT_REST),
+        # the damper pulls with 64 N, between kinetic and static friction of 48 and 80 N
+        ({"k_p": 0, "c_p": 32}, CycleStatus.AT_REST),
         ({"c_p": 5}, CycleStatus.NO_STICK_SLIP),
     ],
 )
