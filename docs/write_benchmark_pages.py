@@ -199,10 +199,12 @@ def scaling_numbers(scaling: xr.Dataset) -> dict[str, dict[str, Rows]]:
 
 def share_numbers(shares: xr.Dataset) -> Rows:
     """Return rows of `disc_model.benchmarks.shares`, each with percentages of its time."""
-    rows = shares.to_dataframe().to_dict("records")
-    for row in rows:
+    rows = []
+    for record in shares.to_dataframe().to_dict("records"):
+        row = {str(name): value for name, value in record.items()}
         for part in PARTS_OF_TIME:
             row[part] = 100 * row[part] / row["seconds"]
+        rows.append(row)
     return rows
 
 
