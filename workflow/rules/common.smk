@@ -141,6 +141,6 @@ def code_of(rule, *parts):
     """Hash of a rule's script and of parts of the package, as a parameter of the rule.
 
     By it Snakemake runs a rule again after a change of its sources, which it does not see by itself. What the physics
-    decides need not be among the parts of a rule with results as input: that is newer then.
+    decides need not be among the parts where results are the input, because those are newer then.
     """
     return source_hash(Path(SCRIPTS, f"{rule}.py"), *parts)
