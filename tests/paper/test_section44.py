@@ -277,7 +277,7 @@ def test_friction_is_the_cause_where_sliding_without_it_is_stable(
         assert p.mu_k == 0
         return rate
 
-    monkeypatch.setattr(section44, "sliding_growth", sliding_growth)
+    monkeypatch.setattr(section44.growth_rates, "sliding_growth", sliding_growth)
     found = caused_by_friction(known(separates=separates), growth=0.0)
     assert found.verdict == verdict
     assert found.values["most"] == rate

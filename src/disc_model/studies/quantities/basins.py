@@ -7,7 +7,6 @@ ones unchanged.
 
 from collections import Counter
 from collections.abc import Callable, Sequence
-from itertools import chain
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
@@ -169,7 +168,7 @@ class AttractorBasins(Start, Quantity):
         for i in range(self.n_starts):
             by_start.append([follow(x, i, j) for j, x in enumerate(self.energies)])
         results = list(zip(*by_start, strict=True))
-        every = list(chain.from_iterable(results))
+        every = [reached for row in results for reached in row]
 
         starts = Counter(reached.attractor for reached in every if reached.attractor is not None)
         # by decreasing number of starts; of equal numbers the one reached first comes first
