@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,16 +15,23 @@ from disc_model.simulation.api import snapshots
 ROOT = Path(__file__).parents[2]
 BEGIN, LENGTH, RATE = 8.0, 0.5, 20000
 """s, from when and how long powers are averaged; samples per s."""
-PARTS = ("friction on the surface", "slope under the slider", "damping of the disc", "impacts")
+
+
+class Powers(NamedTuple):
+    """Mean powers that the vibration loses, W.
+
+    damping : by the frequency in Hz of a mode
+    impacts : the rest of the balance of the disc and of the slider's vertical motion (docs/model.md,
+        Energy); in a compliant contact it is that of the contact's elasticity, whose mean vanishes
+    """
+
+    damping: dict[int, float]
+    impacts: float
 
 
 @cache
-def powers(Omega: float, contact: str, compliance: float = 0.0) -> dict[str, float]:
-    """Return mean powers at 8 kN from the static start, W, negative where the vibration loses.
-
-    Others are named. That of impacts is the rest of the balance of the disc and of the slider's
-    vertical motion (docs/model.md, Energy). In a compliant contact it is that of the contact's
-    elasticity, whose mean vanishes.
+def powers(Omega: float, contact: str, compliance: float = 0.0) -> Powers:
+    """Return mean powers at 8 kN from the static start.
 
     Parameters
     ----------
@@ -63,17 +71,7 @@ def powers(Omega: float, contact: str, compliance: float = 0.0) -> dict[str, flo
     surface = np.mean(friction * speed)
     slope = np.mean(P * rate * (b @ (modes.diameters * modes.psi)))
     by_mode = np.mean(alpha**2 + beta**2, axis=0) * modal_damping(p)
-    damping = -by_mode.sum()
-    impacts = (energy[-1] - energy[0]) / (times[P.size - 1] - times[0]) - surface - slope - damping
-    named = dict(zip(PARTS, map(float, (surface, slope, damping, impacts)), strict=True))
-    of_modes = {}
-    for omega, taken in zip(modes.omega, by_mode, strict=True):
-        of_modes[f"damping at {omega / (2 * np.pi):.0f} Hz"] = float(taken)
-    drive = p.Omega * p.r_0**2 * np.mean(F)
-    heat = p.r_0 * np.mean(friction * rate)
-    return named | {
-        "drive": float(drive),
-        "heat": float(heat),
-        "surface speed": float(run.scalars()["surface_speed"]),
-        **of_modes,
-    }
+    gained = (energy[-1] - energy[0]) / (times[P.size - 1] - times[0])
+    impacts = surface + slope - by_mode.sum() - gained
+    hertz = [round(omega / (2 * np.pi)) for omega in modes.omega]
+    return Powers(dict(zip(hertz, by_mode, strict=True)), float(impacts))

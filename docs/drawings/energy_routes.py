@@ -134,10 +134,7 @@ def of_brake() -> dict[str, Routes]:
     routes = {}
     for contact, found in motions.items():
         parts = dict.fromkeys(ROUTES, 0.0)
-        for name, power in found.items():
-            if not name.startswith("damping at "):
-                continue
-            hertz = float(name.split()[2])
+        for hertz, power in found.damping.items():
             if hertz == DRIVEN:
                 parts["damping of the mode that grows"] += power
             elif hertz < DRIVEN:
@@ -145,7 +142,7 @@ def of_brake() -> dict[str, Routes]:
             else:
                 parts["damping of faster modes"] += power
         if contact == "rigid":
-            parts["impacts"] = -found["impacts"]
+            parts["impacts"] = found.impacts
         routes[contact] = {name: power / 1e3 for name, power in parts.items()}
     return routes
 

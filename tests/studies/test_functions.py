@@ -16,6 +16,7 @@ from disc_model.studies.registry import quantity_of
 from disc_model.studies.whole_study import run_study
 
 P = dm.Parameters(N=385, Omega=14)
+STARTS = {"horizon": 20, "energies": [0.1]}
 SCAN = {"start": 14, "stop": 15, "step": 1}
 SAME = [
     (dm.outcome, {"horizon": 20}, {"horizon": 20}),
@@ -24,7 +25,7 @@ SAME = [
         {"scan": (14, 15), "horizon": [20, 30]},
         {"scan": SCAN, "horizons": [20, 30]},
     ),
-    (dm.basins, {"horizon": 20, "energies": [0.1]}, {"horizon": 20, "energies": [0.1]}),
+    (dm.basins, STARTS, STARTS),
     (dm.hysteresis, {"scan": (14, 15), "dwell": 10}, {"scan": SCAN, "dwell": 10}),
 ]
 

@@ -11,7 +11,7 @@ from matplotlib.colors import AsinhNorm
 from disc_model.data.variables import flag_names
 from disc_model.figures.cells import edges_of, entries, lay_over, paint, unresolved
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED
-from disc_model.figures.selection import class_of_gap, statuses_like
+from disc_model.figures.selection import class_of_gap, has_values, statuses_like
 from disc_model.figures.types import Array, Artist, Axes, FigureBase, Mask, Words
 from disc_model.figures.words import label_of
 
@@ -67,8 +67,8 @@ def growth_panels(
             if cells.any():
                 lay_over(ax, edges, cells, MAP_LOOKS[mark], colours)
                 used.add(mark)
-    if not any(np.isfinite(plane[name]).any() for plane in planes):
-        return entries(used, MAP_LOOKS)  # the ends of a scale would be made up
+    if not has_values(planes, name):
+        return entries(used, MAP_LOOKS)
     bar = figure.colorbar(mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30)
     bar.set_label(label_of(planes[0][name])[0])
     largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))

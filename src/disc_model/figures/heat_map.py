@@ -25,6 +25,7 @@ from disc_model.figures.legends import Key, figure_legend
 from disc_model.figures.selection import (
     Part,
     class_of_gap,
+    has_values,
     parts_along,
     picked,
     remaining,
@@ -89,23 +90,23 @@ def draw_maps(
     a legend says, which names the variable if no bar does."""
     arrays = [as_classes(plane[variable]) for plane in planes]
     first = arrays[0]
-    title = ""
-    if not any(plane[variable].notnull().any() for plane in planes):
-        title = label_of(planes[0][variable])[0]  # there is no bar
-    if is_growth(variable) and not log:
-        key = Key(growth_panels(figure, axes, planes, variable), title)
-    elif first.dtype.kind in "UO" or "flag_meanings" in first.attrs:
-        entries_of_classes = class_panels(axes, arrays, [statuses(plane) for plane in planes])
-        key = Key(entries_of_classes, label_of(planes[0][variable])[0])
+    if first.dtype.kind in "UO" or "flag_meanings" in first.attrs:
+        handles = class_panels(axes, arrays, [statuses(plane) for plane in planes])
+        has_bar = False
     else:
-        key = Key(number_panels(figure, axes, planes, variable, log), title)
+        if is_growth(variable) and not log:
+            handles = growth_panels(figure, axes, planes, variable)
+        else:
+            handles = number_panels(figure, axes, planes, variable, log)
+        has_bar = has_values(planes, variable)
+    title = "" if has_bar else label_of(planes[0][variable])[0]
     up, across = (first[str(name)] for name in first.dims)
     axes[0].set_xscale(scale(across))
     axes[0].set_yscale(scale(up))
     for ax in axes:
         set_label(ax, "x", across)
         set_label(ax, "y", up)
-    return key
+    return Key(handles, title)
 
 
 def as_classes(array: xr.DataArray) -> xr.DataArray:
@@ -153,7 +154,7 @@ def number_panels(
         paint(ax, edges, missing, LOOKS)
         used |= set(missing.flat)
 
-    if not np.isfinite(numbers).any():  # the ends of a scale would be made up
+    if not has_values(planes, variable):
         return entries(used, MARKED)
     bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=label)
     if colours.ticks:

@@ -36,6 +36,12 @@ class Part(NamedTuple, Generic[Data]):
     data: Data
 
 
+def has_values(planes: Sequence[xr.Dataset], variable: str) -> bool:
+    """Whether any of several datasets has a number: without one, the ends of a scale would be made
+    up."""
+    return any(bool(np.isfinite(plane[variable]).any()) for plane in planes)
+
+
 # ---- Parts of a study
 
 

@@ -76,7 +76,7 @@ def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[An
     energy = np.sum(modal_speed**2 + modal_force**2, axis=0)
     energy += p.m * velocity**2 + p.k * height**2 + 2 * p.N * height
 
-    of_modes = damping_by_diameters(p, theta, samples).sum()
+    of_modes = _damping(p, modal_speed).sum()
     duration = float(time[-1] - time[0])
     return Powers(
         width=float(np.ptp(u)),
@@ -98,7 +98,11 @@ def damping_by_diameters(
     theta : angles at which the disc was sampled, rad
     samples : variables over time by name, at each of these angles
     """
-    modal_speed = _modal(p, theta, samples, "w_point_velocity")
+    return _damping(p, _modal(p, theta, samples, "w_point_velocity"))
+
+
+def _damping(p: Parameters, modal_speed: Array) -> Array:
+    """Return these powers from the rates of modal coordinates, shape (modes, times)."""
     taken = np.mean(_by_mode(p, modal_damping(p)) * modal_speed**2, axis=1)
     orders = np.arange(p.n_diameters + 1)
     diameters = np.concatenate([orders, orders[1:]])

@@ -51,6 +51,17 @@ class NearCycle:
         """Left eigenvector of the leading multiplier, (n,)."""
         return left_vector(self.jacobian)
 
+    @cached_property
+    def right(self) -> ComplexArray:
+        """Right eigenvector of the leading multiplier, (n,)."""
+        return left_vector(self.jacobian.T)
+
+    @property
+    def leading_part(self) -> float:
+        """Size of the leading multiplier's part of the distance; above zero, for its logarithm."""
+        part = float(abs(self.leading @ self.distance)) / float(abs(self.leading @ self.right))
+        return max(part, sys.float_info.min)
+
     @property
     def kind(self) -> Outcome:
         """Outcome of a motion on the cycle: quiet if the cycle is that of the static start, or near
@@ -108,10 +119,8 @@ class NearCycle:
         periods = self.periods_left(horizon)
         near = thresholds.NEAR * self.map.deflection
         # the leading part alone excludes most motions
-        right = left_vector(self.jacobian.T)
-        part = float(abs(self.leading @ self.distance)) / float(abs(self.leading @ right))
         growth = periods * math.log(abs(self.cycle.multipliers[0]))
-        grown = math.log(max(part, 1e-300)) + growth
+        grown = math.log(self.leading_part) + growth
         if not grown <= math.log(2 * near):
             return False
         distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
@@ -132,15 +141,13 @@ class NearCycle:
         cycle = self.cycle
         if cycle.growth_rate > thresholds.SLOW_DEPARTURE:
             return None
-        right = left_vector(self.jacobian.T)
-        part = float(abs(self.leading @ self.distance)) / float(abs(self.leading @ right))
         growth = math.log(abs(cycle.multipliers[0]))
         # the test after it ends within `NEAR`
         tested = thresholds.TEST_TIMES[-1][-1]
         factor = math.exp(cycle.growth_rate * tested)
         for share in thresholds.DEPARTURES:
             size = share * thresholds.NEAR / factor * self.map.deflection
-            periods = math.floor(math.log(size / max(part, sys.float_info.min)) / growth)
+            periods = math.floor(math.log(size / self.leading_part) / growth)
             periods = min(periods, self.periods_left(latest))
             if periods <= 0:
                 return None
@@ -185,8 +192,7 @@ class NearCycle:
         """Relative excess of the growth rate over the leading multiplier's; None unless the motion
         departs. Its phase, which drifts with the amplitude long before the growth rate does and
         matters only near borders, is ignored."""
-        right = left_vector(self.jacobian.T)
-        right = right / (self.leading @ right)
+        right = self.right / (self.leading @ self.right)
         is_real = self.cycle.multipliers[0].imag == 0
         eigenspace = right if is_real else 2 * right  # with that of the conjugate multiplier
         part = self.leading @ distance

@@ -172,14 +172,17 @@ def _is_near_any(time: float, others: Sequence[float]) -> bool:
 
 @dataclass(frozen=True)
 class SearchOptions:
-    """How a motion is followed in a search; see `find_outcome`."""
+    """How a motion is followed in a search; see `find_outcome`.
+
+    extrapolate : whether slow departures from cycles are
+    """
 
     horizon: float
     tol: float
     start: State | None
     early: bool
     late: float
-    extrapolate: bool = False
+    extrapolate: bool
 
 
 class _OutcomeSearch:

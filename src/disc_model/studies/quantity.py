@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple,
 import numpy as np
 from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
-from disc_model.data.variables import CycleStatus, Variable
+from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, CycleStatus, Variable
 from disc_model.errors import DiscModelError, Fault, Status
 from disc_model.parameters import DEFAULTS, RATIOS, Parameters, with_ratios
 from disc_model.simulation.case import Start
@@ -140,6 +140,12 @@ def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
 # ---- Quantities
 STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
 STATUS = Variable("1", "what became of the computation", STATUSES)
+START_OUTCOME = Variable(
+    "1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON
+)
+TIMED_SEPARATION = SCALARS["first_separation"]._replace(
+    long_name="time of the first separation, where no departure was extrapolated"
+)
 CYCLE_STATUSES = (*(status.value for status in CycleStatus), "failed")
 
 Row = Mapping[str, Any]

@@ -15,6 +15,7 @@ from pydantic import Field, PrivateAttr
 from disc_model.analysis.classify import share
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
 from disc_model.errors import require
+from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import (
     MOST,
@@ -30,7 +31,6 @@ from disc_model.studies.quantity import (
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
-    from disc_model.parameters import Parameters
     from disc_model.stability.attractors import Basins
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
@@ -186,7 +186,7 @@ class AttractorBasins(Start, Quantity):
         message = f"{len(failed)} of {len(every)} starts failed, such as {failed[0].message}"
         return values, message
 
-    def _basins_of(self, p: "Parameters") -> "Basins":
+    def _basins_of(self, p: Parameters) -> "Basins":
         """The attractors of a case that its own starts come to, as yet without those of others: what
         a point gives does not depend on the points before it."""
         from disc_model.stability.attractors import Basins

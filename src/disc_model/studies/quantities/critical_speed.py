@@ -3,16 +3,19 @@ be several.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar
 
 from pydantic import AfterValidator, Field
 
-from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Variable
+from disc_model.data.variables import Variable
+from disc_model.parameters import Parameters
 from disc_model.studies.quantity import (
+    START_OUTCOME,
     STATUS,
+    TIMED_SEPARATION,
     Coordinate,
     OutcomeResult,
     Point,
@@ -78,13 +81,8 @@ class CriticalSpeed(Quantity):
         "crossing_kind": _crossing(
             "1", "whether separation begins or ends as the speed rises", KINDS
         ),
-        "scan_outcome": Variable(
-            "1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON
-        )._replace(dims=("scan_Omega",)),
-        "scan_first_separation": SCALARS["first_separation"]._replace(
-            dims=("scan_Omega",),
-            long_name="time of the first separation, where no departure was extrapolated",
-        ),
+        "scan_outcome": START_OUTCOME._replace(dims=("scan_Omega",)),
+        "scan_first_separation": TIMED_SEPARATION._replace(dims=("scan_Omega",)),
         "scan_status": STATUS._replace(dims=("scan_Omega",)),
         "simulations": Variable("1", "number of simulations", whole=True),
         "simulated_time": Variable("s", "simulated time of all of them"),
@@ -104,37 +102,8 @@ class CriticalSpeed(Quantity):
         return 0.5 * unit.second * (self.scan.intervals + 1) * self.horizons[-1]
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.outcome import find_outcome
-
-        p = point.parameters
-        motions: dict[int, OutcomeResult] = {}
-        known: dict[int, float] = {}
-
-        times = self.horizons if self.extrapolate else ()
-
-        def look(i: int) -> None:
-            """Follow the motion from the static start at a speed, up to the longest horizon."""
-            result = find_outcome(
-                p.replace(Omega=self._speed(i)),
-                self.horizons[-1],
-                tol=self.tol,
-                early=self.early_end,
-                compared_with=times,
-            )
-            # return maps would take megabytes each for a disc of many modes
-            motions[i] = replace(result, near=None)
-            known[i] = _first_separation(result)
-
         scanned = [i * round(self.ratio) for i in range(self.scan.intervals + 1)]
-        for i in scanned:
-            look(i)
-        for horizon in self.horizons:
-            # every interval over which separation within the horizon begins or ends is halved, down
-            # to the lattice
-            while middles := _middles(known, horizon):
-                for i in middles:
-                    look(i)
-
+        motions = self._follow(point.parameters, scanned)
         failed = {i: result for i, result in motions.items() if result.status != "ok"}
         values: dict[str, Any] = {
             "status": next((result.status for result in failed.values()), "ok"),
@@ -144,14 +113,49 @@ class CriticalSpeed(Quantity):
             "simulations": len(motions),
             "simulated_time": sum(result.simulated for result in motions.values()),
         }
+        known = _first_separations(motions)
         crossings = [_crossings(known, horizon, self._speed) for horizon in self.horizons]
         values.update(listed(crossings))
         remarks = [f"Omega={self._speed(i):g}: {each.message}" for i, each in failed.items()]
         return values, "; ".join(remarks)
 
+    def _follow(self, p: Parameters, scanned: Sequence[int]) -> dict[int, OutcomeResult]:
+        """Follow the motion from the static start, up to the longest horizon, at the speeds of the
+        scan and wherever else crossings are sought; by places on the lattice."""
+        from disc_model.stability.outcome import find_outcome
+
+        motions: dict[int, OutcomeResult] = {}
+        times = self.horizons if self.extrapolate else ()
+
+        def look(i: int) -> None:
+            result = find_outcome(
+                p.replace(Omega=self._speed(i)),
+                self.horizons[-1],
+                tol=self.tol,
+                early=self.early_end,
+                compared_with=times,
+            )
+            # return maps would take megabytes each for a disc of many modes
+            motions[i] = replace(result, near=None)
+
+        for i in scanned:
+            look(i)
+        for horizon in self.horizons:
+            # every interval over which separation within the horizon begins or ends is halved, down
+            # to the lattice
+            while middles := _middles(_first_separations(motions), horizon):
+                for i in middles:
+                    look(i)
+        return motions
+
     def _speed(self, i: int) -> float:
         """Speed, rad/s, of a place on the lattice of the precision."""
         return float(f"{self.scan.start + i * self.precision:.12g}")
+
+
+def _first_separations(motions: Mapping[int, OutcomeResult]) -> dict[int, float]:
+    """Times of the first separations of several motions."""
+    return {i: _first_separation(result) for i, result in motions.items()}
 
 
 def _first_separation(result: OutcomeResult) -> float:

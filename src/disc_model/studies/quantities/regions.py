@@ -6,8 +6,18 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
-from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Variable
-from disc_model.studies.quantity import COME_TO, STATUS, Made, Point, Quantity, State, UnitCosts
+from disc_model.data.variables import Variable
+from disc_model.studies.quantity import (
+    COME_TO,
+    START_OUTCOME,
+    STATUS,
+    TIMED_SEPARATION,
+    Made,
+    Point,
+    Quantity,
+    State,
+    UnitCosts,
+)
 from disc_model.units import Count, Seconds, Tolerance
 
 METHODS = ("none", "multipliers", "simulation", "inferred", "extrapolation")
@@ -33,18 +43,14 @@ class Regions(Quantity):
     tiled: ClassVar = True
     COLUMNS: ClassVar = {
         "status": STATUS,
-        "outcome": Variable(
-            "1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON
-        ),
+        "outcome": START_OUTCOME,
         "method": Variable(
             "1",
             "how the outcome is known; extrapolation: simulated from where a departure ceases to be linear; "
             "inferred: separation, as at the cell's corners and middle",
             METHODS,
         ),
-        "first_separation": SCALARS["first_separation"]._replace(
-            long_name="time of the first separation, where no departure was extrapolated"
-        ),
+        "first_separation": TIMED_SEPARATION,
         "simulated_time": Variable("s", "simulated time"),
         "cycle": Variable(
             "1",
