@@ -163,7 +163,8 @@ def statements() -> tuple[Statement, ...]:
             continue
         for names in _replacements(entry):
             text = Template(entry["text"]).substitute(names)
-            found.append(Statement.parse(text, entry.get("page", "")))
+            page = Template(entry.get("page", "")).substitute(names)
+            found.append(Statement.parse(text, page))
     return tuple(found)
 
 

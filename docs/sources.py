@@ -21,6 +21,8 @@ from docs import plate_stiffening
 
 THICKNESS = 0.012
 """Thickness of the ring of the brake-like disc, m."""
+SLIDER_RADIUS = 0.1
+"""Radius of the slider on this disc, m."""
 
 
 class RangeLawCounts(NamedTuple):
@@ -185,6 +187,12 @@ class Sources:
         """Return the percentage of the points of this map that are inferred from neighbours."""
         method = self.grid("map_N")["method"].sel(normalization=normalization)
         return float(100 * np.mean(flag_names(method) == "inferred"))
+
+    def counted(self, study: str, *methods: str) -> int:
+        """Return how many points of a map are known by one of these methods, or by any."""
+        found = flag_names(self.grid(study)["method"])
+        wanted = np.isin(found, methods) if methods else found != "none"
+        return int(np.sum(wanted))
 
     def map_against_scan(self) -> tuple[int, int, int]:
         """Return numbers of points that this map shares with the scan of critical speeds.
@@ -359,6 +367,19 @@ class Sources:
     def escaped(self, N: float) -> int:
         """Return how many of the starts 1 nm apart separate."""
         return int(self.grid("escape")["first_separation"].sel(N=N).notnull().sum())
+
+    def stress(self, share: float) -> float:
+        """Return what 1 m/s of the surface of this disc means in this share of it or more, MPa."""
+        table = _table(ROOT / "docs" / "brake_stress.csv").set_index("share")
+        return float(1e-6 * table["stress_per_speed"][share])
+
+    def brake_endured(self, strength: float) -> float:
+        """Return the highest speed up to which all motions in unilateral contact stay below this
+        stress, MPa, in 99 % of the disc."""
+        study = self.grid("brake_outcome").sel(disc="surface", contact="unilateral")
+        speed = study["surface_speed"] * study["Omega"] * SLIDER_RADIUS
+        endured = (self.stress(0.01) * speed < strength).all("N")
+        return float(study["Omega"].where(endured.cumprod("Omega") > 0).max())
 
     def brake_mode(self, Omega: float) -> float:
         """Return the frequency of the mode of steady sliding that grows fastest at 8 kN, Hz."""
