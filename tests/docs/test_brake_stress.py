@@ -2,8 +2,8 @@
 
 import pandas as pd
 import pytest
-from docs import brake_stress
 
+from docs import brake_stress
 from tests.needs import Need
 
 FINITE_ELEMENTS = Need("scikit-fem", modules=("skfem",))
