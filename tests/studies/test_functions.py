@@ -3,6 +3,7 @@ batches."""
 
 import inspect
 import json
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -163,7 +164,7 @@ def test_every_argument_of_a_function_reaches_the_option_of_its_name(
     function: Any, arguments: Any, options: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     handed: list[Any] = []
-    monkeypatch.setattr(functions, "_quantity", lambda *parts: handed.extend(parts))
+    monkeypatch.setattr(functions, "_quantity", lambda *parts, **_: handed.extend(parts))
     start = {"start": {"u": 1e-3}} if function in STARTED else {}
     function(P, tol=1e-9, **arguments, **start)
     name, case, found, *starts = handed
@@ -194,6 +195,17 @@ def test_what_a_function_is_not_told_is_as_in_a_study(function: Any) -> None:
         compared += 1
         assert argument.default == fields[name].default, name
     assert compared >= 3
+
+
+@pytest.mark.compiled
+def test_basins_count_the_starts_that_are_done(capsys: pytest.CaptureFixture[str]) -> None:
+    starts = {"energies": [1e-4, 1e-3], "n_starts": 2, "horizon": 5}
+    dm.basins(P, **starts)
+    assert capsys.readouterr() == ("", "")
+    dm.basins(P, **starts, progress=True)
+    assert re.search(r"basins .*4/4", capsys.readouterr().err)
+    with pytest.raises(dm.ParameterError, match="progress='yes'"):
+        dm.basins(P, progress="yes")  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("ends", [14, (14,), (14, 15, 16)])

@@ -9,12 +9,13 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.errors import Fault, ParameterError, raise_faults, require
+from disc_model.errors import Fault, ParameterError, raise_faults, require, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import Point
 from disc_model.studies.registry import quantity_of
 from disc_model.studies.run import POINT, coordinates_of, variables_of
+from disc_model.studies.workers import progress_bar
 
 ARGUMENTS = {"perturbation": "start", "horizons": "horizon"}
 """Arguments of functions for options of other names."""
@@ -25,6 +26,8 @@ def _quantity(
     case: Parameters,
     options: Mapping[str, Any],
     start: Mapping[str, float] | None = None,
+    *,
+    progress: bool = False,
 ) -> xr.Dataset:
     """Compute a quantity of a case.
 
@@ -33,6 +36,7 @@ def _quantity(
     name, options : of the quantity
     case : the case
     start : perturbations of the static start by name
+    progress : whether a bar on standard error shows how many starts are done, where there are several
 
     Returns
     -------
@@ -47,9 +51,14 @@ def _quantity(
         for fault in error.faults:
             path = tuple(ARGUMENTS.get(part, part) for part in fault.path)
             faults.append(Fault(path, fault.value, fault.rule))
+    faults += violations(
+        (isinstance(progress, bool), "progress", progress, "must be True or False")
+    )
     raise_faults(faults)
 
-    row, message = quantity.compute_point(Point(case, begin))
+    with progress_bar(name, quantity.starts, progress) as advance:
+        quantity.report_to(advance)
+        row, message = quantity.compute_point(Point(case, begin))
     coordinates = coordinates_of(quantity.COORDINATES, quantity)
     columns = variables_of(quantity.COLUMNS, coordinates, [row], {POINT: 1})
     attrs = {"parameters": case.canonical_json, "message": message}
@@ -199,6 +208,7 @@ def basins(  # noqa: PLR0913
     precision: float = 0.05,
     confidence: float = 0.95,
     tol: float = 1e-10,
+    progress: bool = False,
 ) -> xr.Dataset:
     """Attractors of a case, the share of starts that comes to each, and the least energy that leads
     to separation.
@@ -217,6 +227,7 @@ def basins(  # noqa: PLR0913
     precision : relative precision of the critical energy
     confidence : level of the confidence intervals of fractions
     tol : as in `simulate`
+    progress : whether a bar on standard error shows how many starts are done; the bisection follows
 
     Returns
     -------
@@ -247,7 +258,7 @@ def basins(  # noqa: PLR0913
         "confidence": confidence,
         "tol": tol,
     }
-    return _quantity("basins", case, options, start)
+    return _quantity("basins", case, options, start, progress=progress)
 
 
 def hysteresis(
