@@ -189,7 +189,7 @@ def sensitivity() -> Figure:
     return drawn("sensitivity", xr.Dataset(data, coords, stated()))
 
 
-def campbell() -> Figure:
+def campbell(**phrase: Any) -> Figure:
     """A mode of the slider and two of the disc; two peaks, of which one has a crossing, and a gap."""
     speeds = np.linspace(8.0, 18.0, 21)
     rate = np.full(21, -0.05)
@@ -218,7 +218,7 @@ def campbell() -> Figure:
         "crossing_effect": flag(("crossing",), ["rises", "none", "rises"], EFFECTS),
     }
     coords = over(Omega=speeds) | {"mode": [1, 2, 3]}
-    return drawn("campbell", xr.Dataset(data, coords, stated()))
+    return drawn("campbell", xr.Dataset(data, coords, stated()), **phrase)
 
 
 def late_range() -> Figure:

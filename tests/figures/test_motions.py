@@ -390,6 +390,14 @@ def test_a_campbell_diagram_names_its_lines_marks_and_bands() -> None:
     assert {r"multiple of $f_s$ or $f_Ω$", "no growth rate", "speed of a peak"} <= set(said)
 
 
+def test_frequencies_of_a_campbell_diagram_end_at_the_highest_asked_for() -> None:
+    above = campbell(highest="0.15 kHz").axes[0]
+    assert above.get_ylim() == (0, 150)
+    named = {text.get_text() for text in above.texts}
+    assert "l = 2" in named
+    assert "l = 3" not in named, "its mode ends at 182 Hz"
+
+
 def test_lines_of_sliding_modes_and_of_probabilities_are_named() -> None:
     assert labels(sliding_modes()) == ["mode decays", "mode grows"]
     assert "all of its values" in labels(sensitivity())

@@ -65,13 +65,15 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     )
     above = axes[: len(parts)]
     below = axes[len(parts) :]
+    highest = plot.highest
+    if highest is None:
+        highest = ROOM * max(float(part.data["sliding_frequency"].max()) for part in parts)
     for top, bottom, part in zip(above, below, parts, strict=True):
-        _draw_column(top, bottom, part.data.transpose("Omega", ...))
-    highest = max(float(part.data["sliding_frequency"].max()) for part in parts)
+        _draw_column(top, bottom, part.data.transpose("Omega", ...), highest)
     rates = [part.data["growth_rate"].values for part in parts]
     low = min(float(np.fmin.reduce(rate, initial=0.0)) for rate in rates)
     high = max(float(np.fmax.reduce(rate, initial=0.0)) for rate in rates)
-    above[0].set_ylim(0, ROOM * highest)
+    above[0].set_ylim(0, highest)
     below[0].set_ylim(min(1.3 * low, -LINEAR), max(3 * high, LINEAR))
     above[0].set_ylabel("Frequency in the slider's frame (Hz)")
     below[0].set_ylabel("Largest growth rate\nof the cycle (1/s)")
@@ -101,12 +103,13 @@ def _legend(figure: Figure, studies: Sequence[xr.Dataset]) -> None:
     figure_legend(figure, handles, columns=3)
 
 
-def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
-    """Draw the frequencies of one model, and its growth rates below."""
+def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset, highest: float) -> None:
+    """Draw the frequencies of one model up to the highest shown (Hz), and its growth rates
+    below."""
     speeds = study["Omega"].values
     rate = study["growth_rate"].values
     alone = unjoined(rate)
-    _draw_modes(top, study)
+    _draw_modes(top, study, highest)
     _draw_rates(bottom, speeds, rate, alone)
     for peak in peaks(study):
         _draw_peak(top, bottom, study, peak, bool(alone[peak.place]))
@@ -117,15 +120,15 @@ def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
     bottom.set_xlabel(SPEED)
 
 
-def _draw_modes(ax: Axes, study: xr.Dataset) -> None:
-    """Draw the frequencies of steady sliding's modes, with names at their right ends."""
+def _draw_modes(ax: Axes, study: xr.Dataset, highest: float) -> None:
+    """Draw the frequencies of steady sliding's modes, with names at the right ends of those that
+    are shown."""
     frequency = study["sliding_frequency"]
     ax.plot(study["Omega"], frequency, color=BLACK, linewidth=wide(0.9))
     ends = study.isel(Omega=-1)
     of_disc = np.where(flag_names(ends["mode_kind"]) == "disc", ends["diameters"].values, -1)
-    apart = NAMES_APART * ROOM * float(frequency.max())
-    heights = ends["sliding_frequency"].values
-    for part in named_modes(of_disc, heights, apart):
+    heights = ends["sliding_frequency"].where(ends["sliding_frequency"] <= highest).values
+    for part in named_modes(of_disc, heights, NAMES_APART * highest):
         height = float(heights[part.modes].mean())
         say_beside(ax, height, part.name, 3, fontsize=large(7))
 
