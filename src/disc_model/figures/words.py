@@ -50,7 +50,7 @@ IN_WORDS = {
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
 """Units of the reader and the factors from SI to them, by parameter or sampled variable, while a
 figure is drawn."""
-UNIT_POWER = re.compile(r"([^\W\d]+|1|%)(-?)(\d*)")
+UNIT_POWER = re.compile(r"([^\W\d]+|1|%)(-?)(\d*(?:\.\d+)?)")
 """A part of a unit in datasets: its name, the sign and the size of its power."""
 POWERS = {"": "", "1": "", "2": "²", "3": "³"}
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
