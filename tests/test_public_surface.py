@@ -61,8 +61,8 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     ),
     (dm.outcome, {"case": P}, {"start": "None", "early_end": "True", "extrapolate": "True"}),
     (dm.critical_speed, {"case": P}, {"early_end": "True", "extrapolate": "True"}),
-    (dm.basins, {"case": P}, {"start": "None", "seed": "huge"}),
-    (dm.hysteresis, {"case": P, "scan": (10, 12), "dwell": 5}, {}),
+    (dm.basins, {"case": P}, {"start": "None", "seed": "huge", "progress": "True"}),
+    (dm.hysteresis, {"case": P, "bounds": (10, 12), "dwell": 5}, {}),
     (
         dm.sweep,
         {"function": dm.floquet, "case": P, "N": [9]},

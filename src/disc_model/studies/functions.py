@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.errors import Fault, ParameterError, raise_faults, require, violations
+from disc_model.errors import Fault, ParameterError, raise_faults, renamed, require, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import Point
@@ -19,6 +19,8 @@ from disc_model.studies.workers import progress_bar
 
 ARGUMENTS = {"perturbation": "start", "horizons": "horizon"}
 """Arguments of functions for options of other names."""
+OF_SCANS = {"start": "bounds", "stop": "bounds", "step": "step"}
+"""Arguments of functions for the parts of an option `scan`."""
 
 
 def _quantity(
@@ -49,8 +51,7 @@ def _quantity(
         quantity = quantity_of(name).model_validate(options)
     except ParameterError as error:
         for fault in error.faults:
-            path = tuple(ARGUMENTS.get(part, part) for part in fault.path)
-            faults.append(Fault(path, fault.value, fault.rule))
+            faults.append(Fault(_argument(fault.path), fault.value, fault.rule))
     faults += violations(
         (isinstance(progress, bool), "progress", progress, "must be True or False")
     )
@@ -69,12 +70,19 @@ def _quantity(
     return dataset
 
 
+def _argument(path: tuple[str, ...]) -> tuple[str, ...]:
+    """The argument of a function for an option, as the path of a fault."""
+    if path[:1] == ("scan",) and len(path) > 1:
+        return (OF_SCANS[path[1]],)
+    return tuple(ARGUMENTS.get(part, part) for part in path)
+
+
 def _scan(ends: Any, step: Any) -> Any:
     """The range of a scan as an option of a quantity, which says what is wrong with it."""
     require(
         (
             np.shape(ends) == (2,),
-            "scan",
+            "bounds",
             ends,
             "must be two numbers in rad/s, the lowest and the highest speed",
         )
@@ -136,9 +144,10 @@ def outcome(
     return _quantity("outcome", case, options, start)
 
 
+@renamed(scan="bounds")
 def critical_speed(  # noqa: PLR0913
     case: Parameters,
-    scan: tuple[float, float] = (5.0, 30.0),
+    bounds: tuple[float, float] = (5.0, 30.0),
     horizon: float | Sequence[float] = 1000.0,
     *,
     step: float = 1.0,
@@ -156,7 +165,7 @@ def critical_speed(  # noqa: PLR0913
     Parameters
     ----------
     case : the case; its own speed is not used
-    scan : rad/s, the lowest and the highest speed
+    bounds : rad/s, the lowest and the highest speed
     horizon : s, or several, each with a critical speed of its own
     step : rad/s, of the scan
     precision : rad/s, to which crossings are bisected; `step` must be a multiple
@@ -185,7 +194,7 @@ def critical_speed(  # noqa: PLR0913
     """
     options: dict[str, Any] = {
         "horizons": np.atleast_1d(horizon).tolist(),
-        "scan": _scan(scan, step),
+        "scan": _scan(bounds, step),
         "precision": precision,
         "max_crossings": max_crossings,
         "early_end": early_end,
@@ -261,9 +270,10 @@ def basins(  # noqa: PLR0913
     return _quantity("basins", case, options, start, progress=progress)
 
 
+@renamed(scan="bounds")
 def hysteresis(
     case: Parameters,
-    scan: tuple[float, float],
+    bounds: tuple[float, float],
     dwell: float | str,
     *,
     step: float = 1.0,
@@ -276,7 +286,7 @@ def hysteresis(
     Parameters
     ----------
     case : the case; its own speed is not used
-    scan : rad/s, the lowest and the highest speed
+    bounds : rad/s, the lowest and the highest speed
     dwell : s at each speed; doubled until the motion has settled
     step : rad/s, between speeds
     max_dwell : s, longest stay at a speed
@@ -301,7 +311,7 @@ def hysteresis(
     (16.0, ('direction', 'sweep_Omega'))
     """
     options = {
-        "scan": _scan(scan, step),
+        "scan": _scan(bounds, step),
         "dwell": dwell,
         "max_dwell": max_dwell,
         "evaluation_time": evaluation_time,
