@@ -1,5 +1,6 @@
 """Figures of made-up studies in which each mark, colour and class occurs, for their descriptions."""
 
+import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -303,7 +304,7 @@ def sliding_outcome() -> Figure:
     plane = xr.Dataset(
         {"outcome": flag(("N", "mu_k"), words, OUTCOMES_TO_HORIZON)},
         over(N=[200.0, 400.0], mu_k=study["value"].values),
-        study.attrs,
+        study.attrs | {"options": json.dumps({"horizon": 600})},
     )
     phrase = {"x": "mu_k", "y": "N", "overlays": {"sliding": "s"}}
     return drawn("sliding_outcome", plane, {"sliding": both}, **phrase)

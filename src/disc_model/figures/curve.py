@@ -33,7 +33,7 @@ from disc_model.figures.selection import (
     titles_of,
 )
 from disc_model.figures.types import Artist, Axes, Figure
-from disc_model.figures.words import CHARACTER, as_numbers, measured
+from disc_model.figures.words import CHARACTER, as_numbers, label_in, measured
 
 LINEAR = 0.1
 """Growth rate up to which its scale is linear, 1/s; a greater step breaks the line, or finds another
@@ -42,6 +42,8 @@ RATE = "growth_rate"
 """Growth rate of a motion, with narrow peaks of tens beside hundredths."""
 MARKS = "os^Dv<>"
 """Marks of the lines; they are open, so that lines on top of each other show."""
+CROWDED = 60  # points of a line beyond which a mark for each would be a band of rings
+DOT = 1.5  # points, size of a mark of one of them
 MARKED = 12  # points of a line without gaps that have a mark, about
 MOST_BESIDE = 4  # names of lines from which the legend stands beside the panel
 LONGEST_BESIDE = 25  # characters of a name that fits there
@@ -121,8 +123,7 @@ def draw_lines(
     if marks is None:
         marks = {}
     names, array = as_numbers(as_classes(study[variable]))
-    label, values = measured(array)
-    array = array.copy(data=values)
+    array = array.copy(data=measured(array).values)
     by = remaining(array, [x])
     across = measured(array[x])
     rates = variable == RATE and not log
@@ -137,9 +138,17 @@ def draw_lines(
     for colour, part, title in zip(_colours(parts), parts, titles_of(parts), strict=True):
         shape = marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
         points = broken(across.values, part.data.values, jump)
-        ax.plot(
-            *points, f"{shape}{line}", color=colour, label=title or None, markevery=every, **_look()
-        )
+        look = _look()
+        shown = every
+        if every == 1 and across.values.size > CROWDED:
+            # points by themselves stay visible as dots
+            ax.plot(*points, ".", color=colour, markersize=mark(DOT))
+            if line:
+                shown = across.values.size // MARKED
+            else:
+                look["markersize"] = mark(DOT)
+        style = f"{shape}{line}"
+        ax.plot(*points, style, color=colour, label=title or None, markevery=shown, **look)
 
     # scales and labels
     if log:
@@ -149,7 +158,7 @@ def draw_lines(
         scale_rates(ax)
     ax.set_xscale(scale(array[x]))
     ax.set_xlabel(across.label)
-    ax.set_ylabel(label)
+    ax.set_ylabel(label_in(study, variable))
     _set_ticks(ax, names, array)
     ax.margins(0.03)
     _mark_gaps(ax, study, array, x, marks)
