@@ -19,7 +19,7 @@ from disc_model.figures.branches import _draw_sweep as draw_sweep
 from disc_model.figures.campbell import peaks
 from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
-from disc_model.figures.late_range import LOAD_COLOURS
+from disc_model.figures.late_range import LOAD_COLOURS, LOST
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
@@ -407,6 +407,7 @@ def test_branches_of_a_map_of_phases_are_named() -> None:
     said = labels(of_example("phase_map"))
     assert said[-1] == "the motion itself"
     assert all(text.endswith("between them") for text in said[:-1])
+    assert len(said) <= 3, "one entry for each colour"
 
 
 def test_lines_of_phases_differ_in_grey_print() -> None:
@@ -421,5 +422,6 @@ def test_lines_of_phases_differ_in_grey_print() -> None:
 
 def test_preloads_of_late_ranges_differ_in_grey_print() -> None:
     """Shades of the second and third were alike."""
+    assert len({*map(str, LOST)}) == len(LOAD_COLOURS), "also lines at which contact is lost"
     shades = [lightness(colour) for colour in LOAD_COLOURS[:3]]
     assert min(np.diff(shades)) > 0.2

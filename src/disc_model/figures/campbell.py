@@ -39,7 +39,7 @@ from disc_model.figures.words import SPEED
 MOST = 5  # number of peaks that are named at most
 NEAR = 0.01  # share of the speeds shown within which peaks are one, and crossings belong to a peak
 ROOM = 1.06  # highest frequency of the axis over that of the modes
-BESIDE_MEETING = ((4, -1), (-4, -1), (4, 4), (-4, 4))  # points, of names beside crossings,
+BESIDE_MEETING = ((6, -4), (-6, 4), (6, 4), (-6, -4))  # points, of names beside crossings,
 BESIDE_PEAK = ((2, 3), (-2, 3), (2, 10), (-2, 10))  # and beside peaks
 BAND: dict[str, Any] = {"color": GREY, "alpha": 0.25, "linewidth": 0}
 """Look of a stretch of speeds without a growth rate."""
@@ -74,7 +74,7 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     low = min(float(np.fmin.reduce(rate, initial=0.0)) for rate in rates)
     high = max(float(np.fmax.reduce(rate, initial=0.0)) for rate in rates)
     above[0].set_ylim(0, highest)
-    below[0].set_ylim(min(1.3 * low, -LINEAR), max(3 * high, LINEAR))
+    below[0].set_ylim(min(3 * low, -LINEAR), max(3 * high, LINEAR))
     above[0].set_ylabel("Frequency in the slider's frame (Hz)")
     below[0].set_ylabel("Largest growth rate\nof the cycle (1/s)")
     letters(axes, titles_of(parts))

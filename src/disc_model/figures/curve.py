@@ -68,7 +68,7 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     if plot.panels == "each":  # for the rows of missing values
         pad = 20
     letters(axes, titles_of(panels), pad=pad)
-    _name_lines(figure, axes, several=bool(plot.panels))
+    _name_lines(figure, axes, several=bool(plot.panels), in_legend=plot.legend)
     return figure
 
 
@@ -87,12 +87,16 @@ def panels_of(plot: CurvePlot, study: xr.Dataset) -> list[Part[xr.Dataset]]:
     return [Part("", "", part) for part in chosen]
 
 
-def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool) -> None:
-    """Name lines at their ends, if there is room, or in a legend."""
+def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool, in_legend: bool) -> None:
+    """Name lines at their ends, if there is room, or in a legend.
+
+    several : whether there are panels
+    in_legend : whether there is a legend in any case
+    """
     unnamed: dict[str, Artist] = {}
     for ax in axes:
         handles, names = ax.get_legend_handles_labels()
-        if names and not name_ends(ax):
+        if names and (in_legend or not name_ends(ax)):
             unnamed.update(zip(names, handles, strict=True))
     longest = max(map(len, unnamed), default=0)
     if len(unnamed) > MOST_BESIDE and longest < LONGEST_BESIDE and not several:
@@ -139,7 +143,7 @@ def draw_lines(
         shape = marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
         points = broken(across.values, part.data.values, jump)
         look = _look()
-        shown = every
+        shown: Any = every
         if every == 1 and across.values.size > CROWDED:
             # points by themselves stay visible as dots
             ax.plot(*points, ".", color=colour, markersize=mark(DOT))
@@ -147,6 +151,9 @@ def draw_lines(
                 shown = across.values.size // MARKED
             else:
                 look["markersize"] = mark(DOT)
+        if shown == every > 1:  # the greatest value has a mark too
+            peak = int(np.argmax(part.data.values))
+            shown = sorted({*range(0, across.values.size, every), peak})
         style = f"{shape}{line}"
         ax.plot(*points, style, color=colour, label=title or None, markevery=shown, **look)
 
