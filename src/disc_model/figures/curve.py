@@ -134,28 +134,18 @@ def draw_lines(
 
     # lines, in the colours of their order
     parts = parts_along(array, by)
-    every = 1
-    if joined and not (names or rates or array.isnull().any()):
-        every = max(1, across.values.size // MARKED)
+    gapless = joined and not (names or rates or array.isnull().any())
     jump = LINEAR if rates else np.inf
     line = "" if names or not joined else "-"
     for colour, part, title in zip(_colours(parts), parts, titles_of(parts), strict=True):
         shape = marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
-        points = broken(across.values, part.data.values, jump)
-        look = _look()
-        shown: Any = every
-        if every == 1 and across.values.size > CROWDED:
-            # points by themselves stay visible as dots
-            ax.plot(*points, ".", color=colour, markersize=mark(DOT))
-            if line:
-                shown = across.values.size // MARKED
-            else:
-                look["markersize"] = mark(DOT)
-        if shown == every > 1:  # the greatest value has a mark too
-            peak = int(np.argmax(part.data.values))
-            shown = sorted({*range(0, across.values.size, every), peak})
-        style = f"{shape}{line}"
-        ax.plot(*points, style, color=colour, label=title or None, markevery=shown, **look)
+        heights = part.data.values
+        look = {"color": colour, "label": title or None, **_look()}
+        if gapless:
+            look["markevery"] = _marked(heights)
+        elif heights.size > CROWDED:
+            look |= _draw_dots(ax, across.values, heights, colour, joined=bool(line))
+        ax.plot(*broken(across.values, heights, jump), f"{shape}{line}", **look)
 
     # scales and labels
     if log:
@@ -169,6 +159,23 @@ def draw_lines(
     _set_ticks(ax, names, array)
     ax.margins(0.03)
     _mark_gaps(ax, study, array, x, marks)
+
+
+def _marked(heights: np.ndarray) -> list[int]:
+    """Points of a line without gaps that have a mark: some, and that of the greatest value."""
+    every = max(1, heights.size // MARKED)
+    return sorted({*range(0, heights.size, every), int(np.argmax(heights))})
+
+
+def _draw_dots(
+    ax: Axes, along: np.ndarray, heights: np.ndarray, colour: Any, joined: bool
+) -> dict[str, Any]:
+    """Draw each of many points as a dot, so that those by themselves stay visible; returns the look
+    of the marks beside them."""
+    ax.plot(along, heights, ".", color=colour, markersize=mark(DOT))
+    if joined:
+        return {"markevery": heights.size // MARKED}
+    return {"markersize": mark(DOT)}
 
 
 def _set_ticks(ax: Axes, names: Sequence[str], array: xr.DataArray) -> None:
