@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from disc_model import Parameters, simulate
+from disc_model import Parameters, Ramp, Window, simulate
 from disc_model.display import html_table
 from disc_model.errors import Status
 from disc_model.mode_choice import ModeChoice
@@ -86,3 +86,18 @@ def test_a_choice_of_modes_is_shown_with_what_it_was_compared_with() -> None:
         "growth with 4 diameters, 0 circles": "-0.1",
         "growth with 8 diameters, 1 circle": "-0.125",
     }
+
+
+def test_windows_and_ramps_are_shown_with_their_units() -> None:
+    assert cells(Window(last=0.5, rate="10 kHz")._repr_html_()) == [
+        ["Window", "value", "unit"],
+        ["last", "0.5", "s"],
+        ["rate", "10000.0", "Hz"],
+    ]
+    assert cells(Ramp(parameter="N", to="0.2 kN", start=1, end=4)._repr_html_()) == [
+        ["Ramp", "value", "unit"],
+        ["parameter", "N", ""],
+        ["to", "200.0", "N"],
+        ["start", "1.0", "s"],
+        ["end", "4.0", "s"],
+    ]

@@ -8,9 +8,12 @@ import logging
 import re
 import sys
 from collections.abc import Callable, Collection, Iterator, Mapping
-from typing import Any, Self
+from functools import wraps
+from typing import Any, Self, TypeVar, cast
 
 from pydantic import BaseModel, ValidationError
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 class DiscModelError(Exception):
@@ -27,6 +30,23 @@ def script(main: Callable[..., None]) -> Callable[..., None]:
         except (DiscModelError, KeyboardInterrupt) as error:
             raise SystemExit(str(error) or "interrupted") from None
     return main
+
+
+def renamed(**names: str) -> Callable[[Function], Function]:
+    """Have a function refuse former names of its arguments, and say how they are called now."""
+
+    def wrap(function: Function) -> Function:
+        @wraps(function)
+        def checked(*args: Any, **named: Any) -> Any:
+            for before in names.keys() & named.keys():
+                raise ParameterError(
+                    Fault.of((before,), named[before], f"is called {names[before]}")
+                )
+            return function(*args, **named)
+
+        return cast("Function", checked)
+
+    return wrap
 
 
 class Fault(str):

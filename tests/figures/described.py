@@ -1,5 +1,6 @@
 """Figures of made-up studies in which each mark, colour and class occurs, for their descriptions."""
 
+import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -189,7 +190,7 @@ def sensitivity() -> Figure:
     return drawn("sensitivity", xr.Dataset(data, coords, stated()))
 
 
-def campbell() -> Figure:
+def campbell(**phrase: Any) -> Figure:
     """A mode of the slider and two of the disc; two peaks, of which one has a crossing, and a gap."""
     speeds = np.linspace(8.0, 18.0, 21)
     rate = np.full(21, -0.05)
@@ -218,7 +219,7 @@ def campbell() -> Figure:
         "crossing_effect": flag(("crossing",), ["rises", "none", "rises"], EFFECTS),
     }
     coords = over(Omega=speeds) | {"mode": [1, 2, 3]}
-    return drawn("campbell", xr.Dataset(data, coords, stated()))
+    return drawn("campbell", xr.Dataset(data, coords, stated()), **phrase)
 
 
 def late_range() -> Figure:
@@ -303,7 +304,7 @@ def sliding_outcome() -> Figure:
     plane = xr.Dataset(
         {"outcome": flag(("N", "mu_k"), words, OUTCOMES_TO_HORIZON)},
         over(N=[200.0, 400.0], mu_k=study["value"].values),
-        study.attrs,
+        study.attrs | {"options": json.dumps({"horizon": 600})},
     )
     phrase = {"x": "mu_k", "y": "N", "overlays": {"sliding": "s"}}
     return drawn("sliding_outcome", plane, {"sliding": both}, **phrase)

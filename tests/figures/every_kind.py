@@ -590,7 +590,7 @@ def sliding_outcome() -> Example:
     plane = xr.Dataset(
         {"outcome": flag(("N", "c_p"), words, OUTCOMES_TO_HORIZON)},
         over(N=[200.0, 400.0], c_p=damping),
-        study.attrs,
+        study.attrs | {"options": json.dumps({"horizon": 600})},
     )
     return Example(
         {"x": "c_p", "y": "N", "overlays": {"sliding": "s"}},

@@ -142,3 +142,15 @@ def test_panels_of_the_brake_disc_name_law_and_damping_of_their_disc() -> None:
         assert (
             name == f"friction {('in' if law == 'middle plane' else 'on')} the {law}, ζ = {damping}"
         )
+
+
+def test_the_peak_of_a_line_has_a_mark_and_a_legend_can_be_asked_for() -> None:
+    speeds = np.linspace(0, 1, 45)
+    rates = np.exp(-((speeds - np.array([[0.51], [0.31]])) ** 2) / 0.01)
+    data = {"period": (("k_p", "Omega"), rates, {"units": "s"})}
+    attrs = {"base": json.dumps({"normalization": "as_published"}), "options": "{}"}
+    study = xr.Dataset(data, {"k_p": [2e4, 5e4], "Omega": speeds}, attrs)
+    figure = draw("curve", study, variable="period", x="Omega", by="k_p", legend=True)
+    for line, rate in zip(figure.axes[0].lines, rates, strict=True):
+        assert int(np.argmax(rate)) in line.get_markevery()
+    assert len(figure.legends[0].get_texts()) == 2

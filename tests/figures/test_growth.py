@@ -60,7 +60,8 @@ def test_cells_are_not_dotted_by_the_sign_of_rounding() -> None:
     rates = np.array([[-6e-13, 3e-13, -2e-10], [-0.1, 0.2, -1e-13]])
     neutral = plane().assign(growth_rate=(("N", "Omega"), rates))
     figure, ax = pyplot.subplots()
-    growth_panels(figure, [ax], [neutral])
+    entries = growth_panels(figure, [ax], [neutral])
+    assert {"stable", "neutral"} <= {entry.get_label() for entry in entries}
     (dotted,) = hatched(ax, STABLE.hatch)
     assert len(middles(dotted)) == 1
     pyplot.close(figure)
@@ -85,3 +86,10 @@ def test_a_map_of_growth_rates_is_that_of_every_figure() -> None:
     figure = Figure()
     key = draw_maps(figure, [figure.subplots()], [plane()], "growth_rate")
     assert [handle.get_label() for handle in key.handles] == ["no value", "stable"]
+
+
+def test_a_map_without_neutral_cells_does_not_name_them() -> None:
+    figure, ax = pyplot.subplots()
+    entries = growth_panels(figure, [ax], [plane()])
+    assert "neutral" not in {entry.get_label() for entry in entries}
+    pyplot.close(figure)

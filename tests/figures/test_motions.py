@@ -19,7 +19,7 @@ from disc_model.figures.branches import _draw_sweep as draw_sweep
 from disc_model.figures.campbell import peaks
 from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
-from disc_model.figures.late_range import LOAD_COLOURS
+from disc_model.figures.late_range import LOAD_COLOURS, LOST
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
@@ -390,6 +390,14 @@ def test_a_campbell_diagram_names_its_lines_marks_and_bands() -> None:
     assert {r"multiple of $f_s$ or $f_Ω$", "no growth rate", "speed of a peak"} <= set(said)
 
 
+def test_frequencies_of_a_campbell_diagram_end_at_the_highest_asked_for() -> None:
+    above = campbell(highest="0.15 kHz").axes[0]
+    assert above.get_ylim() == (0, 150)
+    named = {text.get_text() for text in above.texts}
+    assert "l = 2" in named
+    assert "l = 3" not in named, "its mode ends at 182 Hz"
+
+
 def test_lines_of_sliding_modes_and_of_probabilities_are_named() -> None:
     assert labels(sliding_modes()) == ["mode decays", "mode grows"]
     assert "all of its values" in labels(sensitivity())
@@ -399,6 +407,7 @@ def test_branches_of_a_map_of_phases_are_named() -> None:
     said = labels(of_example("phase_map"))
     assert said[-1] == "the motion itself"
     assert all(text.endswith("between them") for text in said[:-1])
+    assert len(said) <= 3, "one entry for each colour"
 
 
 def test_lines_of_phases_differ_in_grey_print() -> None:
@@ -413,5 +422,6 @@ def test_lines_of_phases_differ_in_grey_print() -> None:
 
 def test_preloads_of_late_ranges_differ_in_grey_print() -> None:
     """Shades of the second and third were alike."""
+    assert len({*map(str, LOST)}) == len(LOAD_COLOURS), "also lines at which contact is lost"
     shades = [lightness(colour) for colour in LOAD_COLOURS[:3]]
     assert min(np.diff(shades)) > 0.2

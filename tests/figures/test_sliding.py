@@ -1,5 +1,7 @@
 """Complex eigenvalues: lines of modes, root loci, and linear analysis beside the motion."""
 
+import json
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -82,7 +84,8 @@ def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:
     flags = {"flag_meanings": " ".join(OUTCOMES_TO_HORIZON)}
     values = {"N": [200.0, 300, 400], "c_p": np.linspace(0, 0.4, 9)}
     outcome = np.full((3, 9), OUTCOMES_TO_HORIZON.index("separation"))
-    plane = xr.Dataset({"outcome": (("N", "c_p"), outcome, flags)}, values, sliding.attrs)
+    attrs = sliding.attrs | {"options": json.dumps({"horizon": 600})}
+    plane = xr.Dataset({"outcome": (("N", "c_p"), outcome, flags)}, values, attrs)
     shared, other = common_points(plane, sliding.rename(value="c_p"), ("N", "c_p"))
     assert dict(shared.sizes) == {"N": 2, "c_p": 5}
     assert other.sizes["c_p"] == 5
@@ -90,4 +93,5 @@ def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:
     figure = render(plot, {"study": xr.DataTree(plane), "sliding": xr.DataTree(sliding)})
     growing = float((sliding["largest_growth_rate"] > 0).mean())
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert figure.legends[0].get_title().get_text() == "Motions of 600 s. Steady sliding is"
     assert f"{AGREEMENTS['unstable_separates'].label}: {100 * growing:.0f}\u00a0%" in texts

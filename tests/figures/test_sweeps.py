@@ -36,9 +36,9 @@ FUNCTIONS: dict[Callable[..., Any], dict[str, Any]] = {
     dm.floquet: {},
     dm.steady_sliding: {},
     dm.outcome: {"horizon": 3},
-    dm.critical_speed: {"scan": (10, 12), "horizon": 3, "precision": 1.0},
+    dm.critical_speed: {"bounds": (10, 12), "horizon": 3, "precision": 1.0},
     dm.basins: {"energies": [1e-4, 0.1], "horizon": 2},
-    dm.hysteresis: {"scan": (14, 15), "dwell": 2, "max_dwell": 2, "evaluation_time": 1},
+    dm.hysteresis: {"bounds": (14, 15), "dwell": 2, "max_dwell": 2, "evaluation_time": 1},
     dm.lyapunov_exponents: {"duration": 0.5},
     dm.simulate: {"t_end": 0.5},
     dm.critical: {"name": "mu_s", "bounds": (0.3, 0.5), "points": 3},
@@ -95,7 +95,7 @@ def test_numbers_have_their_name_and_unit_on_the_axis(function: Callable[..., An
 UNASKED = {
     dm.floquet: "Growth rate of the stick-slip cycle (1/s)",
     dm.steady_sliding: "Growth rate of steady sliding (1/s)",
-    dm.outcome: "What the motion comes to, or whether it separates",
+    dm.outcome: "What the motion comes to, or whether it separates, within 3 s",
     dm.critical_speed: "Lowest speed computed with separation within the horizon (rad/s)",
     dm.basins: "Share of the starts",
     dm.hysteresis: "Speed at which separation first is found on the way up (rad/s)",
@@ -156,7 +156,8 @@ def test_maps_have_a_bar_for_numbers_and_a_legend_for_words(
         words = {said.get(word, name_of(word)) for word in found}
         assert words <= entries <= words | {"unresolved"}
         title = " ".join(legend.get_title().get_text().split())
-        assert title == words_of(study[name])
+        within = ", within 3 s" if name == "outcome" else ""
+        assert title == words_of(study[name]) + within
     pyplot.close("all")
 
 
@@ -181,6 +182,18 @@ def test_a_sweep_without_any_value_has_no_scale(variable: str, label: str, log: 
     assert [*curve.get_yticks(), *curve.get_yticks(minor=True)] == []
     assert curve.get_ylabel().replace("\n", " ") == label
     assert "no value" in [text.get_text() for text in curve.texts]
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize(("count", "rings"), [(50, 50), (1000, 13)])
+def test_many_points_are_no_band_of_rings(count: int, rings: int) -> None:
+    """Some 1000 points in one dimension had a ring each, which hid the line."""
+    speeds = np.linspace(10, 20, count)
+    rates = (("Omega",), -0.01 * speeds, {"units": "s-1", "long_name": "growth rate"})
+    ax = dm.plot_sweep(xr.Dataset({"growth_rate": rates}, {"Omega": speeds}))
+    large = [line for line in ax.lines if line.get_marker() == "o"]
+    marked = [len(line.get_xdata()[:: line.get_markevery() or 1]) for line in large]
+    assert marked == [rings]
     pyplot.close("all")
 
 

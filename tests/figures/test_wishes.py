@@ -238,3 +238,16 @@ def test_a_legend_on_own_axes_covers_no_data_and_no_words(name: str, width: floa
             assert not box.count_contains(places), line.get_label()
     assert box.x0 >= 0
     assert box.x1 <= figure.bbox.x1
+
+
+def test_axes_that_a_bar_and_a_legend_would_squeeze_are_refused() -> None:
+    """A map on axes of 40 mm was a strip of 4 mm."""
+    study = growth()
+    partly = study.assign(growth_rate=study["growth_rate"].where(study["Omega"] < 13))
+    _, ax = pyplot.subplots(figsize=(40 / 25.4, 40 / 25.4), layout="constrained")
+    with pytest.raises(dm.ParameterError, match=r"ax=.*: must have room beside a colour bar"):
+        dm.plot_sweep(partly, ax=ax)
+    figure, ax = pyplot.subplots(figsize=(84 / 25.4, 70 / 25.4), layout="constrained")
+    dm.plot_sweep(partly, ax=ax)
+    assert min(ax.bbox.width, ax.bbox.height) / figure.dpi * 25.4 > 20
+    pyplot.close("all")

@@ -132,6 +132,8 @@ def test_a_response_has_its_variable_in_its_unit_and_looks_in_milliseconds() -> 
     assert not [ax for ax in looks if "Time after" not in ax.get_xlabel()]
     assert len(looks) == 2
     for ax, start in zip(looks, (56.5, 57.0), strict=True):
+        low, high = ax.get_ylim()
+        assert low < ax.dataLim.y0 < ax.dataLim.y1 < high, "peaks of the second one were cut"
         assert " ".join(ax.get_xlabel().split()) == f"Time after {start:g} s (ms)"
         assert drawn_values(ax, "x").max() == pytest.approx(200, abs=0.3)
         inside = (window("spectrum_d", "time") >= start) & (

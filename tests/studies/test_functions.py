@@ -3,6 +3,7 @@ batches."""
 
 import inspect
 import json
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -22,11 +23,11 @@ SAME = [
     (dm.outcome, {"horizon": 20}, {"horizon": 20}),
     (
         dm.critical_speed,
-        {"scan": (14, 15), "horizon": [20, 30]},
+        {"bounds": (14, 15), "horizon": [20, 30]},
         {"scan": SCAN, "horizons": [20, 30]},
     ),
     (dm.basins, STARTS, STARTS),
-    (dm.hysteresis, {"scan": (14, 15), "dwell": 10}, {"scan": SCAN, "dwell": 10}),
+    (dm.hysteresis, {"bounds": (14, 15), "dwell": 10}, {"scan": SCAN, "dwell": 10}),
 ]
 
 
@@ -63,7 +64,7 @@ def test_a_function_gives_what_a_study_does(function: Any, arguments: Any, optio
     ("call", "name"),
     [
         (lambda: dm.critical_speed(P, (14, 15), [5, "x"]), "horizon.1='x'"),
-        (lambda: dm.critical_speed(P, (14, 15), step=-1), "scan.step=-1"),
+        (lambda: dm.critical_speed(P, (14, 15), step=-1), "step=-1"),
         (lambda: dm.outcome(P, 10, start={"u": "x"}), "start.u='x'"),
         (lambda: dm.basins(P, n_starts=0), "n_starts=0"),
     ],
@@ -103,7 +104,7 @@ SPELLED_OUT = [
     (
         dm.critical_speed,
         {
-            "scan": (3, 9),
+            "bounds": (3, 9),
             "step": 2,
             "horizon": 7,
             "precision": 0.5,
@@ -145,7 +146,7 @@ SPELLED_OUT = [
     ),
     (
         dm.hysteresis,
-        {"scan": (3, 9), "dwell": 4, "step": 2, "max_dwell": 8, "evaluation_time": 3},
+        {"bounds": (3, 9), "dwell": 4, "step": 2, "max_dwell": 8, "evaluation_time": 3},
         {
             "scan": {"start": 3, "stop": 9, "step": 2},
             "dwell": 4,
@@ -163,7 +164,7 @@ def test_every_argument_of_a_function_reaches_the_option_of_its_name(
     function: Any, arguments: Any, options: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     handed: list[Any] = []
-    monkeypatch.setattr(functions, "_quantity", lambda *parts: handed.extend(parts))
+    monkeypatch.setattr(functions, "_quantity", lambda *parts, **_: handed.extend(parts))
     start = {"start": {"u": 1e-3}} if function in STARTED else {}
     function(P, tol=1e-9, **arguments, **start)
     name, case, found, *starts = handed
@@ -173,8 +174,9 @@ def test_every_argument_of_a_function_reaches_the_option_of_its_name(
     assert starts == [{"u": 1e-3}] * len(start)
 
 
-# Options under another name in a function: `start` has those of `Start`, `horizon` and `step` others.
-SPELLED_OTHERWISE = {"prerun", "perturbation", "horizons"}
+# Options under another name in a function: `start` has those of `Start`, `horizon`,
+# `bounds` and `step` others.
+SPELLED_OTHERWISE = {"prerun", "perturbation", "horizons", "scan"}
 
 
 @pytest.mark.parametrize("function", FUNCTIONS)
@@ -196,7 +198,26 @@ def test_what_a_function_is_not_told_is_as_in_a_study(function: Any) -> None:
     assert compared >= 3
 
 
+@pytest.mark.compiled
+def test_basins_count_the_starts_that_are_done(capsys: pytest.CaptureFixture[str]) -> None:
+    starts = {"energies": [1e-4, 1e-3], "n_starts": 2, "horizon": 5}
+    dm.basins(P, **starts)
+    assert capsys.readouterr() == ("", "")
+    dm.basins(P, **starts, progress=True)
+    assert re.search(r"basins .*4/4", capsys.readouterr().err)
+    with pytest.raises(dm.ParameterError, match="progress='yes'"):
+        dm.basins(P, progress="yes")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("function", [dm.critical_speed, dm.hysteresis])
+def test_speeds_of_a_scan_are_bounds_as_in_continuation(function: Any) -> None:
+    with pytest.raises(dm.ParameterError, match=r"^scan=\(14, 15\): is called bounds$"):
+        function(P, scan=(14, 15))
+    assert "bounds" in inspect.signature(function).parameters
+    assert "bounds" in inspect.signature(dm.continue_cycle).parameters
+
+
 @pytest.mark.parametrize("ends", [14, (14,), (14, 15, 16)])
 def test_a_scan_has_two_ends(ends: Any) -> None:
-    with pytest.raises(dm.ParameterError, match=r"^scan=.*: must be two numbers in rad/s"):
+    with pytest.raises(dm.ParameterError, match=r"^bounds=.*: must be two numbers in rad/s"):
         dm.critical_speed(P, ends)

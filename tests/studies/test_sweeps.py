@@ -160,6 +160,11 @@ def test_results_of_each_class_have_their_own_units_and_names() -> None:
         "growth rate of disturbances of steady sliding"
     )
     assert sliding["psi"].attrs["units"] == "rad"
+    for name in ("a", "b", "alpha", "beta", "eigenvalues"):
+        assert {"units", "long_name"} <= {*sliding[name].attrs}, name
+    # modes have amplitudes of kg^-1/2, so that displacements are in m
+    assert sliding["a"].attrs["units"] == "kg0.5 m"
+    assert sliding["beta"].attrs["units"] == "kg0.5 m s-1"
     critical = sweep(dm.critical, case, N=[300], name="mu_s", bounds=(0.3, 0.5), points=2)
     assert critical["value"].attrs["long_name"].startswith("critical value of coefficient")
     exponents = sweep(dm.lyapunov_exponents, case, N=[300], duration=0.2, count=1)
@@ -180,7 +185,9 @@ def test_a_sweep_states_its_base_and_its_function() -> None:
 def test_a_sweep_states_the_arguments_of_its_function(tmp_path: Path) -> None:
     """Without its horizon a map of outcomes cannot be repeated."""
     swept = sweep(dm.outcome, P, Omega=[14.0], horizon=1)
-    assert json.loads(swept.attrs["options"]) == {"horizon": 1}
+    options = json.loads(swept.attrs["options"])
+    assert options["horizon"] == 1
+    assert options["tol"] == 1e-10, "also what is as usual"
     dm.save(swept, tmp_path / "swept.nc")
     assert dm.load(tmp_path / "swept.nc").attrs["options"] == swept.attrs["options"]
 

@@ -40,6 +40,16 @@ def from_csv(
     Returns
     -------
     Disc
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import disc_model as dm
+    >>> lines = ["diameters,frequency (Hz),amplitude_per_sqrt_kg", "0,1180,1.53", "2,1455,2.15"]
+    >>> Path("modes.csv").write_text("\\n".join(lines))
+    70
+    >>> dm.Disc.from_csv("modes.csv")
+    Disc(2 modes, 1180 to 1455 Hz)
     """
     from disc_model.data.files import regular_file
     from disc_model.disc.files.table import read_disc

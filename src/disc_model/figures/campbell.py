@@ -39,7 +39,7 @@ from disc_model.figures.words import SPEED
 MOST = 5  # number of peaks that are named at most
 NEAR = 0.01  # share of the speeds shown within which peaks are one, and crossings belong to a peak
 ROOM = 1.06  # highest frequency of the axis over that of the modes
-BESIDE_MEETING = ((4, -1), (-4, -1), (4, 4), (-4, 4))  # points, of names beside crossings,
+BESIDE_MEETING = ((6, -4), (-6, 4), (6, 4), (-6, -4))  # points, of names beside crossings,
 BESIDE_PEAK = ((2, 3), (-2, 3), (2, 10), (-2, 10))  # and beside peaks
 BAND: dict[str, Any] = {"color": GREY, "alpha": 0.25, "linewidth": 0}
 """Look of a stretch of speeds without a growth rate."""
@@ -65,14 +65,16 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     )
     above = axes[: len(parts)]
     below = axes[len(parts) :]
+    highest = plot.highest
+    if highest is None:
+        highest = ROOM * max(float(part.data["sliding_frequency"].max()) for part in parts)
     for top, bottom, part in zip(above, below, parts, strict=True):
-        _draw_column(top, bottom, part.data.transpose("Omega", ...))
-    highest = max(float(part.data["sliding_frequency"].max()) for part in parts)
+        _draw_column(top, bottom, part.data.transpose("Omega", ...), highest)
     rates = [part.data["growth_rate"].values for part in parts]
     low = min(float(np.fmin.reduce(rate, initial=0.0)) for rate in rates)
     high = max(float(np.fmax.reduce(rate, initial=0.0)) for rate in rates)
-    above[0].set_ylim(0, ROOM * highest)
-    below[0].set_ylim(min(1.3 * low, -LINEAR), max(3 * high, LINEAR))
+    above[0].set_ylim(0, highest)
+    below[0].set_ylim(min(3 * low, -LINEAR), max(3 * high, LINEAR))
     above[0].set_ylabel("Frequency in the slider's frame (Hz)")
     below[0].set_ylabel("Largest growth rate\nof the cycle (1/s)")
     letters(axes, titles_of(parts))
@@ -101,12 +103,13 @@ def _legend(figure: Figure, studies: Sequence[xr.Dataset]) -> None:
     figure_legend(figure, handles, columns=3)
 
 
-def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
-    """Draw the frequencies of one model, and its growth rates below."""
+def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset, highest: float) -> None:
+    """Draw the frequencies of one model up to the highest shown (Hz), and its growth rates
+    below."""
     speeds = study["Omega"].values
     rate = study["growth_rate"].values
     alone = unjoined(rate)
-    _draw_modes(top, study)
+    _draw_modes(top, study, highest)
     _draw_rates(bottom, speeds, rate, alone)
     for peak in peaks(study):
         _draw_peak(top, bottom, study, peak, bool(alone[peak.place]))
@@ -117,15 +120,15 @@ def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
     bottom.set_xlabel(SPEED)
 
 
-def _draw_modes(ax: Axes, study: xr.Dataset) -> None:
-    """Draw the frequencies of steady sliding's modes, with names at their right ends."""
+def _draw_modes(ax: Axes, study: xr.Dataset, highest: float) -> None:
+    """Draw the frequencies of steady sliding's modes, with names at the right ends of those that
+    are shown."""
     frequency = study["sliding_frequency"]
     ax.plot(study["Omega"], frequency, color=BLACK, linewidth=wide(0.9))
     ends = study.isel(Omega=-1)
     of_disc = np.where(flag_names(ends["mode_kind"]) == "disc", ends["diameters"].values, -1)
-    apart = NAMES_APART * ROOM * float(frequency.max())
-    heights = ends["sliding_frequency"].values
-    for part in named_modes(of_disc, heights, apart):
+    heights = ends["sliding_frequency"].where(ends["sliding_frequency"] <= highest).values
+    for part in named_modes(of_disc, heights, NAMES_APART * highest):
         height = float(heights[part.modes].mean())
         say_beside(ax, height, part.name, 3, fontsize=large(7))
 

@@ -33,7 +33,7 @@ from disc_model.figures.selection import (
     titles_of,
 )
 from disc_model.figures.types import Artist, Axes, Figure
-from disc_model.figures.words import CHARACTER, as_numbers, measured
+from disc_model.figures.words import CHARACTER, as_numbers, label_in, measured
 
 LINEAR = 0.1
 """Growth rate up to which its scale is linear, 1/s; a greater step breaks the line, or finds another
@@ -42,6 +42,8 @@ RATE = "growth_rate"
 """Growth rate of a motion, with narrow peaks of tens beside hundredths."""
 MARKS = "os^Dv<>"
 """Marks of the lines; they are open, so that lines on top of each other show."""
+CROWDED = 60  # points of a line beyond which a mark for each would be a band of rings
+DOT = 1.5  # points, size of a mark of one of them
 MARKED = 12  # points of a line without gaps that have a mark, about
 MOST_BESIDE = 4  # names of lines from which the legend stands beside the panel
 LONGEST_BESIDE = 25  # characters of a name that fits there
@@ -66,7 +68,7 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     if plot.panels == "each":  # for the rows of missing values
         pad = 20
     letters(axes, titles_of(panels), pad=pad)
-    _name_lines(figure, axes, several=bool(plot.panels))
+    _name_lines(figure, axes, several=bool(plot.panels), in_legend=plot.legend)
     return figure
 
 
@@ -85,12 +87,16 @@ def panels_of(plot: CurvePlot, study: xr.Dataset) -> list[Part[xr.Dataset]]:
     return [Part("", "", part) for part in chosen]
 
 
-def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool) -> None:
-    """Name lines at their ends, if there is room, or in a legend."""
+def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool, in_legend: bool) -> None:
+    """Name lines at their ends, if there is room, or in a legend.
+
+    several : whether there are panels
+    in_legend : whether there is a legend in any case
+    """
     unnamed: dict[str, Artist] = {}
     for ax in axes:
         handles, names = ax.get_legend_handles_labels()
-        if names and not name_ends(ax):
+        if names and (in_legend or not name_ends(ax)):
             unnamed.update(zip(names, handles, strict=True))
     longest = max(map(len, unnamed), default=0)
     if len(unnamed) > MOST_BESIDE and longest < LONGEST_BESIDE and not several:
@@ -121,25 +127,25 @@ def draw_lines(
     if marks is None:
         marks = {}
     names, array = as_numbers(as_classes(study[variable]))
-    label, values = measured(array)
-    array = array.copy(data=values)
+    array = array.copy(data=measured(array).values)
     by = remaining(array, [x])
     across = measured(array[x])
     rates = variable == RATE and not log
 
     # lines, in the colours of their order
     parts = parts_along(array, by)
-    every = 1
-    if joined and not (names or rates or array.isnull().any()):
-        every = max(1, across.values.size // MARKED)
+    gapless = joined and not (names or rates or array.isnull().any())
     jump = LINEAR if rates else np.inf
     line = "" if names or not joined else "-"
     for colour, part, title in zip(_colours(parts), parts, titles_of(parts), strict=True):
         shape = marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
-        points = broken(across.values, part.data.values, jump)
-        ax.plot(
-            *points, f"{shape}{line}", color=colour, label=title or None, markevery=every, **_look()
-        )
+        heights = part.data.values
+        look = {"color": colour, "label": title or None, **_look()}
+        if gapless:
+            look["markevery"] = _marked(heights)
+        elif heights.size > CROWDED:
+            look |= _draw_dots(ax, across.values, heights, colour, joined=bool(line))
+        ax.plot(*broken(across.values, heights, jump), f"{shape}{line}", **look)
 
     # scales and labels
     if log:
@@ -149,10 +155,27 @@ def draw_lines(
         scale_rates(ax)
     ax.set_xscale(scale(array[x]))
     ax.set_xlabel(across.label)
-    ax.set_ylabel(label)
+    ax.set_ylabel(label_in(study, variable))
     _set_ticks(ax, names, array)
     ax.margins(0.03)
     _mark_gaps(ax, study, array, x, marks)
+
+
+def _marked(heights: np.ndarray) -> list[int]:
+    """Points of a line without gaps that have a mark: some, and that of the greatest value."""
+    every = max(1, heights.size // MARKED)
+    return sorted({*range(0, heights.size, every), int(np.argmax(heights))})
+
+
+def _draw_dots(
+    ax: Axes, along: np.ndarray, heights: np.ndarray, colour: Any, joined: bool
+) -> dict[str, Any]:
+    """Draw each of many points as a dot, so that those by themselves stay visible; returns the look
+    of the marks beside them."""
+    ax.plot(along, heights, ".", color=colour, markersize=mark(DOT))
+    if joined:
+        return {"markevery": heights.size // MARKED}
+    return {"markersize": mark(DOT)}
 
 
 def _set_ticks(ax: Axes, names: Sequence[str], array: xr.DataArray) -> None:

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
-from matplotlib.colors import AsinhNorm
+from matplotlib.colors import AsinhNorm, to_hex
 
 from disc_model.data.variables import flag_names
 from disc_model.figures.cells import edges_of, entries, lay_over, paint, unresolved
-from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED
+from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED, Look
 from disc_model.figures.selection import class_of_gap, has_values, statuses_like
 from disc_model.figures.types import Array, Artist, Axes, FigureBase, Mask, Words
 from disc_model.figures.words import label_of
@@ -20,7 +20,13 @@ COMMON = 0.98  # share of rates within the scale then, since a few large ones wo
 LINEAR_SHARE = 1 / 30  # of the greatest rate, up to which the scale is nearly linear
 ROUNDING = 1e-9  # 1/s, growth rates of undamped modes by rounding
 NEGATIVE = "negative"
-MAP_LOOKS = {**LOOKS, NEGATIVE: STABLE, UNRESOLVED.label: UNRESOLVED}
+NEUTRAL = "neutral"
+MAP_LOOKS = {
+    **LOOKS,
+    NEGATIVE: STABLE,
+    NEUTRAL: Look("neutral", to_hex(cm.vik(0.5))),
+    UNRESOLVED.label: UNRESOLVED,
+}
 """Looks of all that a map of growth rates shows beside its colours."""
 
 
@@ -47,7 +53,8 @@ def growth_panels(
 ) -> list[Artist]:
     """Draw a growth rate (1/s) on one scale of colours, a panel for each plane.
 
-    Cells are dotted where it is negative by more than rounding, and hatched where it is unresolved.
+    Cells are dotted where it is negative by more than rounding, hatched where it is unresolved, and
+    have the middle of the scale where it is zero but for rounding.
     A point without a rate has the look of its class. Returns entries of a legend.
     """
     norm = growth_norm(np.concatenate([plane[name].values.ravel() for plane in planes]))
@@ -62,6 +69,8 @@ def growth_panels(
         painted = paint(ax, edges, words, MAP_LOOKS)
         colours = np.where(np.isfinite(rates)[..., None], mesh.to_rgba(rates), painted)
         used |= set(words.flat)
+        if (np.abs(rates) <= ROUNDING).any():
+            used.add(NEUTRAL)
         decaying = rates < -ROUNDING
         for mark, cells in ((NEGATIVE, decaying), (UNRESOLVED.label, isolated(plane, name))):
             if cells.any():

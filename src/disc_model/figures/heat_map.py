@@ -34,7 +34,7 @@ from disc_model.figures.selection import (
     titles_of,
 )
 from disc_model.figures.types import Artist, Axes, Figure, FigureBase
-from disc_model.figures.words import label_of, measured
+from disc_model.figures.words import label_in, label_of, measured
 
 IN_A_ROW = 4  # panels on a page
 
@@ -99,7 +99,7 @@ def draw_maps(
         else:
             handles = number_panels(figure, axes, planes, variable, log)
         has_bar = has_values(planes, variable)
-    title = "" if has_bar else label_of(planes[0][variable])[0]
+    title = "" if has_bar else label_in(planes[0], variable)
     up, across = (first[str(name)] for name in first.dims)
     axes[0].set_xscale(scale(across))
     axes[0].set_yscale(scale(up))

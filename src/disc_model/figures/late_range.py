@@ -35,6 +35,8 @@ LARGEST = 10.0  # thicknesses
 DECADES = 1e5
 """Largest range drawn over the least one."""
 BEYOND = "0.9"  # grey behind ranges of more than a thickness, for which plate theory is not linear
+LOST = (":", (0, (5, 1, 1, 1)), (0, (1, 4)), (0, (7, 2)))
+"""Lines at which contact is lost, of preloads in their order."""
 LINES = {"unilateral": "-", "bilateral": "--"}
 OPEN_END = ("growing", "undecided")
 """Outcomes of which a longer time would change the range."""
@@ -69,14 +71,13 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
         _draw_panel(ax, study["surface_speed"].sel(chosen), outcomes.sel(chosen))
         ax.axhline(1, color=GREY, linestyle=":", linewidth=wide(1.0))
         ax.set_ylim(bottom=0)
-        _note(ax, 1, "friction reverses", 0.97, ha="right", va="top")
         ax.set_ylabel("Speed of the surface / of the drive")
         titles.append("speed in the plane")
     for ax in axes:
         ax.margins(x=0.05)
         ax.set_xlabel(SPEED)
     letters(axes, titles)
-    _legend(figure, study["N"].values)
+    _legend(figure, study["N"].values, has_drive=bool(moving))
     return figure
 
 
@@ -97,17 +98,20 @@ def _draw_lost_contact(ax: Axes, study: xr.Dataset, name: str, thickness: float)
     frequency = float(disc["omega"][fed]) / (2 * np.pi)
     base = json.loads(study.attrs["base"])
     slider = {key: base[key] for key in ("k", "m", "c")}
-    for load, colour in zip(study["N"].values, LOAD_COLOURS, strict=False):
+    loads = study["N"].values
+    side = "top"  # the name of the lowest line, so that no other line crosses it
+    for load, colour, line in zip(loads, LOAD_COLOURS, LOST, strict=False):
         p = Parameters(N=float(load), Omega=1.0, **slider)
         lost = pinned_range(p, frequency) / thickness
-        ax.axhline(lost, color=colour, linestyle=":", linewidth=wide(1.0))
-        _note(ax, lost, "contact is lost", color=colour)
+        ax.axhline(lost, color=colour, linestyle=line, linewidth=wide(1.0))
+        _note(ax, lost, f"contact lost, {1e-3 * load:g} kN", color=colour, va=side)
+        side = "bottom"
 
 
-def _note(ax: Axes, height: float, text: str, along: float = 0.03, **look: Any) -> None:
-    """Name a horizontal line, at a share of the axes' width."""
+def _note(ax: Axes, height: float, text: str, **look: Any) -> None:
+    """Name a horizontal line at its left end, above it unless asked for otherwise."""
     look = {"color": GREY, "size": large(6), "va": "bottom", **look}
-    ax.annotate(text, (along, height), xycoords=("axes fraction", "data"), **look)
+    ax.annotate(text, (0.03, height), xycoords=("axes fraction", "data"), **look)
 
 
 def _marks() -> dict[str, dict[str, Any]]:
@@ -137,8 +141,8 @@ def _draw_panel(ax: Axes, ranges: xr.DataArray, outcomes: xr.DataArray) -> None:
                 ax.plot(speeds, np.where(mask, heights, np.nan), color=colour, **look)
 
 
-def _legend(figure: Figure, loads: np.ndarray) -> None:
-    """Name preloads, contacts, marks and the grey band below the panels."""
+def _legend(figure: Figure, loads: np.ndarray, has_drive: bool) -> None:
+    """Name preloads, contacts, marks, the grey band and the speed of the drive below the panels."""
     handles = [
         sample(color=colour, label=f"{1e-3 * load:g} kN")
         for load, colour in zip(loads, LOAD_COLOURS, strict=False)
@@ -148,4 +152,6 @@ def _legend(figure: Figure, loads: np.ndarray) -> None:
     for name, look in _marks().items():
         handles.append(sample(color=GREY, label=name, **look))
     handles.append(Patch(color=BEYOND, label="beyond linear plate theory"))
+    if has_drive:
+        handles.append(sample(color=GREY, linestyle=":", label="friction reverses above"))
     figure_legend(figure, handles, loc="outside lower center", columns=4, columnspacing=1.0)

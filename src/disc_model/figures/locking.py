@@ -9,7 +9,6 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from disc_model.data.variables import axis_of, flag_names
-from disc_model.display import counted
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, BLUE, GREY, VERMILION, large, mark, wide
 from disc_model.figures.kinds.motions import PhaseMap, Staircase
@@ -131,8 +130,13 @@ def _name_steps(ax: Axes, steps: Sequence[_Step], low: float, high: float) -> No
         if is_covered or is_close:
             continue
         taken.append(middle)
+        place = (middle, step.height)
+        side = 0
+        if middle > high - room:  # the words would leave the panel
+            place = (min(step.high, high), step.height)
+            side = -1
         text = f"{step.releases} releases" if len(taken) == 1 else f"{step.releases}"
-        drawing.say(ax, text, (middle, step.height), (0, 3), fontsize=large(7))
+        drawing.say(ax, text, place, (side, 3), fontsize=large(7))
 
 
 def _draw_undecided(ax: Axes, parts: Sequence[xr.Dataset], name: str, factor: float) -> None:
@@ -214,10 +218,15 @@ def draw_map(plot: PhaseMap, study: xr.Dataset, overlays: Mapping[str, xr.Datase
 def _map_entries(separations: Array) -> list[Artist]:
     """Legend entries of a map of release phases: of its branches, and of the motion itself."""
     handles = []
-    for index, number in enumerate(np.unique(separations[np.isfinite(separations)])):
-        label = counted(int(number), "separation") + " between them"
-        dot = {"linestyle": "", "marker": ".", "markersize": mark(4)}
-        handles.append(drawing.sample(color=(BLACK, VERMILION)[index % 2], label=label, **dot))
+    numbers = np.unique(separations[np.isfinite(separations)]).astype(int).tolist()
+    dot = {"linestyle": "", "marker": ".", "markersize": mark(4)}
+    for colour, group in ((BLACK, numbers[::2]), (VERMILION, numbers[1::2])):
+        if not group:
+            continue
+        *others, last = map(str, group)
+        said = " or ".join(filter(None, [", ".join(others), last]))
+        noun = "separation" if group == [1] else "separations"
+        handles.append(drawing.sample(color=colour, label=f"{said} {noun} between them", **dot))
     handles.append(drawing.sample(label="the motion itself", **_ring()))
     return handles
 

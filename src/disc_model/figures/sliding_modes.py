@@ -22,7 +22,7 @@ from disc_model.figures.drawing import (
 from disc_model.figures.growth import ROUNDING
 from disc_model.figures.kinds.motions import SlidingModes
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.names import name_of, named_modes
+from disc_model.figures.names import Names, name_of, named_modes
 from disc_model.figures.selection import parts_along, stretches, titles_of
 from disc_model.figures.types import Array, Axes, Figure
 from disc_model.figures.words import measured
@@ -33,6 +33,9 @@ FREE = 0.25  # of the largest growth rate, room above a line that is enough for 
 NAMES_APART = 0.04  # of the axis of frequencies, least distance of names
 RATES_APART = 0.1  # of that of growth rates
 EDGE = 0.05  # of the width of the panel, beside its ends, where names stand on the inner side
+BESIDE = ((-4, 3), (4, 3), (-4, 0), (4, 0))
+"""Offsets in points of the name of a growing mode where it has no room above its line."""
+HEADROOM = 1.25  # upper end of that axis over the largest rate, whose name stands above it
 LEAST = 0.1  # 1/s, upper end of the axis of growth rates at least
 
 
@@ -65,7 +68,7 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     tops[0].set_ylim((0, highest))
     tops[0].set_xlim(across.values[0], across.values[-1])
     bottoms[0].set_ylabel("Growth rate (1/s)")
-    bottoms[0].set_ylim(min(low for low, _ in limits), 1.1 * greatest)
+    bottoms[0].set_ylim(min(low for low, _ in limits), HEADROOM * greatest)
     for top, bottom, column in zip(tops, bottoms, columns, strict=True):
         bottom.set_xlabel(across.label)
         _name_frequencies(top, column, highest)
@@ -129,6 +132,7 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
     along = measured(study["value"]).values
     lines = lines_of(study)
     largest = float(study["largest_growth_rate"].max())
+    named: list[tuple[tuple[float, float], str, list[tuple[float, float]]]] = []
     for line in lines:
         grows = np.nan_to_num(line.rate) > ROUNDING
         for ax, values in ((top, line.frequency), (bottom, line.rate)):
@@ -150,9 +154,11 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
                 side = 1
             elif across > 1 - EDGE:
                 side = -1
-            offset = (3 * side, 3)
-            place = (along[i], line.rate[i])
-            say(bottom, line.name, place, offset, fontsize=large(7), path_effects=halo())
+            place = (float(along[i]), float(line.rate[i]))
+            named.append((place, line.name, [(3 * side, 3), *BESIDE]))
+    names = Names(bottom)
+    for place, name, offsets in sorted(named, reverse=True, key=lambda each: each[0][1]):
+        names.add(name, place, offsets, fontsize=large(7), path_effects=halo())
     bottom.axhline(0, color=BLACK, linewidth=wide(0.5))
 
 
@@ -184,4 +190,7 @@ def _name_decays(ax: Axes, study: xr.Dataset, greatest: float) -> None:
     decay = np.where(shown, rates, np.nan)
     for part in named_modes(last["diameters"].values, decay, RATES_APART * greatest):
         height = float(decay[part.modes].mean())
-        say_beside(ax, height, part.name, 3, fontsize=large(7), color=GREY)
+        # below each other as their lines are, which one name for several would not tell
+        descending = part.modes[np.argsort(-decay[part.modes])]
+        names = [name_of(int(number)) for number in last["diameters"].values[descending]]
+        say_beside(ax, height, "\n".join(dict.fromkeys(names)), 3, fontsize=large(7), color=GREY)

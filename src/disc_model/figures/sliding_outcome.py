@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import axis_of, flag_names
+from disc_model.data.variables import axis_of, flag_names, stated_in
 from disc_model.figures.cells import edges_of, entries, paint
 from disc_model.figures.classes import LOOKS, STABLE, Look
 from disc_model.figures.drawing import letters, row_of_panels
@@ -54,13 +54,14 @@ def draw(plot: SlidingOutcome, study: xr.Dataset, overlays: Mapping[str, xr.Data
         ax.set_ylabel(axis_of(plot.y)[0])
         ax.label_outer()
     letters(axes, titles_of(parts))
+    horizon = stated_in(study, "options")["horizon"]
     looks = {word: _with_shares(word, look, each) for word, look in AGREEMENTS.items()}
     figure_legend(
         figure,
         entries(np.concatenate(each, axis=None), looks),
         loc="outside lower center",
         columns=1,
-        title="Steady sliding is",
+        title=f"Motions of {horizon:g} s. Steady sliding is",
     )
     return figure
 

@@ -1,6 +1,7 @@
 """Words of figures: labels of variables, names of values, and what a figure's head says. Nothing here
 draws."""
 
+import json
 import re
 from collections.abc import Mapping
 from contextvars import ContextVar
@@ -50,9 +51,11 @@ IN_WORDS = {
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
 """Units of the reader and the factors from SI to them, by parameter or sampled variable, while a
 figure is drawn."""
-UNIT_POWER = re.compile(r"([^\W\d]+|1|%)(-?)(\d*)")
+UNIT_POWER = re.compile(r"([^\W\d]+|1|%)(-?)(\d*(?:\.\d+)?)")
 """A part of a unit in datasets: its name, the sign and the size of its power."""
 POWERS = {"": "", "1": "", "2": "²", "3": "³"}
+WITHIN_HORIZON = ("outcome", "scan_outcome", "kind")
+"""Variables that say what a motion does within the horizon that a study states."""
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
 
 
@@ -83,6 +86,17 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
     if unit:
         phrase = f"{phrase} ({unit})"
     return phrase, 1.0
+
+
+def label_in(study: xr.Dataset, name: str) -> str:
+    """Axis label of a variable of a study; of one that depends on the horizon, with the horizon."""
+    label = label_of(study[name])[0]
+    horizon = json.loads(study.attrs.get("options", "{}")).get("horizon")
+    if name not in WITHIN_HORIZON or not isinstance(horizon, str | float | int):
+        return label
+    if not isinstance(horizon, str):
+        horizon = f"{horizon:g} s"
+    return f"{label}, within {horizon}"
 
 
 def unit_text(units: str) -> str:

@@ -14,6 +14,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 from pydantic import Field, create_model, field_validator, model_serializer, model_validator
 
 from disc_model.data.variables import BESIDE_WINDOWS
+from disc_model.display import html_table
 from disc_model.errors import Fault, ParameterError, as_text, require
 from disc_model.hashing import canonical_json, content_key
 from disc_model.parameters import AUTO, FORMAT, Parameters
@@ -43,6 +44,16 @@ class Interval(Strict):
         end = "end" if "end" in values else "stop"
         require((start < values[end], "start", start, f"must be < {end}={as_text(values[end])}"))
         return self
+
+    def _repr_html_(self) -> str:
+        """What is given, and not as usual, as a table in a notebook."""
+        units = self._units(dict(self))
+        rows = []
+        for name, value in self.__repr_args__():
+            if value != type(self).model_fields[str(name)].default:
+                unit = str(units.get(str(name), "")).removeprefix("1")
+                rows.append((name, value, unit))
+        return html_table((type(self).__name__, "value", "unit"), rows)
 
 
 class Span(Interval):

@@ -47,12 +47,14 @@ class Call:
     dimensions : values of numbers of the case
     options : arguments of the function that do not vary
     arguments : names of all arguments of the function beside the case
+    defaults : numbers and words that arguments have that are not named
     """
 
     title: str
     dimensions: list[Dimension]
     options: Mapping[str, Any]
     arguments: frozenset[str]
+    defaults: Mapping[str, Any]
 
     def points(self) -> Iterator[dict[str, Any]]:
         """Yield the values of all that varies, by name, at each point; the last dimension varies
@@ -96,14 +98,17 @@ def checked_call(function: Any, case: Any, zipped: Any, named: Mapping[str, Any]
 
     title = getattr(function, "__name__", type(function).__name__)
     arguments = []
+    defaults = {}
     for each in [*parameters.values()][1:]:
         if each.kind in (each.VAR_POSITIONAL, each.VAR_KEYWORD):
             continue
         arguments.append(each.name)
+        if isinstance(each.default, bool | int | float | str) and each.name not in named:
+            defaults[each.name] = each.default
         if each.default is each.empty and each.name not in named:
             faults.append(Fault((each.name,), "", f"is required by {title}"))
     raise_faults(faults)
-    return Call(title, dimensions, options, frozenset(arguments))
+    return Call(title, dimensions, options, frozenset(arguments), defaults)
 
 
 def _zipped_columns(

@@ -9,15 +9,18 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.errors import Fault, ParameterError, raise_faults, require
+from disc_model.errors import Fault, ParameterError, raise_faults, renamed, require, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import Point
 from disc_model.studies.registry import quantity_of
 from disc_model.studies.run import POINT, coordinates_of, variables_of
+from disc_model.studies.workers import progress_bar
 
 ARGUMENTS = {"perturbation": "start", "horizons": "horizon"}
 """Arguments of functions for options of other names."""
+OF_SCANS = {"start": "bounds", "stop": "bounds", "step": "step"}
+"""Arguments of functions for the parts of an option `scan`."""
 
 
 def _quantity(
@@ -25,6 +28,8 @@ def _quantity(
     case: Parameters,
     options: Mapping[str, Any],
     start: Mapping[str, float] | None = None,
+    *,
+    progress: bool = False,
 ) -> xr.Dataset:
     """Compute a quantity of a case.
 
@@ -33,6 +38,7 @@ def _quantity(
     name, options : of the quantity
     case : the case
     start : perturbations of the static start by name
+    progress : whether a bar on standard error shows how many starts are done, where there are several
 
     Returns
     -------
@@ -45,11 +51,15 @@ def _quantity(
         quantity = quantity_of(name).model_validate(options)
     except ParameterError as error:
         for fault in error.faults:
-            path = tuple(ARGUMENTS.get(part, part) for part in fault.path)
-            faults.append(Fault(path, fault.value, fault.rule))
+            faults.append(Fault(_argument(fault.path), fault.value, fault.rule))
+    faults += violations(
+        (isinstance(progress, bool), "progress", progress, "must be True or False")
+    )
     raise_faults(faults)
 
-    row, message = quantity.compute_point(Point(case, begin))
+    with progress_bar(name, quantity.starts, progress) as advance:
+        quantity.report_to(advance)
+        row, message = quantity.compute_point(Point(case, begin))
     coordinates = coordinates_of(quantity.COORDINATES, quantity)
     columns = variables_of(quantity.COLUMNS, coordinates, [row], {POINT: 1})
     attrs = {"parameters": case.canonical_json, "message": message}
@@ -60,12 +70,19 @@ def _quantity(
     return dataset
 
 
+def _argument(path: tuple[str, ...]) -> tuple[str, ...]:
+    """The argument of a function for an option, as the path of a fault."""
+    if path[:1] == ("scan",) and len(path) > 1:
+        return (OF_SCANS[path[1]],)
+    return tuple(ARGUMENTS.get(part, part) for part in path)
+
+
 def _scan(ends: Any, step: Any) -> Any:
     """The range of a scan as an option of a quantity, which says what is wrong with it."""
     require(
         (
             np.shape(ends) == (2,),
-            "scan",
+            "bounds",
             ends,
             "must be two numbers in rad/s, the lowest and the highest speed",
         )
@@ -127,9 +144,10 @@ def outcome(
     return _quantity("outcome", case, options, start)
 
 
+@renamed(scan="bounds")
 def critical_speed(  # noqa: PLR0913
     case: Parameters,
-    scan: tuple[float, float] = (5.0, 30.0),
+    bounds: tuple[float, float] = (5.0, 30.0),
     horizon: float | Sequence[float] = 1000.0,
     *,
     step: float = 1.0,
@@ -147,7 +165,7 @@ def critical_speed(  # noqa: PLR0913
     Parameters
     ----------
     case : the case; its own speed is not used
-    scan : rad/s, the lowest and the highest speed
+    bounds : rad/s, the lowest and the highest speed
     horizon : s, or several, each with a critical speed of its own
     step : rad/s, of the scan
     precision : rad/s, to which crossings are bisected; `step` must be a multiple
@@ -176,7 +194,7 @@ def critical_speed(  # noqa: PLR0913
     """
     options: dict[str, Any] = {
         "horizons": np.atleast_1d(horizon).tolist(),
-        "scan": _scan(scan, step),
+        "scan": _scan(bounds, step),
         "precision": precision,
         "max_crossings": max_crossings,
         "early_end": early_end,
@@ -199,6 +217,7 @@ def basins(  # noqa: PLR0913
     precision: float = 0.05,
     confidence: float = 0.95,
     tol: float = 1e-10,
+    progress: bool = False,
 ) -> xr.Dataset:
     """Attractors of a case, the share of starts that comes to each, and the least energy that leads
     to separation.
@@ -217,6 +236,7 @@ def basins(  # noqa: PLR0913
     precision : relative precision of the critical energy
     confidence : level of the confidence intervals of fractions
     tol : as in `simulate`
+    progress : whether a bar on standard error shows how many starts are done; the bisection follows
 
     Returns
     -------
@@ -247,12 +267,13 @@ def basins(  # noqa: PLR0913
         "confidence": confidence,
         "tol": tol,
     }
-    return _quantity("basins", case, options, start)
+    return _quantity("basins", case, options, start, progress=progress)
 
 
+@renamed(scan="bounds")
 def hysteresis(
     case: Parameters,
-    scan: tuple[float, float],
+    bounds: tuple[float, float],
     dwell: float | str,
     *,
     step: float = 1.0,
@@ -265,7 +286,7 @@ def hysteresis(
     Parameters
     ----------
     case : the case; its own speed is not used
-    scan : rad/s, the lowest and the highest speed
+    bounds : rad/s, the lowest and the highest speed
     dwell : s at each speed; doubled until the motion has settled
     step : rad/s, between speeds
     max_dwell : s, longest stay at a speed
@@ -290,7 +311,7 @@ def hysteresis(
     (16.0, ('direction', 'sweep_Omega'))
     """
     options = {
-        "scan": _scan(scan, step),
+        "scan": _scan(bounds, step),
         "dwell": dwell,
         "max_dwell": max_dwell,
         "evaluation_time": evaluation_time,

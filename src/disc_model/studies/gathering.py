@@ -56,6 +56,11 @@ def _of_class(name: str) -> dict[str, dict[str, Any]]:
         columns = {
             "growth_rate": of_cycle["sliding_growth_rate"],
             "psi": Variable("rad", "angle of the drive point ahead of the slider"),
+            "eigenvalues": Variable("s-1", "eigenvalue of disturbances of steady sliding"),
+            "a": Variable("kg0.5 m", "cosine coordinate of a mode"),
+            "b": Variable("kg0.5 m", "sine coordinate of a mode"),
+            "alpha": Variable("kg0.5 m s-1", "rate of the cosine coordinate of a mode"),
+            "beta": Variable("kg0.5 m s-1", "rate of the sine coordinate of a mode"),
         }
     elif name == "Lyapunov":
         columns = {

@@ -12,7 +12,7 @@ from types import CodeType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
-from pydantic import AfterValidator, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, ConfigDict, Field, PrivateAttr, model_validator
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, CycleStatus, Variable
 from disc_model.errors import DiscModelError, Fault, Status
@@ -256,6 +256,23 @@ class Quantity(Ruled):
     # the required dimension over which `summarise`, as of `Campbell`, makes a row of a merged
     # study; a rule of the file may have left out some points, or all
     over: ClassVar[str] = ""
+
+    _advance: Callable[[], object] | None = PrivateAttr(default=None)
+    """Is called after each of the starts of a point, if it is given."""
+
+    @property
+    def starts(self) -> int:
+        """Number of motions of a point whose progress is told."""
+        return 1
+
+    def report_to(self, advance: Callable[[], object]) -> None:
+        """Have a function called after each of the starts of a point."""
+        self._advance = advance
+
+    def start_is_done(self) -> None:
+        """Tell that one of the starts of a point is done."""
+        if self._advance is not None:
+            self._advance()
 
     @property
     def scanned(self) -> tuple[str, ...]:

@@ -52,8 +52,8 @@ def sweep(
     xarray.Dataset
         Numbers, words and arrays of the results along the dimensions in their order, that of `zip` last. `status` is
         "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic;
-        `message` then says which. Attributes state the `function`, its other arguments (`options`, in JSON) and the
-        `parameters` of the case
+        `message` then says which. Attributes state the `function`, its other arguments (`options`, in JSON, defaults
+        included) and the `parameters` of the case
 
     Raises
     ------
@@ -87,7 +87,7 @@ def sweep(
     sizes = {dimension.name: len(dimension) for dimension in call.dimensions}
     variables, fixed = stacked(rows, sizes)
     base = canonical_json({**case.stated, "disc": case.canonical.get("disc")})
-    options = json.dumps(call.options, sort_keys=True, default=repr)
+    options = json.dumps({**call.defaults, **call.options}, sort_keys=True, default=repr)
     attrs = {
         "function": call.title,
         "options": options,

@@ -52,7 +52,7 @@ class Workers:
             If the call cannot be sent to a process.
         """
         results = []
-        with _bar(title, len(arguments), self.progress) as advance:
+        with progress_bar(title, len(arguments), self.progress) as advance:
             for result in self._in_order(call, arguments):
                 results.append(result)
                 advance()
@@ -116,7 +116,7 @@ def _check_importable(call: Callable[[Any], Any]) -> None:
 
 
 @contextmanager
-def _bar(title: str, total: int, shown: bool) -> Iterator[Callable[[], None]]:
+def progress_bar(title: str, total: int, shown: bool) -> Iterator[Callable[[], None]]:
     """A bar on standard error, while it is needed; what advances it by one."""
     if not shown:
         yield lambda: None

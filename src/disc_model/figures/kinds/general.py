@@ -101,12 +101,14 @@ class CurvePlot(General):
 
     limits : ends of the variable's axis, so that figures can be compared
     panels : values of `by` in each panel, or a panel for each
+    legend : whether lines are named in a legend even where there is room at their ends
     """
 
     room = 12
     kind: Literal["curve"] = "curve"
     limits: tuple[Finite, Finite] | None = None
     panels: Literal["each"] | tuple[tuple[Finite | str, ...], ...] = ()
+    legend: bool = False
 
     def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
         yield from super().faults_among(dims, variables)

@@ -160,11 +160,13 @@ class Campbell(Compared):
     stick-slip frequency.
 
     normalization : the one shown, where the study has several
+    highest : Hz, upper end of the axis of frequencies; without it, that of the modes
     """
 
     needs = ("Omega",)
     kind: Literal["campbell"] = "campbell"
     normalization: Literal["as_published", "orthonormal"] | None = None
+    highest: Annotated[Positive, Unit("Hz")] | None = None
 
     def wrong_dims(self, values: Values) -> Iterator[Fault]:
         chosen = self.normalization

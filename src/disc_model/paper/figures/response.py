@@ -45,7 +45,9 @@ def draw(plot: Response, *cases: xr.DataTree) -> Figure:
         _draw_look(axes[panel], cases[0], name, start, plot.variable)
         letter(axes[panel], panel)
     if "d" in letters:
+        ends = np.array([axes["c"].get_ylim(), axes["d"].get_ylim()])
         axes["d"].sharey(axes["c"])
+        axes["c"].set_ylim(ends.min(), ends.max())
         axes["d"].tick_params(labelleft=False)
         axes["d"].set_ylabel("")
     return figure

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.data.variables import Variable
-from disc_model.display import counted, draw
+from disc_model.display import counted, draw, html_table, number_text
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
@@ -132,6 +132,19 @@ class Branch:
             spans.append(f"{name} from {values.min():.6g} to {values.max():.6g}")
         folds = counted(len(self.folds), "fold")
         return f"Branch({len(self)} cycles, {', '.join(spans)}, {folds}; ended: {self.ended})"
+
+    def _repr_html_(self) -> str:
+        """The special points in a notebook, and why the branch ends."""
+        units = [self.case.unit(name).removeprefix("1") for name in self.parameters]
+        named = zip(self.parameters, units, strict=True)
+        head = [f"{name} ({unit})" if unit else name for name, unit in named]
+        rows: list[tuple[object, ...]] = []
+        for special in self.special:
+            values = [f"{value:.9g}" for value in special.values]
+            rates = (number_text(special.growth_rate), number_text(special.period))
+            rows.append((special.kind, special.label, *values, *rates))
+        rows.append((f"{len(self)} cycles", "", f"ended: {self.ended}"))
+        return html_table(("kind", "label", *head, "growth rate (1/s)", "period (s)"), rows)
 
     @property
     def special_points(self) -> pd.DataFrame:

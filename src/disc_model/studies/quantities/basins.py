@@ -139,6 +139,10 @@ class AttractorBasins(Start, Quantity):
         "attractor": Coordinate("1", "number of the attractor", lambda o: range(1, 13)),
     }
 
+    @property
+    def starts(self) -> int:
+        return len(self.energies) * self.n_starts
+
     def cost(self, unit: UnitCosts) -> float:
         """The first starts find the attractors, in motions that may keep losing contact and go to
         the horizon; most others come to a known one soon."""
@@ -166,7 +170,11 @@ class AttractorBasins(Start, Quantity):
         # the first starts of all energies come first
         by_start = []
         for i in range(self.n_starts):
-            by_start.append([follow(x, i, j) for j, x in enumerate(self.energies)])
+            of_round: list[OutcomeResult] = []
+            for j, energy in enumerate(self.energies):
+                of_round.append(follow(energy, i, j))
+                self.start_is_done()
+            by_start.append(of_round)
         results = list(zip(*by_start, strict=True))
         every = [reached for row in results for reached in row]
 
