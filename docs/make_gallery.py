@@ -190,7 +190,7 @@ def page_of(shown: list[Shown]) -> str:
 
 def first_sentence(caption: str) -> str:
     """Return the beginning of a caption as a title."""
-    return re.split(r"(?<!Eq)[.:] ", caption)[0].rstrip(".")
+    return re.split(r"(?<!Eq)[.:;] ", caption)[0].rstrip(".")
 
 
 def entries() -> dict[str, tuple[str, Any]]:

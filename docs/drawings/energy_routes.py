@@ -29,12 +29,11 @@ FONT: Any = {
     "axes.spines.right": False,
     "hatch.linewidth": 0.6,
 }
-PAIRS = {(200, 20): (800, 1000), (300, 20): (480, 400), (200, 50): (400, 240)}
-"""Preload and speed of Figs. 4 to 9; times in s to which runs with separation and without go."""
+PAIRS = {(200, 20): (800, 1400), (300, 20): (480, 700), (200, 50): (400, 1200)}
+"""Preload and speed of Figs. 4 to 9; ends in s of the runs with separation and without it, as in
+config/paper.yaml."""
 STRETCH = 20.0
 """Length of the stretch at the end of a run whose powers are averaged, s."""
-INSTANT, INSTANT_RATE = 0.25, 8000.0
-"""Length in s of stretches of a growing motion, in which it hardly grows, and samples per second."""
 TRANSIENT = 60.0
 """Time for which the motion goes on in a compliant contact before that stretch, s."""
 PERIOD = 1e3 / 135.42
@@ -68,60 +67,50 @@ def late_powers(
     return found, energy.damping_by_diameters(p, theta, samples)
 
 
-def by_route(damping: np.ndarray, **others: float) -> Routes:
-    """Return energies per period in mJ by routes, from powers in W."""
-    coupled = damping[COUPLED]
+def by_route(damped: float, damping: np.ndarray, **others: float) -> Routes:
+    """Return energies per period in mJ by routes, from powers in W.
+
+    Parameters
+    ----------
+    damped : that damping takes in all
+    damping : that of the disc takes by nodal diameters, which says how this is shared
+    others : of other routes
+    """
+    coupled = damping[COUPLED] / damping.sum()
     found = {
-        "damping of the mode that grows": coupled,
-        "damping of faster modes": damping.sum() - coupled,
+        "damping of the mode that grows": damped * coupled,
+        "damping of faster modes": damped * (1 - coupled),
         **others,
     }
     return {name: PERIOD * float(power) for name, power in found.items()}
 
 
 def of_paper(N: float, Omega: float) -> dict[str, Routes]:
-    """Return routes in mJ per period on the paper's disc, by contact.
+    """Return routes in mJ per period on the paper's disc, by contact, as row F10e of the ledger.
 
     Those of bilateral contact are of the growing vibration, where its range is that of the motion
     with separation and rigid contact.
     """
     free, bonded = PAIRS[N, Omega]
     p = Parameters(N=N, Omega=Omega)
-    rigid, damping = late_powers(p, free)
-    routes = {"rigid": by_route(damping, impacts=rigid.impacts)}
+    rigid = energy.in_the_end(energy.power_history(p, free))
+    _, damping = late_powers(p, free)
+    routes = {"rigid": by_route(rigid.damped, damping, impacts=rigid.impacts)}
 
     # without impacts, on from the motion with rigid contact
     state = simulate(p, free, events=False).final_state
     compliant = p.replace(contact_compliance="residual")
     end = free + TRANSIENT + STRETCH
     _, damping = late_powers(compliant, end, initial_state=state)
-    routes["compliant"] = by_route(damping)
+    routes["compliant"] = by_route(damping.sum(), damping)
 
     bilateral = p.replace(contact="bilateral")
-    history = energy.power_history(bilateral, bonded, rigid.width)
-    before = (len(history) - 1) * bonded / energy.STAGES
-    growing, damping = at_equal_range(bilateral, before, rigid.width)
-    routes["bilateral"] = by_route(damping, **{"growth of the vibration": growing.gained})
+    growing, end = energy.at_range(bilateral, bonded, rigid.width)
+    _, damping = late_powers(bilateral, end, energy.INSTANT, energy.INSTANT_RATE)
+    routes["bilateral"] = by_route(
+        growing.damped, damping, **{"growth of the vibration": growing.gained}
+    )
     return routes
-
-
-def at_equal_range(p: Parameters, begin: float, width: float) -> tuple[energy.Powers, np.ndarray]:
-    """Return powers of a growing motion in the first instant in which its range has a width in m.
-
-    Parameters
-    ----------
-    p : the case
-    begin : time in s from which on the motion is searched
-    width : range of the slider's height, m
-    """
-    state = simulate(p, begin, events=False).final_state
-    end = begin
-    while True:
-        end += INSTANT
-        growing, damping = late_powers(p, end, INSTANT, INSTANT_RATE, initial_state=state)
-        if growing.width >= width:
-            return growing, damping
-        state = simulate(p, end, events=False, initial_state=state).final_state
 
 
 def of_brake() -> dict[str, Routes]:

@@ -403,13 +403,6 @@ def test_lines_of_sliding_modes_and_of_probabilities_are_named() -> None:
     assert "all of its values" in labels(sensitivity())
 
 
-def test_branches_of_a_map_of_phases_are_named() -> None:
-    said = labels(of_example("phase_map"))
-    assert said[-1] == "the motion itself"
-    assert all(text.endswith("between them") for text in said[:-1])
-    assert len(said) <= 3, "one entry for each colour"
-
-
 def test_lines_of_phases_differ_in_grey_print() -> None:
     """A thin line of stick was like one of slip."""
     [ax] = of_example("portrait").axes

@@ -9,6 +9,7 @@ from disc_model.disc.plate import modal_damping, mode_arrays, modes_at_point
 from disc_model.paper.energy import (
     Powers,
     angles_round,
+    at_range,
     at_width,
     damping_by_diameters,
     in_the_end,
@@ -62,6 +63,19 @@ def test_damping_follows_the_square_of_the_width_to_which_a_motion_has_grown() -
     assert large == pytest.approx(4 * small, rel=0.02)
     with pytest.raises(Absent, match=r"maintained contact comes to 13\.\d mm only"):
         at_width(history, 0.1)
+
+
+def test_a_growing_motion_is_met_where_its_range_has_a_width() -> None:
+    """Its growth within an instant is small."""
+    found, end = at_range(GROWS, 30.0, 8e-3)
+    assert 10 < end < 30
+    # the mean of instants within 5 %, on both sides of the width
+    assert found.width == pytest.approx(8e-3, rel=0.02)
+    # what is supplied is damped or gained, as 2000 samples an instant tell to some per cent
+    assert found.supplied == pytest.approx(found.damped + found.gained, rel=0.05)
+    assert found.gained > found.damped > 0
+    with pytest.raises(Absent):
+        at_range(GROWS, 5.0, 0.1)
 
 
 def numbered(*numbers: float) -> list[Powers]:

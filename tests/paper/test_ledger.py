@@ -37,6 +37,14 @@ def test_a_sentence_is_said_if_its_row_has_the_verdict_of_which_it_speaks(
     assert said(undecided, part) == []
 
 
+def test_no_template_is_left_in_the_texts(undecided: pd.DataFrame) -> None:
+    """Consequences and places are no templates, and a row once printed one."""
+    for column in undecided.columns:
+        for text in undecided[column].astype(str):
+            assert "{{" not in text
+            assert "{%" not in text
+
+
 def test_errors_in_print_are_counted_apart(undecided: pd.DataFrame) -> None:
     in_print = [row.id for row in ROWS if row.print_error]
     assert in_print

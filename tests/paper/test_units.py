@@ -132,7 +132,7 @@ def test_energies_of_a_period_are_in_millijoules(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(section41, "pairs", lambda cases: [(free, bonded)])
     monkeypatch.setattr(energy, "power_history", lambda *_: None)
     monkeypatch.setattr(energy, "in_the_end", lambda _: held)
-    monkeypatch.setattr(energy, "at_width", lambda *_: kept)
+    monkeypatch.setattr(energy, "at_range", lambda *_: (kept, 1.0))
     monkeypatch.setattr(energy, "powers", lambda *_: SimpleNamespace(pushes=1.0, pulls=-2.0))
     text = said(row_of("excites_less"), free, bonded)
     supplied = [1e-3 * float(found) for found in re.findall(rf"{NUMBER} mJ", text)]

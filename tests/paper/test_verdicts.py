@@ -60,18 +60,15 @@ def mirrored(p: Parameters, growth_of: Callable[[Parameters], float] = growth.gr
     return -growth_of(p)
 
 
-def withheld(p: Parameters, until: float, widest: float = np.inf) -> list[Powers]:
-    """Return powers in W where separation withholds the surplus of maintained contact.
+def held(p: Parameters, until: float, widest: float = np.inf) -> list[Powers]:
+    """Return powers in W of a steady motion that is supplied what damping takes."""
+    return [Powers(3.5e-3, 12.25, 0.0, 12.25, 0.0)] * 4
 
-    They are those of the square of the width in mm.
-    """
-    if p.contact == "unilateral":
-        return [Powers(3.5e-3, 12.25, 0.0, 12.25, 0.0)] * 4
-    history = []
-    for width in range(1, 9):
-        square = float(width**2)
-        history.append(Powers(1e-3 * width, 2 * square, 0.0, square, square))
-    return history
+
+def doubled(p: Parameters, until: float, width: float) -> tuple[Powers, float]:
+    """Return powers in W of a growing motion: half of what is supplied is the surplus."""
+    square = (1e3 * width) ** 2
+    return Powers(width, 2 * square, 0.0, square, square), until
 
 
 def slower(p: Parameters) -> pd.DataFrame:
@@ -142,7 +139,10 @@ WORLDS = {
     "as simulated": World(),
     "other grids and cycles": World(
         scans=evidence.scans(**evidence.TEXTS["scans to the contrary"]),
-        functions={growth: {"growth_of": mirrored}, energy: {"power_history": withheld}},
+        functions={
+            growth: {"growth_of": mirrored},
+            energy: {"power_history": held, "at_range": doubled},
+        },
     ),
     "growth with the stiffness": World(
         functions={growth: {"growth_of": lambda p: p.k_p}}, rows=("S43kpg",)

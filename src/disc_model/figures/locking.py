@@ -12,9 +12,8 @@ from disc_model.data.variables import axis_of, flag_names
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, BLUE, GREY, VERMILION, large, mark, wide
 from disc_model.figures.kinds.motions import PhaseMap, Staircase
-from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import failed
-from disc_model.figures.types import Array, Artist, Figure
+from disc_model.figures.types import Array, Figure
 
 ROOM = 0.055  # of a panel's width, least distance of two labels
 HEIGHT = 0.1  # of a panel's height, room that a label needs
@@ -211,24 +210,7 @@ def draw_map(plot: PhaseMap, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     axes[1].plot(own[:-1], own[1:], zorder=4, **_ring())
     _mark_window(axes[0], near)
     drawing.letters(axes)
-    figure_legend(figure, _map_entries(separations), loc="outside lower center")
     return figure
-
-
-def _map_entries(separations: Array) -> list[Artist]:
-    """Legend entries of a map of release phases: of its branches, and of the motion itself."""
-    handles = []
-    numbers = np.unique(separations[np.isfinite(separations)]).astype(int).tolist()
-    dot = {"linestyle": "", "marker": ".", "markersize": mark(4)}
-    for colour, group in ((BLACK, numbers[::2]), (VERMILION, numbers[1::2])):
-        if not group:
-            continue
-        *others, last = map(str, group)
-        said = " or ".join(filter(None, [", ".join(others), last]))
-        noun = "separation" if group == [1] else "separations"
-        handles.append(drawing.sample(color=colour, label=f"{said} {noun} between them", **dot))
-    handles.append(drawing.sample(label="the motion itself", **_ring()))
-    return handles
 
 
 def _ring() -> dict[str, Any]:

@@ -19,6 +19,12 @@ LENGTH = 5.0
 """Greatest time at the end of each over which they are averaged, s."""
 RATE = 400.0
 """Samples per second."""
+INSTANT = 0.25
+"""Time over which powers of a growing motion are averaged where its range is to be known, s."""
+INSTANT_RATE = 8000.0
+"""Samples per second in such an instant."""
+NEAR = 0.05
+"""Share within which the range in such an instant is near a width."""
 
 
 class Powers(NamedTuple):
@@ -208,3 +214,48 @@ def at_width(history: Sequence[Powers], width: float) -> Powers:
             interpolated = (1 - share) * np.array(low) + share * np.array(high)
             return Powers(*interpolated.tolist())
     raise Absent(f"maintained contact comes to {1e3 * history[-1].width:.3g} mm only")
+
+
+def at_range(p: Parameters, until: float, width: float) -> tuple[Powers, float]:
+    """Return the powers of a growing motion about where its range has a width.
+
+    A stage of `power_history` has the greatest range of seconds, in which the motion may grow much.
+    Powers are therefore means over all instants in which the range is within `NEAR` of the width;
+    those of a single instant depend on the releases that fall into it. The motion begins at the
+    static start.
+
+    Parameters
+    ----------
+    p : the case
+    until : time to which the motion is followed, s
+    width : range of the slider's height, m
+
+    Returns
+    -------
+    powers : the means
+    end : end of the last of these instants, s
+
+    Raises
+    ------
+    Absent
+        If the motion stays smaller.
+    """
+    stages = power_history(p, until, width)
+    at_width(stages, width)
+    begin = until * max(len(stages) - 2, 0) / STAGES
+    theta = angles_round(p)
+    state = None
+    if begin > 0:
+        state = simulate(p, begin, events=False).final_state
+    near: list[Powers] = []
+    for end in np.arange(begin + INSTANT, until + INSTANT / 2, INSTANT).tolist():
+        windows = windows_round(p, end - INSTANT, end, INSTANT_RATE)
+        run = simulate(p, end, windows, initial_state=state).raise_for_status()
+        state = run.final_state
+        found = powers(p, run.u_0, theta, list(run.samples.values()))
+        if found.width > (1 + NEAR) * width:
+            break
+        if found.width > (1 - NEAR) * width:
+            near.append(found)
+            last = end
+    return Powers(*np.mean(near, axis=0).tolist()), last

@@ -236,6 +236,8 @@ class Row(BaseModel):
             settled = "The motion has settled."
         elif evidence.steady:
             settled = "All motions judged here have settled."
+            if evidence.studies:
+                settled = "All motions of the named cases have settled."
         return Answer(answer.verdict, here, answer.notes, note, settled)
 
 

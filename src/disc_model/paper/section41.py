@@ -195,10 +195,8 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
     withheld = []
     for free, bilateral in pairs(cases):
         steady = energy.in_the_end(energy.power_history(free.parameters, free["time_reached"]))
-        growing = energy.power_history(
-            bilateral.parameters, bilateral["time_reached"], steady.width
-        )
-        same = energy.at_width(growing, steady.width)
+        until = bilateral["time_reached"]
+        same, _ = energy.at_range(bilateral.parameters, until, steady.width)
         missing = same.supplied - steady.supplied
         surplus = f"the surplus of {bilateral.name}"
         withheld.append(measures.ratio(missing, same.gained, surplus))
@@ -213,6 +211,8 @@ def excites_less(*cases: CaseView, share: float) -> Answer:
         min(withheld) >= share,
         withheld=withheld,
         rows=rows,
+        instant=energy.INSTANT,
+        near=energy.NEAR,
         pushes=settled.pushes,
         pulls=-settled.pulls,
     )

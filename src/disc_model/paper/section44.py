@@ -680,6 +680,7 @@ def errs(*evidence: Any, within: float, share: float) -> Answer:
     ratios = width.sel(contact="bilateral") / width.sel(contact="unilateral")
     separates = flag_names(free["outcome"]) == "separation"
     brake = _errors(ratios.transpose(*free["outcome"].dims).values[separates], within)
+    kept_on = flag_names(surface.sel(contact="bilateral")["outcome"])[separates]
 
     wrong = disc.any(axis=0) | slider.any(axis=0)
     on_both = [wrong.mean() >= share, separates.any() and brake.any(axis=0).mean() >= share]
@@ -691,6 +692,7 @@ def errs(*evidence: Any, within: float, share: float) -> Answer:
         less=(int(slider[1].sum()), wrong.size),
         brake=(int(brake[0].sum()), int(brake[1].sum())),
         of=int(separates.sum()),
+        unsettled=int(np.isin(kept_on, ("growing", "undecided")).sum()),
         kept=int((~separates).sum()),
     )
 

@@ -277,8 +277,8 @@ def stick_vanishes(*cases: CaseView, share: float) -> Answer:
     return Answer(len(stays) < len(separating), rows=rows, stays=stays)
 
 
-def not_periodic(*cases: CaseView) -> Answer:
-    """Judge whether no motion is periodic after a separation."""
+def becomes_periodic(*cases: CaseView) -> Answer:
+    """Judge whether some motion is periodic after a separation."""
     holds: list[bool | None] = []
     sentences = []
     for case in _separating(cases):
@@ -287,8 +287,11 @@ def not_periodic(*cases: CaseView) -> Answer:
         if kind is Outcome.UNDECIDED:
             holds.append(None)
         else:
-            holds.append(kind in (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR))
-    return Answer(_in_all_cases(holds), " ".join(sentences))
+            holds.append(kind not in (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR))
+    verdict: bool | str = NOT_COMPUTED
+    if None not in holds or True in holds:
+        verdict = True in holds
+    return Answer(verdict, " ".join(sentences))
 
 
 def _repeats(case: CaseView) -> tuple[Outcome, str]:
