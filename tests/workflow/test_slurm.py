@@ -45,6 +45,8 @@ def test_a_study_is_computed_by_the_cluster(project: Project, finished: Project)
         "runtime: 10 * attempt\n    mem_mb: 1200 * attempt\n    in_series",
         "runtime: 1 * attempt\n    mem_mb: 1200 * attempt\n    in_series",
     )
+    # two minutes for a group of two, not four for one of four
+    project.edit(f"{PROFILE}/config.yaml", "batches=4", "batches=2")
     text = project.complete(
         "--workflow-profile", PROFILE, "--quiet", "host"
     )  # which shows every job
@@ -52,7 +54,7 @@ def test_a_study_is_computed_by_the_cluster(project: Project, finished: Project)
     rules = [rule for kind, rule in submitted if kind == "rule"]
     groups = [rule for kind, rule in submitted if kind == "group_batches"]
     batches = len(list(project.folder.glob("results/*/batches/*.nc")))
-    assert groups == [BATCH] * (math.ceil(batches / 4) + 1)
+    assert groups == [BATCH] * (math.ceil(batches / 2) + 1)
     [announced] = re.findall(r"^total +(\d+)$", text, re.MULTILINE)[:1]
     beside = len(re.findall(r"^localrule \w+:", text, re.MULTILINE))
     assert len(rules) + batches + beside == int(announced)
