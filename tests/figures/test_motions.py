@@ -369,6 +369,8 @@ def test_the_share_of_starts_that_have_separated_rises_at_each_separation() -> N
     line, interval = ax.lines
     np.testing.assert_allclose(line.get_xdata(), [0, 4, 9, 20])
     np.testing.assert_allclose(line.get_ydata(), [0, 0.25, 0.5, 0.5])
+    # each share lasts from its separation to the next one, so none rises before its cause
+    assert line.get_drawstyle() == "steps-post"
     low, high = interval.get_ydata()
     assert low < 0.5 < high
     assert 0.5 - low == pytest.approx(high - 0.5)
