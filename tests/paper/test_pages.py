@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from disc_model import Parameters
-from disc_model.data.texts import write_page
+from disc_model.data.texts import fill, write_page
 from disc_model.paper.ledger import COLUMNS, ROWS, summary
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Row
 from disc_model.paper.paper_tables import LISTED, TABLE_1, UNNAMED, table_1, table_2
@@ -98,6 +98,16 @@ def test_the_summary_says_what_stands_and_falls_by_the_verdicts(table: pd.DataFr
     stands = [item["id"] for item in found["stands"]]
     assert stands == ["F13", "F15b"], "C3s is true in part"
     assert found["stands"][0]["text"].endswith("separation begins at 1 s, where the paper has 2 s.")
+
+
+def test_the_summary_takes_the_energies_of_their_row(table: pd.DataFrame) -> None:
+    """It once said those of the preload and of the speed."""
+    template = next(row.here for row in ROWS if row.id == "F10e")
+    pairs = [("200 N, 20 rad/s", 1.23, 4.56, 0.0, 0.0, 0.0)]
+    here = fill(template, rows=pairs, instant=0.25, near=0.05)
+    found = summary(table.assign(here=table["here"].where(table["id"] != "F10e", here)))
+    [text] = [item["text"] for item in found["falls"] if item["id"] == "F10e"]
+    assert "these energies are 1.23 and 4.56 mJ in each period of the vibration (7.4 ms)" in text
 
 
 def test_the_page_links_and_escapes(table: pd.DataFrame, tmp_path: Path) -> None:

@@ -238,16 +238,17 @@ def at_range(p: Parameters, until: float, width: float) -> tuple[Powers, float]:
     Raises
     ------
     Absent
-        If the motion stays smaller.
+        If the motion stays smaller, or is near that width in no instant.
     """
     stages = power_history(p, until, width)
-    at_width(stages, width)
+    at_width(stages, width)  # raises if the motion stays smaller
     begin = until * max(len(stages) - 2, 0) / STAGES
     theta = angles_round(p)
     state = None
     if begin > 0:
         state = simulate(p, begin, events=False).final_state
     near: list[Powers] = []
+    last = math.nan
     for end in np.arange(begin + INSTANT, until + INSTANT / 2, INSTANT).tolist():
         windows = windows_round(p, end - INSTANT, end, INSTANT_RATE)
         run = simulate(p, end, windows, initial_state=state).raise_for_status()
@@ -258,4 +259,6 @@ def at_range(p: Parameters, until: float, width: float) -> tuple[Powers, float]:
         if found.width > (1 - NEAR) * width:
             near.append(found)
             last = end
+    if not near:
+        raise Absent(f"maintained contact leaps over {1e3 * width:.3g} mm")
     return Powers(*np.mean(near, axis=0).tolist()), last
