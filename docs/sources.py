@@ -17,12 +17,10 @@ from disc_model.figures.selection import common_points
 from disc_model.figures.sensitivity import probabilities
 from disc_model.figures.sliding_outcome import agreement
 from disc_model.paper import ledger, measures, survival
-from docs import plate_stiffening
+from docs import brake_stress, plate_stiffening
 
 THICKNESS = 0.012
 """Thickness of the ring of the brake-like disc, m."""
-SLIDER_RADIUS = 0.1
-"""Radius of the slider on this disc, m."""
 
 
 class RangeLawCounts(NamedTuple):
@@ -370,14 +368,14 @@ class Sources:
 
     def stress(self, share: float) -> float:
         """Return what 1 m/s of the surface of this disc means in this share of it or more, MPa."""
-        table = _table(ROOT / "docs" / "brake_stress.csv").set_index("share")
+        table = _table(brake_stress.TABLE).set_index("share")
         return float(1e-6 * table["stress_per_speed"][share])
 
     def brake_endured(self, strength: float) -> float:
         """Return the highest speed up to which all motions in unilateral contact stay below this
         stress, MPa, in 99 % of the disc."""
         study = self.grid("brake_outcome").sel(disc="surface", contact="unilateral")
-        speed = study["surface_speed"] * study["Omega"] * SLIDER_RADIUS
+        speed = study["surface_speed"] * study["Omega"] * brake_stress.SLIDER[0]
         endured = (self.stress(0.01) * speed < strength).all("N")
         return float(study["Omega"].where(endured.cumprod("Omega") > 0).max())
 

@@ -55,16 +55,13 @@ ROUTES = {
 Routes = dict[str, float]
 
 
-def late_powers(
+def late_damping(
     p: Parameters, end: float, length: float = STRETCH, rate: float = energy.RATE, **options: Any
-) -> tuple[energy.Powers, np.ndarray]:
-    """Return powers over the last stretch of a run, and those of damping by nodal diameters, W."""
+) -> np.ndarray:
+    """Return powers that damping takes over the last stretch of a run, by nodal diameters, W."""
     windows = energy.windows_round(p, end - length, end, rate)
     run = simulate(p, end, windows, **options).raise_for_status()
-    samples = list(run.samples.values())
-    theta = energy.angles_round(p)
-    found = energy.powers(p, run.u_0, theta, samples)
-    return found, energy.damping_by_diameters(p, theta, samples)
+    return energy.damping_by_diameters(p, energy.angles_round(p), list(run.samples.values()))
 
 
 def by_route(damped: float, damping: np.ndarray, **others: float) -> Routes:
@@ -94,19 +91,19 @@ def of_paper(N: float, Omega: float) -> dict[str, Routes]:
     free, bonded = PAIRS[N, Omega]
     p = Parameters(N=N, Omega=Omega)
     rigid = energy.in_the_end(energy.power_history(p, free))
-    _, damping = late_powers(p, free)
+    damping = late_damping(p, free)
     routes = {"rigid": by_route(rigid.damped, damping, impacts=rigid.impacts)}
 
     # without impacts, on from the motion with rigid contact
     state = simulate(p, free, events=False).final_state
     compliant = p.replace(contact_compliance="residual")
     end = free + TRANSIENT + STRETCH
-    _, damping = late_powers(compliant, end, initial_state=state)
+    damping = late_damping(compliant, end, initial_state=state)
     routes["compliant"] = by_route(damping.sum(), damping)
 
     bilateral = p.replace(contact="bilateral")
     growing, end = energy.at_range(bilateral, bonded, rigid.width)
-    _, damping = late_powers(bilateral, end, energy.INSTANT, energy.INSTANT_RATE)
+    damping = late_damping(bilateral, end, energy.INSTANT, energy.INSTANT_RATE)
     routes["bilateral"] = by_route(
         growing.damped, damping, **{"growth of the vibration": growing.gained}
     )

@@ -91,8 +91,10 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
 def label_in(study: xr.Dataset, name: str) -> str:
     """Axis label of a variable of a study; of one that depends on the horizon, with the horizon."""
     label = label_of(study[name])[0]
+    if name not in WITHIN_HORIZON:
+        return label
     horizon = json.loads(study.attrs.get("options", "{}")).get("horizon")
-    if name not in WITHIN_HORIZON or not isinstance(horizon, str | float | int):
+    if not isinstance(horizon, str | float | int):
         return label
     if not isinstance(horizon, str):
         horizon = f"{horizon:g} s"

@@ -288,10 +288,7 @@ def becomes_periodic(*cases: CaseView) -> Answer:
             holds.append(None)
         else:
             holds.append(kind not in (Outcome.QUASI_PERIODIC, Outcome.IRREGULAR))
-    verdict: bool | str = NOT_COMPUTED
-    if None not in holds or True in holds:
-        verdict = True in holds
-    return Answer(verdict, " ".join(sentences))
+    return Answer(_in_some_case(holds), " ".join(sentences))
 
 
 def _repeats(case: CaseView) -> tuple[Outcome, str]:
@@ -319,6 +316,16 @@ def _in_all_cases(holds: Sequence[bool | None]) -> bool | str:
     if False in holds:
         return False
     return NOT_COMPUTED if None in holds else True
+
+
+def _in_some_case(holds: Sequence[bool | None]) -> bool | str:
+    """Return the verdict on a statement about at least one case.
+
+    One example proves it, and an open case (None) keeps it open.
+    """
+    if True in holds:
+        return True
+    return NOT_COMPUTED if None in holds else False
 
 
 # ---- Damping
