@@ -57,13 +57,21 @@ COLUMNS = [
 NUMBER = r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
 
 
-def check_claims(cases: Mapping[str, CaseView]) -> pd.DataFrame:
+def check_claims(
+    cases: Mapping[str, CaseView], tables: Mapping[str, pd.DataFrame] | None = None
+) -> pd.DataFrame:
     """Judge all rows by cases and grid studies, by name.
 
-    Returns a table with `COLUMNS`; ``figures`` and ``data`` are links from the paper's results, by
-    their words.
+    Parameters
+    ----------
+    cases : cases and grid studies
+    tables : those of `paper_tables.TABLES` that have been made of these cases; others are made
+
+    Returns
+    -------
+    table : with `COLUMNS`; ``figures`` and ``data`` are links from the paper's results, by their words
     """
-    judged = judge(ROWS, {"": cases})
+    judged = judge(ROWS, {"": cases}, tables)
     stated = pd.DataFrame([_stated(row) for row in ROWS])
     return judged.join(stated)[COLUMNS]
 
@@ -83,7 +91,7 @@ def _stated(row: Row) -> dict[str, Any]:
         figures[words] = _link(name)
 
     data = {}
-    for name in row.tables:
+    for name in row.tables + row.from_tables:
         words = name.replace("_", " ")
         data[f"table {words}"] = f"tables/{name}.html"
     for name in row.cases:

@@ -16,6 +16,7 @@ from disc_model.analysis.classify import Settled
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import fill
 from disc_model.paper.measures import Absent, CaseView, facts
+from disc_model.paper.paper_tables import TABLES
 from disc_model.parameters import Parameters
 
 TRUE = "true"
@@ -96,6 +97,7 @@ class Evidence(NamedTuple):
     studies: list[xr.Dataset]
     optional_studies: list[xr.Dataset | None]
     """Grid studies for notes, None where one is missing."""
+    tables: dict[str, pd.DataFrame]
 
 
 class Row(BaseModel):
@@ -124,6 +126,7 @@ class Row(BaseModel):
     scans : grid studies that the check is given after the cases
     optional_scans : further ones, for notes; the check is given None for one that is missing
     tables : tables of results on which the row rests as well
+    from_tables : tables that the check is given, each as an argument of its name
     figures : figures of the paper's study, or grid studies with a figure of the same name
     print_error : whether the row is on an error in print, which is counted separately
     after_the_fact : whether the rule was chosen when the numbers were known
@@ -149,6 +152,7 @@ class Row(BaseModel):
     scans: tuple[str, ...] = ()
     optional_scans: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
+    from_tables: tuple[str, ...] = ()
     figures: tuple[str, ...] = ()
     print_error: bool = False
     after_the_fact: bool = False
@@ -159,17 +163,24 @@ class Row(BaseModel):
         """How the row is judged, in words."""
         return fill(self.judged, **self.given)
 
-    def judge(self, cases: Mapping[str, CaseView]) -> Answer:
-        """Judge the row by cases and grid studies, by name.
+    def judge(
+        self, cases: Mapping[str, CaseView], tables: Mapping[str, pd.DataFrame] | None = None
+    ) -> Answer:
+        """Judge the row by cases and grid studies, and by tables that were made of them, by name.
 
-        Evidence that is missing, or that does not decide, is named in the answer.
+        A table that is not given is made. Evidence that is missing, or that does not decide, is
+        named in the answer.
         """
         if self.check is None:
             return Answer(self.verdict, self.here, self.note)
         try:
-            evidence = self._gather(cases)
+            evidence = self._gather(cases, tables or {})
             answer = self.check(
-                *evidence.cases, *evidence.studies, *evidence.optional_studies, **self.given
+                *evidence.cases,
+                *evidence.studies,
+                *evidence.optional_studies,
+                **evidence.tables,
+                **self.given,
             )
             return self._put_in_words(answer, evidence)
         except Absent as absent:
@@ -177,7 +188,9 @@ class Row(BaseModel):
         except Missing as missing:
             return Answer(NOT_COMPUTED, f"{missing}.")
 
-    def _gather(self, known: Mapping[str, CaseView]) -> Evidence:
+    def _gather(
+        self, known: Mapping[str, CaseView], tables: Mapping[str, pd.DataFrame]
+    ) -> Evidence:
         """Return the evidence for the check; raises `Missing` if there is not enough of it."""
         if self.every:
             cases = [case for case in known.values() if not case.is_grid]
@@ -205,7 +218,13 @@ class Row(BaseModel):
                 optional.append(known[name].node.to_dataset())
             else:
                 optional.append(None)
-        return Evidence(cases, steady, studies, optional)
+        of_check = {}
+        for name in self.from_tables:
+            if name in tables:
+                of_check[name] = tables[name]
+            else:
+                of_check[name] = TABLES[name]({case.name: case for case in cases})
+        return Evidence(cases, steady, studies, optional, of_check)
 
     @staticmethod
     def _those(named: Literal[True] | tuple[str, ...], cases: list[CaseView]) -> list[CaseView]:
@@ -263,17 +282,28 @@ def rows_of(file: str, checks: Mapping[str, Any]) -> tuple[Row, ...]:
     return tuple(TypeAdapter(dict[str, Row]).validate_python(entries).values())
 
 
-def judge(rows: Iterable[Row], models: Mapping[str, Mapping[str, CaseView]]) -> pd.DataFrame:
+def judge(
+    rows: Iterable[Row],
+    models: Mapping[str, Mapping[str, CaseView]],
+    tables: Mapping[str, pd.DataFrame] | None = None,
+) -> pd.DataFrame:
     """Judge rows under models, each with its own cases by name.
 
-    Returns a table with a row for each statement and model: ``id``, ``model`` and the attributes of
-    `Answer`.
+    Parameters
+    ----------
+    rows : statements with their checks
+    models : cases and grid studies of each model
+    tables : made of the cases of the one model, by name
+
+    Returns
+    -------
+    table : a row for each statement and model: ``id``, ``model`` and the attributes of `Answer`
     """
     rows = tuple(rows)
     judged = []
     for model, cases in models.items():
         for row in rows:
-            answer = row.judge(cases)
+            answer = row.judge(cases, tables)
             judged.append({"id": row.id, "model": model, **vars(answer)})
     return pd.DataFrame(judged)
 
