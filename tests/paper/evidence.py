@@ -17,8 +17,8 @@ import yaml
 
 from disc_model.data.columns import series_dataset
 from disc_model.data.variables import EVENT_KINDS, PHASES
+from disc_model.paper.judging_tables import ENERGIES, GROWTHS
 from disc_model.paper.measures import CaseView
-from disc_model.paper.paper_tables import ENERGIES, GROWTHS
 from disc_model.parameters import Parameters
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.study import load_study
@@ -244,5 +244,5 @@ def tables(supplied: float = 3.88) -> dict[str, pd.DataFrame]:
 
 
 def sliding_growths(*rows: tuple[float, float, float, float]) -> pd.DataFrame:
-    """Return growth rates of steady sliding in 1/s at speeds in rad/s, as `paper_tables.precursor`."""
+    """Return growth rates of steady sliding in 1/s at speeds in rad/s, as `judging_tables.precursor`."""
     return pd.DataFrame(rows, columns=["Omega", *GROWTHS]).assign(N=385.0)

@@ -18,12 +18,13 @@ from disc_model.paper import (
     SURVIVAL_GRIDS,
     TABLE_CASES,
     energy,
+    judging_tables,
     paper_tables,
     section41,
     survival,
 )
 from disc_model.paper.energy import Powers
-from disc_model.paper.ledger import COLUMNS, MODULES, ROWS, check_claims
+from disc_model.paper.ledger import COLUMNS, MODULES, ROWS, check_claims, tables_of
 from disc_model.paper.measures import Absent, CaseView
 from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, VERDICTS, Answer, Row
 from disc_model.studies.study import load_study
@@ -265,27 +266,39 @@ def test_table_1_has_the_papers_value_beside_that_of_a_case() -> None:
     assert (same["paper"] == same["ours"]).all()
 
 
-def test_a_table_that_is_not_given_is_made_of_the_cases(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_table_that_is_not_given_is_made_of_its_cases(monkeypatch: pytest.MonkeyPatch) -> None:
     def names(cases: Mapping[str, CaseView]) -> pd.DataFrame:
         return pd.DataFrame({"case": [*cases]})
 
-    def judged(case: CaseView, *, listed: pd.DataFrame) -> Answer:
-        return Answer(list(listed["case"]) == ["F11"])
+    for name in JUDGING_TABLES:
+        monkeypatch.setitem(paper_tables.TABLES, name, names)
+    cases = {name: labelled(name) for name in ("F11", "F13", "F16")}
+    given = names({"F12": cases["F11"]})
+    tables = tables_of(cases, {"precursor": given})
+    # there is none of energies, whose cases are not there
+    assert tables.keys() == {"precursor", "small_changes"}
+    assert tables["precursor"] is given
+    assert list(tables["small_changes"]["case"]) == ["F11", "F13"]
 
-    monkeypatch.setitem(paper_tables.TABLES, "listed", names)
+
+def test_a_check_is_given_its_tables_or_says_which_is_missing() -> None:
+    def judged(case: CaseView, *, listed: pd.DataFrame) -> Answer:
+        return Answer(list(listed["case"]) == [case.name])
+
     row = Row(id="x", check=judged, place="", cases={"F11": 0}, from_tables=("listed",))
     cases = {"F11": labelled("F11")}
-    assert row.judge(cases).verdict == TRUE
-    assert row.judge(cases, {"listed": names({"F12": cases["F11"]})}).verdict == FALSE
+    assert row.judge(cases, {"listed": pd.DataFrame({"case": ["F11"]})}).verdict == TRUE
+    assert row.judge(cases, {"listed": pd.DataFrame({"case": ["F12"]})}).verdict == FALSE
+    assert row.judge(cases).here == "table listed is not among those of this run."
 
 
 @pytest.mark.compiled
 def test_small_changes_say_when_contact_is_lost(monkeypatch: pytest.MonkeyPatch) -> None:
     """At 385 N, 15.1 rad/s it is lost at 54 s, and a smaller preload keeps it for longer."""
-    monkeypatch.setattr(paper_tables, "FOLLOWED", 60.0)
-    monkeypatch.setattr(paper_tables, "PHYSICAL", ("N", "mu_k"))
+    monkeypatch.setattr(judging_tables, "FOLLOWED", 60.0)
+    monkeypatch.setattr(judging_tables, "PHYSICAL", ("N", "mu_k"))
     p = Parameters(N=385, Omega=15.1)
-    table = paper_tables.small_changes({"here": known(name="here", parameters=p)})
+    table = judging_tables.small_changes({"here": known(name="here", parameters=p)})
     assert [*table["case"]] == ["here", "here"]
     for row in table.itertuples():
         changed = p.replace(**{row.parameter: 1.001 * getattr(p, row.parameter)})
@@ -314,17 +327,17 @@ def test_energies_are_of_pairs_and_say_what_they_lack(monkeypatch: pytest.Monkey
 
     monkeypatch.setattr(energy, "power_history", lambda p, until: [steady] * 4)
     monkeypatch.setattr(energy, "at_range", at_range)
-    row = paper_tables.energies({"free": free, "kept": kept}).iloc[0]
+    row = judging_tables.energies({"free": free, "kept": kept}).iloc[0]
     # mJ in a period of 8 ms
     expected = [4.0, 7.2, 2.4, 1.6, 4.8]
-    assert row[paper_tables.ENERGIES].to_list() == pytest.approx(expected, rel=1e-12)
+    assert row[judging_tables.ENERGIES].to_list() == pytest.approx(expected, rel=1e-12)
     assert pd.isna(row["remark"])
 
     def too_small(*_: Any) -> NoReturn:
         raise Absent("maintained contact comes to 1 mm only")
 
     monkeypatch.setattr(energy, "at_range", too_small)
-    table = paper_tables.energies({"free": free, "kept": kept})
+    table = judging_tables.energies({"free": free, "kept": kept})
     assert table["remark"].to_list() == ["maintained contact comes to 1 mm only"]
     pairs = section41.pairs([free, kept])
     with pytest.raises(Absent, match="1 mm only"):
@@ -332,9 +345,9 @@ def test_energies_are_of_pairs_and_say_what_they_lack(monkeypatch: pytest.Monkey
 
 
 def test_growth_of_sliding_is_that_of_three_models(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(paper_tables, "SPEEDS", np.array([1000.0]))
-    monkeypatch.setitem(paper_tables.PRECURSOR, "loads", [50])
-    (row,) = paper_tables.precursor({}).itertuples(index=False)
+    monkeypatch.setattr(judging_tables, "SPEEDS", np.array([1000.0]))
+    monkeypatch.setitem(judging_tables.PRECURSOR, "loads", [50])
+    (row,) = judging_tables.precursor({}).itertuples(index=False)
     p = Parameters(N=50, Omega=1000, contact="bilateral", c_p=5, friction_decay=0.02)
     models = (p.replace(mu_s=0, mu_k=0), p, p.replace(c=0.5))
     rates = [steady_sliding(model).growth_rate for model in models]

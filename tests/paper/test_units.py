@@ -13,10 +13,11 @@ import pytest
 import xarray as xr
 
 from disc_model.data.texts import fill
-from disc_model.paper import energy, measures, section41, section43
+from disc_model.paper import TABLE_CASES, energy, measures, section41, section43
+from disc_model.paper.judging_tables import ENERGIES
 from disc_model.paper.ledger import ROWS
 from disc_model.paper.measures import Range
-from disc_model.paper.paper_tables import ENERGIES, TABLE_CASES, impact_law
+from disc_model.paper.paper_tables import impact_law
 from disc_model.parameters import Parameters
 from tests.figures.measured import UREG
 

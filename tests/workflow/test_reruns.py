@@ -16,6 +16,7 @@ SIMULATIONS = {f"simulate_case:{case}" for case in ("F11", "F13", "X")}
 FIGURES = {"draw_figure:small:fig11", "draw_figure:small:fig13"}
 MERGED = {"merge_cases", "check_claims"}
 OF_F13 = {"make_table:table1", "make_table:table2", "make_table:small_changes"}
+OF_CASE = {"simulate_case:F13", "draw_figure:small:fig13"}
 TABLES = OF_F13 | {"make_table:precursor"}
 PLOT = {"draw_figure:small_map:chart"}
 MAP_TAIL = {"merge_batches:small_map"} | PLOT
@@ -59,7 +60,7 @@ def test_a_second_run_does_nothing(project: Project) -> None:
 @pytest.mark.parametrize(
     ("file", "old", "new", "jobs"),
     [
-        (SMALL, "Omega: 15.1", "Omega: 15.2", lambda _: {"simulate_case:F13", "draw_figure:small:fig13"} | OF_F13 | MERGED),
+        (SMALL, "Omega: 15.1", "Omega: 15.2", lambda _: OF_CASE | OF_F13 | MERGED),
         (SMALL, "title: quiet", "title: calm", lambda _: {"merge_cases"}),
         (SMALL, "  X: {title: another,", "  Y: {title: new,", lambda _: {"simulate_case:Y"} | MERGED),
         (MAP, "axes:\n", "base: {c: 0.1}\naxes:\n", whole_map),

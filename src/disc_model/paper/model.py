@@ -1,7 +1,7 @@
 """Rows of the ledger: quotations of the paper, and the checks that judge them."""
 
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -16,7 +16,6 @@ from disc_model.analysis.classify import Settled
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import fill
 from disc_model.paper.measures import Absent, CaseView, facts
-from disc_model.paper.paper_tables import TABLES
 from disc_model.parameters import Parameters
 
 TRUE = "true"
@@ -166,10 +165,9 @@ class Row(BaseModel):
     def judge(
         self, cases: Mapping[str, CaseView], tables: Mapping[str, pd.DataFrame] | None = None
     ) -> Answer:
-        """Judge the row by cases and grid studies, and by tables that were made of them, by name.
+        """Judge the row by cases and grid studies, and by tables made of cases, by name.
 
-        A table that is not given is made. Evidence that is missing, or that does not decide, is
-        named in the answer.
+        Evidence that is missing, or that does not decide, is named in the answer.
         """
         if self.check is None:
             return Answer(self.verdict, self.here, self.note)
@@ -196,9 +194,8 @@ class Row(BaseModel):
             cases = [case for case in known.values() if not case.is_grid]
         else:
             cases = [required_case(known, name, until) for name, until in self.cases.items()]
-        for name in self.scans:
-            if name not in known:
-                raise Missing(f"study {name} is not among those of this run")
+        _require("study", self.scans, known)
+        _require("table", self.from_tables, tables)
 
         for case in self._those(self.separates, cases):
             if not (case.separates or case.bilateral):
@@ -218,13 +215,8 @@ class Row(BaseModel):
                 optional.append(known[name].node.to_dataset())
             else:
                 optional.append(None)
-        of_check = {}
-        for name in self.from_tables:
-            if name in tables:
-                of_check[name] = tables[name]
-            else:
-                of_check[name] = TABLES[name]({case.name: case for case in cases})
-        return Evidence(cases, steady, studies, optional, of_check)
+        given = {name: tables[name] for name in self.from_tables}
+        return Evidence(cases, steady, studies, optional, given)
 
     @staticmethod
     def _those(named: Literal[True] | tuple[str, ...], cases: list[CaseView]) -> list[CaseView]:
@@ -260,6 +252,13 @@ class Row(BaseModel):
         return Answer(answer.verdict, here, answer.notes, note, settled)
 
 
+def _require(what: str, names: Iterable[str], known: Container[str]) -> None:
+    """Raise `Missing` for the first study or table that is not known."""
+    for name in names:
+        if name not in known:
+            raise Missing(f"{what} {name} is not among those of this run")
+
+
 def rows_of(file: str, checks: Mapping[str, Any]) -> tuple[Row, ...]:
     """Return the rows of a YAML file, in its order.
 
@@ -285,7 +284,7 @@ def rows_of(file: str, checks: Mapping[str, Any]) -> tuple[Row, ...]:
 def judge(
     rows: Iterable[Row],
     models: Mapping[str, Mapping[str, CaseView]],
-    tables: Mapping[str, pd.DataFrame] | None = None,
+    tables: Mapping[str, Mapping[str, pd.DataFrame]] | None = None,
 ) -> pd.DataFrame:
     """Judge rows under models, each with its own cases by name.
 
@@ -293,7 +292,7 @@ def judge(
     ----------
     rows : statements with their checks
     models : cases and grid studies of each model
-    tables : made of the cases of the one model, by name
+    tables : those that are made of the cases of each model, by name
 
     Returns
     -------
@@ -303,7 +302,7 @@ def judge(
     judged = []
     for model, cases in models.items():
         for row in rows:
-            answer = row.judge(cases, tables)
+            answer = row.judge(cases, (tables or {}).get(model))
             judged.append({"id": row.id, "model": model, **vars(answer)})
     return pd.DataFrame(judged)
 

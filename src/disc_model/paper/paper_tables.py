@@ -1,9 +1,7 @@
-"""Tables of results: Tables 1 and 2 of the paper beside ours, and those on which rows of the ledger
-rest.
+"""Tables of results: Tables 1 and 2 of the paper beside ours, and those on which results rest.
 
-The latter are made from further computations: periods under other tolerances and numbers of modes,
-motion after impacts with more modes, energies with separation and without it, what a change of a
-parameter by a thousandth does, and growth of steady sliding on the precursor's disc.
+The latter are periods under other tolerances and numbers of modes, motion after impacts with more
+modes, and those of `judging_tables`.
 """
 
 from collections.abc import Callable, Mapping
@@ -18,9 +16,8 @@ from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Motion, motion_of
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
-from disc_model.paper import TABLE_CASES, energy
-from disc_model.paper.growth import sliding_growth
-from disc_model.paper.measures import Absent, CaseView, pairs, place
+from disc_model.paper import TABLE_CASES, judging_tables
+from disc_model.paper.measures import CaseView, place
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.states import State
@@ -257,102 +254,13 @@ def impact_law(cases: Mapping[str, CaseView]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-# ---- Energies with separation and without it
-
-ENERGIES = ["supplied_mJ", "supplied_bilateral_mJ", "damped_mJ", "impacts_mJ", "surplus_mJ"]
-"""Columns of energies in one period of the vibration."""
-
-
-def energies(cases: Mapping[str, CaseView]) -> pd.DataFrame:
-    """Return energies of motions with separation, and of the same without it at equal range, mJ.
-
-    The columns are ``case``, the `ENERGIES` and ``remark``, which says why there are none.
-    """
-    rows = []
-    for free, bilateral in pairs(list(cases.values())):
-        row: dict[str, Any] = {"case": free.name}
-        try:
-            found = energies_of(free, bilateral)
-            row |= dict(zip(ENERGIES, found, strict=True))
-        except (Absent, Missing) as reason:
-            row["remark"] = str(reason)
-        rows.append(row)
-    return pd.DataFrame(rows, columns=["case", *ENERGIES, "remark"])
-
-
-def energies_of(free: CaseView, bilateral: CaseView) -> list[float]:
-    """Return the `ENERGIES` of a case with separation and of one without it.
-
-    Raises `Absent` if the latter stays smaller, or `Missing` if the former keeps no separations.
-    """
-    period = free.intervals("separation").mean()
-    history = energy.power_history(free.parameters, free["time_reached"])
-    steady = energy.in_the_end(history)
-    until = bilateral["time_reached"]
-    same, _ = energy.at_range(bilateral.parameters, until, steady.width)
-    watts = [steady.supplied, same.supplied, steady.damped, steady.impacts, same.gained]
-    return [float(1e3 * period * power) for power in watts]
-
-
-# ---- Small changes of parameters
-
-PHYSICAL = ("a", "b", "r_0", "h", "E", "nu", "rho", "D_star", "mu_s", "mu_k", "k", "k_p", "m", "N")
-"""Parameters that are changed by 0.1 %, one at a time."""
-FOLLOWED = 600.0
-"""Time to which a motion is then followed, s."""
-
-
-def small_changes(cases: Mapping[str, CaseView]) -> pd.DataFrame:
-    """Return first separations within `FOLLOWED` s if one parameter is a thousandth larger.
-
-    The columns are ``case``, ``parameter`` and ``first_s``, which is nan where contact is kept.
-    """
-    rows = []
-    for case in cases.values():
-        p = case.parameters
-        for name in PHYSICAL:
-            larger = p.replace(**{name: 1.001 * getattr(p, name)})
-            run = simulate(larger, FOLLOWED, stop_at="first_separation").raise_for_status()
-            rows.append((case.name, name, run.first_separation))
-    return pd.DataFrame(rows, columns=["case", "parameter", "first_s"])
-
-
-# ---- The model's precursor: steady sliding with friction that falls
-
-PRECURSOR: dict[str, Any] = TEXTS["precursor"]
-"""Loads (N), dampers (N s/m) and fall of friction (s/m) of the combinations."""
-SPEEDS = np.arange(5.0, 1501.0, 5.0)
-"""Speeds in rad/s, up to where sliding is unstable at all speeds without friction."""
-GROWTHS = ["frictionless_1/s", "friction_1/s", "damper_1/s"]
-"""Columns of growth rates: without friction, with it, and with it and a damper."""
-
-
-def precursor(_: Mapping[str, CaseView]) -> pd.DataFrame:
-    """Return largest growth rates of steady sliding over load and speed: ``N``, ``Omega`` and
-    `GROWTHS`."""
-    p = Parameters(
-        N=PRECURSOR["loads"][0],
-        Omega=SPEEDS[0],
-        contact="bilateral",
-        c_p=PRECURSOR["c_p"],
-        friction_decay=PRECURSOR["friction_decay"],
-    )
-    models = (p.replace(mu_s=0.0, mu_k=0.0), p, p.replace(c=PRECURSOR["c"]))
-    rows = []
-    for N in PRECURSOR["loads"]:
-        for speed in SPEEDS:
-            rates = [sliding_growth(model.replace(N=N, Omega=speed)) for model in models]
-            rows.append((N, speed, *rates))
-    return pd.DataFrame(rows, columns=["N", "Omega", *GROWTHS])
-
-
 TABLES: dict[str, Callable[[Mapping[str, CaseView]], pd.DataFrame]] = {
     "table1": lambda cases: table_1(cases["F13"].parameters),
     "table2": lambda cases: table_2(cases["F13"]),
     "periods": periods,
     "impact_law": impact_law,
-    "energies": energies,
-    "small_changes": small_changes,
-    "precursor": precursor,
+    "energies": judging_tables.energies,
+    "small_changes": judging_tables.small_changes,
+    "precursor": judging_tables.precursor,
 }
 """Functions that make a table from the cases that it needs."""

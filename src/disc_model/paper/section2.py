@@ -14,9 +14,9 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import coupled_natural_frequencies, mode_shapes, plate_modes
 from disc_model.paper import measures
+from disc_model.paper.judging_tables import GROWTHS, PRECURSOR
 from disc_model.paper.measures import Array, CaseView
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded, parameters_of
-from disc_model.paper.paper_tables import GROWTHS, PRECURSOR
 from disc_model.parameters import Parameters
 
 BASE = Parameters(N=200, Omega=20)
@@ -246,7 +246,7 @@ def additional(*, precursor: pd.DataFrame) -> Answer:
     """Judge whether friction makes stable speeds unstable, and the damper raises growth there.
 
     The statement is open if the damper raises some of these growth rates only: of the precursor we
-    have the abstract, and do not know its disc. The table is that of `paper_tables.precursor`.
+    have the abstract, and do not know its disc. The table is that of `judging_tables.precursor`.
     """
     without, both, damped = (precursor[name].to_numpy() for name in GROWTHS)
     speeds = precursor["Omega"].to_numpy()

@@ -14,7 +14,7 @@ from disc_model.analysis import classify, spectra
 from disc_model.data import texts
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
-from disc_model.paper import energy, measures, model, paper_tables
+from disc_model.paper import energy, judging_tables, measures, model
 from disc_model.paper.measures import Absent, CaseView, extent, or_none, pairs, published
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 from disc_model.paper.section2 import BASE, moving_load_speed
@@ -190,7 +190,7 @@ def excites_less(*cases: CaseView, energies: pd.DataFrame, share: float) -> Answ
     Parameters
     ----------
     cases : with separation and without it, which form pairs
-    energies : of these pairs, as `paper_tables.energies`
+    energies : of these pairs, as `judging_tables.energies`
     share : of the energy that the motion in maintained contact gains, which has to be withheld
     """
     table = energies.set_index("case")
@@ -198,7 +198,7 @@ def excites_less(*cases: CaseView, energies: pd.DataFrame, share: float) -> Answ
     withheld = []
     for free, bilateral in pairs(cases):
         found = table.loc[free.name]
-        in_period = np.asarray(found[paper_tables.ENERGIES], dtype=float)
+        in_period = np.asarray(found[judging_tables.ENERGIES], dtype=float)
         if np.isnan(in_period).any():
             raise Absent(str(found["remark"]))
         supplied, maintained, damped, taken, gained = in_period.tolist()
@@ -261,7 +261,7 @@ def quiet(case: CaseView, *, share: float, newtons: float, within: float) -> Ans
 def bracketed(below: CaseView, above: CaseView, *, small_changes: pd.DataFrame) -> Answer:
     """Judge whether separation begins between two speeds.
 
-    The answer names parameters a thousandth of which changes that, by `paper_tables.small_changes`.
+    The answer names parameters a thousandth of which changes that, by `judging_tables.small_changes`.
     """
     changed = []
     for case in (below, above):
