@@ -8,14 +8,15 @@ import pytest
 import xarray as xr
 
 from disc_model.data.dataset import Missing
-from disc_model.paper import growth, section41
+from disc_model.paper import energy, growth, section41
 from disc_model.paper.measures import SEPARATION, Absent, Range
-from disc_model.paper.model import FALSE, PART, TRUE
+from disc_model.paper.model import AMBIGUOUS, FALSE, PART, TRUE
 from disc_model.paper.section2 import BASE, moving_load_speed
 from disc_model.paper.section41 import (
     both_at_low_speed,
     bounded_by_separation,
     bracketed,
+    excites_less,
     far_below,
     force_grows_to_zero,
     keeps_sticking,
@@ -195,6 +196,44 @@ def test_intervals_between_releases_spread_by_a_share_of_their_mean() -> None:
     assert releases_regularly(case, within=0.0099).verdict == FALSE
     wide = known(intervals=lambda: 0.0125 * np.array([0.9, 1.1] * 10))
     assert releases_regularly(case, wide, within=0.0101).verdict == PART
+
+
+@pytest.mark.parametrize(
+    ("supplied", "pulls", "verdict"),
+    [
+        (0.6, -1.0, AMBIGUOUS),  # the negative force takes energy
+        (0.8, -1.0, AMBIGUOUS),  # nothing is withheld, either
+        (0.8, 1.0, AMBIGUOUS),
+        (0.6, 1.0, TRUE),
+    ],
+)
+def test_excitation_is_withheld_over_periods_and_while_the_force_is_negative(
+    supplied: float, pulls: float, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The words were cut off before those on the negative force, and judged by the first reading.
+
+    Without separation 0.8 W are supplied, of which 0.3 W are gained; half of them decide.
+    """
+    powers = {
+        "unilateral": energy.Powers(3e-3, supplied, 0.0, 0.3, 0.0),
+        "bilateral": energy.Powers(9e-3, 4.0, pulls, 3.0, 0.0),
+    }
+    growing = energy.Powers(3e-3, 0.8, 0.0, 0.5, 0.3)
+    pair = [
+        known(
+            name=contact,
+            parameters=Parameters(N=400, Omega=15, contact=contact),
+            intervals=lambda _: np.array([7.4e-3]),
+        )
+        for contact in powers
+    ]
+    monkeypatch.setattr(section41, "pairs", lambda _: [pair])
+    monkeypatch.setattr(energy, "power_history", lambda p, until: [powers[p.contact]])
+    monkeypatch.setattr(energy, "in_the_end", lambda history: history[0])
+    monkeypatch.setattr(energy, "at_range", lambda *_: (growing, 1.0))
+    found = excites_less(*pair, share=0.5)
+    assert found.verdict == verdict
+    assert found.values["by_sign"] == [("here", 4.0, pulls)]
 
 
 @pytest.mark.parametrize(

@@ -120,7 +120,6 @@ def test_energies_of_a_period_are_in_millijoules(monkeypatch: pytest.MonkeyPatch
             parameters=Parameters(N=385, Omega=15.1, contact=contact, n_diameters=0),
             time_reached=1.0,
             intervals=lambda kind: np.array([7.4e-3]),
-            samples=lambda name: SimpleNamespace(attrs={"theta": 0.0}),
             name=contact,
         )
         for contact in ("unilateral", "bilateral")
@@ -133,7 +132,6 @@ def test_energies_of_a_period_are_in_millijoules(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(energy, "power_history", lambda *_: None)
     monkeypatch.setattr(energy, "in_the_end", lambda _: held)
     monkeypatch.setattr(energy, "at_range", lambda *_: (kept, 1.0))
-    monkeypatch.setattr(energy, "powers", lambda *_: SimpleNamespace(pushes=1.0, pulls=-2.0))
     text = said(row_of("excites_less"), free, bonded)
     supplied = [1e-3 * float(found) for found in re.findall(rf"{NUMBER} mJ", text)]
     assert supplied == pytest.approx([0.5 * 7.4e-3, 0.8 * 7.4e-3], abs=5.1e-6)

@@ -61,8 +61,8 @@ def mirrored(p: Parameters, growth_of: Callable[[Parameters], float] = growth.gr
 
 
 def held(p: Parameters, until: float, widest: float = np.inf) -> list[Powers]:
-    """Return powers in W of a steady motion that is supplied what damping takes."""
-    return [Powers(3.5e-3, 12.25, 0.0, 12.25, 0.0)] * 4
+    """Return powers in W of a steady motion that is supplied what damping takes, also by pulling."""
+    return [Powers(3.5e-3, 12.0, 0.25, 12.25, 0.0)] * 4
 
 
 def doubled(p: Parameters, until: float, width: float) -> tuple[Powers, float]:

@@ -51,6 +51,7 @@ COLUMNS = [
     "rule",
     "figures",
     "data",
+    "computed",
     "counts",
 ]
 
@@ -104,6 +105,7 @@ def _stated(row: Row) -> dict[str, Any]:
         "section": section,
         "figures": figures,
         "data": data,
+        "computed": row.computed,
         "counts": counts,
     }
 

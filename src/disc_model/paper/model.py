@@ -124,6 +124,7 @@ class Row(BaseModel):
     scans : grid studies that the check is given after the cases
     optional_scans : further ones, for notes; the check is given None for one that is missing
     tables : tables of results on which the row rests as well
+    computed : what the check computes besides, of which no dataset is kept
     figures : figures of the paper's study, or grid studies with a figure of the same name
     print_error : whether the row is on an error in print, which is counted separately
     after_the_fact : whether the rule was chosen when the numbers were known
@@ -149,6 +150,7 @@ class Row(BaseModel):
     scans: tuple[str, ...] = ()
     optional_scans: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
+    computed: str = ""
     figures: tuple[str, ...] = ()
     print_error: bool = False
     after_the_fact: bool = False
