@@ -17,7 +17,7 @@ import yaml
 
 from disc_model.data.columns import series_dataset
 from disc_model.data.variables import EVENT_KINDS, PHASES
-from disc_model.paper.judging_tables import ENERGIES, GROWTHS
+from disc_model.paper.judging_tables import ENERGIES, GROWTHS, POWERS
 from disc_model.paper.measures import CaseView
 from disc_model.parameters import Parameters
 from disc_model.simulation.named_case import run_case
@@ -225,16 +225,17 @@ def critical_speeds(windows: Sequence[Sequence[float]]) -> xr.Dataset:
 # ---- Tables
 
 
-def tables(supplied: float = 3.88) -> dict[str, pd.DataFrame]:
+def tables(supplied: float = 3.88, pulls: float = -3.0) -> dict[str, pd.DataFrame]:
     """Return tables that checks are given, with few rows.
 
     Parameters
     ----------
     supplied : energy with separation, mJ, beside 3.94 mJ without it and a surplus of 2.37 mJ
+    pulls : power in W while the force of maintained contact is negative
     """
     in_period = [supplied, 3.94, 1.57, 2.31, 2.37]
     energies = pd.DataFrame({"case": ["F02", "F07", "F09"]})
-    energies[ENERGIES] = in_period
+    energies[ENERGIES + POWERS] = [*in_period, 4.0, pulls]
     changes = [("F11", "a", 52.2), ("F11", "b", np.nan), ("F13", "a", np.nan), ("F13", "b", 60.1)]
     return {
         "energies": energies.assign(remark=np.nan),

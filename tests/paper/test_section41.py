@@ -9,14 +9,15 @@ import pytest
 import xarray as xr
 
 from disc_model.data.dataset import Missing
-from disc_model.paper import section41
+from disc_model.paper import judging_tables, section41
 from disc_model.paper.measures import SEPARATION, Absent, Range
-from disc_model.paper.model import FALSE, PART, TRUE
+from disc_model.paper.model import AMBIGUOUS, FALSE, PART, TRUE
 from disc_model.paper.section2 import BASE, moving_load_speed
 from disc_model.paper.section41 import (
     both_at_low_speed,
     bounded_by_separation,
     bracketed,
+    excites_less,
     far_below,
     force_grows_to_zero,
     keeps_sticking,
@@ -196,6 +197,32 @@ def test_intervals_between_releases_spread_by_a_share_of_their_mean() -> None:
     assert releases_regularly(case, within=0.0099).verdict == FALSE
     wide = known(intervals=lambda: 0.0125 * np.array([0.9, 1.1] * 10))
     assert releases_regularly(case, wide, within=0.0101).verdict == PART
+
+
+@pytest.mark.parametrize(
+    ("supplied", "pulls", "verdict"),
+    [
+        (0.6, -1.0, AMBIGUOUS),  # the negative force takes energy
+        (0.8, -1.0, AMBIGUOUS),  # nothing is withheld, either
+        (0.8, 1.0, AMBIGUOUS),
+        (0.6, 1.0, TRUE),
+    ],
+)
+def test_excitation_is_withheld_over_periods_and_while_the_force_is_negative(
+    supplied: float, pulls: float, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The words were cut off before those on the negative force, and judged by the first reading.
+
+    Without separation 0.8 mJ are supplied, of which 0.3 mJ are gained; half of them decide.
+    """
+    table = pd.DataFrame({"case": ["free"]})
+    table[judging_tables.ENERGIES] = [supplied, 0.8, 0.3, 0.0, 0.3]
+    table[judging_tables.POWERS] = [4.0, pulls]
+    pair = [known(name="free"), known(name="kept")]
+    monkeypatch.setattr(section41, "pairs", lambda _: [pair])
+    found = excites_less(*pair, energies=table, share=0.5)
+    assert found.verdict == verdict
+    assert found.values["by_sign"] == [("here", 4.0, pulls)]
 
 
 @pytest.mark.parametrize(

@@ -325,12 +325,17 @@ def test_energies_are_of_pairs_and_say_what_they_lack(monkeypatch: pytest.Monkey
         assert (p.contact, until, width) == ("bilateral", 20.0, 3e-3)
         return grown, 15.0
 
-    monkeypatch.setattr(energy, "power_history", lambda p, until: [steady] * 4)
+    def history(p: Parameters, until: float) -> list[Powers]:
+        return [steady if p.contact == "unilateral" else late] * 4
+
+    late = Powers(9e-3, 4.0, -3.0, 1.0, 0.0)
+    monkeypatch.setattr(energy, "power_history", history)
     monkeypatch.setattr(energy, "at_range", at_range)
     row = judging_tables.energies({"free": free, "kept": kept}).iloc[0]
     # mJ in a period of 8 ms
     expected = [4.0, 7.2, 2.4, 1.6, 4.8]
     assert row[judging_tables.ENERGIES].to_list() == pytest.approx(expected, rel=1e-12)
+    assert row[judging_tables.POWERS].to_list() == [4.0, -3.0]
     assert pd.isna(row["remark"])
 
     def too_small(*_: Any) -> NoReturn:

@@ -13,12 +13,11 @@ import pytest
 import xarray as xr
 
 from disc_model.data.texts import fill
-from disc_model.paper import TABLE_CASES, energy, measures, section41, section43
-from disc_model.paper.judging_tables import ENERGIES
+from disc_model.paper import TABLE_CASES, measures, section41, section43
+from disc_model.paper.judging_tables import ENERGIES, POWERS
 from disc_model.paper.ledger import ROWS
 from disc_model.paper.measures import Range
 from disc_model.paper.paper_tables import impact_law
-from disc_model.parameters import Parameters
 from tests.figures.measured import UREG
 
 BY_NAME = {row.id: row for row in ROWS}
@@ -115,22 +114,14 @@ def test_a_section_has_displacements_in_millimetres() -> None:
 
 
 def test_energies_of_a_period_are_in_millijoules(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As the table has them, whose columns name the unit."""
-    free, bonded = (
-        case(
-            parameters=Parameters(N=385, Omega=15.1, contact=contact, n_diameters=0),
-            samples=lambda name: SimpleNamespace(attrs={"theta": 0.0}),
-            name=contact,
-        )
-        for contact in ("unilateral", "bilateral")
-    )
-    monkeypatch.setattr(type(free), "__getitem__", lambda self, key: 1.0)
+    """As the table has them, whose columns name the unit; powers are in watts."""
+    free, bonded = (case(name=contact) for contact in ("unilateral", "bilateral"))
     monkeypatch.setattr(section41, "pairs", lambda cases: [(free, bonded)])
-    monkeypatch.setattr(energy, "powers", lambda *_: SimpleNamespace(pushes=1.0, pulls=-2.0))
     table = pd.DataFrame({"case": ["unilateral"]})
-    table[ENERGIES] = [3.7, 5.92, 2.22, 1.48, 3.7]
+    table[ENERGIES + POWERS] = [3.7, 5.92, 2.22, 1.48, 3.7, 1.0, -2.0]
     text = said(row_of("excites_less"), free, bonded, energies=table)
     assert [float(found) for found in re.findall(rf"{NUMBER} mJ", text)] == [3.7, 5.92]
+    assert "supplies 1.00 W and takes 2.00 W" in text
 
 
 def test_the_table_of_impacts_is_in_milliseconds_percent_and_millimetres() -> None:

@@ -123,7 +123,8 @@ WORLDS = {
     "other grids and cycles": World(
         scans=evidence.scans(**evidence.TEXTS["scans to the contrary"]),
         functions={growth: {"growth_of": mirrored}},
-        tables=evidence.tables(supplied=2.5),  # more than half of the surplus is withheld
+        # more than half of the surplus is withheld, and the negative force supplies energy
+        tables=evidence.tables(supplied=2.5, pulls=1.0),
     ),
     "growth with the stiffness": World(
         functions={growth: {"growth_of": lambda p: p.k_p}}, rows=("S43kpg",)

@@ -21,27 +21,31 @@ from disc_model.simulation.api import simulate
 
 ENERGIES = ["supplied_mJ", "supplied_bilateral_mJ", "damped_mJ", "impacts_mJ", "surplus_mJ"]
 """Columns of energies in one period of the vibration."""
+POWERS = ["pushes_W", "pulls_W"]
+"""Columns of mean powers at the end of the run without separation, while the force is positive and
+while it is negative."""
 
 
 def energies(cases: Mapping[str, CaseView]) -> pd.DataFrame:
     """Return energies of motions with separation, and of the same without it at equal range, mJ.
 
-    The columns are ``case``, the `ENERGIES` and ``remark``, which says why there are none.
+    The columns are ``case``, the `ENERGIES`, the `POWERS` and ``remark``, which says why there are
+    none.
     """
     rows = []
     for free, bilateral in pairs(list(cases.values())):
         row: dict[str, Any] = {"case": free.name}
         try:
             found = energies_of(free, bilateral)
-            row |= dict(zip(ENERGIES, found, strict=True))
+            row |= dict(zip(ENERGIES + POWERS, found, strict=True))
         except (Absent, Missing) as reason:
             row["remark"] = str(reason)
         rows.append(row)
-    return pd.DataFrame(rows, columns=["case", *ENERGIES, "remark"])
+    return pd.DataFrame(rows, columns=["case", *ENERGIES, *POWERS, "remark"])
 
 
 def energies_of(free: CaseView, bilateral: CaseView) -> list[float]:
-    """Return the `ENERGIES` of a case with separation and of one without it.
+    """Return the `ENERGIES` and `POWERS` of a case with separation and of one without it.
 
     Raises `Absent` if the latter stays smaller, or `Missing` if the former keeps no separations.
     """
@@ -51,7 +55,9 @@ def energies_of(free: CaseView, bilateral: CaseView) -> list[float]:
     until = bilateral["time_reached"]
     same, _ = energy.at_range(bilateral.parameters, until, steady.width)
     watts = [steady.supplied, same.supplied, steady.damped, steady.impacts, same.gained]
-    return [float(1e3 * period * power) for power in watts]
+    in_period = [float(1e3 * period * power) for power in watts]
+    settled = energy.in_the_end(energy.power_history(bilateral.parameters, until))
+    return [*in_period, settled.pushes, settled.pulls]
 
 
 # ---- Small changes of parameters

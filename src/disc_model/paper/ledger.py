@@ -52,6 +52,7 @@ COLUMNS = [
     "rule",
     "figures",
     "data",
+    "computed",
     "counts",
 ]
 
@@ -126,6 +127,7 @@ def _stated(row: Row) -> dict[str, Any]:
         "section": section,
         "figures": figures,
         "data": data,
+        "computed": row.computed,
         "counts": counts,
     }
 

@@ -126,6 +126,7 @@ class Row(BaseModel):
     optional_scans : further ones, for notes; the check is given None for one that is missing
     tables : tables of results on which the row rests as well
     from_tables : tables that the check is given, each as an argument of its name
+    computed : what the check computes besides, of which no dataset is kept
     figures : figures of the paper's study, or grid studies with a figure of the same name
     print_error : whether the row is on an error in print, which is counted separately
     after_the_fact : whether the rule was chosen when the numbers were known
@@ -152,6 +153,7 @@ class Row(BaseModel):
     optional_scans: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
     from_tables: tuple[str, ...] = ()
+    computed: str = ""
     figures: tuple[str, ...] = ()
     print_error: bool = False
     after_the_fact: bool = False

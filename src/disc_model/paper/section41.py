@@ -16,7 +16,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.paper import energy, judging_tables, measures, model
 from disc_model.paper.measures import Absent, CaseView, extent, or_none, pairs, published
-from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
+from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 from disc_model.paper.section2 import BASE, moving_load_speed
 
 
@@ -185,7 +185,9 @@ def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
 def excites_less(*cases: CaseView, energies: pd.DataFrame, share: float) -> Answer:
     """Judge whether separation withholds energy that maintained contact supplies.
 
-    Both are compared at the amplitude that separation allows.
+    The words have two readings. Over whole periods both are compared at the range that separation
+    allows. Over the time apart, in which nothing is supplied, the comparison is with the negative
+    force of maintained contact in the end.
 
     Parameters
     ----------
@@ -196,6 +198,7 @@ def excites_less(*cases: CaseView, energies: pd.DataFrame, share: float) -> Answ
     table = energies.set_index("case")
     rows = []
     withheld = []
+    by_sign = []
     for free, bilateral in pairs(cases):
         found = table.loc[free.name]
         in_period = np.asarray(found[judging_tables.ENERGIES], dtype=float)
@@ -205,26 +208,19 @@ def excites_less(*cases: CaseView, energies: pd.DataFrame, share: float) -> Answ
         surplus = f"the surplus of {bilateral.name}"
         withheld.append(measures.ratio(maintained - supplied, gained, surplus))
         rows.append((free.place, supplied, maintained, damped, taken, gained))
+        by_sign.append((free.place, *found[judging_tables.POWERS]))
 
-    settled = _late_powers(pairs(cases)[0][1])
+    over_periods = min(withheld) >= share
+    while_negative = all(pulls > 0 for *_, pulls in by_sign)
+    # by the second reading no statement is false: apart, nothing is supplied
     return Answer(
-        min(withheld) >= share,
+        TRUE if over_periods and while_negative else AMBIGUOUS,
         withheld=withheld,
         rows=rows,
         instant=energy.INSTANT,
         near=energy.NEAR,
-        pushes=settled.pushes,
-        pulls=-settled.pulls,
+        by_sign=by_sign,
     )
-
-
-def _late_powers(case: CaseView) -> energy.Powers:
-    """Return mean powers at the end of a case, whose windows ``field0``, ... are at all angles."""
-    p = case.parameters
-    angles = 2 * p.n_diameters + 1
-    windows = [case.samples(f"field{i}") for i in range(angles)]
-    theta = np.array([window.attrs["theta"] for window in windows])
-    return energy.powers(p, case["u_0"], theta, windows)
 
 
 # ---- Section 4.2: 385 N around the critical speed, and the critical speed in general
