@@ -220,18 +220,23 @@ def twice_the_damping(*cases: CaseView) -> Answer:
     return Answer(stable.pop(), fates=fates)
 
 
-def inplane_damping(without: CaseView, case: CaseView, study: xr.Dataset) -> Answer:
+def inplane_damping(without: CaseView, case: CaseView, study: xr.Dataset | None) -> Answer:
     """Judge whether in-plane damping makes a quiet case separate.
 
     Parameters
     ----------
     without, case : the runs without the damper and with it
-    study : map of preload and in-plane damping, which tells at which other preloads it does
+    study : map of preload and in-plane damping, if there is one; it tells at which preloads it does
     """
     verdict = not without.separates and case.separates
-    loads, damping, separates, _ = plane(study, "N", "c_p")
-    newly = loads[~separates[:, 0] & separates[:, damping == case["c_p"]][:, 0]]
-    return Answer(verdict, fates=(without.fate, case.fate), newly=[*newly], size=loads.size)
+    newly: list[float] = []
+    size = 0
+    if study is not None:
+        loads, damping, separates, _ = plane(study, "N", "c_p")
+        with_damper = separates[:, damping == case["c_p"]][:, 0]
+        newly = loads[~separates[:, 0] & with_damper].tolist()
+        size = loads.size
+    return Answer(verdict, fates=(without.fate, case.fate), newly=newly, size=size)
 
 
 def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
