@@ -195,8 +195,8 @@ def begin_turning(model, series):
                 b,
                 constants(model, TANGENTIAL_DAMPING, b) + f_0 * turn,
             )
-            now_along = now_along + _known_along(model, series, b, e, z)
-            pending_along = pending_along + _known_along(model, series, b, e_next, z_next)
+            now_along = _known_along(model, series, b, e, z, now_along)
+            pending_along = _known_along(model, series, b, e_next, z_next, pending_along)
             turning = turning + turn * e
     swing = total(by_e)
     by_f = swing + f_0 * total(by_z)
@@ -226,24 +226,25 @@ def next_turning(model, series, k, f_k, V_impulse, H_impulse, pending):
     next_up = splat(0.0)
     next_along = splat(0.0)
     for b in range(0, lane_count(model), WIDTH):
-        here, following = _turning_block(model, series, b, k, f_k, push)
+        here, following = _turning_block(model, series, b, k, f_k, push, next_along)
         up = up + here.up
         next_up = next_up + following.up
         if model.has_moving_surface:
             along = along + here.along
-            next_along = next_along + following.along
+            next_along = following.along
     single = axisymmetric_order(model, series, k, V_impulse)
     return Parts(up, along), single, Parts(next_up, next_along)
 
 
 @inlined
-def _turning_block(model, series, b, k, f_k, push):
+def _turning_block(model, series, b, k, f_k, push, next_along):
     """One block of order k >= 1.
 
     Takes e_k without the forces of order k - 1, s_k, e_{k-1} and z_k; finds e_k, z_{k+1}, s_{k+1},
     and e_{k+1} without the forces of order k. Returns the block's `Parts` of order k beyond the
-    pending ones, and those which it leaves pending for order k + 1. Terms with ``push`` come
-    last in every sum: that chain sets the pace.
+    pending ones, and those which it leaves pending for order k + 1, along the path added to
+    ``next_along`` of the blocks before. Terms with ``push`` come last in every sum: that chain sets
+    the pace.
     """
     e = velocity(model, series, k, b)
     carried = handed_on(model, series, CARRIED, b)
@@ -274,9 +275,8 @@ def _turning_block(model, series, b, k, f_k, push):
     put_velocity(model, series, k + 1, b, e_next)
     hand_on(model, series, CARRIED, b, carried)
     next_up = _known_acceleration(model, series, b, e_next, z_next, carried)
-    next_along = splat(0.0)
     if model.has_moving_surface:
-        next_along = _known_along(model, series, b, e_next, z_next)
+        next_along = _known_along(model, series, b, e_next, z_next, next_along)
     return Parts(part, along), Parts(next_up, next_along)
 
 
@@ -289,11 +289,10 @@ def _known_acceleration(model, series, b, e, z, carried):
 
 
 @inlined
-def _known_along(model, series, b, e, z):
-    """A block's part of the acceleration along the path of an order, as far as the order before
-    determines it (lanes)."""
-    by_z = constants(model, TANGENTIAL_STIFFNESS, b) * z
-    return handed_on(model, series, ALONG_BY_VELOCITY, b) * e + by_z
+def _known_along(model, series, b, e, z, others):
+    """As `_known_acceleration` for the acceleration along the path, added to that of ``others``."""
+    known = others + constants(model, TANGENTIAL_STIFFNESS, b) * z
+    return known + handed_on(model, series, ALONG_BY_VELOCITY, b) * e
 
 
 @inlined

@@ -31,7 +31,7 @@ from .stick_modes import padded
 _QUANTITIES = (
     "psi", "f", "u", "v", "P", "switch", "switch2", "powers", "up", "down",
     "slope", "drive", "preload", "friction", "coefficient", "share", "lever", "weakening", "sensitivity",
-    "V", "surface", "turn", "hold",
+    "V", "slider", "turn", "hold",
 )  # fmt: skip
 _PLACES = {name: Part("quantities", ROWS * i, ROWS) for i, name in enumerate(_QUANTITIES)}
 _ROOT_ROWS = 7 * WIDTH
@@ -69,8 +69,8 @@ class Series(NamedTuple):
     weakening: np.ndarray  # change of T with f by phi
     sensitivity: np.ndarray  # change of T with f
     V: np.ndarray  # vertical force of a compliant contact
-    surface: np.ndarray  # v_s of the surface on which friction acts; 0 if it does not move
-    turn: np.ndarray  # integral of v_s / r_0, likewise
+    slider: np.ndarray  # its own rate where the surface on which friction acts moves
+    turn: np.ndarray  # integral of v_s / r_0, likewise; 0 if that does not move
     hold: np.ndarray  # H in stick, likewise
     roots: np.ndarray  # work space of `roots.first_root`
     amplitudes: (

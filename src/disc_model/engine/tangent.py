@@ -397,8 +397,8 @@ def _slider_loads(model, series, tangent, block, k, du, dv, along):
         f = series.f[k]
         f_rate = series.f[k + 1] * series.down[k]
         if model.has_moving_surface:
-            f += series.surface[k] / model.r_0
-            f_rate += series.surface[k + 1] / model.r_0 * series.down[k]
+            f = series.slider[k]
+            f_rate = series.slider[k + 1] * series.down[k]
         v_rate = series.v[k + 1] * series.down[k]
         pull = pull + entry(tangent.inputs, at, D_K_P) * series.psi[k] - d_c_p * f
         pull = pull - d_m * f_rate
