@@ -3,11 +3,13 @@
 from fractions import Fraction
 from itertools import pairwise
 
+import numba
 import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from disc_model.engine import roots
 from disc_model.engine.jit.simd import aligned
 from disc_model.engine.model import ROWS
 from disc_model.engine.roots import NO_ROOT, dot, first_root, set_powers
@@ -15,12 +17,12 @@ from disc_model.engine.roots import NO_ROOT, dot, first_root, set_powers
 DEGREE = 24
 
 
-def first(coefficients, x_end: float = 1.0, low: int = 0) -> float:
+def first(coefficients, x_end: float = 1.0, low: int = 0, degree: int = DEGREE) -> float:
     c = aligned(ROWS)
     powers = aligned(ROWS)
     c[: len(coefficients)] = coefficients
-    set_powers(powers, x_end, DEGREE)
-    return first_root(c, low, DEGREE, x_end, powers, np.zeros((56, ROWS)))
+    set_powers(powers, x_end, degree)
+    return first_root(c, low, degree, x_end, powers, np.zeros((56, ROWS)))
 
 
 def from_roots(roots) -> np.ndarray:
@@ -152,6 +154,47 @@ def test_the_last_step_to_a_root_is_small_enough() -> None:
     # a step of 1e-5 over which the slope changes by 1e-4 of itself leaves 1e-13 at most
     slope = np.polynomial.polynomial.polyval(root, np.polynomial.polynomial.polyder(c))
     assert abs(np.polynomial.polynomial.polyval(root, c) / slope) < 1e-13 * root
+
+
+@pytest.mark.parametrize("degree", [3, 6, 7, 8, 15, 17])
+def test_the_highest_terms_of_any_degree_count(degree: int) -> None:
+    """Also where they do not fill a block of lanes, and where only they bring the function down."""
+    late = np.zeros(degree + 1)
+    late[0] = 1.0
+    late[degree] = -(1.25**degree)
+    late[1] = 0.1
+    root = first(late, degree=degree)
+    assert np.polynomial.polynomial.polyval(root, late) == pytest.approx(0.0, abs=1e-14 * degree)
+    assert 0.8 < root < 1.0
+
+    # two roots, so that one sign does not decide
+    both = np.zeros(degree + 1)
+    both[:3] = [0.56, -1.5, 1.0]
+    both[degree - 2 :] += [0.56, -1.5, 1.0]
+    assert first(both, degree=degree) == pytest.approx(0.7, rel=1e-13)
+
+
+@pytest.mark.skipif(not numba.config.DISABLE_JIT, reason="compiled code cannot be watched")
+@pytest.mark.parametrize("all_roots", [[0.6], [0.3, 0.8], [0.2, 0.9, 1.4], [0.45, -0.1, -2.0]])
+def test_a_root_that_is_alone_takes_few_steps(
+    all_roots: list[float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Halving would find it with any slope and curvature, in fifty."""
+    read = []
+
+    def item(array: np.ndarray, i: int) -> float:
+        read.append(i)
+        return array[i]
+
+    monkeypatch.setattr(roots, "item", item)
+    wanted = min(root for root in all_roots if root > 0)
+    assert first(from_roots(all_roots)) == pytest.approx(wanted, rel=1e-14)
+    # all coefficients in each of four steps, and some of those before
+    assert len(read) < 6 * DEGREE
+
+
+def test_a_pair_of_roots_early_in_a_step_is_as_precise_as_others() -> None:
+    assert first(from_roots([1e-4, 1.5e-4])) == pytest.approx(1e-4, rel=1e-13)
 
 
 def test_known_root_at_the_start_is_divided_out() -> None:

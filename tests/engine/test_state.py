@@ -53,6 +53,26 @@ def test_every_component_of_a_mode_has_a_place_of_its_own(size: tuple[int, int])
     assert model.shift[of_a].tolist() == diameters[diameters > 0].tolist()
 
 
+@pytest.mark.parametrize("size", SIZES)
+def test_kernels_look_for_entries_of_a_column_where_the_state_has_them(
+    size: tuple[int, int],
+) -> None:
+    model = model_of(*size)
+    here = build_state(model)
+    here.disc[:] = np.arange(float(len(here.disc)))
+    of_kernels = {
+        state.velocity_place: here.e,
+        state.displacement0_place: here.y,
+        state.velocity0_place: here.g,
+    }
+    for place, entries in of_kernels.items():
+        assert [in_python(place)(model, j) for j in range(len(entries))] == entries.tolist()
+    behind = columns.n_rows(model) - state.SLIDER
+    scalars = (state.PSI, state.PHI_RATE, state.U, state.U_VELOCITY)
+    places = [in_python(state.slider_place)(model, scalar) for scalar in scalars]
+    assert places == [behind, behind + 1, behind + 2, behind + 3]
+
+
 def test_scalars_come_back_under_their_names() -> None:
     here = build_state(model_of(1, 0))
     values = dict(zip(state.SCALAR_NAMES, np.arange(1.0, 8.0).tolist(), strict=True))

@@ -9,6 +9,7 @@ import pytest
 from disc_model import Execution, Parameters, Window, plate_modes, simulate
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.engine import laws, transitions
+from disc_model.engine.jit.simd import WIDTH
 from disc_model.engine.model import ROWS, build_state, on_ramp, set_course
 from disc_model.engine.series import build_series
 from disc_model.engine.state import STICK
@@ -228,7 +229,8 @@ def test_series_against_the_reference(name, phase, direction, n_diameters, rates
     width = len(model.mode_amplitude)
     n0 = len(model.mode_amplitude0)
     # displacements and velocities of the pairs in turn
-    rows = s.modes.reshape(-1, width)[: 2 * order + 2]
+    blocks = s.modes.reshape(width // WIDTH, -1, WIDTH)
+    rows = blocks.swapaxes(0, 1).reshape(-1, width)[: 2 * order + 2]
     pairs = [rows[0::2], rows[1::2]]
     single = [x.reshape(n0, ROWS).T[: order + 1] for x in (s.y, s.g)]
     own = np.concatenate(pairs + single, axis=1)[:, case.places]

@@ -88,8 +88,8 @@ def inplane_energy(model, state):
 def surface_share(model, series):
     """Return abs(v_s) over the speed of the drive point at the start of a step by series; 0 if that
     rests."""
-    speed = model.r_0 * series.drive[0]
-    return abs(series.surface[0]) / speed if speed > 0.0 else 0.0
+    speed = series.drive[0]
+    return abs(series.slider[0] - series.f[0]) / speed if speed > 0.0 else 0.0
 
 
 @inlined

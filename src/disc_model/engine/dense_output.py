@@ -20,17 +20,17 @@ def _pairs_at(model, series, order, x, state):
     square = splat(x * x)
     for b in range(0, lane_count(model), WIDTH):
         # from the highest orders down
-        z = displacement(model, series, order, b)
-        e = velocity(model, series, order, b)
-        z_odd = displacement(model, series, order - 1, b)
-        e_odd = velocity(model, series, order - 1, b)
+        z = displacement(series, order, b)
+        e = velocity(series, order, b)
+        z_odd = displacement(series, order - 1, b)
+        e_odd = velocity(series, order - 1, b)
         for k in range(order - 2, 0, -2):
-            z = displacement(model, series, k, b) + z * square
-            e = velocity(model, series, k, b) + e * square
-            z_odd = displacement(model, series, k - 1, b) + z_odd * square
-            e_odd = velocity(model, series, k - 1, b) + e_odd * square
-        z = displacement(model, series, 0, b) + z * square
-        e = velocity(model, series, 0, b) + e * square
+            z = displacement(series, k, b) + z * square
+            e = velocity(series, k, b) + e * square
+            z_odd = displacement(series, k - 1, b) + z_odd * square
+            e_odd = velocity(series, k - 1, b) + e_odd * square
+        z = displacement(series, 0, b) + z * square
+        e = velocity(series, 0, b) + e * square
         store(state.z, b, z + z_odd * at)
         store(state.e, b, e + e_odd * at)
 

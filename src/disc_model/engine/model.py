@@ -56,6 +56,7 @@ MOST_FREE = 1e4  # longest ``Model.free_unit``: the highest power of eight of th
     TANGENTIAL_TURN,
     SLOPE_RATE,
 ) = range(14)
+_N_ROWS = SLOPE_RATE + ROWS
 
 
 @packed()
@@ -67,7 +68,8 @@ class Model(NamedTuple):
     branch of a law that the case does not have.
     """
 
-    lanes: np.ndarray  # all rows: hot kernels use one pointer. The next five are views of it
+    # all rows, as [block][row][lane]: hot kernels use one pointer, and a row's place is a constant
+    lanes: np.ndarray
     shift: np.ndarray  # +l in lanes of a, -l in lanes of b
     stiffness: np.ndarray  # omega^2
     damping: np.ndarray  # 2 xi omega
@@ -165,10 +167,9 @@ def build_model(modes: DiscModes, slider: Mapping[str, Any], contact: Contact) -
     unit = _time_unit(omega, contact_rate, slider_rate)
     free_unit = _time_unit(omega, 0.0, slider_rate) / unit
 
-    lanes = _lanes(modes, unit)
-    rows = lanes.reshape(SLOPE_RATE + ROWS, -1)
+    rows = _rows(modes, unit)
     return Model(
-        lanes=lanes,
+        lanes=_in_blocks(rows),
         shift=rows[SHIFT],
         stiffness=rows[STIFFNESS],
         damping=rows[DAMPING],
@@ -216,8 +217,8 @@ def _time_unit(omega, contact, slider) -> float:
     return 1.0 / max(float(np.max(omega, initial=0.0)), contact**0.5)
 
 
-def _lanes(modes: DiscModes, unit: float) -> np.ndarray:
-    """Return ``Model.lanes`` for a unit of time, s."""
+def _rows(modes: DiscModes, unit: float) -> np.ndarray:
+    """Return the rows of ``Model.lanes`` for a unit of time, s."""
     pairs = np.flatnonzero(modes.diameters > 0)
     l = modes.diameters[pairs]
     psi = modes.psi[pairs]
@@ -225,8 +226,7 @@ def _lanes(modes: DiscModes, unit: float) -> np.ndarray:
     of_b = of_a + HALF
     of_both = np.concatenate([of_a, of_b])
     width = lanes_for(len(pairs))
-    lanes = aligned((SLOPE_RATE + ROWS) * width)
-    rows = lanes.reshape(-1, width)
+    rows = np.zeros((_N_ROWS, width))
     rows[SHIFT, of_a] = l
     rows[SHIFT, of_b] = -l
     rows[STIFFNESS, of_both] = np.tile(modes.omega[pairs] ** 2, 2)
@@ -244,6 +244,14 @@ def _lanes(modes: DiscModes, unit: float) -> np.ndarray:
     rows[FORCES] = rows[AMPLITUDE] + rows[TANGENTIAL]
     rows[SLOPE_RATE:, of_b] = l * psi
     rows[SLOPE_RATE:, of_a] = np.outer(np.arange(1.0, ROWS + 1.0) / unit, l * psi)
+    return rows
+
+
+def _in_blocks(rows: np.ndarray) -> np.ndarray:
+    """Return ``Model.lanes`` with these rows."""
+    lanes = aligned(rows.size)
+    by_block = rows.reshape(_N_ROWS, -1, WIDTH).swapaxes(0, 1)
+    lanes[:] = by_block.ravel()
     return lanes
 
 
@@ -386,4 +394,4 @@ def lane_count(model):
 @inlined
 def constants(model, row, b):
     """Return the block of a row that begins at lane b."""
-    return load(model.lanes, row * lane_count(model) + b)
+    return load(model.lanes, b * _N_ROWS + row * WIDTH)

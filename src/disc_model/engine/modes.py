@@ -61,6 +61,7 @@ from .series import (
     CARRIED,
     INNER_DISPLACEMENT,
     INNER_VELOCITY,
+    ORDER,
     displacement,
     hand_on,
     handed_on,
@@ -78,7 +79,7 @@ def _sum_of_displacements(model, series, row, k):
     """Sum of a row of the model times the displacements of the pairs of order k."""
     lanes = splat(0.0)
     for b in range(0, lane_count(model), WIDTH):
-        lanes = lanes + constants(model, row, b) * displacement(model, series, k, b)
+        lanes = lanes + constants(model, row, b) * displacement(series, k, b)
     return total(lanes)
 
 
@@ -104,7 +105,7 @@ def rest_on_disc(model, series, B):
     if is_rigid(model):
         velocities = splat(0.0)
         for b in range(0, lane_count(model), WIDTH):
-            velocities = velocities + constants(model, AMPLITUDE, b) * velocity(model, series, 0, b)
+            velocities = velocities + constants(model, AMPLITUDE, b) * velocity(series, 0, b)
         v = total(velocities) + series.f[0] * B
         for j in range(len(model.mode_amplitude0)):
             v += model.mode_amplitude0[j] * series.g[j * ROWS]
@@ -117,7 +118,7 @@ def largest_velocity(model, series, k):
     """Largest modulus among the modal velocities of order k."""
     biggest = splat(0.0)
     for b in range(0, lane_count(model), WIDTH):
-        biggest = simd.maximum(biggest, simd.absolute(velocity(model, series, k, b)))
+        biggest = simd.maximum(biggest, simd.absolute(velocity(series, k, b)))
     size = simd.largest(biggest)
     for j in range(len(model.mode_amplitude0)):
         size = max(size, abs(series.g[j * ROWS + k]))
@@ -161,8 +162,8 @@ def begin_turning(model, series):
     by_z = zero
     by_z1 = zero
     for b in range(0, lane_count(model), WIDTH):
-        z = displacement(model, series, 0, b)
-        e = velocity(model, series, 0, b)
+        z = displacement(series, 0, b)
+        e = velocity(series, 0, b)
         shift = constants(model, SHIFT, b)
         slopes = constants(model, SLOPE, b)
         bend = constants(model, BEND, b)
@@ -172,15 +173,15 @@ def begin_turning(model, series):
         z_next = (e + f_0 * (shift * swap_halves(z))) * up
         e_next = (f_0 * (shift * swap_halves(e)) - bound) * up
         carried = f_0 * z_next
-        put_displacement(model, series, 1, b, z_next)
-        put_velocity(model, series, 1, b, e_next)
-        hand_on(model, series, CARRIED, b, carried)
+        put_displacement(series, 1, b, z_next)
+        put_velocity(series, 1, b, e_next)
+        hand_on(series, CARRIED, b, carried)
 
         # factors of e_k, and of z_k and s_k, in u'' of order k
         by_velocity = constants(model, MINUS_AMPLITUDE_DAMPING, b) + (2.0 * f_0) * slopes
         by_displacement = constants(model, MINUS_AMPLITUDE_STIFFNESS, b) + f_0 * swap_halves(bend)
-        hand_on(model, series, BY_VELOCITY, b, by_velocity)
-        hand_on(model, series, BY_DISPLACEMENT, b, by_displacement)
+        hand_on(series, BY_VELOCITY, b, by_velocity)
+        hand_on(series, BY_DISPLACEMENT, b, by_displacement)
         pending = pending + _known_acceleration(model, series, b, e_next, z_next, carried)
         now = now + _known_acceleration(model, series, b, e, z, zero)
         by_e = by_e + slopes * e
@@ -189,14 +190,10 @@ def begin_turning(model, series):
         if model.has_moving_surface:
             turn = constants(model, TANGENTIAL_TURN, b)
             hand_on(
-                model,
-                series,
-                ALONG_BY_VELOCITY,
-                b,
-                constants(model, TANGENTIAL_DAMPING, b) + f_0 * turn,
+                series, ALONG_BY_VELOCITY, b, constants(model, TANGENTIAL_DAMPING, b) + f_0 * turn
             )
-            now_along = now_along + _known_along(model, series, b, e, z)
-            pending_along = pending_along + _known_along(model, series, b, e_next, z_next)
+            now_along = _known_along(model, series, b, e, z, now_along)
+            pending_along = _known_along(model, series, b, e_next, z_next, pending_along)
             turning = turning + turn * e
     swing = total(by_e)
     by_f = swing + f_0 * total(by_z)
@@ -226,30 +223,31 @@ def next_turning(model, series, k, f_k, V_impulse, H_impulse, pending):
     next_up = splat(0.0)
     next_along = splat(0.0)
     for b in range(0, lane_count(model), WIDTH):
-        here, following = _turning_block(model, series, b, k, f_k, push)
+        here, following = _turning_block(model, series, b, k, f_k, push, next_along)
         up = up + here.up
         next_up = next_up + following.up
         if model.has_moving_surface:
             along = along + here.along
-            next_along = next_along + following.along
+            next_along = following.along
     single = axisymmetric_order(model, series, k, V_impulse)
     return Parts(up, along), single, Parts(next_up, next_along)
 
 
 @inlined
-def _turning_block(model, series, b, k, f_k, push):
+def _turning_block(model, series, b, k, f_k, push, next_along):
     """One block of order k >= 1.
 
     Takes e_k without the forces of order k - 1, s_k, e_{k-1} and z_k; finds e_k, z_{k+1}, s_{k+1},
     and e_{k+1} without the forces of order k. Returns the block's `Parts` of order k beyond the
-    pending ones, and those which it leaves pending for order k + 1. Terms with ``push`` come
-    last in every sum: that chain sets the pace.
+    pending ones, and those which it leaves pending for order k + 1, along the path added to
+    ``next_along`` of the blocks before. Terms with ``push`` come last in every sum: that chain sets
+    the pace.
     """
-    e = velocity(model, series, k, b)
-    carried = handed_on(model, series, CARRIED, b)
-    e_last = velocity(model, series, k - 1, b)
-    z_last = displacement(model, series, k, b)
-    e_inner, z_inner = _inner_terms(model, series, b, k, e_last, z_last)
+    e = velocity(series, k, b)
+    carried = handed_on(series, CARRIED, b)
+    e_last = velocity(series, k - 1, b)
+    z_last = displacement(series, k, b)
+    e_inner, z_inner = _inner_terms(series, b, k, e_last, z_last)
     part = constants(model, SLOPE_RATE + k, b) * simd.high_halves(z_inner, e_inner)
     along = splat(0.0)
     if model.has_moving_surface:
@@ -261,52 +259,50 @@ def _turning_block(model, series, b, k, f_k, push):
     up = series.up[k]
     f_0 = series.f[0]
     e = e + push * constants(model, FORCES, b)
-    turned = swap_halves(carried + f_k * displacement(model, series, 0, b))
+    turned = swap_halves(carried + f_k * displacement(series, 0, b))
     z_next = (e + shift * turned) * up
-    carried = z_inner + f_k * displacement(model, series, 1, b) + f_0 * z_next
+    carried = z_inner + f_k * displacement(series, 1, b) + f_0 * z_next
 
     # velocities of order k + 1
     bound = damping * e + constants(model, STIFFNESS, b) * z_last
-    turned = swap_halves(e_inner + f_k * velocity(model, series, 0, b) + f_0 * e)
+    turned = swap_halves(e_inner + f_k * velocity(series, 0, b) + f_0 * e)
     e_next = (shift * turned - bound) * up
-    put_velocity(model, series, k, b, e)
-    put_displacement(model, series, k + 1, b, z_next)
-    put_velocity(model, series, k + 1, b, e_next)
-    hand_on(model, series, CARRIED, b, carried)
+    put_velocity(series, k, b, e)
+    put_displacement(series, k + 1, b, z_next)
+    put_velocity(series, k + 1, b, e_next)
+    hand_on(series, CARRIED, b, carried)
     next_up = _known_acceleration(model, series, b, e_next, z_next, carried)
-    next_along = splat(0.0)
     if model.has_moving_surface:
-        next_along = _known_along(model, series, b, e_next, z_next)
+        next_along = _known_along(model, series, b, e_next, z_next, next_along)
     return Parts(part, along), Parts(next_up, next_along)
 
 
 @inlined
 def _known_acceleration(model, series, b, e, z, carried):
     """A block's part of u'' of an order, as far as the order before determines it (lanes)."""
-    known = handed_on(model, series, BY_DISPLACEMENT, b) * low_halves(z, carried)
+    known = handed_on(series, BY_DISPLACEMENT, b) * low_halves(z, carried)
     # in this order: the first of two products is added to the second one, which does not wait for e
-    return handed_on(model, series, BY_VELOCITY, b) * e + known
+    return handed_on(series, BY_VELOCITY, b) * e + known
 
 
 @inlined
-def _known_along(model, series, b, e, z):
-    """A block's part of the acceleration along the path of an order, as far as the order before
-    determines it (lanes)."""
-    by_z = constants(model, TANGENTIAL_STIFFNESS, b) * z
-    return handed_on(model, series, ALONG_BY_VELOCITY, b) * e + by_z
+def _known_along(model, series, b, e, z, others):
+    """As `_known_acceleration` for the acceleration along the path, added to that of ``others``."""
+    known = others + constants(model, TANGENTIAL_STIFFNESS, b) * z
+    return known + handed_on(series, ALONG_BY_VELOCITY, b) * e
 
 
 @inlined
-def _inner_terms(model, series, b, k, e_last, z_last):
+def _inner_terms(series, b, k, e_last, z_last):
     """Inner terms of order k for e and z; ``e_last``, ``z_last`` are e_{k-1} and z_k. Orders are
     taken in pairs: an odd one computes most of the next one's terms, too."""
     if k % 2 == 0:
-        return _inner_of_second(model, series, b, k, e_last, z_last)
-    return _inner_of_first(model, series, b, k, e_last, z_last)
+        return _inner_of_second(series, b, k, e_last, z_last)
+    return _inner_of_first(series, b, k, e_last, z_last)
 
 
 @inlined
-def _inner_of_first(model, series, b, k, e_last, z_last):
+def _inner_of_first(series, b, k, e_last, z_last):
     """As `_inner_terms` for an odd order. The terms of the next order but for the first and the
     last, which need f_k and e_k, are handed on."""
     e_low = splat(0.0)
@@ -315,59 +311,57 @@ def _inner_of_first(model, series, b, k, e_last, z_last):
     z_high = z_low
     if k > 1:
         f = splat(series.f[k - 1])
-        e_low = f * velocity(model, series, 1, b)
-        z_low = f * displacement(model, series, 2, b)
+        e_low = f * velocity(series, 1, b)
+        z_low = f * displacement(series, 2, b)
         if simd.ONE_REGISTER:
-            e_low, z_low, e_high, z_high = _products_apart(model, series, b, k, f, e_low, z_low)
+            e_low, z_low, e_high, z_high = _products_apart(series, b, k, f, e_low, z_low)
         else:
-            e_low, z_low, e_high, z_high = _products(model, series, b, k, f, e_low, z_low)
+            e_low, z_low, e_high, z_high = _products(series, b, k, f, e_low, z_low)
         e_low = e_low + series.f[1] * e_last
         z_low = z_low + series.f[1] * z_last
         e_high = e_high + series.f[2] * e_last
         z_high = z_high + series.f[2] * z_last
-    hand_on(model, series, INNER_VELOCITY, b, e_high)
-    hand_on(model, series, INNER_DISPLACEMENT, b, z_high)
+    hand_on(series, INNER_VELOCITY, b, e_high)
+    hand_on(series, INNER_DISPLACEMENT, b, z_high)
     return e_low, z_low
 
 
 @inlined
-def _inner_of_second(model, series, b, k, e_last, z_last):
+def _inner_of_second(series, b, k, e_last, z_last):
     """As `_inner_terms` for an even order: what was handed on, with the first and the last term."""
-    e_inner = handed_on(model, series, INNER_VELOCITY, b)
-    z_inner = handed_on(model, series, INNER_DISPLACEMENT, b)
+    e_inner = handed_on(series, INNER_VELOCITY, b)
+    z_inner = handed_on(series, INNER_DISPLACEMENT, b)
     if k > 2:
         f = series.f[k - 1]
-        e_inner = e_inner + f * velocity(model, series, 1, b)
-        z_inner = z_inner + f * displacement(model, series, 2, b)
+        e_inner = e_inner + f * velocity(series, 1, b)
+        z_inner = z_inner + f * displacement(series, 2, b)
     return e_inner + series.f[1] * e_last, z_inner + series.f[1] * z_last
 
 
 @inlined
-def _products(model, series, b, k, f_high, e_low, z_low):
+def _products(series, b, k, f_high, e_low, z_low):
     """Sums with f_{k-i} e_i and f_{k-i} z_{i+1}, 2 <= i <= k - 2, of an odd order k, added to
     ``e_low``, ``z_low``, and of k + 1; f_high: f_{k-1}."""
-    width = lane_count(model)
     e_high = splat(0.0)
     z_high = splat(0.0)
-    at = velocity_at(model, 2, b)
+    at = velocity_at(2, b)
     for i in range(2, k - 1):
         f_low = spread(series.f, k - i)
         e = load(series.modes, at)
-        z = load(series.modes, at + width)
+        z = load(series.modes, at + WIDTH)
         e_low = e_low + f_low * e
         z_low = z_low + f_low * z
         e_high = e_high + f_high * e
         z_high = z_high + f_high * z
         f_high = f_low
-        at += 2 * width
+        at += ORDER
     return e_low, z_low, e_high, z_high
 
 
 @inlined
-def _products_apart(model, series, b, k, f_high, e_low, z_low):
+def _products_apart(series, b, k, f_high, e_low, z_low):
     """As `_products`, with separate sums for even and odd i, so that none waits for its last term:
     too many registers where lanes do not fit into one."""
-    width = lane_count(model)
     zero = splat(0.0)
     e_high = zero
     z_high = zero
@@ -375,24 +369,24 @@ def _products_apart(model, series, b, k, f_high, e_low, z_low):
     z_low2 = zero
     e_high2 = zero
     z_high2 = zero
-    at = velocity_at(model, 2, b)
+    at = velocity_at(2, b)
     for i in range(2, k - 1, 2):
         f_mid = spread(series.f, k - i)
         f_low = spread(series.f, k - i - 1)
         e = load(series.modes, at)
-        z = load(series.modes, at + width)
+        z = load(series.modes, at + WIDTH)
         e_low = e_low + f_mid * e
         z_low = z_low + f_mid * z
         e_high = e_high + f_high * e
         z_high = z_high + f_high * z
-        e = load(series.modes, at + 2 * width)
-        z = load(series.modes, at + 3 * width)
+        e = load(series.modes, at + ORDER)
+        z = load(series.modes, at + ORDER + WIDTH)
         e_low2 = e_low2 + f_low * e
         z_low2 = z_low2 + f_low * z
         e_high2 = e_high2 + f_mid * e
         z_high2 = z_high2 + f_mid * z
         f_high = f_low
-        at += 4 * width
+        at += 2 * ORDER
     return e_low + e_low2, z_low + z_low2, e_high + e_high2, z_high + z_high2
 
 
@@ -405,8 +399,8 @@ def begin_stick(model, series):
     up = splat(0.0)
     along = splat(0.0)
     for b in range(0, lane_count(model), WIDTH):
-        z = displacement(model, series, 0, b)
-        e = velocity(model, series, 0, b)
+        z = displacement(series, 0, b)
+        e = velocity(series, 0, b)
         up = up + _acceleration_in_stick(model, b, e, z)
         if model.has_moving_surface:
             along = along + _along_in_stick(model, b, e, z)
@@ -425,14 +419,14 @@ def next_stick(model, series, k, V_impulse, H_impulse):
     next_up = splat(0.0)
     next_along = splat(0.0)
     for b in range(0, lane_count(model), WIDTH):
-        z = displacement(model, series, k, b)
-        e = velocity(model, series, k, b) + push * constants(model, FORCES, b)
+        z = displacement(series, k, b)
+        e = velocity(series, k, b) + push * constants(model, FORCES, b)
         bound = constants(model, DAMPING, b) * e + constants(model, STIFFNESS, b) * z
         z_next = e * up
         e_next = 0.0 - bound * up
-        put_velocity(model, series, k, b, e)
-        put_displacement(model, series, k + 1, b, z_next)
-        put_velocity(model, series, k + 1, b, e_next)
+        put_velocity(series, k, b, e)
+        put_displacement(series, k + 1, b, z_next)
+        put_velocity(series, k + 1, b, e_next)
         next_up = next_up + _acceleration_in_stick(model, b, e_next, z_next)
         if model.has_moving_surface:
             next_along = next_along + _along_in_stick(model, b, e_next, z_next)
@@ -462,7 +456,7 @@ def surface_velocity(model, series):
     velocities = splat(0.0)
     if model.has_moving_surface:
         for b in range(0, lane_count(model), WIDTH):
-            e = velocity(model, series, 0, b)
+            e = velocity(series, 0, b)
             velocities = velocities + constants(model, TANGENTIAL, b) * e
     return total(velocities)
 
@@ -510,7 +504,7 @@ def put_last_forces(model, series, order, V_impulse, H_impulse):
     """Put the last forces V and H into the velocities of the highest order."""
     push = pushed(model, V_impulse, H_impulse)
     for b in range(0, lane_count(model), WIDTH):
-        e = velocity(model, series, order, b) + push * constants(model, FORCES, b)
-        put_velocity(model, series, order, b, e)
+        e = velocity(series, order, b) + push * constants(model, FORCES, b)
+        put_velocity(series, order, b, e)
     for j in range(len(model.mode_amplitude0)):
         series.g[j * ROWS + order] -= model.mode_amplitude0[j] * V_impulse

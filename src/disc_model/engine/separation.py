@@ -13,10 +13,10 @@ def separation_series(model, series, order):
     the event function, the gap u - w; P is 0."""
     lightness = 1.0 / model.m
     disc = begin_turning(model, series)
-    along = disc.along
+    G = disc.along
     pending = disc.pending
-    surface = surface_velocity(model, series)
-    series.surface[0] = surface
+    if model.has_moving_surface:
+        series.slider[0] = series.f[0] + surface_velocity(model, series) / model.r_0
     for k in range(order + 1):
         f = series.f[k]
         u = series.u[k]
@@ -24,23 +24,22 @@ def separation_series(model, series, order):
         if k > 0:
             pairs, _, pending = next_turning(model, series, k, f, 0.0, 0.0, pending)
             if model.has_moving_surface:
-                along = total(pairs.along) + f * disc.along_by_f
+                G = total(pairs.along) + f * disc.along_by_f
         series.switch[k] = u - deflection(model, series, k)
         series.P[k] = 0.0
 
         # the slider
         up = series.up[k]
-        lag = series.drive[k] - f
-        if model.has_moving_surface:
-            lag -= surface / model.r_0
-            series.turn[k + 1] = surface / model.r_0 * up
-            surface = along * up
-            series.surface[k + 1] = surface
+        slider = series.slider[k] if model.has_moving_surface else f
+        lag = series.drive[k] - slider
         pull = model.k_p * series.psi[k] + model.c_p * lag
-        if model.has_moving_surface:
-            pull -= model.m / model.r_0 * along
+        rate = pull * lightness
         vertical = series.preload[k] + model.k * u + model.c * v
         series.psi[k + 1] = lag * up
-        series.f[k + 1] = pull * lightness * up
+        series.f[k + 1] = rate * up
         series.u[k + 1] = v * up
         series.v[k + 1] = -vertical * lightness * up
+        if model.has_moving_surface:
+            series.slider[k + 1] = rate * up
+            series.f[k + 1] -= G / model.r_0 * up
+            series.turn[k + 1] = (slider - f) * up

@@ -1,7 +1,7 @@
 """Taylor coefficients of one step: where they stand, and how they are read and written.
 
 Coefficient k multiplies (time / unit)**k, so that none overflows, however stiff the disc is. Those
-of the pairs stand as [order][lane], all others as [quantity][order].
+of the pairs stand as [block of lanes][row][lane], all others as [quantity][order].
 """
 
 from typing import NamedTuple
@@ -11,7 +11,7 @@ import numpy as np
 from .jit import inlined
 from .jit.packing import Part, packed
 from .jit.simd import WIDTH, aligned, load, store
-from .model import ROWS, Model, drive_now, lane_count, load_now
+from .model import ROWS, Model, drive_now, load_now
 from .state import PHI_RATE, PSI, SURFACE_TURN, U_VELOCITY, U
 from .stick_modes import padded
 
@@ -27,11 +27,12 @@ from .stick_modes import padded
     ALONG_BY_VELOCITY,
     _N_ROWS,
 ) = range(2 * ROWS, 2 * ROWS + 7)
+ORDER = 2 * WIDTH  # places from a coefficient of a pair to that of the next order
 
 _QUANTITIES = (
     "psi", "f", "u", "v", "P", "switch", "switch2", "powers", "up", "down",
     "slope", "drive", "preload", "friction", "coefficient", "share", "lever", "weakening", "sensitivity",
-    "V", "surface", "turn", "hold",
+    "V", "slider", "turn", "hold",
 )  # fmt: skip
 _PLACES = {name: Part("quantities", ROWS * i, ROWS) for i, name in enumerate(_QUANTITIES)}
 _ROOT_ROWS = 7 * WIDTH
@@ -41,7 +42,7 @@ _ROOT_ROWS = 7 * WIDTH
 class Series(NamedTuple):
     """Series of one step, and the tables and work space of its recurrences."""
 
-    modes: np.ndarray  # pairs, as [row][lane]
+    modes: np.ndarray  # pairs, as [block][row][lane]
     y: np.ndarray  # displacements of the modes without nodal diameter
     g: np.ndarray  # their velocities
     quantities: (
@@ -69,8 +70,8 @@ class Series(NamedTuple):
     weakening: np.ndarray  # change of T with f by phi
     sensitivity: np.ndarray  # change of T with f
     V: np.ndarray  # vertical force of a compliant contact
-    surface: np.ndarray  # v_s of the surface on which friction acts; 0 if it does not move
-    turn: np.ndarray  # integral of v_s / r_0, likewise
+    slider: np.ndarray  # its own rate where the surface on which friction acts moves
+    turn: np.ndarray  # integral of v_s / r_0, likewise; 0 if that does not move
     hold: np.ndarray  # H in stick, likewise
     roots: np.ndarray  # work space of `roots.first_root`
     amplitudes: (
@@ -104,8 +105,8 @@ def load_state(model, series, state):
     """Set the coefficients 0 to a state."""
     x = state.x
     for b in range(0, len(state.z), WIDTH):
-        put_displacement(model, series, 0, b, load(state.z, b))
-        put_velocity(model, series, 0, b, load(state.e, b))
+        put_displacement(series, 0, b, load(state.z, b))
+        put_velocity(series, 0, b, load(state.e, b))
     for j in range(len(state.y)):
         series.y[j * ROWS] = state.y[j]
         series.g[j * ROWS] = state.g[j]
@@ -126,53 +127,61 @@ def load_at_start(model, series):
     return series.preload[0] + model.k * model.u_0 if model.has_ramp else model.N
 
 
-# ---- Blocks of the pairs' coefficients, from lane b on
+# ---- Coefficients of the pairs: blocks that begin at lane b, or those of lane j
 
 
 @inlined
-def displacement_at(model, k, b):
-    """Return where the displacements of order k stand in ``Series.modes``; velocities follow, and
-    then the next order."""
-    return 2 * k * lane_count(model) + b
+def displacement_at(k, b):
+    """Return where the displacements of order k stand in ``Series.modes``; velocities follow
+    ``WIDTH`` places later."""
+    return b * _N_ROWS + k * ORDER
 
 
 @inlined
-def velocity_at(model, k, b):
+def velocity_at(k, b):
     """Return where the velocities of order k stand in ``Series.modes``."""
-    return (2 * k + 1) * lane_count(model) + b
+    return displacement_at(k, b) + WIDTH
 
 
 @inlined
-def displacement(model, series, k, b):
+def displacement_of_lane(k, j):
+    """Return where the displacement of order k in lane j stands in ``Series.modes``; the velocity
+    follows ``WIDTH`` places later."""
+    lane = j % WIDTH
+    return displacement_at(k, j - lane) + lane
+
+
+@inlined
+def displacement(series, k, b):
     """Return the displacements of order k."""
-    return load(series.modes, displacement_at(model, k, b))
+    return load(series.modes, displacement_at(k, b))
 
 
 @inlined
-def put_displacement(model, series, k, b, value):
+def put_displacement(series, k, b, value):
     """Set the displacements of order k."""
-    store(series.modes, displacement_at(model, k, b), value)
+    store(series.modes, displacement_at(k, b), value)
 
 
 @inlined
-def velocity(model, series, k, b):
+def velocity(series, k, b):
     """Return the velocities of order k."""
-    return load(series.modes, velocity_at(model, k, b))
+    return load(series.modes, velocity_at(k, b))
 
 
 @inlined
-def put_velocity(model, series, k, b, value):
+def put_velocity(series, k, b, value):
     """Set the velocities of order k."""
-    store(series.modes, velocity_at(model, k, b), value)
+    store(series.modes, velocity_at(k, b), value)
 
 
 @inlined
-def handed_on(model, series, row, b):
+def handed_on(series, row, b):
     """Return a row of what one order of the recurrence hands to the next."""
-    return load(series.modes, row * lane_count(model) + b)
+    return load(series.modes, b * _N_ROWS + row * WIDTH)
 
 
 @inlined
-def hand_on(model, series, row, b, value):
+def hand_on(series, row, b, value):
     """Set a row of what one order of the recurrence hands to the next."""
-    store(series.modes, row * lane_count(model) + b, value)
+    store(series.modes, b * _N_ROWS + row * WIDTH, value)

@@ -6,9 +6,10 @@ motion gives the contact force of order k (see `contact` for the letters),
     R_k denominator = (N + k (u - u_0) + c u' + m A + B F)_k + known
 
 On a compliant contact u, u' are states, and R_k denominator = V_k + known with V = (w - u) / C.
-Where the surface on which friction acts moves with the velocity v_s, v_s' = G + S_t H, the rate of
-the contact over the material, f here, is less than the slider's by v_s / r_0; F - m G / r_0 stands in
-place of F, and (1 + m S_t) H in place of H.
+
+Where the surface on which friction acts moves with the velocity v_s, v_s' = G + S_t H, the slider's
+own rate follows the paper's equation, and f, that of the contact over the material, is less by
+v_s / r_0. In the numerator A - B G / r_0, u'' at a steady rate of the slider, stands in place of A.
 """
 
 from typing import NamedTuple
@@ -32,13 +33,11 @@ class SurfaceFactors(NamedTuple):
     """Constants of a step for a surface that moves."""
 
     inverse_radius: float
+    lever: float  # H in minus the rate of the slider's own rate
+    lean: float  # G in -u'' at a steady rate of the slider
     by_f: float  # f in G
-    by_V: float  # impulse of V of the order before in G; twice this is that of H in A
+    by_V: float  # impulse of V of the order before in G
     by_H: float  # impulse of H of the order before in G
-    pull_by_f: float  # f in -F / m + G / r_0
-    pull_by_V: float  # impulses in it
-    pull_by_H: float
-    pull_by_drift: float  # v_s without the impulse of H in it
 
 
 class Factors(NamedTuple):
@@ -46,6 +45,9 @@ class Factors(NamedTuple):
 
     spring: float  # psi in F / m
     damper: float  # the rate of psi in F / m
+    by_f: float  # f in u'' at a steady rate of the slider, but for f'
+    by_V: float  # impulse of V of the order before in it
+    by_H: float  # impulse of H of the order before in it
     lever: float  # H in -f'
     brake: float  # R in -f', by its share of H
     recoil: float  # R in -u'', by its shares of V and H
@@ -70,35 +72,37 @@ def slip_series(model, series, order, direction):
     u = series.u[0]
     v = series.v[0]
     disc = begin_turning(model, series)
-    factors = _factors(model, law, f, B, disc.along_by_f)
+    factors = _factors(model, law, f, B, disc)
     acceleration = disc.acceleration
     pending = disc.pending
-    along_known = disc.along - f * disc.along_by_f
-    surface = surface_velocity(model, series)
-    drift = surface
-    series.surface[0] = surface
+    slider = f
+    G = disc.along
+    if model.has_moving_surface:
+        acceleration -= factors.surface.lean * G
+        slider += factors.surface.inverse_radius * surface_velocity(model, series)
+        series.slider[0] = slider
     V_impulse = 0.0
     H_impulse = 0.0
     for k in range(order):
-        # u'' of the disc without the forces of this order, and F / m
+        # u'' at a steady rate of the slider without the forces of this order, and F / m
         if k > 0:
             pairs, single, pending = next_turning(
                 model, series, k, f, V_impulse, H_impulse, pending
             )
-            by_speed = disc.by_f + disc.by_f_rate * series.down[k]
-            rest = single + f * by_speed + V_impulse * model.damped_inverse_mass
+            by_speed = factors.by_f + disc.by_f_rate * series.down[k]
+            rest = single + f * by_speed + V_impulse * factors.by_V
             if model.has_moving_surface:
-                rest += 2.0 * factors.surface.by_V * H_impulse
-                along_known = total(pairs.along)
+                rest += factors.by_H * H_impulse
+                along = total(pairs.along)
+                rest -= factors.surface.lean * along
+                G = _surface_acceleration(factors.surface, along, f, V_impulse, H_impulse)
             acceleration = total(pairs.up) + rest
-        # in this order: only the last terms wait for f and the impulses
+        # in this order: only the last term waits for the slider
         pull = factors.spring * psi + factors.damper * series.drive[k]
+        pull -= factors.damper * slider
+        free = pull
         if model.has_moving_surface:
-            pull = _pull_on_surface(
-                factors.surface, pull, along_known, drift, f, V_impulse, H_impulse
-            )
-        else:
-            pull -= factors.damper * f
+            free -= factors.surface.inverse_radius * G
 
         # the law of contact
         known = known_forces(model, series, law, k, direction)
@@ -114,7 +118,7 @@ def slip_series(model, series, order, direction):
         series.P[k] = R
         V = law.share_V * R
         H = law.share_H * R
-        rate_f = pull - factors.brake * R
+        rate_f = free - factors.brake * R
         rate_v = acceleration + B * pull - factors.recoil * R
         if model.has_normal_force or model.has_varying_friction:
             V -= known.V
@@ -127,20 +131,16 @@ def slip_series(model, series, order, direction):
             series.V[k] = V
             rate_v = (V - (series.preload[k] + model.k * u + model.c * v)) / model.m
 
-        # the slider and the surface under it
+        # the slider
         up = series.up[k]
-        psi = (series.drive[k] - f) * up
-        if model.has_moving_surface:
-            turn = factors.surface.inverse_radius * surface * up
-            psi -= turn
-            of_forces = factors.surface.by_V * V_impulse + factors.surface.by_H * H_impulse
-            drift = (along_known + factors.surface.by_f * f + of_forces) * up
-            surface = drift + model.surface_inverse_mass * (H * up)
-            series.turn[k + 1] = turn
-            series.surface[k + 1] = surface
+        psi = (series.drive[k] - slider) * up
         V_impulse = V * up
         H_impulse = H * up
         f = rate_f * up
+        slider = f
+        if model.has_moving_surface:
+            slider = (pull - factors.surface.lever * H) * up
+            series.slider[k + 1] = slider
         u = v * up
         v = rate_v * up
         series.psi[k + 1] = psi
@@ -151,6 +151,9 @@ def slip_series(model, series, order, direction):
     put_last_forces(model, series, order, V_impulse, H_impulse)
     for j in range(0, order + 1, WIDTH):
         store(series.switch, j, direction * load(series.f, j))
+        if model.has_moving_surface:
+            carried = load(series.slider, j) - load(series.f, j)
+            store(series.turn, j + 1, carried * load(series.up, j))
     # remains of an earlier step in another phase
     series.switch[order + 1] = 0.0
     series.P[order] = 0.0
@@ -158,25 +161,35 @@ def slip_series(model, series, order, direction):
 
 
 @inlined
-def _pull_on_surface(by, spring, along, drift, f, V_impulse, H_impulse):
-    """F / m - G / r_0 of an order, from what the spring and the drive give; along: G without f and
-    the impulses of the order before, drift: v_s without that of H."""
-    known = spring - by.inverse_radius * along - by.pull_by_drift * drift
-    return (known - by.pull_by_f * f) - (by.pull_by_V * V_impulse + by.pull_by_H * H_impulse)
+def _surface_acceleration(by, along, f, V_impulse, H_impulse):
+    """G of an order; along: what the pairs give to it but for f and the impulses of the order
+    before."""
+    return along + (by.by_f * f + (by.by_V * V_impulse + by.by_H * H_impulse))
 
 
 @inlined
-def _factors(model, law, f, B, along_by_f):
-    """`Factors` of a step that begins at the rate f on the slope B; along_by_f: f in G."""
+def _factors(model, law, f, B, disc):
+    """`Factors` of a step that begins at the rate f on the slope B; disc: `Turning` at its start."""
     S = model.inverse_effective_mass
     lightness = 1.0 / model.m
     lever = lightness / model.r_0 * surface_mobility(model, model.m)
     brake = lever * law.share_H
     inverse = 1.0 / law.denominator
     by_acceleration = inverse * model.m
+    surface = _surface_factors(model, f, B, disc.along_by_f)
+    by_f = disc.by_f
+    by_V = model.damped_inverse_mass
+    by_H = 0.0
+    if model.has_moving_surface:
+        by_f -= surface.lean * surface.by_f
+        by_V -= surface.lean * surface.by_V
+        by_H = 2.0 * surface.by_V - surface.lean * surface.by_H
     return Factors(
         spring=model.k_p * lightness,
         damper=model.c_p * lightness,
+        by_f=by_f,
+        by_V=by_V,
+        by_H=by_H,
         lever=lever,
         brake=brake,
         recoil=S * law.share_V + B * brake,
@@ -185,24 +198,19 @@ def _factors(model, law, f, B, along_by_f):
         by_u=inverse * model.k,
         by_v=inverse * model.c,
         by_pull=by_acceleration * B,
-        surface=_surface_factors(model, f, along_by_f),
+        surface=surface,
     )
 
 
 @inlined
-def _surface_factors(model, f, along_by_f):
-    """`SurfaceFactors` of a step that begins at the rate f; along_by_f: f in G."""
+def _surface_factors(model, f, B, along_by_f):
+    """`SurfaceFactors` of a step that begins at the rate f on the slope B; along_by_f: f in G."""
     inverse_radius = 1.0 / model.r_0
-    damper = model.c_p / model.m
-    by_V = f * model.surface_swing
-    by_H = -model.damped_surface_inverse_mass
     return SurfaceFactors(
         inverse_radius=inverse_radius,
+        lever=inverse_radius / model.m,
+        lean=inverse_radius * B,
         by_f=along_by_f,
-        by_V=by_V,
-        by_H=by_H,
-        pull_by_f=damper + inverse_radius * along_by_f,
-        pull_by_V=inverse_radius * by_V,
-        pull_by_H=inverse_radius * (by_H + damper * model.surface_inverse_mass),
-        pull_by_drift=inverse_radius * damper,
+        by_V=f * model.surface_swing,
+        by_H=-model.damped_surface_inverse_mass,
     )

@@ -34,7 +34,8 @@ def stick_series(model, series, order):
     u = series.u[0]
     v = series.v[0]
     v_free = v  # u' without V of the order before
-    series.surface[0] = surface_velocity(model, series)
+    if model.has_moving_surface:
+        series.slider[0] = surface_velocity(model, series) / model.r_0
     V_impulse = 0.0
     H_impulse = 0.0
     for k in range(order):
@@ -82,16 +83,17 @@ def stick_series(model, series, order):
 
 @inlined
 def _surface_order(model, series, k, along, H_impulse):
-    """Enter H of order k, and v_s, psi and the surface's turn of order k + 1. Returns the impulse of
-    H, which is that of the order before in ``H_impulse``; along: G of order k without it."""
+    """Enter H of order k, and the slider's own rate, psi and the surface's turn of order k + 1.
+    Returns the impulse of H, which is that of the order before in ``H_impulse``; along: G of order k
+    without it."""
     up = series.up[k]
-    surface = series.surface[k]
+    slider = series.slider[k]
     G = along - model.damped_surface_inverse_mass * H_impulse
-    F = model.k_p * series.psi[k] + model.c_p * (series.drive[k] - surface / model.r_0)
+    F = model.k_p * series.psi[k] + model.c_p * (series.drive[k] - slider)
     H = (model.r_0 * F - model.m * G) / surface_mobility(model, model.m)
-    turn = surface / model.r_0 * up
+    turn = slider * up
     series.hold[k] = H
-    series.surface[k + 1] = (G + model.surface_inverse_mass * H) * up
+    series.slider[k + 1] = (G + model.surface_inverse_mass * H) / model.r_0 * up
     series.psi[k + 1] -= turn
     series.turn[k + 1] = turn
     return H * up

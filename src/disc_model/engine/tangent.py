@@ -36,7 +36,7 @@ from .jit.simd import WIDTH, load, splat, spread, store
 from .laws import surface_mobility
 from .model import ROWS, is_rigid
 from .modes import slope
-from .series import displacement_at, velocity_at
+from .series import ORDER, displacement_of_lane
 from .state import (
     DIRECTION,
     HALF,
@@ -249,8 +249,8 @@ def _pair_rates(model, series, tangent, block, k, j, phase):
         at = inputs_at(tangent, block)
         d_stiffness = entry(tangent.inputs, at, N_INPUTS + j)
         d_damping = entry(tangent.inputs, at, N_INPUTS + alpha_row)
-        z = displacement_at(model, k, j)
-        e = velocity_at(model, k, j)
+        z = displacement_of_lane(k, j)
+        e = z + WIDTH
         a = series.modes[z]
         b = series.modes[z + HALF]
         alpha = series.modes[e]
@@ -296,8 +296,8 @@ def _turned(model, series, tangent, block, k, j):
     alpha = a + width * WIDTH
     beta = b + width * WIDTH
     df_at = order_at(tangent, block, 0) + slider_place(model, PHI_RATE) * WIDTH
-    z = displacement_at(model, k, j)
-    e = velocity_at(model, k, j)
+    z = displacement_of_lane(k, j)
+    e = z + WIDTH
     for i in range(k + 1):
         f = spread(series.f, i)
         a_by_f = a_by_f + f * load(changes, a)
@@ -314,8 +314,8 @@ def _turned(model, series, tangent, block, k, j):
         alpha -= stride
         beta -= stride
         df_at += stride
-        z -= 2 * width
-        e -= 2 * width
+        z -= ORDER
+        e -= ORDER
     return PairProducts(
         a_by_f + a_by_df, b_by_f + b_by_df, alpha_by_f + alpha_by_df, beta_by_f + beta_by_df
     )
@@ -397,8 +397,8 @@ def _slider_loads(model, series, tangent, block, k, du, dv, along):
         f = series.f[k]
         f_rate = series.f[k + 1] * series.down[k]
         if model.has_moving_surface:
-            f += series.surface[k] / model.r_0
-            f_rate += series.surface[k + 1] / model.r_0 * series.down[k]
+            f = series.slider[k]
+            f_rate = series.slider[k + 1] * series.down[k]
         v_rate = series.v[k + 1] * series.down[k]
         pull = pull + entry(tangent.inputs, at, D_K_P) * series.psi[k] - d_c_p * f
         pull = pull - d_m * f_rate
