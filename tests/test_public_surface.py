@@ -99,7 +99,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {"window": "all", "highest": 2e4},
         PICTURE | {"window": "None", "highest": "None huge"},
     ),
-    (RUN.plot_poincare, {}, PICTURE),
+    (RUN.plot_poincare, {}, PICTURE | {"window": "None"}),
     *((found.plot, {}, PICTURE) for found in (dm.floquet(P), dm.steady_sliding(P))),
     (dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot, {}, {"ax": "None"}),
     (RUN.__getitem__, {}, {}),

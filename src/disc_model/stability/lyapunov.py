@@ -8,7 +8,7 @@ to it.
 
 import math
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -57,6 +57,7 @@ class Lyapunov(Drawn):
     converged : whether both halves of the time give the same finite exponent, shape (count,); see `CONVERGED`
     trivial_exponent : 1/s, the exponent along the motion that was left out; nan if none was
     final_state : state at the end of the motion
+    parameters : as given to `lyapunov_exponents`
     """
 
     _picture = "plot_exponents"
@@ -68,6 +69,7 @@ class Lyapunov(Drawn):
     converged: NDArray[np.bool_]
     final_state: State
     trivial_exponent: float = math.nan
+    parameters: Parameters | None = None
 
     def __repr__(self) -> str:
         exponents = " and ".join(f"{exponent:.3g}" for exponent in self.exponents)
@@ -175,7 +177,9 @@ def lyapunov_exponents(
             logs[i, frame.remaining] = growth
             done = i + 1
     end = read_state(case, state)
-    return _averaged(status, logs[:done], length, count, frame.tangent.log, end, leave_out_trivial)
+    log = frame.tangent.log
+    found = _averaged(status, logs[:done], length, count, log, end, leave_out_trivial)
+    return replace(found, parameters=p)
 
 
 def _faults(
