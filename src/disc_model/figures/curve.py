@@ -155,10 +155,7 @@ def draw_lines(
             look["markevery"] = _marked(heights)
         elif heights.size > CROWDED:
             look |= _draw_dots(ax, across.values, heights, colour, joined=bool(line))
-        shown = [across.values, heights]
-        if jumps:
-            shown = broken(across.values, heights, STEP, np.arcsinh(heights / LINEAR))
-        ax.plot(*shown, f"{shape}{line}", **look)
+        ax.plot(*_pieces(across.values, heights, jumps), f"{shape}{line}", **look)
 
     # scales and labels
     if log:
@@ -172,6 +169,13 @@ def draw_lines(
     _set_ticks(ax, names, array)
     ax.margins(0.03)
     _mark_gaps(ax, study, array, x, marks)
+
+
+def _pieces(along: np.ndarray, heights: np.ndarray, jumps: bool) -> list[np.ndarray]:
+    """A line, with gaps between growth rates of cycles that differ by more than `STEP`."""
+    if not jumps:
+        return [along, heights]
+    return broken(along, heights, STEP, np.arcsinh(heights / LINEAR))
 
 
 def _marked(heights: np.ndarray) -> list[int]:
