@@ -275,7 +275,7 @@ class GridStudy:
         grid, few of a large one; empty for some quantities."""
         if not self.options.motions:
             return {}
-        few = self.dims
+        few: Sequence[Dimension] = self.dims
         if math.prod(len(dim.values) for dim in self.dims) > ALL_MOTIONS:
             few = [dim.thinned(self.options.motions) for dim in self.dims]
         batch = self._batch(Part(product(*(dim.values for dim in few)), 0.0))
