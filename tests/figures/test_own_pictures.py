@@ -171,7 +171,7 @@ def test_what_is_unstable_is_shaded_in_the_unit_of_the_axis() -> None:
         crossings=np.array([2.1e4, 2.3e4, 2.6e4]),
         unstable_above=np.array([True, False, True]),
         values=np.array([2e4, 2.5e4, 3e4]),
-        growth_rate=np.array([-0.1, -0.2, 0.3]),
+        growth_rate=np.array([-0.1, np.nan, 0.3]),
         resolution=5e3,
     )
     ax = figure_of(made.plot()).axes[0]
@@ -180,7 +180,9 @@ def test_what_is_unstable_is_shaded_in_the_unit_of_the_axis() -> None:
     assert spans == [pytest.approx((21, 23)), pytest.approx((26, 30))]
     assert ax.get_xlim() == (20, 30)
     names = [text.get_text() for text in ax.figure.legends[0].get_texts()]
-    assert names == ["unstable near the static start", "cycles computed"]
+    assert names == ["unstable near the static start", "cycles computed", "no cycle found"]
+    assert lines(ax)["no cycle found"].get_xdata().tolist() == [25]
+    assert ax.get_title(loc="left") == "unstable from 21 kN/m"
 
 
 def test_neutral_curves_have_both_parameters_in_their_units() -> None:

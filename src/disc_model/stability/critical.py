@@ -44,8 +44,8 @@ class Critical(Drawn):
     Attributes
     ----------
     parameters, name : the case, and the parameter
-    value : the least value computed at which the motion near the static start is unstable; nan if
-        there is none
+    value : the least value computed at which the motion near the static start is unstable; if there is a lower one,
+        it is stable there, less than `precision` away; nan if there is none
     crossings : shape (n,), all values at which stability was seen to change, ascending
     unstable_above : bool, (n,), whether that motion is unstable just above each
     values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle (1/s; nan without)
