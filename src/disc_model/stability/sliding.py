@@ -143,12 +143,12 @@ def _rounding(eigenvalues: ComplexArray) -> float:
     return float(np.finfo(float).eps * np.abs(eigenvalues).max(initial=0) * eigenvalues.size)
 
 
-def steady_sliding(p: Parameters) -> SteadySliding:
+def steady_sliding(case: Parameters) -> SteadySliding:
     """Find steady sliding, the equilibrium f = Omega, and its eigenvalues.
 
     Parameters
     ----------
-    p : the case
+    case : the case
 
     Returns
     -------
@@ -158,7 +158,7 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     Raises
     ------
     ParameterError
-        If `p` is not a `Parameters`, or has no modes.
+        If `case` is not a `Parameters`, or has no modes.
 
     Examples
     --------
@@ -167,15 +167,15 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     >>> print(sliding.message, f"{sliding.growth_rate:.4f} 1/s")
     steady sliding with P = 384.977 N, not stable 0.0339 1/s
     """
-    raise_faults(foreign_case(p))
-    if p.Omega == 0:
-        return _absent(p, SlidingStatus.AT_REST)
-    modes = mode_arrays(p)
-    model = engine_case(p).model
-    compliance = contact_compliance(p)
-    a, b, vertical, rate = _equilibrium(p, modes, compliance)
-    if not (math.isfinite(vertical) and vertical > 0) and p.contact != "bilateral":
-        return _absent(p, SlidingStatus.NO_CONTACT)
+    raise_faults(foreign_case(case))
+    if case.Omega == 0:
+        return _absent(case, SlidingStatus.AT_REST)
+    modes = mode_arrays(case)
+    model = engine_case(case).model
+    compliance = contact_compliance(case)
+    a, b, vertical, rate = _equilibrium(case, modes, compliance)
+    if not (math.isfinite(vertical) and vertical > 0) and case.contact != "bilateral":
+        return _absent(case, SlidingStatus.NO_CONTACT)
     alpha = -modes.diameters * rate * b
     beta = modes.diameters * rate * a
     height: tuple[float, ...] = ()
@@ -183,30 +183,30 @@ def steady_sliding(p: Parameters) -> SteadySliding:
         height = (float(modes.psi @ a) - compliance * vertical, 0.0)
 
     def rows_at(psi: float) -> Array:
-        return join_rows(modes, (a, alpha, b, beta), (psi, p.Omega), height)
+        return join_rows(modes, (a, alpha, b, beta), (psi, case.Omega), height)
 
-    i, _ = _slip(p, rows_at(0.0)[:, None])
+    i, _ = _slip(case, rows_at(0.0)[:, None])
     friction = float(_LAWS.friction_coefficient(model, 1.0, rate))
-    if _LAWS.slip_denominator(model, p.m, friction, i.dw_dtheta[0]) <= 1e-6:
-        return _absent(p, SlidingStatus.PARADOX)
+    if _LAWS.slip_denominator(model, case.m, friction, i.dw_dtheta[0]) <= 1e-6:
+        return _absent(case, SlidingStatus.PARADOX)
     # V and H of a unit force
     share, braking, _ = (
         float(part[0]) for part in _LAWS.slip_rates(model, i, friction, np.ones(1))
     )
     force = vertical / share
-    if p.k_p > 0:
-        psi = braking * force / (p.r_0 * p.k_p)
+    if case.k_p > 0:
+        psi = braking * force / (case.r_0 * case.k_p)
         rows = rows_at(psi)
     elif braking == 0:  # no friction at this speed, and no slope: both are exactly zero then
         psi = math.nan
         rows = rows_at(0.0)
     else:
-        return _absent(p, SlidingStatus.NO_SPRING)
-    _, rates = _slip(p, rows[:, None] + 1j * laws.TINY * np.eye(len(rows)))
+        return _absent(case, SlidingStatus.NO_SPRING)
+    _, rates = _slip(case, rows[:, None] + 1j * laws.TINY * np.eye(len(rows)))
     jacobian = rates.imag / laws.TINY
     eigenvalues = np.linalg.eigvals(jacobian).astype(complex)
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
-    symbol = "R" if p.contact_force == "normal" else "P"
+    symbol = "R" if case.contact_force == "normal" else "P"
     message = f"steady sliding with {symbol} = {force:.6g} N, {_verdict(eigenvalues)}"
     return SteadySliding(
         status=SlidingStatus.OK,
@@ -220,7 +220,7 @@ def steady_sliding(p: Parameters) -> SteadySliding:
         eigenvalues=eigenvalues,
         growth_rate=float(eigenvalues[0].real),
         jacobian=jacobian,
-        parameters=p,
+        parameters=case,
     )
 
 

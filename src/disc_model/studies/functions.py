@@ -46,7 +46,7 @@ def _quantity(
         Its variables, flags as words; attributes are the case (`parameters`), the `options` in JSON, and in `message`
         what went wrong
     """
-    faults = foreign_case(case, "case")
+    faults = foreign_case(case)
     try:
         begin = Start.model_validate({} if start is None else {"perturbation": start})
         quantity = quantity_of(name).model_validate(options)
