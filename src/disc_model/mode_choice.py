@@ -310,6 +310,9 @@ def _change(mine: float, other: float) -> float:
 
 
 def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:
+    """Numbers of modes that were compared: rows of a table, or real modes of the plate."""
+    if p.disc is not None:
+        return " and ".join(str(size[0]) for size in sizes) + " modes of the table"
     return ", ".join(str(count_modes(p, size)) for size in sizes) + " modes"
 
 
