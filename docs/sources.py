@@ -69,6 +69,17 @@ class Sources:
         counts = table["counts"] != "error in print"
         return int((counts & (table["verdict"] == verdict)).sum())
 
+    def after_the_fact(self, verdict: str = "") -> int:
+        """Return the number of statements whose rule was chosen when the results were known.
+
+        They are those with a verdict, or all of them without one.
+        """
+        table = _table(self.results / "paper" / "claims.csv")
+        chosen = table[table["counts"] == "after the fact"]
+        if verdict:
+            chosen = chosen[chosen["verdict"] == verdict]
+        return len(chosen)
+
     def claims(self, print_error: bool) -> int:
         """Return the number of the paper's statements in the ledger, or of errors in print."""
         return sum(row.print_error == print_error for row in ledger.ROWS)
@@ -154,6 +165,20 @@ class Sources:
         speeds = self.grid("locking")["Omega"].values
         there = speeds[self.grid("locking")["period_releases"].values == releases]
         return float(there.min()), float(there.max())
+
+    def releases_between(self, low: int, high: int) -> list[int]:
+        """Return releases in the periods at the speeds between two steps of the study `locking`.
+
+        Parameters
+        ----------
+        low, high : releases of the slower and of the faster step
+        """
+        study = self.grid("locking")
+        _, begin = self.lock_ends(low)
+        end, _ = self.lock_ends(high)
+        there = (study["Omega"].values > begin) & (study["Omega"].values < end)
+        found: list[int] = study["period_releases"].values[there].tolist()
+        return found
 
     def count_of_motions(self, motion: str, study: str = "locking") -> int:
         """Return the number of points of a study of `locking` with a kind of motion."""

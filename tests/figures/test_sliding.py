@@ -5,9 +5,11 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.figure import Figure
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures.kinds import kind_of
+from disc_model.figures.names import Names
 from disc_model.figures.render import render
 from disc_model.figures.selection import common_points
 from disc_model.figures.sliding_outcome import AGREEMENTS, ROUNDING, agreement
@@ -56,6 +58,19 @@ def test_modes_have_thick_lines_where_they_grow(over_mu: xr.Dataset) -> None:
     growing = rates[rates > ROUNDING]
     assert growing.size
     np.testing.assert_array_equal(np.sort(thick[np.isfinite(thick)]), np.sort(growing))
+
+
+@pytest.mark.parametrize(("crossed", "side"), [(False, "center"), (True, "right")])
+def test_a_name_covers_no_line(crossed: bool, side: str) -> None:
+    """A name stood across the next line, which seemed to be the one that it named."""
+    figure = Figure(figsize=(4, 3))
+    ax = figure.subplots()
+    ax.set(xlim=(0, 1), ylim=(0, 1))
+    vertical = np.column_stack([np.full(50, 0.51), np.linspace(0.5, 1, 50)])
+    names = Names(ax, lines=vertical if crossed else None)
+    names.add("l = 3", (0.5, 0.5), [(0, 3), (-4, 3)])
+    figure.draw_without_rendering()
+    assert [text.get_ha() for text in ax.texts if text.get_visible()] == [side]
 
 
 def test_linear_analysis_beside_the_motion() -> None:

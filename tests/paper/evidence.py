@@ -17,6 +17,7 @@ import yaml
 
 from disc_model.data.columns import series_dataset
 from disc_model.data.variables import EVENT_KINDS, PHASES
+from disc_model.paper.judging_tables import ENERGIES, GROWTHS, POWERS
 from disc_model.paper.measures import CaseView
 from disc_model.parameters import Parameters
 from disc_model.simulation.named_case import run_case
@@ -219,3 +220,30 @@ def critical_speeds(windows: Sequence[Sequence[float]]) -> xr.Dataset:
         crossing=[speeds],
         crossing_kind=[np.where(np.isnan(speeds), "none", ["begins", "ends"])],
     )
+
+
+# ---- Tables
+
+
+def tables(supplied: float = 3.88, pulls: float = -3.0) -> dict[str, pd.DataFrame]:
+    """Return tables that checks are given, with few rows.
+
+    Parameters
+    ----------
+    supplied : energy with separation, mJ, beside 3.94 mJ without it and a surplus of 2.37 mJ
+    pulls : power in W while the force of maintained contact is negative
+    """
+    in_period = [supplied, 3.94, 1.57, 2.31, 2.37]
+    energies = pd.DataFrame({"case": ["F02", "F07", "F09"]})
+    energies[ENERGIES + POWERS] = [*in_period, 4.0, pulls]
+    changes = [("F11", "a", 52.2), ("F11", "b", np.nan), ("F13", "a", np.nan), ("F13", "b", 60.1)]
+    return {
+        "energies": energies.assign(remark=np.nan),
+        "small_changes": pd.DataFrame(changes, columns=["case", "parameter", "first_s"]),
+        "precursor": sliding_growths((10.0, -1.0, 0.2, 0.1), (1000.0, 0.5, 0.4, 0.3)),
+    }
+
+
+def sliding_growths(*rows: tuple[float, float, float, float]) -> pd.DataFrame:
+    """Return growth rates of steady sliding in 1/s at speeds in rad/s, as `judging_tables.precursor`."""
+    return pd.DataFrame(rows, columns=["Omega", *GROWTHS]).assign(N=385.0)

@@ -85,6 +85,24 @@ def test_the_composite_has_phases_from_events() -> None:
         assert min(abs(time - bar) for bar in bars) < 1e-9
 
 
+@pytest.mark.parametrize("width", ["column", "page"])
+@pytest.mark.parametrize("name", ["fig26", "fig27", "fig28"])
+def test_letters_of_a_response_run_along_the_rows(name: str, width: str) -> None:
+    """In one column (b) stood below (c) and (d)."""
+    plot = FIGURES[name].model_copy(update={**MOVED.get(name, {}), "width": width})
+    figure = render(plot, dict.fromkeys(plot.cases, simulated(True)))
+    figure.draw_without_rendering()
+    tops = {}
+    for ax in figure.axes:
+        box = ax.get_window_extent().transformed(figure.transFigure.inverted())
+        found = re.match(r"\((.)\)", ax.get_title(loc="left"))
+        if found:
+            # panels of a row begin within a fifth of the page
+            tops[found[1]] = (-round(5 * box.y1), box.x0)
+    assert sorted(tops, key=tops.__getitem__) == sorted(tops)
+    assert len(tops) >= 2
+
+
 def test_captions_say_nothing_that_a_legend_finds_out() -> None:
     """A caption said "not shown to have settled" of points that the legend called settled."""
     for name, plot in STUDY.figures.items():
@@ -153,4 +171,5 @@ def test_the_figure_on_both_scales_counts_what_vanishes() -> None:
             },
         )
         assert_fit_for_print(figure)
-        assert figure.axes[2].get_title(loc="right") == f"{lost} of 9: none by Eq. (17)"
+        notes = [text.get_text() for text in figure.axes[2].texts if "arrows" in text.get_text()]
+        assert notes == [f"arrows: no separation\nby Eq. (17), {lost} of 9"][:lost]

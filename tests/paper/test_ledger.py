@@ -6,6 +6,7 @@ import pytest
 from disc_model.paper import ledger
 from disc_model.paper.ledger import ROWS, check_claims, summary
 from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE
+from disc_model.paper.section43 import PLACE
 
 NUMBERS = " ".join(str(number) for number in range(1, 40))
 TEXTS = ledger.read_texts("paper/ledger.yaml")
@@ -43,6 +44,14 @@ def test_no_template_is_left_in_the_texts(undecided: pd.DataFrame) -> None:
         for text in undecided[column].astype(str):
             assert "{{" not in text
             assert "{%" not in text
+
+
+def test_the_limit_of_places_is_stated_once_and_is_that_of_the_checks() -> None:
+    """Three rows had two limits."""
+    assert (
+        f"differ by more than {100 * PLACE:g} % of the range" in TEXTS["terms"]["different places"]
+    )
+    assert not any("of the range of these points" in row.judged for row in ROWS)
 
 
 def test_errors_in_print_are_counted_apart(undecided: pd.DataFrame) -> None:

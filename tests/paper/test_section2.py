@@ -7,12 +7,11 @@ import pytest
 import xarray as xr
 
 from disc_model.disc.plate import plate_modes
-from disc_model.paper import measures, section2
+from disc_model.paper import measures
 from disc_model.paper.measures import Range
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE
 from disc_model.paper.section2 import (
     BASE,
-    SPEEDS,
     additional,
     different,
     moving_load_speed,
@@ -20,6 +19,7 @@ from disc_model.paper.section2 import (
     slip_condition,
     truncation,
 )
+from tests.paper.evidence import sliding_growths
 from tests.paper.known import known
 
 
@@ -126,53 +126,49 @@ def test_one_pair_of_two_differs(
     assert different(small, other, factor=2, share=share).verdict == verdict
 
 
-def rates(*stretches: tuple[float, float]) -> np.ndarray:
-    """Return growth rates at one load, of values from speeds on."""
-    found = np.full((1, SPEEDS.size), -1.0)
-    for start, value in stretches:
-        found[0, start <= SPEEDS] = value
-    return found
+SLOW = 500.0
+FAST = 1200.0
+"""Speeds below and above that at which a moving load is critical, rad/s."""
 
 
 @pytest.mark.parametrize(
-    ("damped", "verdict", "raised"),
+    ("damped", "verdict", "counts", "slowest"),
     [
-        ([(100, 0.3), (1000, 0.6)], TRUE, 180),
-        ([(100, 0.3), (500, 0.1), (1000, 0.6)], NOT_COMPUTED, 80),
-        ([(100, 0.1), (1000, 0.6)], FALSE, 0),
+        ((0.3, 0.3, 0.6), TRUE, (2, 2, 1), SLOW),
+        ((0.1, 0.3, 0.6), NOT_COMPUTED, (2, 1, 1), FAST),
+        ((0.1, 0.1, 0.6), FALSE, (2, 0, 1), np.inf),
     ],
 )
 def test_friction_makes_speeds_unstable_and_the_damper_raises_growth_there(
-    damped: list[tuple[float, float]], verdict: str, raised: int, monkeypatch: pytest.MonkeyPatch
+    damped: tuple[float, float, float], verdict: str, counts: tuple[int, int, int], slowest: float
 ) -> None:
-    """Growth at 0.2/s from 100 rad/s on with friction, and from 1000 rad/s on without it."""
-    three = (rates((1000, 0.5)), rates((100, 0.2), (1000, 0.5)), rates(*damped))
-    monkeypatch.setattr(section2, "growths", lambda *_, **__: three)
-    found = additional(loads=[385.0], c=0.1)
+    """Growth at 0.2/s with friction alone where it is stable without."""
+    table = sliding_growths(
+        (SLOW, -1.0, 0.2, damped[0]), (FAST, -1.0, 0.2, damped[1]), (1500.0, 0.5, 0.5, damped[2])
+    )
+    assert SLOW < moving_load_speed(BASE) < FAST
+    found = additional(precursor=table)
     assert found.verdict == verdict
-    critical = moving_load_speed(BASE)
-    below = int(np.sum((SPEEDS >= 100) & (min(critical, 1000) > SPEEDS)))
-    assert found.values["counts"] == (180, raised, below)
-    assert found.values["slowest"] == (100 if raised else np.inf)
+    assert found.values["counts"] == counts
+    assert found.values["slowest"] == slowest
 
 
 @pytest.mark.parametrize(
     ("both", "verdict", "counts"),
     [
-        ([(1000, -0.1), (1250, 0.4)], TRUE, (101, 50, 101)),
-        ([(1000, 0.4)], NOT_COMPUTED, (101, 0, 101)),
-        ([(1000, 0.4), (1250, 0.6)], NOT_COMPUTED, (101, 0, 50)),
-        ([(1000, 0.6)], FALSE, (101, 0, 0)),
+        ((-0.1, 0.4), TRUE, (2, 1, 2)),
+        ((0.4, 0.4), NOT_COMPUTED, (2, 0, 2)),
+        ((0.4, 0.6), NOT_COMPUTED, (2, 0, 1)),
+        ((0.6, 0.6), FALSE, (2, 0, 0)),
     ],
 )
 def test_friction_lowers_growth_where_sliding_is_unstable_without_it(
-    both: list[tuple[float, float]],
-    verdict: str,
-    counts: tuple[int, int, int],
-    monkeypatch: pytest.MonkeyPatch,
+    both: tuple[float, float], verdict: str, counts: tuple[int, int, int]
 ) -> None:
-    three = (rates((1000, 0.5)), rates(*both), rates())
-    monkeypatch.setattr(section2, "growths", lambda *_, **__: three)
-    found = reduced(loads=[385.0], c=0.1)
+    table = sliding_growths(
+        (SLOW, -1.0, 0.2, 0.3), (FAST, 0.5, both[0], 0.0), (1500.0, 0.5, both[1], 0.0)
+    )
+    found = reduced(precursor=table)
     assert found.verdict == verdict
     assert found.values["counts"] == counts
+    assert found.values["size"] == 3

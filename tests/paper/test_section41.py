@@ -4,18 +4,20 @@ import math
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 
 from disc_model.data.dataset import Missing
-from disc_model.paper import growth, section41
+from disc_model.paper import judging_tables, section41
 from disc_model.paper.measures import SEPARATION, Absent, Range
-from disc_model.paper.model import FALSE, PART, TRUE
+from disc_model.paper.model import AMBIGUOUS, FALSE, PART, TRUE
 from disc_model.paper.section2 import BASE, moving_load_speed
 from disc_model.paper.section41 import (
     both_at_low_speed,
     bounded_by_separation,
     bracketed,
+    excites_less,
     far_below,
     force_grows_to_zero,
     keeps_sticking,
@@ -198,6 +200,32 @@ def test_intervals_between_releases_spread_by_a_share_of_their_mean() -> None:
 
 
 @pytest.mark.parametrize(
+    ("supplied", "pulls", "verdict"),
+    [
+        (0.6, -1.0, AMBIGUOUS),  # the negative force takes energy
+        (0.8, -1.0, AMBIGUOUS),  # nothing is withheld, either
+        (0.8, 1.0, AMBIGUOUS),
+        (0.6, 1.0, TRUE),
+    ],
+)
+def test_excitation_is_withheld_over_periods_and_while_the_force_is_negative(
+    supplied: float, pulls: float, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The words were cut off before those on the negative force, and judged by the first reading.
+
+    Without separation 0.8 mJ are supplied, of which 0.3 mJ are gained; half of them decide.
+    """
+    table = pd.DataFrame({"case": ["free"]})
+    table[judging_tables.ENERGIES] = [supplied, 0.8, 0.3, 0.0, 0.3]
+    table[judging_tables.POWERS] = [4.0, pulls]
+    pair = [known(name="free"), known(name="kept")]
+    monkeypatch.setattr(section41, "pairs", lambda _: [pair])
+    found = excites_less(*pair, energies=table, share=0.5)
+    assert found.verdict == verdict
+    assert found.values["by_sign"] == [("here", 4.0, pulls)]
+
+
+@pytest.mark.parametrize(
     ("changes", "verdict"),
     [
         ({}, TRUE),
@@ -243,25 +271,24 @@ def test_a_quiet_disc_may_move_through_more_than_its_thickness() -> None:
     assert quiet(case, share=0.1, newtons=1.0, within=0.1).verdict == PART
 
 
-def test_parameters_are_named_of_which_a_thousandth_decides(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_parameters_are_named_of_which_a_thousandth_decides() -> None:
     """A thousandth more of k makes the first case separate, one of mu_s keeps the second."""
-
-    def separates_within(p: Parameters, until: float) -> bool:
-        assert until == 100.0
-        if p.Omega < 15:
-            return bool(p.k > 5e4)
-        return not p.mu_s > 0.4
-
-    monkeypatch.setattr(growth, "separates_within", separates_within)
-    below = known({"Omega": 14.0}, parameters=Parameters(N=385, Omega=14))
-    above = known({"Omega": 16.0}, parameters=Parameters(N=385, Omega=16), separates=True)
-    found = bracketed(below, above, until=100.0)
+    first = {
+        ("below", "k"): 50.0,
+        ("below", "mu_s"): NAN,
+        ("above", "k"): 60.0,
+        ("above", "mu_s"): NAN,
+    }
+    rows = [(*names, time) for names, time in first.items()]
+    table = pd.DataFrame(rows, columns=["case", "parameter", "first_s"])
+    below = known({"Omega": 14.0}, name="below")
+    above = known({"Omega": 16.0}, name="above", separates=True)
+    found = bracketed(below, above, small_changes=table)
     assert found.verdict == TRUE
     assert found.values["lost"] == [["k"], ["mu_s"]]
     assert found.values["speeds"] == (14, 16)
-    assert bracketed(below, known(separates=False), until=100.0).verdict == FALSE
+    calm = known({"Omega": 16.0}, name="above", separates=False)
+    assert bracketed(below, calm, small_changes=table).verdict == FALSE
 
 
 def test_a_case_separates_far_below_the_speed_of_a_moving_load() -> None:

@@ -1,21 +1,35 @@
 """The ledger's table: complete, computed, and honest about what it lacks."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import FunctionType, ModuleType, SimpleNamespace
+from typing import Any, NoReturn
 
 import numpy as np
+import pandas as pd
 import pytest
 
-from disc_model import Parameters
+from disc_model import Parameters, simulate, steady_sliding
 from disc_model.analysis.spectra import Line
-from disc_model.paper import SCANS, SURVIVAL_GRIDS, paper_tables, survival
-from disc_model.paper.ledger import COLUMNS, MODULES, ROWS, check_claims
-from disc_model.paper.measures import CaseView
+from disc_model.paper import (
+    JUDGING_TABLES,
+    SCANS,
+    SURVIVAL_GRIDS,
+    TABLE_CASES,
+    energy,
+    judging_tables,
+    paper_tables,
+    section41,
+    survival,
+)
+from disc_model.paper.energy import Powers
+from disc_model.paper.ledger import COLUMNS, MODULES, ROWS, check_claims, tables_of
+from disc_model.paper.measures import Absent, CaseView
 from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, VERDICTS, Answer, Row
 from disc_model.studies.study import load_study
 from tests.paper import evidence
+from tests.paper.known import known
 
 ROOT = Path(__file__).parents[2]
 STUDY = load_study(ROOT / "config" / "paper.yaml")
@@ -65,6 +79,14 @@ def test_the_workflow_is_told_of_every_scan() -> None:
     assert of_survival == {*SURVIVAL_GRIDS}
 
 
+def test_the_workflow_is_told_of_every_table_that_a_check_is_given() -> None:
+    tables = {name for row in ROWS for name in row.from_tables}
+    assert sorted(tables) == sorted(JUDGING_TABLES)
+    for row in ROWS:
+        for name in row.from_tables:
+            assert {*TABLE_CASES[name]} == {*row.cases}, row.id
+
+
 @pytest.mark.parametrize(
     ("modules", "rows"),
     [(MODULES, ROWS), ((survival,), survival.CONCLUSIONS)],
@@ -88,7 +110,7 @@ def test_the_table_has_every_row_once_and_says_what_it_lacks() -> None:
     cases = evidence.cases({"F11": {"says": {"time_reached": 1.0}}})
     del cases["F04"]
     cases["F16"] = labelled("F16", parameters=Parameters(N=60, Omega=15).canonical_json)
-    table = check_claims(cases)
+    table = check_claims(cases, evidence.tables())
     assert [*table.columns] == COLUMNS
     assert list(table["id"]) == [row.id for row in ROWS]
     table = table.set_index("id")
@@ -242,3 +264,97 @@ def test_table_1_has_the_papers_value_beside_that_of_a_case() -> None:
     assert table.loc["a", ["unit", "paper", "ours"]].tolist() == ["m", 0.044, 0.044]
     same = table.drop("k_p")
     assert (same["paper"] == same["ours"]).all()
+
+
+def test_a_table_that_is_not_given_is_made_of_its_cases(monkeypatch: pytest.MonkeyPatch) -> None:
+    def names(cases: Mapping[str, CaseView]) -> pd.DataFrame:
+        return pd.DataFrame({"case": [*cases]})
+
+    for name in JUDGING_TABLES:
+        monkeypatch.setitem(paper_tables.TABLES, name, names)
+    cases = {name: labelled(name) for name in ("F11", "F13", "F16")}
+    given = names({"F12": cases["F11"]})
+    tables = tables_of(cases, {"precursor": given})
+    # there is none of energies, whose cases are not there
+    assert tables.keys() == {"precursor", "small_changes"}
+    assert tables["precursor"] is given
+    assert list(tables["small_changes"]["case"]) == ["F11", "F13"]
+
+
+def test_a_check_is_given_its_tables_or_says_which_is_missing() -> None:
+    def judged(case: CaseView, *, listed: pd.DataFrame) -> Answer:
+        return Answer(list(listed["case"]) == [case.name])
+
+    row = Row(id="x", check=judged, place="", cases={"F11": 0}, from_tables=("listed",))
+    cases = {"F11": labelled("F11")}
+    assert row.judge(cases, {"listed": pd.DataFrame({"case": ["F11"]})}).verdict == TRUE
+    assert row.judge(cases, {"listed": pd.DataFrame({"case": ["F12"]})}).verdict == FALSE
+    assert row.judge(cases).here == "table listed is not among those of this run."
+
+
+@pytest.mark.compiled
+def test_small_changes_say_when_contact_is_lost(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At 385 N, 15.1 rad/s it is lost at 54 s, and a smaller preload keeps it for longer."""
+    monkeypatch.setattr(judging_tables, "FOLLOWED", 60.0)
+    monkeypatch.setattr(judging_tables, "PHYSICAL", ("N", "mu_k"))
+    p = Parameters(N=385, Omega=15.1)
+    table = judging_tables.small_changes({"here": known(name="here", parameters=p)})
+    assert [*table["case"]] == ["here", "here"]
+    for row in table.itertuples():
+        changed = p.replace(**{row.parameter: 1.001 * getattr(p, row.parameter)})
+        run = simulate(changed, 60.0, stop_at="first_separation")
+        # the same simulation: equal but for the sum of equal steps
+        assert row.first_s == pytest.approx(run.first_separation, rel=1e-12, nan_ok=True)
+    assert table["first_s"].notna().any()
+
+
+def test_energies_are_of_pairs_and_say_what_they_lack(monkeypatch: pytest.MonkeyPatch) -> None:
+    bilateral = Parameters(N=200, Omega=20, contact="bilateral")
+    free = known(
+        {"time_reached": 10.0},
+        name="free",
+        bilateral=False,
+        parameters=bilateral.replace(contact="unilateral"),
+        intervals=lambda kind: np.array([7e-3, 9e-3]),
+    )
+    kept = known({"time_reached": 20.0}, name="kept", bilateral=True, parameters=bilateral)
+    steady = Powers(3e-3, 0.5, 0.0, 0.3, 0.0)
+    grown = Powers(3e-3, 0.9, 0.0, 0.3, 0.6)
+
+    def at_range(p: Parameters, until: float, width: float) -> tuple[Powers, float]:
+        assert (p.contact, until, width) == ("bilateral", 20.0, 3e-3)
+        return grown, 15.0
+
+    def history(p: Parameters, until: float) -> list[Powers]:
+        return [steady if p.contact == "unilateral" else late] * 4
+
+    late = Powers(9e-3, 4.0, -3.0, 1.0, 0.0)
+    monkeypatch.setattr(energy, "power_history", history)
+    monkeypatch.setattr(energy, "at_range", at_range)
+    row = judging_tables.energies({"free": free, "kept": kept}).iloc[0]
+    # mJ in a period of 8 ms
+    expected = [4.0, 7.2, 2.4, 1.6, 4.8]
+    assert row[judging_tables.ENERGIES].to_list() == pytest.approx(expected, rel=1e-12)
+    assert row[judging_tables.POWERS].to_list() == [4.0, -3.0]
+    assert pd.isna(row["remark"])
+
+    def too_small(*_: Any) -> NoReturn:
+        raise Absent("maintained contact comes to 1 mm only")
+
+    monkeypatch.setattr(energy, "at_range", too_small)
+    table = judging_tables.energies({"free": free, "kept": kept})
+    assert table["remark"].to_list() == ["maintained contact comes to 1 mm only"]
+    pairs = section41.pairs([free, kept])
+    with pytest.raises(Absent, match="1 mm only"):
+        section41.excites_less(*pairs[0], energies=table, share=0.5)
+
+
+def test_growth_of_sliding_is_that_of_three_models(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(judging_tables, "SPEEDS", np.array([1000.0]))
+    monkeypatch.setitem(judging_tables.PRECURSOR, "loads", [50])
+    (row,) = judging_tables.precursor({}).itertuples(index=False)
+    p = Parameters(N=50, Omega=1000, contact="bilateral", c_p=5, friction_decay=0.02)
+    models = (p.replace(mu_s=0, mu_k=0), p, p.replace(c=0.5))
+    rates = [steady_sliding(model).growth_rate for model in models]
+    assert [*row] == pytest.approx([50, 1000, *rates], rel=1e-12)
+    assert len({*rates}) == 3

@@ -13,11 +13,11 @@ import pytest
 import xarray as xr
 
 from disc_model.data.texts import fill
-from disc_model.paper import energy, measures, section41, section43
+from disc_model.paper import TABLE_CASES, measures, section41, section43
+from disc_model.paper.judging_tables import ENERGIES, POWERS
 from disc_model.paper.ledger import ROWS
 from disc_model.paper.measures import Range
-from disc_model.paper.paper_tables import TABLE_CASES, impact_law
-from disc_model.parameters import Parameters
+from disc_model.paper.paper_tables import impact_law
 from tests.figures.measured import UREG
 
 BY_NAME = {row.id: row for row in ROWS}
@@ -29,9 +29,9 @@ def row_of(check: str) -> Any:
     return next(row for row in ROWS if row.check is not None and row.check.__name__ == check)
 
 
-def said(row: Any, *cases: Any) -> str:
-    """What a row says of some cases."""
-    answer = row.check(*cases, **row.given)
+def said(row: Any, *cases: Any, **tables: pd.DataFrame) -> str:
+    """What a row says of some cases, and of tables that its check is given."""
+    answer = row.check(*cases, **tables, **row.given)
     place = getattr(cases[0], "place", "")
     return fill(row.here, place=place, stated={}, **row.given, **answer.values)
 
@@ -114,29 +114,14 @@ def test_a_section_has_displacements_in_millimetres() -> None:
 
 
 def test_energies_of_a_period_are_in_millijoules(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Powers of 0.5 and 0.8 W over a period of 7.4 ms."""
-    free, bonded = (
-        case(
-            parameters=Parameters(N=385, Omega=15.1, contact=contact, n_diameters=0),
-            time_reached=1.0,
-            intervals=lambda kind: np.array([7.4e-3]),
-            samples=lambda name: SimpleNamespace(attrs={"theta": 0.0}),
-            name=contact,
-        )
-        for contact in ("unilateral", "bilateral")
-    )
-    monkeypatch.setattr(type(free), "__getitem__", lambda self, key: 1.0)
-    monkeypatch.setattr(type(bonded), "__getitem__", lambda self, key: 1.0)
-    held = energy.Powers(3e-3, 0.5, 0.0, 0.3, 0.2)
-    kept = energy.Powers(3e-3, 0.8, 0.0, 0.3, 0.5)
+    """As the table has them, whose columns name the unit; powers are in watts."""
+    free, bonded = (case(name=contact) for contact in ("unilateral", "bilateral"))
     monkeypatch.setattr(section41, "pairs", lambda cases: [(free, bonded)])
-    monkeypatch.setattr(energy, "power_history", lambda *_: None)
-    monkeypatch.setattr(energy, "in_the_end", lambda _: held)
-    monkeypatch.setattr(energy, "at_range", lambda *_: (kept, 1.0))
-    monkeypatch.setattr(energy, "powers", lambda *_: SimpleNamespace(pushes=1.0, pulls=-2.0))
-    text = said(row_of("excites_less"), free, bonded)
-    supplied = [1e-3 * float(found) for found in re.findall(rf"{NUMBER} mJ", text)]
-    assert supplied == pytest.approx([0.5 * 7.4e-3, 0.8 * 7.4e-3], abs=5.1e-6)
+    table = pd.DataFrame({"case": ["unilateral"]})
+    table[ENERGIES + POWERS] = [3.7, 5.92, 2.22, 1.48, 3.7, 1.0, -2.0]
+    text = said(row_of("excites_less"), free, bonded, energies=table)
+    assert [float(found) for found in re.findall(rf"{NUMBER} mJ", text)] == [3.7, 5.92]
+    assert "supplies 1.00 W and takes 2.00 W" in text
 
 
 def test_the_table_of_impacts_is_in_milliseconds_percent_and_millimetres() -> None:

@@ -14,8 +14,7 @@ import xarray as xr
 
 from disc_model import Parameters
 from disc_model.disc.plate import plate_modes
-from disc_model.paper import energy, growth, ledger, section2, section44
-from disc_model.paper.energy import Powers
+from disc_model.paper import growth, ledger, section2, section44
 from disc_model.paper.measures import CaseView, views
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, VERDICTS, Answer
 from tests.damages import DAMAGES, damaged
@@ -37,12 +36,14 @@ class World:
     cases : stories of cases, by one name or several
     scans : grid studies by name
     functions : of modules, by module and name
+    tables : tables that checks are given, by name
     rows : the rows that are judged, all of them unless some are named
     """
 
     cases: Mapping[str, Any] = field(default_factory=dict)
     scans: Mapping[str, xr.Dataset] = field(default_factory=evidence.scans)
     functions: Mapping[Any, Mapping[str, Callable[..., Any]]] = field(default_factory=dict)
+    tables: Mapping[str, pd.DataFrame] = field(default_factory=evidence.tables)
     rows: tuple[str, ...] = tuple(BY_NAME)
 
     def verdicts(self) -> dict[str, str]:
@@ -52,23 +53,12 @@ class World:
                 for name, function in functions.items():
                     patch.setattr(module, name, function)
             cases = evidence.cases(self.cases, self.scans)
-            return {name: BY_NAME[name].judge(cases).verdict for name in self.rows}
+            return {name: BY_NAME[name].judge(cases, self.tables).verdict for name in self.rows}
 
 
 def mirrored(p: Parameters, growth_of: Callable[[Parameters], float] = growth.growth_of) -> float:
     """Return the growth of a case, negative instead of positive."""
     return -growth_of(p)
-
-
-def held(p: Parameters, until: float, widest: float = np.inf) -> list[Powers]:
-    """Return powers in W of a steady motion that is supplied what damping takes."""
-    return [Powers(3.5e-3, 12.25, 0.0, 12.25, 0.0)] * 4
-
-
-def doubled(p: Parameters, until: float, width: float) -> tuple[Powers, float]:
-    """Return powers in W of a growing motion: half of what is supplied is the surplus."""
-    square = (1e3 * width) ** 2
-    return Powers(width, 2 * square, 0.0, square, square), until
 
 
 def slower(p: Parameters) -> pd.DataFrame:
@@ -87,13 +77,6 @@ def alone(p: Parameters) -> np.ndarray:
 def massless(p: Parameters) -> pd.DataFrame:
     """Return modes for which the second relation of Eq. (17) holds as printed."""
     return plate_modes(p).assign(omega=np.sqrt(p.D))
-
-
-def as_the_precursor_has_it(p: Parameters) -> float:
-    """Return a growth rate that friction and damper raise at low speeds, and lower at high ones."""
-    if p.Omega < 1000:
-        return p.c + p.mu_s - 0.1
-    return 0.1 - p.mu_s
 
 
 def without_contact(
@@ -118,10 +101,10 @@ def of_a_disc(row: str, **functions: Callable[[Parameters], Any]) -> World:
     return World(functions={module: functions}, rows=(row,))
 
 
-def of_sliding(sliding_growth: Callable[[Parameters], float]) -> World:
+def of_sliding(*rows: tuple[float, float, float, float]) -> World:
     """Return the world in which sliding grows so, for the rows on the precursor."""
-    functions = {"sliding_growth": sliding_growth, "growths": section2.growths.__wrapped__}
-    return World(functions={section2: functions}, rows=("A98i", "A98r"))
+    tables = {"precursor": evidence.sliding_growths(*rows)}
+    return World(tables=tables, rows=("A98i", "A98r"))
 
 
 def told(text: Mapping[str, Any]) -> World:
@@ -139,10 +122,9 @@ WORLDS = {
     "as simulated": World(),
     "other grids and cycles": World(
         scans=evidence.scans(**evidence.TEXTS["scans to the contrary"]),
-        functions={
-            growth: {"growth_of": mirrored},
-            energy: {"power_history": held, "at_range": doubled},
-        },
+        functions={growth: {"growth_of": mirrored}},
+        # more than half of the surplus is withheld, and the negative force supplies energy
+        tables=evidence.tables(supplied=2.5, pulls=1.0),
     ),
     "growth with the stiffness": World(
         functions={growth: {"growth_of": lambda p: p.k_p}}, rows=("S43kpg",)
@@ -161,8 +143,10 @@ WORLDS = {
         functions={CaseView: {"times_of": without_contact}}, rows=("C1r",)
     ),
     "the stiff disc": of_a_disc("F29", plate_modes=lambda p: plate_modes(p.replace(E=150e9))),
-    "friction that changes nothing": of_sliding(lambda p: p.Omega - 1000.0),
-    "friction as the precursor has it": of_sliding(as_the_precursor_has_it),
+    "friction that changes nothing": of_sliding((500.0, -1.0, -1.0, -1.0), (1500.0, 1.0, 1.0, 1.0)),
+    "friction as the precursor has it": of_sliding(
+        (500.0, -0.1, 0.2, 0.3), (1500.0, 0.1, -0.2, -0.2)
+    ),
     **{name: told(text) for name, text in evidence.TEXTS["worlds"].items()},
 }
 
@@ -185,7 +169,7 @@ def test_what_a_study_lacks_ends_no_table(damage: str) -> None:
     cases = {}
     for name, node in evidence.simulated().items():
         cases[name] = CaseView(name, damaged(node, DAMAGES[damage]))
-    answers = [row.judge(cases) for row in ledger.ROWS]
+    answers = [row.judge(cases, evidence.tables()) for row in ledger.ROWS]
     assert {answer.verdict for answer in answers} <= {*VERDICTS}
     lacking = [answer for answer in answers if answer.verdict == NOT_COMPUTED]
     assert any(answer.here.startswith("case ") for answer in lacking)
@@ -212,7 +196,7 @@ def test_a_motion_that_still_grows_has_no_steady_state() -> None:
     steady = [row for row in ledger.ROWS if row.steady]
     assert len(steady) > 10
     for row in steady:
-        answer = row.judge(cases)
+        answer = row.judge(cases, evidence.tables())
         assert answer.verdict == NOT_COMPUTED, row.id
         assert "has not settled in" in answer.here, row.id
 
@@ -234,7 +218,7 @@ def test_a_verdict_follows_from_what_there_is(case: dict[str, Any]) -> None:
     scans = None
     if changes is not None:
         scans = evidence.scans(**changes)
-    answer = BY_NAME[case["row"]].judge(evidence.cases(stories, scans))
+    answer = BY_NAME[case["row"]].judge(evidence.cases(stories, scans), evidence.tables())
     assert answer.verdict == case["verdict"], vars(answer)
     assert case.get("phrase", "") in f"{answer.here} {answer.notes}"
 

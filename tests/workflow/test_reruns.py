@@ -15,8 +15,9 @@ pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 SIMULATIONS = {f"simulate_case:{case}" for case in ("F11", "F13", "X")}
 FIGURES = {"draw_figure:small:fig11", "draw_figure:small:fig13"}
 MERGED = {"merge_cases", "check_claims"}
-OF_F13 = {"make_table:table1", "make_table:table2"}
-TABLES = MERGED | OF_F13
+OF_F13 = {"make_table:table1", "make_table:table2", "make_table:small_changes"}
+OF_CASE = {"simulate_case:F13", "draw_figure:small:fig13"}
+TABLES = OF_F13 | {"make_table:precursor"}
 PLOT = {"draw_figure:small_map:chart"}
 MAP_TAIL = {"merge_batches:small_map"} | PLOT
 GROWTH_TAIL = {"merge_batches:small_growth"} | PLOT
@@ -39,7 +40,7 @@ def whole_growth(project: Project) -> set[str]:
 
 
 def everything(project: Project) -> set[str]:
-    return SIMULATIONS | FIGURES | TABLES | whole_map(project) | whole_growth(project)
+    return SIMULATIONS | FIGURES | TABLES | MERGED | whole_map(project) | whole_growth(project)
 
 
 def dataset(project: Project, name: str) -> xr.Dataset:
@@ -59,8 +60,8 @@ def test_a_second_run_does_nothing(project: Project) -> None:
 @pytest.mark.parametrize(
     ("file", "old", "new", "jobs"),
     [
-        (SMALL, "Omega: 15.1", "Omega: 15.2", lambda _: {"simulate_case:F13", "draw_figure:small:fig13"} | TABLES),
-        (SMALL, "title: quiet", "title: calm", lambda _: MERGED),
+        (SMALL, "Omega: 15.1", "Omega: 15.2", lambda _: OF_CASE | OF_F13 | MERGED),
+        (SMALL, "title: quiet", "title: calm", lambda _: {"merge_cases"}),
         (SMALL, "  X: {title: another,", "  Y: {title: new,", lambda _: {"simulate_case:Y"} | MERGED),
         (MAP, "axes:\n", "base: {c: 0.1}\naxes:\n", whole_map),
         (MAP, "axes:\n", "base: {mu_k: 2.4e-1}\naxes:\n", lambda _: set()),  # the default as it was
@@ -110,15 +111,15 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
         ("src/disc_model/stability/outcome.py", everything),
         ("src/disc_model/studies/quantities/sliding.py", whole_growth),
         ("src/disc_model/studies/quantities/hysteresis.py", lambda _: set()),
-        ("src/disc_model/studies/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL | MERGED),
+        ("src/disc_model/studies/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL | {"merge_cases"}),
         ("src/disc_model/studies/study.py", lambda _: set()),
         ("src/disc_model/figures/history.py", lambda _: FIGURES | PLOT),
-        ("src/disc_model/paper/figures/scales.py", lambda _: {"check_claims"} | OF_F13),
+        ("src/disc_model/paper/figures/scales.py", lambda _: {"check_claims"} | TABLES),
         ("src/disc_model/figures/drawing.mplstyle", lambda _: FIGURES | PLOT),
         ("workflow/scripts/draw_figure.py", lambda _: FIGURES | PLOT),
-        ("workflow/scripts/simulate_case.py", lambda _: SIMULATIONS | FIGURES | TABLES),
-        ("src/disc_model/paper/section41.py", lambda _: {"check_claims"} | OF_F13),
-        ("src/disc_model/paper/section41.yaml", lambda _: {"check_claims"} | OF_F13),
+        ("workflow/scripts/simulate_case.py", lambda _: SIMULATIONS | FIGURES | OF_F13 | MERGED),
+        ("src/disc_model/paper/section41.py", lambda _: {"check_claims"} | TABLES),
+        ("src/disc_model/paper/section41.yaml", lambda _: {"check_claims"} | TABLES),
     ],
 )
 def test_sources_run_what_uses_them_and_no_more(project: Project, source: str, jobs: Jobs) -> None:

@@ -1,5 +1,9 @@
-"""Judge the paper's statements by the merged cases and grid studies: the ledger as CSV, as Markdown
-and as a page."""
+"""Judge the paper's statements by cases, grid studies and tables made of cases: the ledger as CSV,
+as Markdown and as a page."""
+
+from pathlib import Path
+
+import pandas as pd
 
 from disc_model.data.dataset import load_cases
 from disc_model.data.texts import write_page
@@ -10,7 +14,10 @@ from disc_model.paper.measures import views
 
 @script
 def main(csv: str, md: str, html: str, *inputs: str) -> None:
-    table = check_claims(views(load_cases(inputs)))
+    made = [path for path in inputs if path.endswith(".csv")]
+    cases = [path for path in inputs if path not in made]
+    tables = {Path(path).stem: pd.read_csv(path) for path in made}
+    table = check_claims(views(load_cases(cases)), tables)
     table.assign(
         **{name: [", ".join(each.values()) for each in table[name]] for name in ("figures", "data")}
     ).to_csv(csv, index=False)

@@ -12,10 +12,16 @@ from disc_model.paper.paper_tables import COLUMNS, TABLE_2, TABLES, TEXTS
 def main(name: str, csv: str, md: str, html: str, *paths: str) -> None:
     cases = {case: CaseView(case, tree) for case, tree in load_cases(paths).items()}
     page = TEXTS["pages"][name]
+    note = page["note"]
     try:
-        table, note = TABLES[name](cases).round(page["digits"]), page["note"]
+        table = TABLES[name](cases)
     except Missing as reason:  # of Table 2 alone
-        table, note = TABLE_2.reindex(columns=COLUMNS), f"Not computed: {reason}."
+        table = TABLE_2.reindex(columns=COLUMNS)
+        note = f"Not computed: {reason}."
+    # the ledger reads this file, people read the pages
     table.to_csv(csv, index=False)
+    shown = table.rename(columns=TEXTS["names"])
+    if "digits" in page:
+        shown = shown.round(page["digits"])
     for file in (md, html):
-        write_page(file, page["title"], ("", note, table.rename(columns=TEXTS["names"])))
+        write_page(file, page["title"], ("", note, shown))

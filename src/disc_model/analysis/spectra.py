@@ -24,6 +24,14 @@ fifth."""
 HIGHEST_HARMONIC = 12  # of the stick-slip frequency in combinations,
 HIGHEST_TURN = 3  # and of the drive's
 EQUALLY_NEAR = 3  # digits of Hz to which combinations are equally near
+_ORDERS = [
+    (n, m)
+    for n in range(HIGHEST_HARMONIC + 1)
+    for m in range(-HIGHEST_TURN, HIGHEST_TURN + 1)
+    if n > 0 or m > 0  # others are no frequency
+]
+HARMONICS, TURNS = np.transpose(_ORDERS)
+"""Orders n and m of all combinations, shape (combinations,)."""
 
 
 class Line(NamedTuple):
@@ -260,19 +268,17 @@ def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
     Of combinations that are equally near, to a thousandth of a Hz, the one with the smallest orders
     is taken.
     """
-    combinations = []
-    for n in range(HIGHEST_HARMONIC + 1):
-        for m in range(-HIGHEST_TURN, HIGHEST_TURN + 1):
-            if n == 0 and m <= 0:  # no frequency
-                continue
-            value = n * f_s + m * f_drive
-            combinations.append(Combination(n, m, value, frequency - value))
-
-    def rank(found: Combination) -> tuple[float, int]:
-        """The nearest first, and of those the one with the smallest orders."""
-        return round(abs(found.deviation), EQUALLY_NEAR), found.n + abs(found.m)
-
-    return min(combinations, key=rank)
+    frequencies = HARMONICS * f_s + TURNS * f_drive
+    deviations = frequency - frequencies
+    # the nearest first, and of those the one with the smallest orders
+    distances = np.round(np.abs(deviations), EQUALLY_NEAR)
+    first = np.lexsort((HARMONICS + np.abs(TURNS), distances))[0]
+    return Combination(
+        int(HARMONICS[first]),
+        int(TURNS[first]),
+        float(frequencies[first]),
+        float(deviations[first]),
+    )
 
 
 def time_frequency(

@@ -19,11 +19,18 @@ class Names(Artist):
 
     Those that are added first come first; those that find no room are left out. Places are chosen
     whenever the figure is drawn, since axes change their size until then.
+
+    Parameters
+    ----------
+    ax : the panel
+    most : greatest number of names
+    lines : points of lines that no name may cover, in units of the axes, shape (n, 2)
     """
 
-    def __init__(self, ax: Axes, most: int | None = None) -> None:
+    def __init__(self, ax: Axes, most: int | None = None, lines: Array | None = None) -> None:
         super().__init__()
         self._most = most
+        self._lines = np.empty((0, 2)) if lines is None else lines
         self._candidates: list[list[Annotation]] = []
         self._points: list[tuple[float, float]] = []
         self.set_zorder(-1)  # chosen before they are drawn
@@ -64,11 +71,13 @@ class Names(Artist):
         """Show the first of a point's names that finds room; its box is added to those taken."""
         panel: Any = self.axes
         frame = panel.get_window_extent(renderer)
+        lines = panel.transData.transform(self._lines)
         for name in names:
             name.set_visible(True)  # an invisible one has no extent
             box = name.get_window_extent(renderer).padded(GAP)
             inside = frame.count_contains(box.corners()) == len(box.corners())
-            if inside and not box.count_overlaps(taken) and nearness.is_clear(box):
+            covers = box.count_contains(lines) or box.count_overlaps(taken)
+            if inside and not covers and nearness.is_clear(box):
                 taken.append(box)
                 return
             name.set_visible(False)

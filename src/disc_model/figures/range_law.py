@@ -129,9 +129,9 @@ def _draw_excess(ax: Axes, motions: _Motions) -> None:
     drawing.say(ax, "within 5 %", (times[-1], -5), (-3, 2), fontsize=large(7), color="0.35")
     drawing.say(
         ax,
-        "curve: length of flights,\n(π · time apart)²/8",
-        (times[-1], -5),
-        (-3, -3),
+        "from flights:\n(π · time apart)²/8",
+        (times[-1], 5),
+        (-3, 3),
         fontsize=large(7),
         path_effects=drawing.halo(),
     )

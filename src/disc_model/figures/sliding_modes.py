@@ -33,7 +33,7 @@ FREE = 0.25  # of the largest growth rate, room above a line that is enough for 
 NAMES_APART = 0.04  # of the axis of frequencies, least distance of names
 RATES_APART = 0.1  # of that of growth rates
 EDGE = 0.05  # of the width of the panel, beside its ends, where names stand on the inner side
-BESIDE = ((-4, 3), (4, 3), (-4, 0), (4, 0))
+BESIDE = ((-4, 3), (4, 3), (-4, 0), (4, 0), (0, 10))
 """Offsets in points of the name of a growing mode where it has no room above its line."""
 HEADROOM = 1.25  # upper end of that axis over the largest rate, whose name stands above it
 LEAST = 0.1  # 1/s, upper end of the axis of growth rates at least
@@ -133,6 +133,7 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
     lines = lines_of(study)
     largest = float(study["largest_growth_rate"].max())
     named: list[tuple[tuple[float, float], str, list[tuple[float, float]]]] = []
+    thick = []
     for line in lines:
         grows = np.nan_to_num(line.rate) > ROUNDING
         for ax, values in ((top, line.frequency), (bottom, line.rate)):
@@ -145,6 +146,7 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
                 linewidth=wide(GROWS),
                 markersize=mark(3),
             )
+        thick.append(np.column_stack([along, line.rate])[grows])
         for start, after in stretches(grows[:-1] & grows[1:]):
             shown = slice(start, after + 1)
             i = start + _place_of_name(line.rate[shown], [x.rate[shown] for x in lines], largest)
@@ -156,7 +158,7 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
                 side = -1
             place = (float(along[i]), float(line.rate[i]))
             named.append((place, line.name, [(3 * side, 3), *BESIDE]))
-    names = Names(bottom)
+    names = Names(bottom, lines=np.concatenate(thick))
     for place, name, offsets in sorted(named, reverse=True, key=lambda each: each[0][1]):
         names.add(name, place, offsets, fontsize=large(7), path_effects=halo())
     bottom.axhline(0, color=BLACK, linewidth=wide(0.5))

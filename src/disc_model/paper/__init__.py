@@ -33,8 +33,14 @@ TABLE_CASES = {
     "table2": ("F13",),
     "periods": ("F02", "F07", "F22"),
     "impact_law": ("F13", "P03l8", "P03l4c1", "P03l4c2", "P03res"),
+    "energies": ("F02", "F04", "F06", "F07", "F08", "F09"),
+    "small_changes": ("F11", "F13"),
+    "precursor": (),
 }
 """Cases of each table.
 
 Those of `periods` repeat, although the paper calls them quasi-periodic or unpredictable.
 """
+
+JUDGING_TABLES = ("energies", "precursor", "small_changes")
+"""Tables that checks of the ledger are given."""

@@ -1,10 +1,8 @@
-"""Growth rates and separations that rows of the ledger compute, each once."""
+"""Growth rates that rows of the ledger compute, each once."""
 
-import math
 from functools import cache
 
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import simulate
 from disc_model.stability.floquet import floquet
 from disc_model.stability.sliding import steady_sliding
 
@@ -25,10 +23,3 @@ def sliding_growth(p: Parameters) -> float:
     It is nan without an equilibrium.
     """
     return steady_sliding(p).growth_rate
-
-
-@cache
-def separates_within(p: Parameters, until: float) -> bool:
-    """Simulate from the static start whether the slider separates before a time in s."""
-    run = simulate(p, until, stop_at="first_separation").raise_for_status()
-    return math.isfinite(run.first_separation)

@@ -15,7 +15,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.texts import Section, fill
 from disc_model.data.variables import values_text
 from disc_model.disc.plate import coupled_frequencies, plate_modes
-from disc_model.paper import section2, section41, section43, section44
+from disc_model.paper import JUDGING_TABLES, TABLE_CASES, section2, section41, section43, section44
 from disc_model.paper.measures import CaseView, or_none, rate_text
 from disc_model.paper.model import (
     FALSE,
@@ -27,6 +27,7 @@ from disc_model.paper.model import (
     read_texts,
     rows_of,
 )
+from disc_model.paper.paper_tables import TABLES
 from disc_model.parameters import Parameters
 
 MODULES = (section2, section41, section43, section44)
@@ -51,21 +52,43 @@ COLUMNS = [
     "rule",
     "figures",
     "data",
+    "computed",
     "counts",
 ]
 
 NUMBER = r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
 
 
-def check_claims(cases: Mapping[str, CaseView]) -> pd.DataFrame:
+def check_claims(
+    cases: Mapping[str, CaseView], tables: Mapping[str, pd.DataFrame] | None = None
+) -> pd.DataFrame:
     """Judge all rows by cases and grid studies, by name.
 
-    Returns a table with `COLUMNS`; ``figures`` and ``data`` are links from the paper's results, by
-    their words.
+    Parameters
+    ----------
+    cases : cases and grid studies
+    tables : those of `JUDGING_TABLES` that have been made of these cases; others are made
+
+    Returns
+    -------
+    table : with `COLUMNS`; ``figures`` and ``data`` are links from the paper's results, by their words
     """
-    judged = judge(ROWS, {"": cases})
+    known = tables_of(cases, tables)
+    judged = judge(ROWS, {"": cases}, {"": known})
     stated = pd.DataFrame([_stated(row) for row in ROWS])
     return judged.join(stated)[COLUMNS]
+
+
+def tables_of(
+    cases: Mapping[str, CaseView], made: Mapping[str, pd.DataFrame] | None = None
+) -> dict[str, pd.DataFrame]:
+    """Return the `JUDGING_TABLES` of cases: those that are made, and others if their cases are there."""
+    tables = dict(made or {})
+    for name in JUDGING_TABLES:
+        needed = TABLE_CASES[name]
+        if name not in tables and cases.keys() >= {*needed}:
+            tables[name] = TABLES[name]({each: cases[each] for each in needed})
+    return tables
 
 
 def _stated(row: Row) -> dict[str, Any]:
@@ -83,7 +106,7 @@ def _stated(row: Row) -> dict[str, Any]:
         figures[words] = _link(name)
 
     data = {}
-    for name in row.tables:
+    for name in row.tables + row.from_tables:
         words = name.replace("_", " ")
         data[f"table {words}"] = f"tables/{name}.html"
     for name in row.cases:
@@ -104,6 +127,7 @@ def _stated(row: Row) -> dict[str, Any]:
         "section": section,
         "figures": figures,
         "data": data,
+        "computed": row.computed,
         "counts": counts,
     }
 
@@ -290,7 +314,9 @@ def _verdicts(
 ) -> pd.DataFrame:
     """Return the rows of the ledger that are judged by cases, as they come out for both."""
     rows = [row for row in ROWS if row.cases]
-    table = judge(rows, {"published": published, "orthonormal": orthonormal})
+    models = {"published": published, "orthonormal": orthonormal}
+    tables = {name: tables_of(cases) for name, cases in models.items()}
+    table = judge(rows, models, tables)
     old, new = (part.set_index("id") for _, part in table.groupby("model", sort=False))
     several_models = [row.get("also") for row in read_texts("paper/survival.yaml").values()]
     columns = {

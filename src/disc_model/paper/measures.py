@@ -425,12 +425,14 @@ class Signal(NamedTuple):
 
 
 def views(trees: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
-    """Return views, by name, of merged cases and of grid studies.
+    """Return views, by name, of cases and of grid studies.
 
-    The merged cases bear the name ``cases``.
+    Cases are trees of their own, or merged in one that bears the name ``cases``.
     """
-    nodes = {**trees["cases"].children, **trees}
-    nodes.pop("cases")
+    nodes = dict(trees)
+    merged = nodes.pop("cases", None)
+    if merged is not None:
+        nodes.update(merged.children)
     return {name: CaseView(name, node) for name, node in nodes.items()}
 
 

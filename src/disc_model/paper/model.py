@@ -1,7 +1,7 @@
 """Rows of the ledger: quotations of the paper, and the checks that judge them."""
 
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -96,6 +96,7 @@ class Evidence(NamedTuple):
     studies: list[xr.Dataset]
     optional_studies: list[xr.Dataset | None]
     """Grid studies for notes, None where one is missing."""
+    tables: dict[str, pd.DataFrame]
 
 
 class Row(BaseModel):
@@ -124,6 +125,8 @@ class Row(BaseModel):
     scans : grid studies that the check is given after the cases
     optional_scans : further ones, for notes; the check is given None for one that is missing
     tables : tables of results on which the row rests as well
+    from_tables : tables that the check is given, each as an argument of its name
+    computed : what the check computes besides, of which no dataset is kept
     figures : figures of the paper's study, or grid studies with a figure of the same name
     print_error : whether the row is on an error in print, which is counted separately
     after_the_fact : whether the rule was chosen when the numbers were known
@@ -149,6 +152,8 @@ class Row(BaseModel):
     scans: tuple[str, ...] = ()
     optional_scans: tuple[str, ...] = ()
     tables: tuple[str, ...] = ()
+    from_tables: tuple[str, ...] = ()
+    computed: str = ""
     figures: tuple[str, ...] = ()
     print_error: bool = False
     after_the_fact: bool = False
@@ -159,17 +164,23 @@ class Row(BaseModel):
         """How the row is judged, in words."""
         return fill(self.judged, **self.given)
 
-    def judge(self, cases: Mapping[str, CaseView]) -> Answer:
-        """Judge the row by cases and grid studies, by name.
+    def judge(
+        self, cases: Mapping[str, CaseView], tables: Mapping[str, pd.DataFrame] | None = None
+    ) -> Answer:
+        """Judge the row by cases and grid studies, and by tables made of cases, by name.
 
         Evidence that is missing, or that does not decide, is named in the answer.
         """
         if self.check is None:
             return Answer(self.verdict, self.here, self.note)
         try:
-            evidence = self._gather(cases)
+            evidence = self._gather(cases, tables or {})
             answer = self.check(
-                *evidence.cases, *evidence.studies, *evidence.optional_studies, **self.given
+                *evidence.cases,
+                *evidence.studies,
+                *evidence.optional_studies,
+                **evidence.tables,
+                **self.given,
             )
             return self._put_in_words(answer, evidence)
         except Absent as absent:
@@ -177,15 +188,16 @@ class Row(BaseModel):
         except Missing as missing:
             return Answer(NOT_COMPUTED, f"{missing}.")
 
-    def _gather(self, known: Mapping[str, CaseView]) -> Evidence:
+    def _gather(
+        self, known: Mapping[str, CaseView], tables: Mapping[str, pd.DataFrame]
+    ) -> Evidence:
         """Return the evidence for the check; raises `Missing` if there is not enough of it."""
         if self.every:
             cases = [case for case in known.values() if not case.is_grid]
         else:
             cases = [required_case(known, name, until) for name, until in self.cases.items()]
-        for name in self.scans:
-            if name not in known:
-                raise Missing(f"study {name} is not among those of this run")
+        _require("study", self.scans, known)
+        _require("table", self.from_tables, tables)
 
         for case in self._those(self.separates, cases):
             if not (case.separates or case.bilateral):
@@ -205,7 +217,8 @@ class Row(BaseModel):
                 optional.append(known[name].node.to_dataset())
             else:
                 optional.append(None)
-        return Evidence(cases, steady, studies, optional)
+        given = {name: tables[name] for name in self.from_tables}
+        return Evidence(cases, steady, studies, optional, given)
 
     @staticmethod
     def _those(named: Literal[True] | tuple[str, ...], cases: list[CaseView]) -> list[CaseView]:
@@ -241,6 +254,13 @@ class Row(BaseModel):
         return Answer(answer.verdict, here, answer.notes, note, settled)
 
 
+def _require(what: str, names: Iterable[str], known: Container[str]) -> None:
+    """Raise `Missing` for the first study or table that is not known."""
+    for name in names:
+        if name not in known:
+            raise Missing(f"{what} {name} is not among those of this run")
+
+
 def rows_of(file: str, checks: Mapping[str, Any]) -> tuple[Row, ...]:
     """Return the rows of a YAML file, in its order.
 
@@ -263,17 +283,28 @@ def rows_of(file: str, checks: Mapping[str, Any]) -> tuple[Row, ...]:
     return tuple(TypeAdapter(dict[str, Row]).validate_python(entries).values())
 
 
-def judge(rows: Iterable[Row], models: Mapping[str, Mapping[str, CaseView]]) -> pd.DataFrame:
+def judge(
+    rows: Iterable[Row],
+    models: Mapping[str, Mapping[str, CaseView]],
+    tables: Mapping[str, Mapping[str, pd.DataFrame]] | None = None,
+) -> pd.DataFrame:
     """Judge rows under models, each with its own cases by name.
 
-    Returns a table with a row for each statement and model: ``id``, ``model`` and the attributes of
-    `Answer`.
+    Parameters
+    ----------
+    rows : statements with their checks
+    models : cases and grid studies of each model
+    tables : those that are made of the cases of each model, by name
+
+    Returns
+    -------
+    table : a row for each statement and model: ``id``, ``model`` and the attributes of `Answer`
     """
     rows = tuple(rows)
     judged = []
     for model, cases in models.items():
         for row in rows:
-            answer = row.judge(cases)
+            answer = row.judge(cases, (tables or {}).get(model))
             judged.append({"id": row.id, "model": model, **vars(answer)})
     return pd.DataFrame(judged)
 

@@ -1,7 +1,7 @@
-"""Tables of results: Tables 1 and 2 of the paper beside ours, and two of what results rest on.
+"""Tables of results: Tables 1 and 2 of the paper beside ours, and those on which results rest.
 
-The latter are periods under other tolerances and numbers of modes, and motion after impacts with
-more modes.
+The latter are periods under other tolerances and numbers of modes, motion after impacts with more
+modes, and those of `judging_tables`.
 """
 
 from collections.abc import Callable, Mapping
@@ -16,7 +16,7 @@ from disc_model.analysis import spectra
 from disc_model.analysis.classify import FEWEST, Motion, motion_of
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
-from disc_model.paper import TABLE_CASES
+from disc_model.paper import TABLE_CASES, judging_tables
 from disc_model.paper.measures import CaseView, place
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -259,5 +259,8 @@ TABLES: dict[str, Callable[[Mapping[str, CaseView]], pd.DataFrame]] = {
     "table2": lambda cases: table_2(cases["F13"]),
     "periods": periods,
     "impact_law": impact_law,
+    "energies": judging_tables.energies,
+    "small_changes": judging_tables.small_changes,
+    "precursor": judging_tables.precursor,
 }
 """Functions that make a table from the cases that it needs."""

@@ -4,7 +4,6 @@ They are about the scale and the number of modes, and about the disc and the sli
 """
 
 from collections.abc import Mapping, Sequence
-from functools import cache
 
 import numpy as np
 import pandas as pd
@@ -14,8 +13,8 @@ from scipy.integrate import fixed_quad
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import coupled_natural_frequencies, mode_shapes, plate_modes
-from disc_model.paper import growth, measures
-from disc_model.paper.growth import sliding_growth
+from disc_model.paper import measures
+from disc_model.paper.judging_tables import GROWTHS, PRECURSOR
 from disc_model.paper.measures import Array, CaseView
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded, parameters_of
 from disc_model.parameters import Parameters
@@ -78,24 +77,19 @@ def survive(*maps: xr.Dataset, share: float) -> Answer:
         speeds = plane["Omega"].values[separates.any(axis=1)]
         lowest.append(np.min(speeds, initial=np.inf))
 
-    # with modes by Eq. (17), points that only seem to keep contact are simulated to the horizon
     points = separating_points({study.attrs["study"]: study for study in maps})
     as_published = 0
     in_contact = 0
     grow = []
-    for figure, point in points.items():
+    for point in points.values():
         published = str(flag_names(point.sel(normalization="as_published")["outcome"]))
         as_published += published == "separation"
         outcome = str(flag_names(point.sel(normalization="orthonormal")["outcome"]))
         if outcome == "separation":
             continue
-        horizon = stated_in(point, "options")["horizon"]
-        case = parameters_of(SEPARATING[figure][1], "orthonormal")
-        if growth.separates_within(case, horizon):
-            continue
         in_contact += 1
         if outcome == "growing":
-            grow.append(horizon)
+            grow.append(stated_in(point, "options")["horizon"])
 
     counts = (
         len(points),
@@ -247,40 +241,15 @@ def different(*cases: CaseView, factor: float, share: float = 0.0, both: bool = 
 # ---- The abstract of the model's precursor, J. Sound Vib. 209 (1998): steady sliding with friction
 # that falls
 
-SPEEDS = np.arange(5.0, 1501.0, 5.0)
-"""Speeds in rad/s, up to where sliding is unstable at all speeds without friction."""
 
-
-@cache
-def growths(loads: tuple[float, ...], c: float, **friction: float) -> Array:
-    """Return largest growth rates of sliding in 1/s, shape (3, loads, speeds).
-
-    They are those without friction, with it, and with it and a damper.
-
-    Parameters
-    ----------
-    loads : preloads, N
-    c : damping of the damper normal to the disc, N s/m
-    friction : parameters of friction
-    """
-    p = BASE.replace(contact="bilateral", **friction)
-    frictionless = p.replace(mu_s=0.0, mu_k=0.0)
-    rates = [
-        sliding_growth(case.replace(N=N, Omega=speed))
-        for case in (frictionless, p, p.replace(c=c))
-        for N in loads
-        for speed in SPEEDS
-    ]
-    return np.reshape(rates, (3, len(loads), SPEEDS.size))
-
-
-def additional(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
+def additional(*, precursor: pd.DataFrame) -> Answer:
     """Judge whether friction makes stable speeds unstable, and the damper raises growth there.
 
     The statement is open if the damper raises some of these growth rates only: of the precursor we
-    have the abstract, and do not know its disc.
+    have the abstract, and do not know its disc. The table is that of `judging_tables.precursor`.
     """
-    without, both, damped = growths(tuple(loads), c, **friction)
+    without, both, damped = (precursor[name].to_numpy() for name in GROWTHS)
+    speeds = precursor["Omega"].to_numpy()
     critical = moving_load_speed(BASE)
     new = (both > 0) & ~(without > 0)
     raised = new & (damped > both)
@@ -290,15 +259,17 @@ def additional(*, loads: Sequence[float], c: float, **friction: float) -> Answer
         verdict = TRUE
     else:
         verdict = NOT_COMPUTED
-    slowest = SPEEDS[raised.any(axis=0)].min(initial=np.inf)
-    below = new[:, critical > SPEEDS]
+    slowest = np.min(speeds[raised], initial=np.inf)
+    below = new & (speeds < critical)
     counts = (new.sum(), raised.sum(), below.sum())
-    return Answer(verdict, size=new.size, counts=counts, slowest=slowest, critical=critical)
+    return Answer(
+        verdict, size=len(precursor), counts=counts, slowest=slowest, critical=critical, **PRECURSOR
+    )
 
 
-def reduced(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
+def reduced(*, precursor: pd.DataFrame) -> Answer:
     """Judge whether friction lowers growth where sliding is unstable without it."""
-    without, both, _ = growths(tuple(loads), c, **friction)
+    without, both, _ = (precursor[name].to_numpy() for name in GROWTHS)
     unstable = without > 0
     stabilised = (unstable & (both < 0)).sum()
     lowered = (unstable & (both < without)).sum()
@@ -308,4 +279,5 @@ def reduced(*, loads: Sequence[float], c: float, **friction: float) -> Answer:
         verdict = TRUE
     else:
         verdict = NOT_COMPUTED
-    return Answer(verdict, size=without.size, counts=(unstable.sum(), stabilised, lowered))
+    counts = (unstable.sum(), stabilised, lowered)
+    return Answer(verdict, size=len(precursor), counts=counts, **PRECURSOR)

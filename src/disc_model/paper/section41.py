@@ -6,6 +6,7 @@ Separation occurs, ignoring it changes the motion, and the critical speed for se
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from scipy.signal import find_peaks
 
@@ -13,9 +14,9 @@ from disc_model.analysis import classify, spectra
 from disc_model.data import texts
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names
-from disc_model.paper import energy, growth, measures, model
+from disc_model.paper import energy, judging_tables, measures, model
 from disc_model.paper.measures import Absent, CaseView, extent, or_none, pairs, published
-from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
+from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 from disc_model.paper.section2 import BASE, moving_load_speed
 
 
@@ -181,56 +182,48 @@ def smaller_range(*cases: CaseView, ratio: float, shown: float) -> Answer:
     return Answer(largest < ratio, rows=rows)
 
 
-def excites_less(*cases: CaseView, share: float) -> Answer:
+def excites_less(*cases: CaseView, energies: pd.DataFrame, share: float) -> Answer:
     """Judge whether separation withholds energy that maintained contact supplies.
 
-    Both are compared at the amplitude that separation allows.
+    The words have two readings. Over whole periods both are compared at the range that separation
+    allows. Over the time apart, in which nothing is supplied, the comparison is with the negative
+    force of maintained contact in the end.
 
     Parameters
     ----------
     cases : with separation and without it, which form pairs
+    energies : of these pairs, as `judging_tables.energies`
     share : of the energy that the motion in maintained contact gains, which has to be withheld
     """
+    table = energies.set_index("case")
     rows = []
     withheld = []
+    by_sign = []
     for free, bilateral in pairs(cases):
-        steady = energy.in_the_end(energy.power_history(free.parameters, free["time_reached"]))
-        until = bilateral["time_reached"]
-        same, _ = energy.at_range(bilateral.parameters, until, steady.width)
-        missing = same.supplied - steady.supplied
+        found = table.loc[free.name]
+        in_period = np.asarray(found[judging_tables.ENERGIES], dtype=float)
+        if np.isnan(in_period).any():
+            raise Absent(str(found["remark"]))
+        supplied, maintained, damped, taken, gained = in_period.tolist()
         surplus = f"the surplus of {bilateral.name}"
-        withheld.append(measures.ratio(missing, same.gained, surplus))
-        watts = np.array(
-            [steady.supplied, same.supplied, steady.damped, steady.impacts, same.gained]
-        )
-        period = free.intervals("separation").mean()
-        rows.append((free.place, *1e3 * period * watts))
+        withheld.append(measures.ratio(maintained - supplied, gained, surplus))
+        rows.append((free.place, supplied, maintained, damped, taken, gained))
+        by_sign.append((free.place, *found[judging_tables.POWERS]))
 
-    settled = _late_powers(pairs(cases)[0][1])
+    over_periods = min(withheld) >= share
+    while_negative = all(pulls > 0 for *_, pulls in by_sign)
+    # by the second reading no statement is false: apart, nothing is supplied
     return Answer(
-        min(withheld) >= share,
+        TRUE if over_periods and while_negative else AMBIGUOUS,
         withheld=withheld,
         rows=rows,
         instant=energy.INSTANT,
         near=energy.NEAR,
-        pushes=settled.pushes,
-        pulls=-settled.pulls,
+        by_sign=by_sign,
     )
 
 
-def _late_powers(case: CaseView) -> energy.Powers:
-    """Return mean powers at the end of a case, whose windows ``field0``, ... are at all angles."""
-    p = case.parameters
-    angles = 2 * p.n_diameters + 1
-    windows = [case.samples(f"field{i}") for i in range(angles)]
-    theta = np.array([window.attrs["theta"] for window in windows])
-    return energy.powers(p, case["u_0"], theta, windows)
-
-
 # ---- Section 4.2: 385 N around the critical speed, and the critical speed in general
-
-PHYSICAL = ("a", "b", "r_0", "h", "E", "nu", "rho", "D_star", "mu_s", "mu_k", "k", "k_p", "m", "N")
-"""Parameters that are changed by 0.1 %, one at a time."""
 
 
 def quiet(case: CaseView, *, share: float, newtons: float, within: float) -> Answer:
@@ -261,20 +254,16 @@ def quiet(case: CaseView, *, share: float, newtons: float, within: float) -> Ans
     )
 
 
-def bracketed(below: CaseView, above: CaseView, *, until: float) -> Answer:
+def bracketed(below: CaseView, above: CaseView, *, small_changes: pd.DataFrame) -> Answer:
     """Judge whether separation begins between two speeds.
 
-    The answer names parameters a thousandth of which changes that, by simulations up to a time in s.
+    The answer names parameters a thousandth of which changes that, by `judging_tables.small_changes`.
     """
     changed = []
     for case in (below, above):
-        names = []
-        for name in PHYSICAL:
-            p = case.parameters
-            larger = p.replace(**{name: 1.001 * getattr(p, name)})
-            if growth.separates_within(larger, until) != case.separates:
-                names.append(name)
-        changed.append(names)
+        of_case = small_changes[small_changes["case"] == case.name]
+        separates = of_case["first_s"].notna()
+        changed.append(of_case["parameter"][separates != case.separates].to_list())
     return Answer(
         not below.separates and above.separates,
         fates=(below.fate, above.fate),

@@ -2,12 +2,10 @@
 
 import math
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from scipy.stats import spearmanr
 
 from disc_model.analysis import spectra
 from disc_model.analysis.classify import SAME, Settled, distinct_points, separation_location
@@ -36,6 +34,13 @@ SPEEDS = (10, 15, 20, 30, 40)
 
 EARLY_LENGTH = 10.0
 """Length of the stretch of the window ``early`` whose spectrum is taken, s."""
+
+PLACE = 1e-4
+"""Share of their range by which points of a section must differ to lie at different places.
+
+A motion that repeats comes back far closer. Neighbours among 500 points of a closed curve are on
+average some fifty times farther apart, so that a curve is not taken for a few places.
+"""
 
 SAMPLING = 1.02
 """Factor by which the range of a steady contact force may differ; sampling adds far less."""
@@ -67,7 +72,7 @@ def steadiness_text(case: CaseView) -> str:
 
 
 def stays_small(
-    case: CaseView, *_: CaseView, share: float, within: float, last: float = 0, same: float = 1
+    case: CaseView, *_: CaseView, share: float, within: float, last: float = 0
 ) -> Answer:
     """Judge whether a case stays in contact with a small periodic vibration.
 
@@ -76,8 +81,8 @@ def stays_small(
     case : the run; further ones only belong to the figure
     share : of the preload, below which the range of the contact force is small
     within : greatest spread of the intervals between releases, over their mean
-    last : number of the last points of the section that are compared, if any
-    same : share of their range up to which they count as equal; the answer also counts by 1 %
+    last : number of the last points of the section that are compared, if any; the answer also
+        counts places that differ by 1 %
     """
     intervals = case.intervals()
     mean = intervals.mean()
@@ -89,7 +94,7 @@ def stays_small(
     widths: tuple[float, ...] = ()
     small = True
     if last:
-        points = [_different_points(case, last, limit) for limit in (same, 1e-2)]
+        points = [_different_points(case, last, limit) for limit in (PLACE, 1e-2)]
         disc = case.disc.width
         widths = (1e3 * disc, 1e6 * case.late_range("u").width)
         small = disc / 2 < case["h"] and points[0] <= last / 2
@@ -215,14 +220,27 @@ def twice_the_damping(*cases: CaseView) -> Answer:
     return Answer(stable.pop(), fates=fates)
 
 
-def inplane_damping(without: CaseView, case: CaseView) -> Answer:
-    """Judge whether in-plane damping makes a quiet case separate."""
+def inplane_damping(without: CaseView, case: CaseView, study: xr.Dataset | None) -> Answer:
+    """Judge whether in-plane damping makes a quiet case separate.
+
+    Parameters
+    ----------
+    without, case : the runs without the damper and with it
+    study : map of preload and in-plane damping, if there is one; it tells at which preloads it does
+    """
     verdict = not without.separates and case.separates
-    return Answer(verdict, fates=(without.fate, case.fate))
+    newly: list[float] = []
+    size = 0
+    if study is not None:
+        loads, damping, separates, _ = plane(study, "N", "c_p")
+        with_damper = separates[:, damping == case["c_p"]][:, 0]
+        newly = loads[~separates[:, 0] & with_damper].tolist()
+        size = loads.size
+    return Answer(verdict, fates=(without.fate, case.fate), newly=newly, size=size)
 
 
 def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
-    """Judge whether damping lowers all growth rates.
+    """Judge whether damping lowers growth rates.
 
     Parameters
     ----------
@@ -235,27 +253,42 @@ def damping_stabilises(case: CaseView, *, name: str, value: float) -> Answer:
     for damping in (0.0, value, 2 * value):
         damped = [p.replace(**{name: damping}) for p in cases]
         rates.append(np.array([growth.growth_of(p) for p in damped]))
+    before = np.stack(rates[:-1])
+    after = np.stack(rates[1:])
+    counted = _counted(before, after)
+    lowered = counted & (after < before)
+    lost = (before > 0) & np.isnan(after)
+
     raised: list[str] = []
-    growing = 0
-    lowered = 0
-    lost = 0
-    for before, after in pairwise(rates):
-        grows = before > 0
-        compared = grows & np.isfinite(after)
-        growing += int(compared.sum())
-        lowered += int((compared & (after < before)).sum())
-        lost += int((grows & np.isnan(after)).sum())
-        for i in np.flatnonzero((before < 0) & (after > before)):
-            p = cases[i]
-            raised.append(measures.place(p.N, p.Omega))
+    for _, i in np.argwhere((before < 0) & (after > before)):
+        p = cases[i]
+        raised.append(measures.place(p.N, p.Omega))
     return Answer(
-        growing == lowered > 0,
+        _mostly(lowered, counted),
         most=values_text({name: 2 * value}),
-        lowered=lowered,
-        growing=growing,
+        lowered=lowered.sum(),
+        growing=counted.sum(),
         raised=raised,
-        lost=lost,
+        lost=lost.sum(),
     )
+
+
+def _counted(before: Array, after: Array) -> Mask:
+    """Return which steps of a parameter count: from a growing cycle to another cycle.
+
+    Parameters
+    ----------
+    before, after : growth rates in 1/s before each step and after it, nan without a cycle
+    """
+    return (before > 0) & np.isfinite(after)
+
+
+def _mostly(holds: Mask, counted: Mask) -> str:
+    """Return the verdict on what holds in all steps that count, in most of them or in fewer."""
+    share = holds.sum() / max(counted.sum(), 1)
+    if share == 1:
+        return TRUE
+    return PART if share > 0.5 else FALSE
 
 
 def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
@@ -280,33 +313,31 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
 # ---- Stiffness and modulus
 
 
-def lowers_growth(study: xr.Dataset, *, name: str, trend: float) -> Answer:
-    """Judge whether growth falls with a parameter, along each row of a map with growing cycles.
+def growth_over_steps(study: xr.Dataset, *, name: str, larger: bool) -> Answer:
+    """Judge whether growth falls with a larger parameter, or rises with a smaller one.
 
     Parameters
     ----------
     study : map over the speed and the parameter
     name : of the parameter
-    trend : rank correlation, with the opposite sign, from which growth falls on the whole
+    larger : whether its steps go from smaller values to larger ones
     """
-    rates = measures.published(study)["growth_rate"].transpose("Omega", name).values
-    rows = []
-    for row in rates:
-        growing = row[row > 0]
-        if growing.size > 2:
-            rows.append(growing)
-    if not rows:
+    ordered = measures.published(study)["growth_rate"].sortby(name, ascending=larger)
+    rates = ordered.transpose("Omega", name).values
+    before = rates[:, :-1]
+    after = rates[:, 1:]
+    counted = _counted(before, after)
+    if not counted.any():
         raise Missing(f"study {study.attrs.get('study', '')} has no growing cycle")
-    falls = [np.diff(row) < 0 for row in rows]
-    part = np.mean(np.concatenate(falls))
-    ranks = [spearmanr(range(row.size), row)[0] for row in rows]
-    rank = np.median(ranks)
-    verdict = FALSE
-    if part == 1:
-        verdict = TRUE
-    elif rank <= -trend:
-        verdict = PART
-    return Answer(verdict, part=part, rank=rank)
+    change = after - before
+    expected = change < 0 if larger else change > 0
+    holds = counted & expected
+    return Answer(
+        _mostly(holds, counted),
+        holds=holds.sum(),
+        counted=counted.sum(),
+        stable=(counted & (after < 0)).sum(),
+    )
 
 
 def soft_disc(case: CaseView, *, factor: float, bounded: float, cause: bool = False) -> Answer:
@@ -463,16 +494,15 @@ def two_frequencies(case: CaseView, *, share: float, least: float) -> Answer:
     )
 
 
-def unstable_periodic(case: CaseView, *, last: float, same: float) -> Answer:
+def unstable_periodic(case: CaseView, *, last: float) -> Answer:
     """Judge whether slider and disc move periodically in the end, and the motion is unstable.
 
     Parameters
     ----------
     case : the run
     last : number of the last points of the section that are compared
-    same : share of their range up to which they count as equal
     """
-    points = _different_points(case, last, same)
+    points = _different_points(case, last)
     settled = case.settling().answer is Settled.SETTLED
     return Answer(
         graded([case.late_motion.period > 0, points <= last / 2, not settled]),
@@ -483,7 +513,7 @@ def unstable_periodic(case: CaseView, *, last: float, same: float) -> Answer:
     )
 
 
-def wanders(case: CaseView, near: CaseView, *, last: float, same: float) -> Answer:
+def wanders(case: CaseView, near: CaseView, *, last: float) -> Answer:
     """Judge whether points of the section wander and the motion is irregular.
 
     Parameters
@@ -491,9 +521,8 @@ def wanders(case: CaseView, near: CaseView, *, last: float, same: float) -> Answ
     case : the run
     near : one at a speed nearby, whose period is told
     last : number of the last points of the section that are compared
-    same : share of their range up to which they count as equal
     """
-    points = _different_points(case, last, same)
+    points = _different_points(case, last)
     motion = case.late_motion
     verdict = FALSE
     if case.separates:
@@ -510,21 +539,21 @@ def wanders(case: CaseView, near: CaseView, *, last: float, same: float) -> Answ
     )
 
 
-def _different_points(case: CaseView, last: float, same: float) -> int:
-    """Return how many of the last points of the disc's section differ along an axis.
+def _different_points(case: CaseView, last: float, share: float = PLACE) -> int:
+    """Return at how many places the last points of the disc's section lie.
 
     Parameters
     ----------
     case : the run
     last : number of points
-    same : share of their range up to which they count as equal
+    share : of their range, by which different places differ along an axis
     """
     section = case.samples("poincare")
     section = section.isel(time=slice(-int(last), None))
     columns = [section[name].values for name in ("w_point", "w_point_velocity")]
     points = np.column_stack(columns)
     extents = np.ptp(points, axis=0)
-    return distinct_points(points, extents * same / SAME)
+    return distinct_points(points, extents * share / SAME)
 
 
 def lowest_position(case: CaseView, *, share: float) -> Answer:

@@ -50,7 +50,8 @@ def draw(plot: FourStretches, *cases: xr.DataTree) -> Figure:
     _name_lines(axes[1, -1])
     draw_scale(below, mesh, list(axes.flat))
 
-    for name, text in zip(WINDOWS, "bcde", strict=True):
+    # letters as in the paper's Fig. 25; the whole run is its Fig. 24
+    for name, text in zip(WINDOWS, "abcd", strict=True):
         start, stop = span_of(spectra[0, name])
         whole.axvspan(start, stop, color=SKY, alpha=0.3, linewidth=0)
         whole.text(
@@ -64,7 +65,7 @@ def draw(plot: FourStretches, *cases: xr.DataTree) -> Figure:
     show(whole, cases[0], history(cases[0], plot.history, plot.until), "w_point")
     headroom(whole, 0.15)
     show_thickness(whole, cases[0], "y")
-    letters([whole, *axes[0], *axes[2, 1:]])
+    letters([*axes[0], *axes[2, 1:]])
     return figure
 
 

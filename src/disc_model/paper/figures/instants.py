@@ -39,7 +39,8 @@ def draw(plot: Instants, case: xr.DataTree) -> Figure:
     look: dict[str, Any] = {"marker": "s", "ls": "", "ms": 5, "mec": BLACK, "mew": 0.6}
     circle.margins(y=0.08)
     show_thickness(circle, case, "y")
-    circle.set_title("(e)", loc="left", x=-0.06)
+    p = motion.parameters
+    circle.set_title(f"(e) at {p.N:g} N, {p.Omega:g} rad/s", loc="left", x=-0.06)
     handles = [*circle.get_legend_handles_labels()[0]]
     handles.append(sample(mfc=SLIDER, label="slider", **look))
     handles.append(sample(mfc=SEPARATED, label="slider, separated", **look))

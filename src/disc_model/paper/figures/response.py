@@ -22,22 +22,32 @@ TITLES = (("b", "with separation"), ("e", "separation ignored"))
 
 
 def draw(plot: Response, *cases: xr.DataTree) -> Figure:
-    """Draw the run and closer looks beside spectra, or above them in one column."""
+    """Draw the run beside a spectrum, and closer looks beside another one; or all in one column.
+
+    Letters run along the rows, and (a) and (b) are those of the paper.
+    """
     width = plot.inches
+    letters = "cd"[: len(plot.zooms)]
     extra = 1.3 * (len(cases) - 1)
     if width == PAGE:
         figure = new_figure(width, 2.7 + extra)
         left, right = np.asarray(figure.subfigures(1, 2, width_ratios=(1, 1.08)))
+        rows = ["a" * max(len(letters), 1), letters]
+        axes = left.subplot_mosaic(";".join(filter(None, rows)))
+        shown = np.atleast_1d(right.subplots(len(cases), 1, sharex=True))
     else:
         figure = new_figure(width, 5.0 + extra)
-        left, right = np.asarray(figure.subfigures(2, 1))
-    letters = "cd"[: len(plot.zooms)]
-    rows = ["a" * max(len(plot.zooms), 1), letters]
-    axes = left.subplot_mosaic(";".join(filter(None, rows)))
-    shown = np.atleast_1d(right.subplots(len(cases), 1, sharex=True))
+        right = figure
+        rows = ["aa", "bb", letters]
+        rows += [2 * text for text, _ in TITLES[1 : len(cases)]]
+        axes = figure.subplot_mosaic(";".join(filter(None, rows)))
+        shown = np.array([axes[text] for text, _ in TITLES[: len(cases)]])
     spectra = [spectrum_of(case, plot.window, plot.variable) for case in cases]
 
     _draw_spectra(right, shown, cases, spectra)
+    if width == PAGE:
+        for ax in shown:
+            ax.label_outer()
     if plot.highest:
         _mark_highest(shown[0], cases[0])
     _draw_run(axes["a"], plot, cases[0], spectra[0])
@@ -63,7 +73,6 @@ def _draw_spectra(
         letter(ax, *title)
         ax.set_xlabel("Time (s)")
         ax.set_ylabel("Frequency (Hz)")
-        ax.label_outer()
     draw_scale(figure, mesh, list(axes))
 
 

@@ -161,4 +161,10 @@ def _draw_times(ax: Axes, points: Mapping[str, xr.Dataset], firsts: pd.DataFrame
     ax.set_ylim((-0.6, len(times) - 0.4))
     ax.set_ylabel(" ")
     lost = int(times["orthonormal"].isna().sum())
-    ax.set_title(f"{lost} of {len(times)}: none by Eq. (17)", loc="right")
+    if lost:
+        ax.annotate(
+            f"arrows: no separation\nby Eq. (17), {lost} of {len(times)}",
+            (0.03, 0.04),
+            xycoords="axes fraction",
+            fontsize=large(7),
+        )
