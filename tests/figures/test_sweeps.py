@@ -218,7 +218,9 @@ def test_five_classes_below_narrow_axes_stand_in_columns() -> None:
         legend = dm.plot_sweep(outcomes(), "outcome", ax=ax).get_legend()
         figure.canvas.draw()
     assert legend.get_title().get_text() == "Outcome within 3 s"
-    assert len(legend.get_texts()) == 5
+    names = [text.get_text() for text in legend.get_texts()]
+    # from harmless to severe, and then what is not known; they were in the order of the alphabet
+    assert names == ["quiet", "growing, in contact", "permanent stick", "separation", "undecided"]
     lefts = {round(text.get_window_extent().x0) for text in legend.get_texts()}
     assert len(lefts) == 2
     assert ax.bbox.height > 0.4 * figure.bbox.height
