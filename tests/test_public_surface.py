@@ -28,7 +28,7 @@ SLIPPING = dm.simulate(P, 2.5e-3).final_state
 RUN = dm.simulate(P, 1e-4, {"all": dm.Window(rate=1e5)})
 GRID = xr.Dataset({"growth_rate": ("Omega", [0.1, 0.2])}, {"Omega": [1.0, 2.0]})
 DISC = dm.Disc(diameters=[0], omega=[1e3], amplitude=[1.0])
-PLANE = {"p": P, "bounds": {"Omega": (10.0, 30.0), "N": (100, 300)}, "lines": (200.0,)}
+PLANE = {"case": P, "bounds": {"Omega": (10.0, 30.0), "N": (100, 300)}, "lines": (200.0,)}
 
 
 def start(**changes: Any) -> None:
@@ -43,7 +43,7 @@ start.__signature__ = inspect.signature(dm.State)  # type: ignore[attr-defined]
 run.__signature__ = inspect.signature(dm.Execution)  # type: ignore[attr-defined]
 PICTURE = {"ax": "None", "legend": "True", "labels": "None", "title": "text None"}
 CALLS = {"workers": "huge", "processes": "True", "executor": "None", "progress": "True"}
-SHAPES = {"p": P, "states": RUN.final_state, "r": 0.1, "theta": 0.0}
+SHAPES = {"case": P, "states": RUN.final_state, "r": 0.1, "theta": 0.0}
 #: Functions, right arguments, and by argument those of `WRONG` that are right as well.
 SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     *(
@@ -51,11 +51,11 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         for function in (dm.plate_modes, dm.coupled_natural_frequencies, dm.residual_flexibility)
     ),
     (dm.steady_sliding, {}, {}),
-    (dm.split_growth, {"p": P, "split": 0.0}, {}),
+    (dm.split_growth, {"case": P, "split": 0.0}, {}),
     (dm.choose_modes, {"case": P}, {"case": "dict", "tolerance": "None"}),
     (
         dm.simulate,
-        {"p": P, "t_end": 1.0},
+        {"case": P, "t_end": 1.0},
         dict.fromkeys(("initial_state", "windows", "stop_at", "duration"), "None")
         | {"events": "True"},
     ),
@@ -80,10 +80,10 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         },
         CALLS | {"source": "text dict"},
     ),
-    (dm.plot_modes, {"p": P}, PICTURE | {"most": "huge"}),
+    (dm.plot_modes, {"case": P}, PICTURE | {"most": "huge"}),
     (
         dm.fit,
-        {"p": P, "vary": ["E"], "measured": {"frequency_0_0": (239.0, 1.0)}},
+        {"case": P, "vary": ["E"], "measured": {"frequency_0_0": (239.0, 1.0)}},
         {"bounds": "None"},
     ),
     (
@@ -99,7 +99,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {"window": "all", "highest": 2e4},
         PICTURE | {"window": "None", "highest": "None huge"},
     ),
-    (RUN.plot_poincare, {}, PICTURE),
+    (RUN.plot_poincare, {}, PICTURE | {"window": "None"}),
     *((found.plot, {}, PICTURE) for found in (dm.floquet(P), dm.steady_sliding(P))),
     (dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot, {}, {"ax": "None"}),
     (RUN.__getitem__, {}, {}),
@@ -125,12 +125,12 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     ),
     (RUN.final_state.slider_angle, {}, {}),
     (RUN.final_state.material_angle, {}, {}),
-    (dm.snapshots, {"p": P, "times": 1e-4}, {"initial_state": "None", "times": "nothing"}),
+    (dm.snapshots, {"case": P, "times": 1e-4}, {"initial_state": "None", "times": "nothing"}),
     (dm.deflection, SHAPES, {"theta": "negative nothing", "states": "nothing"}),
-    (dm.floquet, {"p": P}, {"guess": "None"}),
+    (dm.floquet, {"case": P}, {"guess": "None"}),
     (
         dm.continue_cycle,
-        {"p": P, "name": "Omega", "bounds": (10.0, 30.0)},
+        {"case": P, "name": "Omega", "bounds": (10.0, 30.0)},
         {"guess": "None", "values": "nothing", "stop_at": "None"},
     ),
     (
@@ -145,11 +145,15 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
             "beyond": "True",
         },
     ),
-    (dm.critical, {"p": P, "name": "N", "bounds": (1, 2), "points": 2}, {"precision": "None huge"}),
+    (
+        dm.critical,
+        {"case": P, "name": "N", "bounds": (1, 2), "points": 2},
+        {"precision": "None huge"},
+    ),
     (dm.neutral_curves, PLANE, {"max_points": "huge", "lines": "nothing"}),
     (
         dm.lyapunov_exponents,
-        {"p": P, "duration": 0.1},
+        {"case": P, "duration": 0.1},
         {"initial_state": "None", "leave_out_trivial": "True"},
     ),
     (

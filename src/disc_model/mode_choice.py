@@ -1,5 +1,6 @@
 """How many modes a case needs: `choose_modes`. By a quantity of the motion it is the first model with
-which two larger ones agree; a table is its own last candidate.
+which two larger ones agree. A table is never compared with itself: whether all its modes are enough
+is not known.
 """
 
 from __future__ import annotations
@@ -30,6 +31,7 @@ CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
 # with 285 modes
 LARGER = ((10, 1), (10, 2), (14, 2), (10, 3), (14, 3))
 GIVEN_UP = (4, 0)  # the search ends here if no model so far, of up to 34 modes, has the quantity
+MORE_MODES = "give a table with more modes, or a larger tolerance"
 HORIZON = 600.0  # s, simulated at most until the first separation
 BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
 
@@ -100,21 +102,31 @@ def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
     if p.disc is None:
         p = resized(p, RICH)
         every = product(range(RICH[0] + 1), range(RICH[1] + 1))
-        sizes = sorted(every, key=lambda size: (count_modes(p, size), size[1]))[:-1]
+        sizes = sorted(every, key=lambda size: (count_modes(p, size), size[1]))
     else:
         sizes = [(count,) for count in counts(p.disc)]
+    rich = sizes[-1]
     modes = mode_arrays(p)
     right = coupled_frequencies(p, contact_compliance(p))
     top = BAND * float(modes.omega.min())
-    for size in sizes:
+    for size in sizes[:-1]:
         chosen = resized(p, size)
         frequencies = coupled_frequencies(p, contact_compliance(chosen), _modes_within(p, size))
         error = _worst(frequencies, right, top)
         if error <= tolerance:
-            rich = sizes[-1] if p.disc is not None else RICH
             return ModeChoice(chosen, tolerance, error, count_modes(p, size), rich)
+    if p.disc is not None:
+        raise DiscModelError(_too_few_modes(p.disc))
     raise DiscModelError(
         f"tolerance={tolerance:g}: no model up to {RICH} (diameters, circles) meets it; enlarge it"
+    )
+
+
+def _too_few_modes(disc: Disc) -> str:
+    """Why no first modes of a table can be chosen by frequencies."""
+    return (
+        f"n_diameters: undecided: no fewer than all {counted(len(disc.omega), 'mode')} of the "
+        f"table have these frequencies, and whether all are enough is not known; {MORE_MODES}"
     )
 
 
@@ -185,7 +197,7 @@ def choose_modes(
     quantity : "frequencies", the coupled frequencies of disc and slider at rest up to twice the lowest one of the disc,
         compared with those of 20 diameters and 6 circles; "growth", the growth rate of the stick-slip cycle;
         "sliding_growth", that of steady sliding; "first_separation", its time within 600 s.  "growth" and
-        "first_separation" need simulations
+        "first_separation" need simulations. Modes of a table are compared with the whole table
 
     Returns
     -------
@@ -198,8 +210,8 @@ def choose_modes(
         If a value of the case breaks a rule, the quantity is unknown, or the tolerance is below 1e-4.
     DiscModelError
         If no model meets the tolerance or agrees with two larger ones, or there is no cycle, separation or steady
-        sliding to choose by. Where friction acts on the surface at a point, motions do not converge: the message
-        then asks for the arc of a pad.
+        sliding to choose by; and if a table has too few modes to tell. Where friction acts on the surface at a
+        point, motions do not converge: the message then asks for the arc of a pad.
 
     Examples
     --------
@@ -242,7 +254,7 @@ def chosen_modes(p: Parameters, request: ModeRequest) -> ModeChoice:
             raise DiscModelError(
                 f"n_diameters: undecided: no {request.quantity} to choose by with {_listed(p, group)}"
             )
-        change = max(_change(values[size], values[other]) for other in others or group)
+        change = max(_change(values[size], values[other]) for other in others)
         if change <= request.tolerance:
             count = count_modes(p, size)
             chosen = resized(p, size)
@@ -262,6 +274,8 @@ def _advice(p: Parameters) -> str:
             "friction on the surface at a point excites modes of any number of nodal diameters, "
             "and the motion does not converge: give contact_arc, the arc of the pad"
         )
+    if p.disc is not None:
+        return MORE_MODES
     return "give the number of modes, a larger tolerance, or contact_compliance='residual'"
 
 
@@ -276,10 +290,13 @@ def _compared(p: Parameters, quantity: str) -> Iterator[tuple[tuple[int, ...], .
         return
     most = counts(p.disc)[-1]
     count = counts(p.disc)[0]
+    if count == most:
+        raise DiscModelError(
+            f"n_diameters: undecided: only one mode of the table moves at the slider; {MORE_MODES}"
+        )
     while count < most:
         yield tuple(dict.fromkeys([(count,), (min(2 * count, most),), (most,)]))
         count += (count + 1) // 2
-    yield ((most,),)
 
 
 def _change(mine: float, other: float) -> float:
@@ -293,6 +310,9 @@ def _change(mine: float, other: float) -> float:
 
 
 def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:
+    """Numbers of modes that were compared: rows of a table, or real modes of the plate."""
+    if p.disc is not None:
+        return " and ".join(str(size[0]) for size in sizes) + " modes of the table"
     return ", ".join(str(count_modes(p, size)) for size in sizes) + " modes"
 
 

@@ -444,11 +444,11 @@ def case_of(values: Mapping[str, Any], discs: Mapping[str, Any]) -> dict[str, An
     return case
 
 
-def foreign_case(p: object, name: str = "p") -> list[str]:
-    """Faults of an argument that must be `Parameters`."""
-    if isinstance(p, Parameters):
+def foreign_case(case: object) -> list[str]:
+    """Faults of an argument `case`, which must be `Parameters`."""
+    if isinstance(case, Parameters):
         return []
-    return [Fault.of((name,), p, "must be Parameters")]
+    return [Fault.of(("case",), case, "must be Parameters")]
 
 
 def _ratio_faults(ratios: Mapping[str, Any], data: Mapping[str, Any]) -> Iterator[Fault]:

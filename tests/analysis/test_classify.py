@@ -39,7 +39,7 @@ def test_periods_are_found_and_named(period: int) -> None:
     assert motion.kind == Outcome.OTHER_CYCLE
     assert motion.period == period
     assert motion.closure < 1e-8
-    assert str(motion) == f"periodic, repeats after {period} releases"
+    assert str(motion) == f"periodic, repeats after {period} intervals"
 
 
 def test_a_period_has_to_be_seen_twice() -> None:

@@ -115,8 +115,8 @@ def tells_of_points(shown: Explorer) -> None:
             shown.point(i, j)
             value = float(study["growth_rate"].isel(Omega=i, N=j, normalization=norm))
             phrase = shown.text("hovered")
-            assert f"Omega = {study['Omega'].values[i]:g} rad s⁻¹" in phrase
-            assert f"growth_rate {value:.5g} s⁻¹".replace("-", "−") in phrase
+            assert f"Ω = {study['Omega'].values[i]:g} rad/s" in phrase
+            assert f"Growth rate: {value:.5g} 1/s".replace("-", "−") in phrase
     assert len(seen) == 2
     assert shown.text("motion-note").startswith("No motion is stored")
     shown.choose("normalization", "0")
@@ -127,7 +127,7 @@ def tells_of_points(shown: Explorer) -> None:
     assert shown.text("message") == ""
     case = shown.text("call")
     link = "return document.getElementById('link').getAttribute('href')"
-    assert case.startswith("dm.Parameters(k=50000, ")
+    assert case.startswith("dm.Parameters(m=0.2, N="), "without what a case has anyway"
     assert f"Omega={study['Omega'].values[3]:g}" in case
     address = shown.page.run(link)
     shown.point(0, 0, click=True)
@@ -135,9 +135,7 @@ def tells_of_points(shown: Explorer) -> None:
     shown.page.run("location.hash = arguments[0]", address)
     shown.page.wait_for(f"{link} === '{address}'")
     assert shown.text("call") == case
-    assert (
-        shown.page.run("return csv().split('\\n')[0]") == "Omega (rad s⁻¹),N (N),growth_rate (s⁻¹)"
-    )
+    assert shown.page.run("return csv().split('\\n')[0]") == "Omega (rad/s),N (N),growth_rate (1/s)"
     shown.choose("Variable", "outcome")
     red, green, blue = shown.ask("colour", 0, 0)
     assert f"#{red:02x}{green:02x}{blue:02x}" == LOOKS["quiet"].face
@@ -156,7 +154,9 @@ def shows_motions(shown: Explorer) -> None:
     assert shown.text("phases").split() == ["stick", "slip", "separation"]
     for i, j, outcome, N, Omega in [(3, 0, "quiet", 100, 5), (2, 1, "separation", 385, 20)]:
         shown.point(i, j, click=True)
-        near = f"Nearest stored motion of the same outcome, {outcome}, at N = {N} N, Omega = {Omega} rad s⁻¹, "
+        near = f"Nearest stored motion of the same outcome, {outcome}, at N = {N} N, Ω = {Omega} rad/s, "
         assert shown.text("motion-note").startswith(f"{near}as_published (ring in the map).")
     shown.page.point(*shown.ask("beginning"))
-    assert shown.text("motion-hovered").startswith("0 ms, P 385 N, u −0.0088 m, psi 0 rad")
+    assert shown.text("motion-hovered").startswith(
+        "0 ms, Contact force P 385 N, Slider u −8.8 mm, Angle ψ 0 rad"
+    )

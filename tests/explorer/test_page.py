@@ -63,7 +63,12 @@ def plane() -> xr.Dataset:
     return xr.Dataset(
         data,
         coords,
-        {"title": "A plane <b>", "quantity": "outcome", "base": json.dumps({"k": 5e4})},
+        {
+            "title": "A plane <b>",
+            "quantity": "outcome",
+            "base": json.dumps({"k": 5e4, "m": 0.2, "friction_decay": "inf"}),
+            "options": json.dumps({"horizon": 200}),
+        },
     )
 
 
@@ -148,7 +153,7 @@ def test_numbers_flags_and_messages_come_through() -> None:
         values = study[name].transpose(*variables[name]["dims"])
         found = numbers(variables[name], "<f4").reshape(values.shape)
         np.testing.assert_allclose(found, values, rtol=2.0 ** -(BITS + 1))
-    assert variables["growth_rate"]["unit"] == "s-1"
+    assert variables["growth_rate"]["unit"] == "1/s"
     assert variables["growth_rate"]["title"] == "growth rate"
     words = np.array(variables["outcome"]["flags"])[numbers(variables["outcome"], "u1")]
     assert (
@@ -161,13 +166,21 @@ def test_numbers_flags_and_messages_come_through() -> None:
     assert (text == study["message"].values).all()
     spring = {
         "name": "k",
+        "symbol": "k",
         "label": "Spring k",
         "title": "spring of the slider, normal to the disc",
-        "unit": "N m-1",
+        "unit": "N/m",
         "value": 5e4,
+        "usual": True,
     }
-    assert told["fixed"] == [spring]
+    assert told["fixed"][0] == spring
+    assert [one["usual"] for one in told["fixed"]] == [True, False, True]
+    assert variables["outcome"]["label"] == "Outcome within 200 s"
+    assert variables["growth_rate"]["missing"] == "no value"
+    traced = {trace["label"]: trace["unit"] for trace in told["motions"]["traces"]}
+    assert traced == {"Contact force P": "N", "Slider u": "mm", "Angle ψ": "rad"}
     labels = {dim["name"]: dim["label"] for dim in told["dims"]}
+    assert {dim["symbol"] for dim in told["dims"]} == {"N", "Ω", "normalization"}
     known = {"N": "Preload N", "Omega": "Speed Ω", "mu_k": "Kinetic friction μ_k"}
     assert {name: known[name] for name in labels if name in known} == {
         name: label for name, label in labels.items() if name in known

@@ -64,6 +64,34 @@ def test_a_portrait_and_a_section_have_the_units_of_their_variables() -> None:
     assert [ax.get_ylabel().split()[-1] for ax in section.axes[:2]] == ["(rad/s)", "(m/s)"]
 
 
+def test_a_section_shows_the_samples_that_were_recorded_of_it() -> None:
+    """It was always that of the whole run, whatever had been recorded."""
+    windows = {
+        "late": dm.Poincare(start=4),
+        "one": dm.Poincare(start=9.7),
+        "none": dm.Poincare(start=9.99),
+        "w": dm.Window(rate=9),
+    }
+    recorded = dm.simulate(P, 10, windows)
+    drawn = np.concatenate(
+        [marks.get_offsets()[:, 0] for marks in recorded.plot_poincare("late")[0].collections]
+    )
+    assert sorted(drawn) == pytest.approx(sorted(recorded["late"]["psi"].values))
+    rule = r"must be a recorded Poincare with samples.* \(known: late, one\)"
+    assert recorded.plot_poincare("one").size == 2  # it divided by the range of one sample
+    for name in ("none", "w", "x"):  # no sample, no section, not recorded
+        with pytest.raises(dm.ParameterError, match=rf"window='{name}': {rule}"):
+            recorded.plot_poincare(name)
+
+
+def test_the_head_of_a_run_with_ramps_has_the_speeds_that_they_lead_to() -> None:
+    """It had the speed at the start alone."""
+    up = dm.Ramp(parameter="Omega", to=16, start=0, end=0.1)
+    down = dm.Ramp(parameter="Omega", to=8, start=0.2, end=0.3)
+    head = figure_of(dm.simulate(P, 0.4, ramps=(up, down)).plot()).get_suptitle()
+    assert head == "N = 385 N, Ω = 15.1 to 16 to 8 rad/s"
+
+
 def test_multipliers_come_with_growth_per_second_and_the_period_in_milliseconds() -> None:
     cycle = dm.floquet(P.replace(Omega=15))
     figure = figure_of(cycle.plot())
@@ -94,6 +122,15 @@ def test_eigenvalues_are_in_hertz_and_per_second() -> None:
     figure = figure_of(sliding.plot())
     assert_shows(figure, Shown(0, "x", "Growth rate", values.real, "1/s"))
     assert_shows(figure, Shown(0, "y", "Frequency", values.imag / (2 * np.pi), "Hz"))
+    assert figure.get_suptitle() == "N = 385 N, Ω = 15.1 rad/s"
+
+
+def test_a_mode_that_neither_grows_nor_decays_is_neutral() -> None:
+    """An undamped slider's motion in the plane was drawn as one that decays."""
+    figure = figure_of(dm.steady_sliding(P.replace(mu_k=0)).plot())
+    alone = np.sqrt(P.k_p / P.m) / (2 * np.pi)  # the slider on its spring, without friction
+    shown = lines(figure.axes[0])
+    assert shown["neutral"].get_ydata() == pytest.approx([alone])
 
 
 @functools.cache
@@ -134,7 +171,7 @@ def test_what_is_unstable_is_shaded_in_the_unit_of_the_axis() -> None:
         crossings=np.array([2.1e4, 2.3e4, 2.6e4]),
         unstable_above=np.array([True, False, True]),
         values=np.array([2e4, 2.5e4, 3e4]),
-        growth_rate=np.array([-0.1, -0.2, 0.3]),
+        growth_rate=np.array([-0.1, np.nan, 0.3]),
         resolution=5e3,
     )
     ax = figure_of(made.plot()).axes[0]
@@ -143,7 +180,9 @@ def test_what_is_unstable_is_shaded_in_the_unit_of_the_axis() -> None:
     assert spans == [pytest.approx((21, 23)), pytest.approx((26, 30))]
     assert ax.get_xlim() == (20, 30)
     names = [text.get_text() for text in ax.figure.legends[0].get_texts()]
-    assert names == ["unstable near the static start", "cycles computed"]
+    assert names == ["unstable near the static start", "cycles computed", "no cycle found"]
+    assert lines(ax)["no cycle found"].get_xdata().tolist() == [25]
+    assert ax.get_title(loc="left") == "unstable from 21 kN/m"
 
 
 def test_neutral_curves_have_both_parameters_in_their_units() -> None:
@@ -158,6 +197,7 @@ def test_exponents_are_per_second() -> None:
     exponents = dm.lyapunov_exponents(P, 0.5, count=2)
     figure = figure_of(exponents.plot())
     assert_shows(figure, Shown(0, "y", "Lyapunov exponent", exponents.exponents, "1/s"))
+    assert figure.get_suptitle() == "N = 385 N, Ω = 15.1 rad/s"
     assert figure.axes[0].get_title(loc="left").startswith("over 0.5 s")
 
 

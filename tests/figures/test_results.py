@@ -124,7 +124,7 @@ def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
     assert "stable, growth rate -0.105/s" in words
     sliding = dm.steady_sliding(P)
     neutral = dm.steady_sliding(P.replace(mu_s=0, mu_k=0, D_star=0))
-    assert labels(neutral.plot().figure) == ["decays"]
+    assert labels(neutral.plot().figure) == ["neutral"]
     assert labels(sliding.plot().figure) == ["decays", "grows"]
     unstable = sliding.eigenvalues[(sliding.eigenvalues.real > 0) & (sliding.eigenvalues.imag >= 0)]
     axes = sliding.plot()

@@ -14,12 +14,13 @@ import disc_model as dm
 from disc_model.figures.classes import name_of
 from disc_model.figures.words import unit_text
 from tests.figures.measured import Shown, assert_shows
+from tests.figures.reading import labels
 
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
 SPEEDS = [10.0, 12.0, 14.0]  # rad/s
 LOADS = [300.0, 385.0]  # N
-KNOWN = {"psi": "Angle ψ"}
-"""Words of variables that have a symbol."""
+KNOWN = {"psi": "Angle ψ", "outcome": "Outcome", "critical_speed": "Critical speed"}
+"""Words of variables that have a symbol, or a shorter name than the one that explains them."""
 
 
 def own(case: dm.Parameters) -> xr.Dataset:
@@ -95,8 +96,8 @@ def test_numbers_have_their_name_and_unit_on_the_axis(function: Callable[..., An
 UNASKED = {
     dm.floquet: "Growth rate of the stick-slip cycle (1/s)",
     dm.steady_sliding: "Growth rate of steady sliding (1/s)",
-    dm.outcome: "What the motion comes to, or whether it separates, within 3 s",
-    dm.critical_speed: "Lowest speed computed with separation within the horizon (rad/s)",
+    dm.outcome: "Outcome within 3 s",
+    dm.critical_speed: "Critical speed (rad/s)",
     dm.basins: "Share of the starts",
     dm.hysteresis: "Speed at which separation first is found on the way up (rad/s)",
     dm.lyapunov_exponents: "Time over which exponents are taken (s)",
@@ -156,7 +157,7 @@ def test_maps_have_a_bar_for_numbers_and_a_legend_for_words(
         words = {said.get(word, name_of(word)) for word in found}
         assert words <= entries <= words | {"unresolved"}
         title = " ".join(legend.get_title().get_text().split())
-        within = ", within 3 s" if name == "outcome" else ""
+        within = " within 3 s" if name == "outcome" else ""
         assert title == words_of(study[name]) + within
     pyplot.close("all")
 
@@ -199,6 +200,47 @@ def test_many_points_are_no_band_of_rings(count: int, rings: int) -> None:
 
 PAIRS = {"N": [385.0, 300.0, 350.0, 320.0], "mu_k": [0.24, 0.2, 0.3, 0.41]}
 """The last pair is no case, as mu_k is above mu_s."""
+
+
+def outcomes() -> xr.Dataset:
+    """Five outcomes on a map, of which one has a first separation."""
+    words = [["quiet", "growing", "undecided"], ["separation", "at_rest", "quiet"]]
+    first = [[np.nan, np.nan, np.nan], [0.5, np.nan, np.nan]]
+    axes = {"N": [100.0, 200.0], "Omega": [10.0, 20.0, 30.0]}
+    values = {"outcome": ([*axes], words), "first_separation": ([*axes], first, {"units": "s"})}
+    return xr.Dataset(values, axes, attrs={"options": '{"horizon": 3}'})
+
+
+def test_five_classes_below_narrow_axes_stand_in_columns() -> None:
+    """In one they took half of a figure that is as wide as a column."""
+    with pyplot.rc_context({"font.size": 8}):
+        figure, ax = pyplot.subplots(figsize=(3.31, 2.6), layout="constrained")
+        legend = dm.plot_sweep(outcomes(), "outcome", ax=ax).get_legend()
+        figure.canvas.draw()
+    assert legend.get_title().get_text() == "Outcome within 3 s"
+    names = [text.get_text() for text in legend.get_texts()]
+    # from harmless to severe, and then what is not known; they were in the order of the alphabet
+    assert names == ["quiet", "growing, in contact", "permanent stick", "separation", "undecided"]
+    lefts = {round(text.get_window_extent().x0) for text in legend.get_texts()}
+    assert len(lefts) == 2
+    assert ax.bbox.height > 0.4 * figure.bbox.height
+    pyplot.close("all")
+
+
+def test_points_without_a_separation_are_no_points_without_a_value() -> None:
+    assert labels(dm.plot_sweep(outcomes(), "first_separation").figure) == ["none within 3 s"]
+    pyplot.close("all")
+
+
+def test_growth_of_steady_sliding_is_one_line() -> None:
+    """Steps of more than 0.1/s had broken it into points by themselves, as those of cycles."""
+    rates = [0.01, 0.3, 1.0, 2.0, 3.0]
+    for name, pieces in {"steady sliding": 1, "the stick-slip cycle": 3}.items():
+        attrs = {"units": "s-1", "long_name": f"growth rate of disturbances of {name}"}
+        study = xr.Dataset({"growth_rate": ("Omega", rates, attrs)}, {"Omega": np.arange(5.0)})
+        heights = dm.plot_sweep(study).lines[0].get_ydata()
+        assert np.isnan(heights).sum() == pieces - 1
+        pyplot.close("all")
 
 
 @pytest.mark.parametrize("x", PAIRS)

@@ -261,13 +261,13 @@ def test_a_fit_shows_values_intervals_and_deviations() -> None:
 
 # ---- Wrong input
 
-GOOD: dict[str, Any] = {"p": DISC, "vary": ["E"], "measured": {"frequency_2_0": (290.0, 1.0)}}
+GOOD: dict[str, Any] = {"case": DISC, "vary": ["E"], "measured": {"frequency_2_0": (290.0, 1.0)}}
 
 
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"p": 3}, "p=3: must be Parameters"),
+        ({"case": 3}, "case=3: must be Parameters"),
         ({"vary": "E"}, "vary='E': must be a list of names"),
         ({"vary": []}, "must be a list of names"),
         ({"vary": ["Ee"]}, "vary.0='Ee': is no number of this case"),

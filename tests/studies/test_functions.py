@@ -221,3 +221,12 @@ def test_speeds_of_a_scan_are_bounds_as_in_continuation(function: Any) -> None:
 def test_a_scan_has_two_ends(ends: Any) -> None:
     with pytest.raises(dm.ParameterError, match=r"^bounds=.*: must be two numbers in rad/s"):
         dm.critical_speed(P, ends)
+
+
+def test_a_result_states_its_options() -> None:
+    """A file of a critical speed did not tell how exact it is."""
+    case = dm.Parameters(N=385, Omega=15)
+    found = dm.critical_speed(case, (15, 15.5), 1, step=0.5, precision=0.25)
+    options = json.loads(found.attrs["options"])
+    assert (options["precision"], options["horizons"]) == (0.25, [1])
+    assert (options["scan"]["start"], options["scan"]["stop"]) == (15, 15.5)

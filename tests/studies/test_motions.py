@@ -18,7 +18,7 @@ from disc_model.studies.registry import quantity_of
 from tests.studies.refused import parse_grid
 
 LATE = (15.1, {"horizon": 60})
-AXES = {"N": [100, 200, 385], "Omega": {"start": 10, "stop": 20, "count": 21}}
+AXES = {"N": [100, 200, 385], "Omega": {"start": 10, "stop": 20, "count": 41}}
 
 
 def texts(quantity: str, **more) -> dict[str, str]:
@@ -39,6 +39,9 @@ def test_points_of_a_study_and_the_name_of_their_file():
     assert points[-1] == [385.0, 20.0]
     assert texts("floquet") == {name: text}
     assert name not in texts("floquet", options={"tol": 1e-11})
+    few = {"N": [100, 200, 385], "Omega": {"start": 10, "stop": 20, "count": 33}}
+    (small,) = texts("floquet", axes=few).values()
+    assert len(json.loads(small)["points"]) == 3 * 33, "all points of a grid of up to 100"
     assert name not in parse_grid({"study": "small", "quantity": "floquet", "axes": AXES}).batches
 
 

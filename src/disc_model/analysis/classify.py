@@ -36,7 +36,7 @@ class Motion(NamedTuple):
     ----------
     kind : `OTHER_CYCLE` for a periodic motion, otherwise `QUASI_PERIODIC`, `IRREGULAR` or, if the 0-1 test is
         inconclusive, `UNDECIDED`
-    period : number of releases after which the motion repeats, 0 if it does not
+    period : number of intervals, of releases or of separations, after which they repeat; 0 if they do not
     closure : s, largest difference between an interval and the one `period` (or one) later
     chaos : result of the 0-1 test, near 0 for regular and near 1 for chaotic motion; nan if it was not needed
     """
@@ -50,7 +50,7 @@ class Motion(NamedTuple):
         if self.period == 1:
             return "periodic"
         if self.period:
-            return f"periodic, repeats after {self.period} releases"
+            return f"periodic, repeats after {self.period} intervals"
         return str(self.kind).replace("_", "-")
 
 

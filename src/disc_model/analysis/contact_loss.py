@@ -7,7 +7,7 @@ from disc_model.errors import require
 from disc_model.parameters import Parameters
 
 
-def pinned_range(p: Parameters, frequency: float) -> float:
+def pinned_range(case: Parameters, frequency: float) -> float:
     """Range of the slider's height at which vibration at one frequency loses contact, m.
 
     In contact the slider follows the disc, so that the vibration U cos(omega t) of its height needs
@@ -21,7 +21,7 @@ def pinned_range(p: Parameters, frequency: float) -> float:
 
     Parameters
     ----------
-    p : the case
+    case : the case
     frequency : Hz, of the vibration
 
     Returns
@@ -43,10 +43,10 @@ def pinned_range(p: Parameters, frequency: float) -> float:
     positive = isinstance(frequency, int | float) and 0 < frequency < math.inf
     require((positive, "frequency", frequency, "must be a number > 0, in Hz"))
     omega = 2 * math.pi * frequency
-    stiffness = abs(complex(p.k - p.m * omega**2, p.c * omega))
+    stiffness = abs(complex(case.k - case.m * omega**2, case.c * omega))
     if stiffness == 0:
         return math.inf
-    return 2 * p.N / stiffness
+    return 2 * case.N / stiffness
 
 
 def excess_of_flights(apart: float) -> float:

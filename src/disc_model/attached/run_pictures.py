@@ -140,6 +140,7 @@ def plot_spectrum(
 
 def plot_poincare(
     self: Result,
+    window: str | None = None,
     *,
     ax: Sequence[Axes] | None = None,
     legend: bool | Mapping[str, Any] = True,
@@ -147,22 +148,23 @@ def plot_poincare(
     title: str | None = None,
 ) -> NDArray[Any]:
     """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes,
-    which it returns.
+    which it returns; of a `Poincare` that was recorded, or of the whole run if none is named.
 
-    `legend`, `labels` and `title` are as in `plot`. Raises `ParameterError` unless `ax` is two
-    axes.
+    `legend`, `labels` and `title` are as in `plot`. Raises `ParameterError` if the window was not
+    recorded as a `Poincare` or has no sample, and unless `ax` is two axes.
 
     Examples
     --------
     >>> import disc_model as dm
-    >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 10).plot_poincare().shape
+    >>> run = dm.simulate(dm.Parameters(N=385, Omega=15.1), 10, {"late": dm.Poincare(start=5)})
+    >>> run.plot_poincare("late").shape
     (2,)
     """
-    from disc_model.attached.shown import simulated_again
+    from disc_model.attached.shown import shown_section
 
     pictures = drawings()
-    case = simulated_again(self, "poincare")
-    return pictures.plot_poincare(case, ax=ax, legend=legend, labels=labels, title=title)
+    case, name = shown_section(self, window)
+    return pictures.plot_poincare(case, name, ax=ax, legend=legend, labels=labels, title=title)
 
 
 def animate(

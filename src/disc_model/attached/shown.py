@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disc_model.disc.plate import mode_arrays
+from disc_model.errors import require, suggestion
 from disc_model.simulation.api import simulate, snapshots
 from disc_model.simulation.case import Poincare, Window, Windows
 from disc_model.simulation.result import Result
@@ -54,6 +55,19 @@ def shown_window(run: Result, window: str | None, otherwise: str) -> tuple[xr.Da
     if window is None:
         return simulated_again(run, otherwise), otherwise
     return run.to_tree(), window
+
+
+def shown_section(run: Result, window: str | None) -> tuple[xr.DataTree, str]:
+    """Return windows of a run, and the name of the Poincaré section to show: a recorded one if it
+    is named, and otherwise that of the whole run; raises `ParameterError`."""
+    sections = [
+        name
+        for name, kept in run.windows.items()
+        if isinstance(kept, Poincare) and len(run.samples[name]["time"])
+    ]
+    rule = f"must be a recorded Poincare with samples{suggestion(window, sections)}"
+    require((window is None or window in sections, "window", window, rule))
+    return shown_window(run, window, "poincare")
 
 
 def run_span(run: Result) -> float:

@@ -52,7 +52,7 @@ class Flexibility:
         return self.total - self.kept
 
 
-def residual_flexibility(p: Parameters) -> Flexibility:
+def residual_flexibility(case: Parameters) -> Flexibility:
     """Static flexibility of all modes and of those kept; ``contact_compliance="residual"`` is their
     difference.
 
@@ -63,7 +63,7 @@ def residual_flexibility(p: Parameters) -> Flexibility:
 
     Parameters
     ----------
-    p : the case
+    case : the case
 
     Returns
     -------
@@ -73,7 +73,7 @@ def residual_flexibility(p: Parameters) -> Flexibility:
     Raises
     ------
     ParameterError
-        If `p` is not a `Parameters`.
+        If `case` is not a `Parameters`.
     ModeError
         If the modes cannot be computed.
 
@@ -84,12 +84,12 @@ def residual_flexibility(p: Parameters) -> Flexibility:
     >>> f"{flexibility.residual:.3g} m/N"
     '3.17e-07 m/N'
     """
-    raise_faults(foreign_case(p))
-    found = _flexibility(p)
-    if not is_modal_sum(p):
+    raise_faults(foreign_case(case))
+    found = _flexibility(case)
+    if not is_modal_sum(case):
         return found
     diameters, circles = MODAL_SUM
-    half = _modal_sum(p.replace(n_diameters=diameters // 2, n_circles=circles // 2))
+    half = _modal_sum(case.replace(n_diameters=diameters // 2, n_circles=circles // 2))
     return Flexibility(found.total, found.kept, (found.total - half) / 3)
 
 

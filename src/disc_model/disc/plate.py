@@ -34,12 +34,12 @@ POINTS_PER_ROOT = 6  # grid points per asymptotic root spacing pi/(1 - a/b) when
 WIDEST = 1e11  # greatest ratio of squared frequencies of disc and slider: their error is 1e-5, compared with 60 digits
 
 
-def plate_modes(p: Parameters) -> pd.DataFrame:
+def plate_modes(case: Parameters) -> pd.DataFrame:
     """Natural frequencies of the disc alone, and the modes' amplitudes under the slider.
 
     Parameters
     ----------
-    p : the case
+    case : the case
 
     Returns
     -------
@@ -59,7 +59,7 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
     Raises
     ------
     ParameterError
-        If `p` is not a `Parameters`.
+        If `case` is not a `Parameters`.
     ModeError
         If the modes cannot be distinguished or an amplitude overflows.
 
@@ -76,8 +76,8 @@ def plate_modes(p: Parameters) -> pd.DataFrame:
     """
     import pandas as pd
 
-    raise_faults(foreign_case(p))
-    return pd.DataFrame(vars(mode_arrays(p)))
+    raise_faults(foreign_case(case))
+    return pd.DataFrame(vars(mode_arrays(case)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,7 +176,7 @@ def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
     return radii[first], shapes[:, first]
 
 
-def coupled_natural_frequencies(p: Parameters) -> Array:
+def coupled_natural_frequencies(case: Parameters) -> Array:
     """Natural frequencies of disc and attached slider at rest (Section 4.4 of the paper), rad/s,
     ascending.
 
@@ -186,7 +186,7 @@ def coupled_natural_frequencies(p: Parameters) -> Array:
 
     Parameters
     ----------
-    p : the case
+    case : the case
 
     Returns
     -------
@@ -204,9 +204,9 @@ def coupled_natural_frequencies(p: Parameters) -> Array:
     >>> dm.coupled_natural_frequencies(dm.Parameters(N=385, Omega=15.1))[:3].round(2)
     array([ 850.86, 1492.55, 1516.76])
     """
-    raise_faults(foreign_case(p))
-    modes = mode_arrays(p)
-    return np.sort(np.concatenate([coupled_frequencies(p), modes.omega[modes.diameters > 0]]))
+    raise_faults(foreign_case(case))
+    modes = mode_arrays(case)
+    return np.sort(np.concatenate([coupled_frequencies(case), modes.omega[modes.diameters > 0]]))
 
 
 def coupled_frequencies(p: Parameters, compliance: float = 0.0, kept: Any = slice(None)) -> Array:

@@ -10,9 +10,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.data.variables import attributes
+from disc_model.data.variables import SHOWN, attributes
 from disc_model.figures.classes import Look, looks_of
-from disc_model.figures.words import plain_name
+from disc_model.figures.words import WITHIN_HORIZON, label_in, missing_text, plain_name, unit_text
+from disc_model.parameters import Parameters
 
 TRACES = ("P", "u", "psi")
 LEVELS = 65535  # steps between the least and the greatest value of a stored history
@@ -38,15 +39,17 @@ def study_contents(
         "title": str(study.attrs.get("title", "")) or name,
         "fixed": [_fixed(parameter, value) for parameter, value in base.items()],
         "dims": [_dimension(study, str(dim)) for dim in study.sizes],
-        "variables": [_variable(variable) for variable in drawn],
+        "variables": [_variable(study, variable) for variable in drawn],
         "messages": _messages(study),
         "motions": shown_motions,
     }
 
 
 def _fixed(name: str, value: Any) -> dict[str, Any]:
-    """A parameter that a study does not vary."""
-    return {**_named(name, attributes(name)), "value": value}
+    """A parameter that a study does not vary, and whether a case has this value unless it is given."""
+    field = Parameters.model_fields.get(name)
+    usual = field is not None and value in (field.default, str(field.default))
+    return {**_named(name, attributes(name)), "value": value, "usual": usual}
 
 
 def _messages(study: xr.Dataset) -> dict[str, Any] | None:
@@ -84,9 +87,11 @@ def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:
 
 
 def _trace(histories: xr.DataArray) -> dict[str, Any]:
-    """The histories of one variable."""
+    """The histories of one variable, in the unit and under the name that figures have."""
     name = str(histories.name)
-    return {"name": name, "unit": histories.attrs["units"], **traces(histories.values)}
+    shown = SHOWN[name]
+    packed_histories = traces(shown.factor * histories.values.astype(float))
+    return {"name": name, "label": plain_name(histories), "unit": shown.unit, **packed_histories}
 
 
 def _motion(motion: xr.Dataset, names: Sequence[str]) -> dict[str, Any]:
@@ -141,11 +146,15 @@ def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
 
 def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:
     """Names of a parameter or variable, that of the axes of figures among them, and its unit."""
+    symbol = name
+    if name in SHOWN:
+        symbol = SHOWN[name].symbol or name
     return {
         "name": name,
+        "symbol": symbol,
         "label": plain_name(xr.DataArray(0.0, name=name, attrs=attrs)),
         "title": str(attrs.get("long_name", name)),
-        "unit": str(attrs.get("units", "")),
+        "unit": unit_text(str(attrs.get("units", "1"))),
     }
 
 
@@ -167,6 +176,7 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
     title = ", ".join(columns)
     return {
         "name": dim,
+        "symbol": dim,
         "label": title,
         "title": title,
         "unit": "",
@@ -186,10 +196,14 @@ def _place(names: Iterable[str], values: Sequence[Any]) -> str:
     return ", ".join(texts)
 
 
-def _variable(variable: xr.DataArray) -> dict[str, Any]:
+def _variable(study: xr.Dataset, variable: xr.DataArray) -> dict[str, Any]:
     """Numbers as 32-bit floats of `BITS`; flags as bytes with words and their looks, those of the
     figures."""
-    described = _named(str(variable.name), variable.attrs)
+    name = str(variable.name)
+    described = _named(name, variable.attrs)
+    if name in WITHIN_HORIZON:
+        described["label"] = label_in(study, name)
+    described["missing"] = missing_text(study, name)
     described["dims"] = list(variable.dims)
     meanings = variable.attrs.get("flag_meanings")
     if meanings is None:

@@ -50,15 +50,18 @@ def plot_branch(
     case = stated(branch.case, *branch.parameters)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
         axes = page.ax
-        draw_branch(axes, x, values, branch.growth_rate < 0, BLACK)
+        stable = branch.growth_rate < 0
+        draw_branch(axes, x, values, stable, BLACK)
         axes.plot(
             x, values, ".", color=BLACK, markersize=mark(3)
         )  # what lies between is not computed
         if y == "growth_rate" and not second:
             scale_rates(axes)
+        looks = ((stable.any(), STABLE, "stable"), (not stable.all(), THIN, "unstable"))
         handles = [
             sample(color=BLACK, linewidth=wide(width), label=text)
-            for width, text in ((STABLE, "stable"), (THIN, "unstable"))
+            for occurs, width, text in looks
+            if occurs
         ]
         handles += _mark_special_points(axes, branch, y, (factor, upward))
         axes.margins(0.04)

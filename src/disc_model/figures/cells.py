@@ -133,9 +133,14 @@ def class_cells(ax: Axes, plane: xr.DataArray, looks: Mapping[str, Look]) -> set
 
 
 def looks_in(flag: xr.DataArray) -> dict[str, Look]:
-    """Looks of all words that a flag can have; of those that occur if it holds words."""
+    """Looks of all words that a flag can have; of those that occur if it holds words, those of
+    `LOOKS` first and in their order."""
     meanings = flag.attrs.get("flag_meanings", "").split()
-    return looks_of(meanings or np.unique(flag_names(flag)))
+    if not meanings:
+        places = {word: place for place, word in enumerate(LOOKS)}
+        words = np.unique(flag_names(flag)).tolist()
+        meanings = sorted(words, key=lambda word: places.get(word, len(places)))
+    return looks_of(meanings)
 
 
 def patch_of(look: Look) -> Artist:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from disc_model.data.variables import axis_of
+import numpy as np
+
+from disc_model.data.variables import axis_of, presentation_of
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.curve import scale_rates
 from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, mark, wide
@@ -13,6 +15,8 @@ from disc_model.figures.types import Axes
 
 if TYPE_CHECKING:
     from disc_model.stability.critical import Critical
+
+TOP = 0.96  # height of the marks of values without a cycle, as a share of the panel
 
 
 def plot_critical(
@@ -26,6 +30,7 @@ def plot_critical(
     """Draw the growth rate of the cycle over the parameter; shaded: the motion near the start is
     unstable. Returns the axes."""
     label, factor = axis_of(critical.name)
+    unit = presentation_of(critical.name).unit
     x = critical.values * factor
     case = stated(critical.parameters, critical.name)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
@@ -46,6 +51,20 @@ def plot_critical(
             linewidth=wide(0.7),
         )
         scale_rates(axes)
+        gone = x[np.isnan(critical.growth_rate)]
+        if gone.size:
+            axes.plot(
+                gone,
+                np.full(gone.size, TOP),
+                "x",
+                color=BLACK,
+                label="no cycle found",
+                markersize=mark(3),
+                markeredgewidth=wide(0.6),
+                transform=axes.get_xaxis_transform(),
+            )
+        if critical.value > critical.values[0]:
+            page.note = f"unstable from {critical.value * factor:.5g} {unit}".strip()
         axes.set_xlabel(label)
         axes.set_ylabel("Growth rate of the cycle (1/s)")
         axes.set_xlim((x[0], x[-1]))

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 from cmcrameri import cm
 
-from disc_model.data.variables import stated_in
+from disc_model.figures.classes import name_of
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -33,11 +33,20 @@ from disc_model.figures.selection import (
     titles_of,
 )
 from disc_model.figures.types import Artist, Axes, Figure
-from disc_model.figures.words import CHARACTER, as_numbers, label_in, measured
+from disc_model.figures.words import (
+    CHARACTER,
+    NO_VALUE,
+    as_numbers,
+    label_in,
+    measured,
+    missing_text,
+)
 
 LINEAR = 0.1
-"""Growth rate up to which its scale is linear, 1/s; a greater step breaks the line, or finds another
-cycle."""
+"""Growth rate up to which its scale is linear, 1/s; a greater step from there finds another cycle."""
+STEP = np.arcsinh(1.0)
+"""Step on such a scale, asinh(rate / LINEAR), beyond which the line is broken: a factor of 2.4 between
+large rates."""
 RATE = "growth_rate"
 """Growth rate of a motion, with narrow peaks of tens beside hundredths."""
 MARKS = "os^Dv<>"
@@ -135,7 +144,8 @@ def draw_lines(
     # lines, in the colours of their order
     parts = parts_along(array, by)
     gapless = joined and not (names or rates or array.isnull().any())
-    jump = LINEAR if rates else np.inf
+    # of cycles, of which the next point may have another; steady sliding is one equilibrium
+    jumps = rates and "sliding" not in array.attrs.get("long_name", "")
     line = "" if names or not joined else "-"
     for colour, part, title in zip(_colours(parts), parts, titles_of(parts), strict=True):
         shape = marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
@@ -145,7 +155,7 @@ def draw_lines(
             look["markevery"] = _marked(heights)
         elif heights.size > CROWDED:
             look |= _draw_dots(ax, across.values, heights, colour, joined=bool(line))
-        ax.plot(*broken(across.values, heights, jump), f"{shape}{line}", **look)
+        ax.plot(*_pieces(across.values, heights, jumps), f"{shape}{line}", **look)
 
     # scales and labels
     if log:
@@ -159,6 +169,13 @@ def draw_lines(
     _set_ticks(ax, names, array)
     ax.margins(0.03)
     _mark_gaps(ax, study, array, x, marks)
+
+
+def _pieces(along: np.ndarray, heights: np.ndarray, jumps: bool) -> list[np.ndarray]:
+    """A line, with gaps between growth rates of cycles that differ by more than `STEP`."""
+    if not jumps:
+        return [along, heights]
+    return broken(along, heights, STEP, np.arcsinh(heights / LINEAR))
 
 
 def _marked(heights: np.ndarray) -> list[int]:
@@ -234,8 +251,8 @@ def _mark_gaps(
                 **_look(),
             )
             top += ROW
-        if array.name == "first_separation" and name == "no value":
-            name = f"none within {stated_in(study, 'options')['horizon']:g} s"
+        if name == name_of(NO_VALUE):
+            name = missing_text(study, str(array.name))
         middle = 0.5 * (first + top - ROW)
         say(ax, name, (0, middle), (-3, 0), xycoords="axes fraction", fontsize=large(7))
         top += ROW

@@ -8,8 +8,9 @@ import numpy as np
 
 from disc_model.errors import Fault, ParameterError
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, BLUE, COLUMN, SEPARATED, large, mark, wide
+from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, SEPARATED, large, mark, wide
 from disc_model.figures.names import Names
+from disc_model.figures.runs import stated
 from disc_model.figures.types import Axes
 from disc_model.figures.words import head_text
 
@@ -37,16 +38,20 @@ def plot_eigenvalues(
     rate = values.real
     frequency = values.imag / (2 * np.pi)
     grows = np.isin(values, sliding.growing)
-    with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0) as page:
+    rests = np.isin(values, sliding.neutral)
+    case = "" if sliding.parameters is None else stated(sliding.parameters)
+    with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0, title=case) as page:
         axes = page.ax
         axes.axvline(0, color=BLACK, linewidth=wide(0.6))
         for mask, shape, colour, name in (
-            (~grows, "o", BLUE, "decays"),
+            (~grows & ~rests, "o", BLUE, "decays"),
+            (rests, "s", GREY, "neutral"),
             (grows, "D", SEPARATED, "grows"),
         ):
-            axes.plot(
-                rate[mask], frequency[mask], shape, color=colour, markersize=mark(4), label=name
-            )
+            if mask.any():
+                axes.plot(
+                    rate[mask], frequency[mask], shape, color=colour, markersize=mark(4), label=name
+                )
         names = Names(axes)
         for x, y in zip(rate[grows], frequency[grows], strict=True):
             names.add(f"{y:.0f} Hz", (x, y), BESIDE, fontsize=large(7), color=SEPARATED)
@@ -56,7 +61,6 @@ def plot_eigenvalues(
         axes.set_xlim((-span, span))
         axes.set_ylim(bottom=0)
         axes.margins(y=0.08)
-        handles = [line for line in axes.lines if line.get_label() in ("decays", "grows")]
-        page.explain([line for line in handles if np.size(line.get_xdata())])
+        page.explain(axes.get_legend_handles_labels()[0])
         page.note = head_text(COLUMN, "", sliding.message)
     return page.ax

@@ -9,6 +9,7 @@ import numpy as np
 from disc_model.display import counted
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLUE, COLUMN, GREY, mark, wide
+from disc_model.figures.runs import stated
 from disc_model.figures.types import Axes
 
 if TYPE_CHECKING:
@@ -27,7 +28,8 @@ def plot_exponents(
     left out."""
     number = np.arange(1, len(lyapunov.exponents) + 1)
     finite = np.isfinite(lyapunov.exponents)
-    with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.6) as page:
+    case = "" if lyapunov.parameters is None else stated(lyapunov.parameters)
+    with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.6, title=case) as page:
         axes = page.ax
         for mask, face, name in (
             (lyapunov.converged & finite, BLUE, "converged"),

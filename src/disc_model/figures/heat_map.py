@@ -34,7 +34,7 @@ from disc_model.figures.selection import (
     titles_of,
 )
 from disc_model.figures.types import Artist, Axes, Figure, FigureBase
-from disc_model.figures.words import label_in, label_of, measured
+from disc_model.figures.words import NO_VALUE, label_in, label_of, measured, missing_text
 
 IN_A_ROW = 4  # panels on a page
 
@@ -154,15 +154,17 @@ def number_panels(
         paint(ax, edges, missing, LOOKS)
         used |= set(missing.flat)
 
+    unvalued = MARKED[NO_VALUE]._replace(label=missing_text(planes[0], variable))
+    looks = {**MARKED, NO_VALUE: unvalued}
     if not has_values(planes, variable):
-        return entries(used, MARKED)
+        return entries(used, looks)
     bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=label)
     if colours.ticks:
         bar.set_ticks(range(len(colours.ticks)), labels=list(colours.ticks))
         bar.minorticks_off()
     elif log and within_a_decade(colours.norm):
         bar.ax.yaxis.set_minor_formatter("{x:g}")
-    return entries(used, MARKED)
+    return entries(used, looks)
 
 
 def _classes_of_gaps(plane: xr.Dataset, array: xr.DataArray) -> np.ndarray:

@@ -22,6 +22,7 @@ BESIDE = 0.15  # inch, left free on both sides of a legend below a panel, togeth
 INSIDE = 0.6  # of the width of axes, for a legend in them: other panels may make them narrower
 SMALLER = 0.8  # size of the text of a legend that finds too little room, over the usual one,
 LEAST_TEXT = 6.0  # and its least size, points, unless the usual one is less
+IN_A_COLUMN = 3  # entries below a panel that stand in one column before their text is made smaller
 LETTER = 0.3  # inch, kept free for the letter of one of several panels
 
 Legend = Any
@@ -164,7 +165,7 @@ def _meets_shape(box: Bbox, shape: Collection) -> bool:
 def legend_below(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
     """Draw a legend below the label of the horizontal axis, in as many columns as there is room for
     between the left end of the labels and the right end of the axes; a smaller one where the usual
-    one is wider than that."""
+    one is wider than that, or where many entries would stand in one column."""
     if not handles:
         return None
     page: Any = ax.get_figure(root=True)
@@ -177,6 +178,7 @@ def legend_below(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
 
     # below the axes where it fits, and else below their labels too
     room = float(frame.width) - BESIDE * page.dpi
+    places = []
     for shift, size in ((0.0, {}), (reach, {}), (reach, small())):
         # as far below the axes when the layout has made them smaller
         offset = ScaledTranslation(-shift / page.dpi, -depth / page.dpi, page.dpi_scale_trans)
@@ -189,14 +191,33 @@ def legend_below(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
             **size,
             **look,
         )
-        one_column = draw(ncols=1)
-        if one_column.get_window_extent().width <= room + shift:
-            break
-    one_column.remove()
-    legend = _widest_that_fits(draw, len(handles), min(room + shift, _share_of_page(ax)))
+        places.append(Place(draw, min(room + shift, _share_of_page(ax))))
+    columns = 2 if len(handles) > IN_A_COLUMN else 1
+    place = _first_that_fits(places, columns)
+    legend = _widest_that_fits(place.draw, len(handles), place.width)
     # a layout that made room on its sides would squeeze narrow axes, which do not hold it anyway
     legend.get_tightbbox = partial(_as_wide_as, ax, legend)
     return legend
+
+
+class Place(NamedTuple):
+    """How a legend is drawn at a place, and the width in pixels that it has there."""
+
+    draw: Callable[..., Legend]
+    width: float
+
+
+def _first_that_fits(places: Sequence[Place], columns: int) -> Place:
+    """The first place that is wide enough for so many columns, or for as many fewer as need be; the
+    last one if none is."""
+    for count in range(columns, 0, -1):
+        for place in places:
+            trial = place.draw(ncols=count)
+            width = trial.get_window_extent().width
+            trial.remove()
+            if width <= place.width:
+                return place
+    return places[-1]
 
 
 def _share_of_page(ax: Axes) -> float:

@@ -67,7 +67,7 @@ def plot_sweep(
 
 
 def plot_modes(
-    p: Parameters,
+    case: Parameters,
     most: int = 15,
     *,
     ax: Axes | NDArray[Any] | None = None,
@@ -78,7 +78,7 @@ def plot_modes(
 
     Parameters
     ----------
-    p : the case; a disc that is given by its modes needs shapes at two radii or more
+    case : the case; a disc that is given by its modes needs shapes at two radii or more
     most : number of modes that are drawn, by ascending frequency
     ax : axes to draw on, one for each mode
     labels : as in `Result.plot`
@@ -99,4 +99,4 @@ def plot_modes(
     >>> dm.plot_modes(dm.Parameters(N=385, Omega=15.1)).size
     5
     """
-    return draw("plot_modes", p, most, ax=ax, labels=labels, title=title)
+    return draw("plot_modes", case, most, ax=ax, labels=labels, title=title)

@@ -56,16 +56,17 @@ def _differing(parameters: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
 
 def plot_poincare(
     case: xr.DataTree,
+    name: str = "poincare",
     *,
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
     title: str | None = None,
 ) -> NDArray[Any]:
-    """Draw the sections of a run on two axes, which are returned."""
+    """Draw the sections of a run in a window on two axes, which are returned."""
     wishes = Wishes(ax, legend, labels, title)
     with page_for(wishes, PAGE, 2.9, 1, 2, title=stated(case)) as page:
-        samples = dataset.group(case, "poincare")
+        samples = dataset.group(case, name)
         page.explain(draw_sections(page.axes, case, samples))
     return np.array(page.axes)
 
@@ -103,7 +104,7 @@ def draw_sections(
     for ax, name in zip(axes, SECTIONS, strict=True):
         x = _axis(name, samples, compared)
         y = _axis(f"{name}_velocity", samples, compared)
-        if max(x.share, y.share) < SMALL:
+        if x.share > 0 and max(x.share, y.share) < SMALL:
             own_x = _axis(name, samples, ())
             own_y = _axis(f"{name}_velocity", samples, ())
             note = f"enlarged {own_x.share / x.share:.0f} times"

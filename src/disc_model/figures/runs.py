@@ -4,13 +4,14 @@ variable is drawn.
 
 import json
 from collections.abc import Mapping, Sequence
+from operator import itemgetter
 from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
 
 from disc_model.data import dataset
-from disc_model.data.variables import PHASES, axis_of, flag_names
+from disc_model.data.variables import PHASES, SHOWN, axis_of, flag_names
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures import selection
 from disc_model.figures.drawing import BLACK, DISC, FORCE, SEPARATED, SLIDER, large, say, wide
@@ -37,7 +38,24 @@ def stated(case: Parameters | xr.DataTree, *varied: str) -> str:
     p = parameters_of(case) if isinstance(case, xr.DataTree) else case
     # what varies has the value of a number, so that the ratio of another is kept
     values = p.replace(**{name: p.numbers[name] for name in varied}).stated
-    return what_case({name: value for name, value in values.items() if name not in varied})
+    said = what_case({name: value for name, value in values.items() if name not in varied})
+    ramps = []
+    if isinstance(case, xr.DataTree):
+        ramps = json.loads(case.attrs.get("ramps", "[]"))
+    for name in ("N", "Omega"):
+        said = said.replace(what_case({name: values[name]}), _course(name, values[name], ramps))
+    return said
+
+
+def _course(name: str, value: float, ramps: Sequence[Mapping[str, Any]]) -> str:
+    """A parameter's value at the start and those at the ends of its ramps, in words."""
+    own = [ramp for ramp in ramps if ramp["parameter"] == name]
+    if not own:
+        return what_case({name: value})
+    own.sort(key=itemgetter("start"))
+    shown = SHOWN[name]
+    numbers = [f"{shown.factor * each:g}" for each in (value, *map(itemgetter("to"), own))]
+    return f"{shown.symbol} = {' to '.join(numbers)} {shown.unit}"
 
 
 def window_of(

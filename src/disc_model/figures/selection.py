@@ -11,7 +11,7 @@ from disc_model.data.variables import EXCLUDED, flag_names, stated_in
 from disc_model.figures.classes import name_of
 from disc_model.figures.kinds.base import NORM
 from disc_model.figures.types import Array, Words
-from disc_model.figures.words import named_value, rank_of, value_text
+from disc_model.figures.words import NO_VALUE, named_value, rank_of, value_text
 
 WITHOUT_CYCLE = (
     "no_cycle",
@@ -173,7 +173,7 @@ def class_of_gap(status: str) -> str:
     """The class of a point without a value: its status, "failed" for a failure of the computation,
     and "no_value" for a point that was computed."""
     if status == "ok":
-        return "no_value"
+        return NO_VALUE
     if status in (*WITHOUT_CYCLE, EXCLUDED):
         return status
     return "failed"

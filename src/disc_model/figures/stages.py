@@ -15,6 +15,7 @@ from disc_model.figures.types import Mask
 
 STAGES = ("early", "later", "separated")
 BY_SEPARATION = ("in contact, before the first separation", "in contact, after it", "separated")
+SEPARATED_BEFORE = (BY_SEPARATION[0], "in contact, after the first separation", "separated")
 BY_SETTLING = ("not shown to have settled", "settled", "separated")
 BY_HALVES = ("first half of the run", "second half, not shown to have settled", "separated")
 """Names of the stages, by what divides early from later."""
@@ -40,7 +41,8 @@ def stages_of(case: xr.DataTree, samples: xr.Dataset) -> Stages:
     divided = stages(time, samples["phase"].values, first, since if settled else time.mean())
     masks = dict(zip(STAGES, divided, strict=True))
     if math.isfinite(first):
-        return Stages(masks, BY_SEPARATION, f"first separation at {first:.2f} s")
+        names = BY_SEPARATION if masks["early"].any() else SEPARATED_BEFORE
+        return Stages(masks, names, f"first separation at {first:.2f} s")
     p = parameters_of(case)
     fate = "separation ignored" if p.contact == "bilateral" else "no separation"
     return Stages(masks, BY_SETTLING if settled else BY_HALVES, fate)

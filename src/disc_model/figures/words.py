@@ -54,8 +54,16 @@ figure is drawn."""
 UNIT_POWER = re.compile(r"([^\W\d]+|1|%)(-?)(\d*(?:\.\d+)?)")
 """A part of a unit in datasets: its name, the sign and the size of its power."""
 POWERS = {"": "", "1": "", "2": "²", "3": "³"}
+SHORT = {
+    "outcome": "outcome",
+    "scan_outcome": "outcome",
+    "critical_speed": "critical speed",
+    "horizon": "horizon",
+}
+"""What labels call variables whose long names explain them."""
 WITHIN_HORIZON = ("outcome", "scan_outcome", "kind")
 """Variables that say what a motion does within the horizon that a study states."""
+NO_VALUE = "no_value"  # class of a point that was computed and has no value
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
 
 
@@ -74,9 +82,11 @@ LOAD, _ = axis_of("N")
 
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
     """Axis label of any variable or coordinate, and the factor from SI to its unit."""
-    words = str(variable.attrs.get("long_name", variable.name)).partition(", nan ")[0]
-    # a scanned parameter is the long name of its dimension
-    for name in (str(variable.name), words):
+    own = str(variable.name)
+    words = str(variable.attrs.get("long_name", own)).partition(", nan ")[0]
+    words = SHORT.get(own, words)
+    # a scanned parameter is the long name of its dimension, or its name has a prefix
+    for name in (own.removeprefix("scan_").removeprefix("sweep_"), words):
         if name in SHOWN:
             return axis_of(name)
     # disturbances have one name in all figures
@@ -91,14 +101,30 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
 def label_in(study: xr.Dataset, name: str) -> str:
     """Axis label of a variable of a study; of one that depends on the horizon, with the horizon."""
     label = label_of(study[name])[0]
-    if name not in WITHIN_HORIZON:
+    horizon = horizon_text(study)
+    if name not in WITHIN_HORIZON or not horizon:
         return label
+    if name not in SHORT:
+        label += ","
+    return f"{label} within {horizon}"
+
+
+def missing_text(study: xr.Dataset, name: str) -> str:
+    """What figures call points of a variable that were computed and have no value."""
+    horizon = horizon_text(study)
+    if name == "first_separation" and horizon:
+        return f"none within {horizon}"
+    return name_of(NO_VALUE)
+
+
+def horizon_text(study: xr.Dataset) -> str:
+    """The one horizon that a study states, with its unit; "" if there is none."""
     horizon = json.loads(study.attrs.get("options", "{}")).get("horizon")
-    if not isinstance(horizon, str | float | int):
-        return label
-    if not isinstance(horizon, str):
-        horizon = f"{horizon:g} s"
-    return f"{label}, within {horizon}"
+    if isinstance(horizon, str):
+        return horizon
+    if isinstance(horizon, float | int):
+        return f"{horizon:g} s"
+    return ""
 
 
 def unit_text(units: str) -> str:

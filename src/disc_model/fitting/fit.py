@@ -341,7 +341,7 @@ class _Problem:
 
 
 def fit(
-    p: Parameters,
+    case: Parameters,
     vary: Sequence[str],
     measured: Mapping[str, tuple[Any, Any]] | Sequence[Measurement],
     *,
@@ -352,10 +352,10 @@ def fit(
 
     Parameters
     ----------
-    p : the case; its values of the varied parameters are the start of the search
+    case : the case; its values of the varied parameters are the start of the search
     vary : names of the parameters that are fitted, each one of `Parameters.numbers`, such as ``mu_s``, the ratio
         ``mu_k_over_mu_s``, or ``omega_2_0`` of a disc given by its modes
-    measured : values with their standard deviations by the names of their quantities, all for the case `p`; or
+    measured : values with their standard deviations by the names of their quantities, all for it; or
         `Measurement` objects, which may differ in what was set, such as the speed
     bounds : least and greatest value of varied parameters, by name; needed where the start is 0
     confidence : probability of the confidence intervals
@@ -388,13 +388,13 @@ def fit(
     """
     from scipy import optimize
 
-    measurements = _checked(p, vary, measured, bounds, confidence)
+    measurements = _checked(case, vary, measured, bounds, confidence)
     limits = _limits(vary, bounds or {})
-    scales = {name: high - low for name, (low, high) in limits.items() if p.numbers[name] == 0}
-    problem = _Problem(p, vary, measurements, scales)
+    scales = {name: high - low for name, (low, high) in limits.items() if case.numbers[name] == 0}
+    problem = _Problem(case, vary, measurements, scales)
     values = np.array([each.value for each in measurements])
     weights = 1 / np.array([each.uncertainty for each in measurements])
-    start = np.array([p.numbers[name] for name in vary])
+    start = np.array([case.numbers[name] for name in vary])
     problem.predictions(start)
 
     def deviations(x: Array) -> Array:

@@ -19,7 +19,7 @@ _PLAIN = Execution()
 
 
 def simulate(  # noqa: PLR0913
-    p: Parameters,
+    case: Parameters,
     t_end: float | str | None = None,
     windows: Windows | None = None,
     *,
@@ -36,7 +36,7 @@ def simulate(  # noqa: PLR0913
 
     Parameters
     ----------
-    p : the case
+    case : the case
     t_end : s, absolute, greater than the initial state's time; or a text with a unit, such as "2 min"
     duration : s, from the initial state's time, instead of t_end
     windows : samples to keep, by name: a `Window` at a fixed rate, or `Poincare` for one sample a turn
@@ -71,7 +71,7 @@ def simulate(  # noqa: PLR0913
     (Frozen({'time': 2001}), 'N')
     """
     request = checked_request(
-        p,
+        case,
         t_end=t_end,
         duration=duration,
         windows=windows,
@@ -107,7 +107,7 @@ def _with_windows_to_the_stop(request: Request, windows: Windows) -> Request:
 
 
 def snapshots(
-    p: Parameters,
+    case: Parameters,
     times: ArrayLike,
     *,
     tol: float = 1e-10,
@@ -118,7 +118,7 @@ def snapshots(
 
     Parameters
     ----------
-    p : the case
+    case : the case
     times : s, ascending, shape (n,); none before the initial state's
     tol, initial_state, ramps : as in `disc_model.simulate`
 
@@ -148,19 +148,19 @@ def snapshots(
         (starts, "initial_state", initial_state, "must be a State"),
         (ascend, "times", times, "must be finite and ascend"),
     )
-    raise_faults(foreign_case(p) + wrong)
-    raise_faults([*ramp_faults(p, ramps, poincare=False)])
+    raise_faults(foreign_case(case) + wrong)
+    raise_faults([*ramp_faults(case, ramps, poincare=False)])
     wanted: list[float] = [] if numbers is None else numbers.tolist()
     state = initial_state
     if state is None:
-        state = states.static_start(p)
+        state = states.static_start(case)
     reached: list[State] = []
     rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
     require(*((time >= state.time, "times", time, rule) for time in wanted[:1]))
     for time in wanted:
         if time > state.time:
             state = (
-                simulate(p, time, tol=tol, events=False, initial_state=state, ramps=ramps)
+                simulate(case, time, tol=tol, events=False, initial_state=state, ramps=ramps)
                 .raise_for_status()
                 .final_state
             )

@@ -64,8 +64,9 @@ class Result(Summarised, RunPictures):
     final_state : `State` at the end
     u_0 : m, static height of the slider
     samples : by window, its arrays by name; ``result["late"]`` is a Dataset of those of the window "late"
-    statistics : steps, events, separations, time_stick, time_slip, time_separation (s), energy_residual,
-        energy_residual_transverse, energy_residual_inplane, audited_steps, wall_time (s)
+    statistics : steps, events, separations, time_stick, time_slip, time_separation (s); of the audit of energies
+        energy_residual, audited_steps and, nan unless every step is audited, energy_residual_transverse and
+        energy_residual_inplane; surface_speed, nan unless friction acts on a surface that moves; wall_time (s)
 
     Examples
     --------
@@ -294,6 +295,7 @@ class Result(Summarised, RunPictures):
         s = self.statistics
         reached = float(self.final_state.time)
         yield "case", values_text(dict(self.parameters))
+        yield "ramps", ", ".join(map(_ramp_text, self.ramps))
         yield "status", self.message or self.status.value
         yield "advice", "" if self.status.complete else self.status.advice
         yield "time reached", f"{reached:.9g} s of {self.t_end:g} s"
@@ -325,6 +327,12 @@ class Result(Summarised, RunPictures):
         if not self.status.complete:
             raise _ERRORS[self.status](f"{self.message}. {self.status.advice}")
         return self
+
+
+def _ramp_text(ramp: Ramp) -> str:
+    """Where a ramp leads, and when."""
+    course = values_text({ramp.parameter: ramp.to})
+    return f"{course.replace(' = ', ' to ')} from {ramp.start:g} to {ramp.end:g} s"
 
 
 # ---- What files hold of a result

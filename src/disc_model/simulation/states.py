@@ -142,18 +142,18 @@ class State:
             f"u={self.u:.6g} m, u_velocity={self.u_velocity:.6g} m/s, {len(self.a)} modes)"
         )
 
-    def slider_angle(self, p: Parameters) -> float:
+    def slider_angle(self, case: Parameters) -> float:
         """Angle of the slider on the disc, rad, from the place where it was at the time 0: that of
-        the drive point, less psi. Raises `ParameterError` unless `p` is the case."""
-        raise_faults(foreign_case(p))
-        drive = p.Omega * self.time if self.drive_angle is None else self.drive_angle
+        the drive point, less psi. Raises `ParameterError` unless `case` is a `Parameters`."""
+        raise_faults(foreign_case(case))
+        drive = case.Omega * self.time if self.drive_angle is None else self.drive_angle
         return drive - self.psi
 
-    def material_angle(self, p: Parameters) -> float:
+    def material_angle(self, case: Parameters) -> float:
         """Angle on the disc of the material point under the slider, rad, about which modal
         coordinates are resolved: `slider_angle` less `surface_turn`. Raises `ParameterError` unless
-        `p` is the case."""
-        return self.slider_angle(p) - self.surface_turn
+        `case` is a `Parameters`."""
+        return self.slider_angle(case) - self.surface_turn
 
     @property
     def parts(self) -> tuple[dict[str, Any], dict[str, Array]]:
@@ -317,13 +317,13 @@ def transfer_state(p: Parameters, state: State) -> State:
 
 
 def deflection(
-    p: Parameters, states: State | Iterable[State], r: ArrayLike, theta: ArrayLike
+    case: Parameters, states: State | Iterable[State], r: ArrayLike, theta: ArrayLike
 ) -> xr.DataArray:
     """Displacement w(r, theta, t) of the whole disc, upward, Eq. (15).
 
     Parameters
     ----------
-    p : the case
+    case : the case
     states : one state, or several, such as `snapshots` returns
     r : m, radii from a to b, or within those at which a table gives shapes, shape (n_r,)
     theta : rad, angles fixed to the disc, shape (n_theta,); the slider starts at 0
@@ -349,9 +349,9 @@ def deflection(
     """
     import xarray as xr
 
-    raise_faults(foreign_case(p))
-    modes = mode_arrays(p)
-    low, high = radial_range(p)
+    raise_faults(foreign_case(case))
+    modes = mode_arrays(case)
+    low, high = radial_range(case)
     radii = finite_numbers(in_si(r, "m", [], ()))
     angles = finite_numbers(in_si(theta, "rad", [], ()))
     states_in_order: list[Any] = list(states) if np.iterable(states) else [states]
@@ -375,10 +375,10 @@ def deflection(
     )
     assert radii is not None
     assert angles is not None
-    shapes = mode_shapes(p, radii)
+    shapes = mode_shapes(case, radii)
     w = np.empty((len(states_in_order), len(radii), len(angles)))
     for i, state in enumerate(states_in_order):
-        turn = np.multiply.outer(modes.diameters, angles - state.material_angle(p))
+        turn = np.multiply.outer(modes.diameters, angles - state.material_angle(case))
         w[i] = shapes.T @ (state.a[:, None] * np.cos(turn) + state.b[:, None] * np.sin(turn))
     coords = {
         "time": (

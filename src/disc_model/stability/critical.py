@@ -44,8 +44,8 @@ class Critical(Drawn):
     Attributes
     ----------
     parameters, name : the case, and the parameter
-    value : the least value computed at which the motion near the static start is unstable; nan if
-        there is none
+    value : the least value computed at which the motion near the static start is unstable; if there is a lower one,
+        it is stable there, less than `precision` away; nan if there is none
     crossings : shape (n,), all values at which stability was seen to change, ascending
     unstable_above : bool, (n,), whether that motion is unstable just above each
     values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle (1/s; nan without)
@@ -97,7 +97,7 @@ class Critical(Drawn):
 
 @compiling()
 def critical(
-    p: Parameters,
+    case: Parameters,
     name: str,
     bounds: tuple[Quantity, Quantity],
     *,
@@ -115,7 +115,7 @@ def critical(
 
     Parameters
     ----------
-    p : the case; its value of the parameter is not used
+    case : the case; its value of the parameter is not used
     name : one of `Parameters.numbers`, such as "mu_s"
     bounds : lowest and highest value; SI units, or texts with units
     points : number of evenly spaced values, which determines the `resolution`. With nine modes,
@@ -148,16 +148,16 @@ def critical(
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
         (good, "precision", precision, "must be a number > 0"),
     )
-    raise_faults(foreign_case(p) or wrong + free_faults(p, [name]))
+    raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))
     low, high = ends
     values = np.linspace(low, high, points).tolist()
     for value in values:
-        p.replace(**{name: value})  # must be a case, which is found before any work is done
+        case.replace(**{name: value})  # must be a case, which is found before any work is done
 
     shortest = SHORTEST * (high - low)
     if precision is not None:
         shortest = float(precision)
-    scan = _Scan(p, name, float(tol))
+    scan = _Scan(case, name, float(tol))
     for value in values:
         scan.is_stable(value)
     scan.refine(max(shortest, NARROWEST * (high - low)))

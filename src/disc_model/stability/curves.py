@@ -108,7 +108,7 @@ class _Seed(NamedTuple):
 
 @compiling()
 def neutral_curves(
-    p: Parameters,
+    case: Parameters,
     bounds: Mapping[str, tuple[Quantity, Quantity]],
     lines: Sequence[float],
     *,
@@ -121,7 +121,7 @@ def neutral_curves(
 
     Parameters
     ----------
-    p : the case; its values of the two parameters are ignored
+    case : the case; its values of the two parameters are ignored
     bounds : bounds of both, by their names: two of `Parameters.numbers`; SI units, or texts with units
     lines : values of the second parameter; along each of these lines the first parameter is scanned for curves
     points : cycles computed along each line; a curve lies between two that differ in stability or existence
@@ -147,7 +147,7 @@ def neutral_curves(
     >>> len(curves), curves.curves[0].resonance.label
     (1, '2 f_s = 135.42 Hz')
     """
-    raise_faults(foreign_case(p))
+    raise_faults(foreign_case(case))
     # a curve ends where a shorter step would be needed, as where an event grazes
     steps = BORDER.replace(longest=longest, shortest=1e-5, max_points=max_points)
     plane = _plane_in_si(bounds)
@@ -159,12 +159,12 @@ def neutral_curves(
         (is_finite_array(lines), "lines", lines, "must be finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
-    raise_faults(wrong + free_faults(p, list(plane)))
+    raise_faults(wrong + free_faults(case, list(plane)))
 
-    search = _CurveSearch(p, plane, float(tol), steps)
+    search = _CurveSearch(case, plane, float(tol), steps)
     for line in map(float, lines):
         search.scan(line, points)
-    return NeutralCurves(p, plane, tuple(search.curves), tuple(search.failures))
+    return NeutralCurves(case, plane, tuple(search.curves), tuple(search.failures))
 
 
 def _plane_in_si(bounds: Any) -> dict[Any, Any]:

@@ -81,10 +81,11 @@ class FloquetResult(Summarised, Drawn):
 
     def __repr__(self) -> str:
         p = self.parameters
-        summary = self.status.value
+        summary = self.message
         if self.status is CycleStatus.OK:
-            summary = f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s"
-        return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {summary}, {len(self.multipliers)} multipliers)"
+            numbers = f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s"
+            summary = f"{numbers}, {len(self.multipliers)} multipliers"
+        return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {summary})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         tendency = "die out" if self.stable else "grow"
@@ -208,7 +209,7 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
         solution = newton(map_, x, releases=releases)
         if solution is not None:
             return cycle_of(map_, run_through_once(map_, solution))
-    tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the static start, stick-slip continues without"
+    tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the static start, stick-slip goes on without one"
     return no_cycle(p, tol, CycleStatus.NO_CYCLE, tried)
 
 

@@ -11,7 +11,7 @@ from disc_model.units import CYCLE_TOLERANCES, limits_faults
 
 @compiling()
 def floquet(
-    p: Parameters,
+    case: Parameters,
     *,
     tol: float = 1e-12,
     guess: State | None = None,
@@ -25,7 +25,7 @@ def floquet(
 
     Parameters
     ----------
-    p : the case
+    case : the case
     tol : relative tolerance of the series and of the return map's residual; 1e-14 to 1e-6
     guess : state, such as the last one of a simulation; the cycle is sought near the next release after it and may
         lose contact
@@ -63,7 +63,7 @@ def floquet(
     (False, array([1.262]))
     """
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
-    raise_faults(foreign_case(p) + wrong)
+    raise_faults(foreign_case(case) + wrong)
     if kind == SLIPPING:
-        return find_slipping_cycle(p, float(tol), guess)
-    return find_cycle(p, float(tol), guess, releases)
+        return find_slipping_cycle(case, float(tol), guess)
+    return find_cycle(case, float(tol), guess, releases)

@@ -8,7 +8,7 @@ to it.
 
 import math
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -57,6 +57,7 @@ class Lyapunov(Drawn):
     converged : whether both halves of the time give the same finite exponent, shape (count,); see `CONVERGED`
     trivial_exponent : 1/s, the exponent along the motion that was left out; nan if none was
     final_state : state at the end of the motion
+    parameters : as given to `lyapunov_exponents`
     """
 
     _picture = "plot_exponents"
@@ -68,6 +69,7 @@ class Lyapunov(Drawn):
     converged: NDArray[np.bool_]
     final_state: State
     trivial_exponent: float = math.nan
+    parameters: Parameters | None = None
 
     def __repr__(self) -> str:
         exponents = " and ".join(f"{exponent:.3g}" for exponent in self.exponents)
@@ -89,7 +91,7 @@ class Lyapunov(Drawn):
 
 @compiling()
 def lyapunov_exponents(
-    p: Parameters,
+    case: Parameters,
     duration: float,
     *,
     count: int = 2,
@@ -102,7 +104,7 @@ def lyapunov_exponents(
 
     Parameters
     ----------
-    p : the case
+    case : the case
     duration : s, averaging time. It follows an equal time in which the columns converge to their directions: with
         rates that differ by 0.05/s that takes tens of seconds
     count : 1 to 8, and no more than the state has coordinates: 4 per pair of modes, 2 per axisymmetric one, and psi, f,
@@ -130,21 +132,21 @@ def lyapunov_exponents(
     >>> dm.lyapunov_exponents(case, 5, initial_state=dm.floquet(case).state, leave_out_trivial=True)
     Lyapunov(ok, over 5 s: -0.143 and -0.166 1/s)
     """
-    raise_faults(foreign_case(p))
-    wrong = _faults(p, duration, count, interval, initial_state, leave_out_trivial)
+    raise_faults(foreign_case(case))
+    wrong = _faults(case, duration, count, interval, initial_state, leave_out_trivial)
     raise_faults(limits_faults("tol", tol, TOLERANCES) + wrong)
     tol = float(tol)
-    case = engine_case(p)
+    computed = engine_case(case)
     order = series_order(tol)
-    tolerance = series_tolerance(tol, compliant=p.contact_compliance != 0)
-    series = build_series(case.model, order)
-    state = model.build_state(case.model)
+    tolerance = series_tolerance(tol, compliant=case.contact_compliance != 0)
+    series = build_series(computed.model, order)
+    state = model.build_state(computed.model)
     if initial_state is not None:
-        write_state(case, initial_state, state)
+        write_state(computed, initial_state, state)
 
     # components of a column below its tolerance, or below rounding, count as zero
     vanished = max(10 * tolerance, 1e-12)
-    frame = _Frame(case.model, order, vanished)
+    frame = _Frame(computed.model, order, vanished)
     followed = count + int(leave_out_trivial)
     frame.fill(state, followed)
     if leave_out_trivial:
@@ -153,7 +155,7 @@ def lyapunov_exponents(
     # the same number of intervals for convergence, counted below zero, and for the averages
     steps = max(_BLOCKS, math.ceil(float(duration) / float(interval)))
     length = float(duration) / steps
-    longest = longest_step(case.model, order, 10 * tolerance)
+    longest = longest_step(computed.model, order, 10 * tolerance)
     limits = loop.FlightLimits(
         order, tolerance, longest, length, 0, may_separate=True, tangent=True
     )
@@ -163,7 +165,7 @@ def lyapunov_exponents(
     for i in range(-steps, steps):
         if i == 0:
             frame.tangent.log[:] = 0.0
-        code = integrate_in_pieces(case.model, series, state, frame.tangent, limits)
+        code = integrate_in_pieces(computed.model, series, state, frame.tangent, limits)
         if code != transitions.TIME_OVER:
             status = Status(ENDS[code])
             break
@@ -174,8 +176,10 @@ def lyapunov_exponents(
         if i >= 0:
             logs[i, frame.remaining] = growth
             done = i + 1
-    end = read_state(case, state)
-    return _averaged(status, logs[:done], length, count, frame.tangent.log, end, leave_out_trivial)
+    end = read_state(computed, state)
+    log = frame.tangent.log
+    found = _averaged(status, logs[:done], length, count, log, end, leave_out_trivial)
+    return replace(found, parameters=case)
 
 
 def _faults(

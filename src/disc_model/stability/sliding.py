@@ -22,6 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from disc_model.arrays import Array, ComplexArray, Indices
+from disc_model.data.variables import values_text
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
 from disc_model.display import Drawn, Summarised, number_text
@@ -80,6 +81,7 @@ class SteadySliding(Summarised, Drawn):
     growth_rate : 1/s, largest real part of the eigenvalues
     jacobian : Jacobian of the equations of slip; rows a and alpha of all modes, b and beta of the pairs, psi, f, and
         u, u' on a compliant contact
+    parameters : as given to `steady_sliding`
     """
 
     _picture = "plot_eigenvalues"
@@ -94,6 +96,7 @@ class SteadySliding(Summarised, Drawn):
     eigenvalues: ComplexArray = field(default_factory=lambda: np.zeros(0, complex), repr=False)
     growth_rate: float = math.nan
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
+    parameters: Parameters | None = None
 
     def __repr__(self) -> str:
         if not self.eigenvalues.size:
@@ -102,6 +105,8 @@ class SteadySliding(Summarised, Drawn):
         return f"SteadySliding({self.message}, {numbers})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
+        if self.parameters is not None:
+            yield "case", values_text(dict(self.parameters))
         yield "status", self.message
         yield "contact force", number_text(self.contact_force, "N")
         yield "angle psi", number_text(self.psi, "rad")
@@ -124,6 +129,13 @@ class SteadySliding(Summarised, Drawn):
         grows = self.eigenvalues.real > _rounding(self.eigenvalues)
         return self.eigenvalues[grows & (self.eigenvalues.imag >= 0)]
 
+    @property
+    def neutral(self) -> ComplexArray:
+        """Eigenvalues of modes that neither grow nor decay by more than rounding, 1/s, (n,); of a
+        conjugate pair the upper one."""
+        rests = np.abs(self.eigenvalues.real) <= _rounding(self.eigenvalues)
+        return self.eigenvalues[rests & (self.eigenvalues.imag >= 0)]
+
 
 def _rounding(eigenvalues: ComplexArray) -> float:
     """Error of eigenvalues, 1/s: a solver rounds relative to the largest, once for each of n
@@ -131,12 +143,12 @@ def _rounding(eigenvalues: ComplexArray) -> float:
     return float(np.finfo(float).eps * np.abs(eigenvalues).max(initial=0) * eigenvalues.size)
 
 
-def steady_sliding(p: Parameters) -> SteadySliding:
+def steady_sliding(case: Parameters) -> SteadySliding:
     """Find steady sliding, the equilibrium f = Omega, and its eigenvalues.
 
     Parameters
     ----------
-    p : the case
+    case : the case
 
     Returns
     -------
@@ -146,7 +158,7 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     Raises
     ------
     ParameterError
-        If `p` is not a `Parameters`, or has no modes.
+        If `case` is not a `Parameters`, or has no modes.
 
     Examples
     --------
@@ -155,15 +167,15 @@ def steady_sliding(p: Parameters) -> SteadySliding:
     >>> print(sliding.message, f"{sliding.growth_rate:.4f} 1/s")
     steady sliding with P = 384.977 N, not stable 0.0339 1/s
     """
-    raise_faults(foreign_case(p))
-    if p.Omega == 0:
-        return _absent(SlidingStatus.AT_REST)
-    modes = mode_arrays(p)
-    model = engine_case(p).model
-    compliance = contact_compliance(p)
-    a, b, vertical, rate = _equilibrium(p, modes, compliance)
-    if not (math.isfinite(vertical) and vertical > 0) and p.contact != "bilateral":
-        return _absent(SlidingStatus.NO_CONTACT)
+    raise_faults(foreign_case(case))
+    if case.Omega == 0:
+        return _absent(case, SlidingStatus.AT_REST)
+    modes = mode_arrays(case)
+    model = engine_case(case).model
+    compliance = contact_compliance(case)
+    a, b, vertical, rate = _equilibrium(case, modes, compliance)
+    if not (math.isfinite(vertical) and vertical > 0) and case.contact != "bilateral":
+        return _absent(case, SlidingStatus.NO_CONTACT)
     alpha = -modes.diameters * rate * b
     beta = modes.diameters * rate * a
     height: tuple[float, ...] = ()
@@ -171,30 +183,30 @@ def steady_sliding(p: Parameters) -> SteadySliding:
         height = (float(modes.psi @ a) - compliance * vertical, 0.0)
 
     def rows_at(psi: float) -> Array:
-        return join_rows(modes, (a, alpha, b, beta), (psi, p.Omega), height)
+        return join_rows(modes, (a, alpha, b, beta), (psi, case.Omega), height)
 
-    i, _ = _slip(p, rows_at(0.0)[:, None])
+    i, _ = _slip(case, rows_at(0.0)[:, None])
     friction = float(_LAWS.friction_coefficient(model, 1.0, rate))
-    if _LAWS.slip_denominator(model, p.m, friction, i.dw_dtheta[0]) <= 1e-6:
-        return _absent(SlidingStatus.PARADOX)
+    if _LAWS.slip_denominator(model, case.m, friction, i.dw_dtheta[0]) <= 1e-6:
+        return _absent(case, SlidingStatus.PARADOX)
     # V and H of a unit force
     share, braking, _ = (
         float(part[0]) for part in _LAWS.slip_rates(model, i, friction, np.ones(1))
     )
     force = vertical / share
-    if p.k_p > 0:
-        psi = braking * force / (p.r_0 * p.k_p)
+    if case.k_p > 0:
+        psi = braking * force / (case.r_0 * case.k_p)
         rows = rows_at(psi)
     elif braking == 0:  # no friction at this speed, and no slope: both are exactly zero then
         psi = math.nan
         rows = rows_at(0.0)
     else:
-        return _absent(SlidingStatus.NO_SPRING)
-    _, rates = _slip(p, rows[:, None] + 1j * laws.TINY * np.eye(len(rows)))
+        return _absent(case, SlidingStatus.NO_SPRING)
+    _, rates = _slip(case, rows[:, None] + 1j * laws.TINY * np.eye(len(rows)))
     jacobian = rates.imag / laws.TINY
     eigenvalues = np.linalg.eigvals(jacobian).astype(complex)
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
-    symbol = "R" if p.contact_force == "normal" else "P"
+    symbol = "R" if case.contact_force == "normal" else "P"
     message = f"steady sliding with {symbol} = {force:.6g} N, {_verdict(eigenvalues)}"
     return SteadySliding(
         status=SlidingStatus.OK,
@@ -208,6 +220,7 @@ def steady_sliding(p: Parameters) -> SteadySliding:
         eigenvalues=eigenvalues,
         growth_rate=float(eigenvalues[0].real),
         jacobian=jacobian,
+        parameters=case,
     )
 
 
@@ -219,8 +232,8 @@ def _verdict(eigenvalues: ComplexArray) -> str:
     return "stable" if growth < 0 else "not stable"
 
 
-def _absent(status: SlidingStatus) -> SteadySliding:
-    return SteadySliding(status, status.advice)
+def _absent(p: Parameters, status: SlidingStatus) -> SteadySliding:
+    return SteadySliding(status, status.advice, parameters=p)
 
 
 def _equilibrium(

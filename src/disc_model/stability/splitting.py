@@ -89,7 +89,7 @@ class Pair(NamedTuple):
     beta: int
 
 
-def split_growth(p: Parameters, split: float | Iterable[float] | None = None) -> SplitGrowth:
+def split_growth(case: Parameters, split: float | Iterable[float] | None = None) -> SplitGrowth:
     """Find whether the split of pairs of modes matters to steady sliding: growth rates with equal
     frequencies, with the split, and of each half by itself.
 
@@ -98,7 +98,7 @@ def split_growth(p: Parameters, split: float | Iterable[float] | None = None) ->
 
     Parameters
     ----------
-    p : the case
+    case : the case
     split : relative difference of the two frequencies of each pair, 0 to 0.2: one number, or one
         for each mode in the order of `plate_modes`; if left out, those that `disc.report` has of a
         file
@@ -127,19 +127,20 @@ def split_growth(p: Parameters, split: float | Iterable[float] | None = None) ->
     """
     rule = "must be >= 0: the split of pairs needs modes of the disc"
     raise_faults(
-        foreign_case(p) or violations((p.n_diameters >= 0, "n_diameters", p.n_diameters, rule))
+        foreign_case(case)
+        or violations((case.n_diameters >= 0, "n_diameters", case.n_diameters, rule))
     )
-    modes = mode_arrays(p)
-    splits = _splits(p, split, modes)
-    sliding = steady_sliding(p)
+    modes = mode_arrays(case)
+    splits = _splits(case, split, modes)
+    sliding = steady_sliding(case)
     if sliding.status is not SlidingStatus.OK:
         raise ParameterError(Fault((), "", f"there is no steady sliding: {sliding.message}"))
 
     pairs = _pairs(modes, len(sliding.jacobian))
-    table, others = _waves(p, modes, pairs, splits, sliding.jacobian)
+    table, others = _waves(case, modes, pairs, splits, sliding.jacobian)
     growth_rate = sliding.growth_rate
     if any(splits[pair.mode] > 0 for pair in pairs):
-        growth_rate = _floquet_growth(p, modes, pairs, splits, sliding.jacobian)
+        growth_rate = _floquet_growth(case, modes, pairs, splits, sliding.jacobian)
     apart = max([*table["apart"], *others], default=sliding.growth_rate)
     return SplitGrowth(sliding.growth_rate, growth_rate, float(apart), table)
 

@@ -69,10 +69,7 @@ class Call:
 def checked_call(function: Any, case: Any, zipped: Any, named: Mapping[str, Any]) -> Call:
     """Return the call of a sweep; raises `ParameterError` with all that is wrong with it."""
     rule = "must be a function, such as disc_model.floquet"
-    faults = [
-        *foreign_case(case, "case"),
-        *violations((callable(function), "function", function, rule)),
-    ]
+    faults = [*foreign_case(case), *violations((callable(function), "function", function, rule))]
     raise_faults(faults)
 
     # what is named is a number of the case, or an argument of the function

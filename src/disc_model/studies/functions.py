@@ -43,9 +43,10 @@ def _quantity(
     Returns
     -------
     xarray.Dataset
-        Its variables, flags as words; what went wrong is the attribute `message`
+        Its variables, flags as words; attributes are the case (`parameters`), the `options` in JSON, and in `message`
+        what went wrong
     """
-    faults = foreign_case(case, "case")
+    faults = foreign_case(case)
     try:
         begin = Start.model_validate({} if start is None else {"perturbation": start})
         quantity = quantity_of(name).model_validate(options)
@@ -62,7 +63,11 @@ def _quantity(
         row, message = quantity.compute_point(Point(case, begin))
     coordinates = coordinates_of(quantity.COORDINATES, quantity)
     columns = variables_of(quantity.COLUMNS, coordinates, [row], {POINT: 1})
-    attrs = {"parameters": case.canonical_json, "message": message}
+    attrs = {
+        "parameters": case.canonical_json,
+        "options": quantity.model_dump_json(),
+        "message": message,
+    }
     dataset = xr.Dataset(columns, coordinates, attrs).isel({POINT: 0})
     for flag in [flag for flag, variable in dataset.items() if "flag_meanings" in variable.attrs]:
         words = flag_names(dataset[flag])
@@ -178,8 +183,8 @@ def critical_speed(  # noqa: PLR0913
     -------
     xarray.Dataset
         `critical_speed` (rad/s, nan if there is none) and crossings by horizon; outcomes and first separations along
-        the scan
-
+        the scan. Contact was lost at the critical speed, and kept at the next lower one computed, which is lower by
+        `precision`. The attribute `options` states precision, scan and horizons
     Raises
     ------
     ParameterError

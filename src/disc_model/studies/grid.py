@@ -42,6 +42,9 @@ GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "
 REQUIRED = ("N", "Omega")  # parameters without a base value
 STATIC = "static"  # name of the default start
 MOST_POINTS = 1_000_000  # Snakemake takes hours over so many jobs; many more do not fit into memory
+ALL_MOTIONS = (
+    100  # points of a grid up to which a motion of each is stored, some 3 kB of the explorer each
+)
 FEW_PARTS = 3  # of a block; so many are equal
 # intervals along the side of a tile of a plane, whose cells are refined together
 SMALLEST_TILE = 8
@@ -268,11 +271,13 @@ class GridStudy:
 
     @cached_property
     def motions(self) -> dict[str, str]:
-        """JSON text, by its name, of the batch of points whose motions are stored; empty for some
-        quantities."""
+        """JSON text, by its name, of the batch of points whose motions are stored: all of a small
+        grid, few of a large one; empty for some quantities."""
         if not self.options.motions:
             return {}
-        few = [dim.thinned(self.options.motions) for dim in self.dims]
+        few: Sequence[Dimension] = self.dims
+        if math.prod(len(dim.values) for dim in self.dims) > ALL_MOTIONS:
+            few = [dim.thinned(self.options.motions) for dim in self.dims]
         batch = self._batch(Part(product(*(dim.values for dim in few)), 0.0))
         if not batch.points:
             return {}

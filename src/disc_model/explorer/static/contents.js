@@ -8,7 +8,6 @@ const NONE = "";
 
 const SUPERSCRIPTS = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
 const raised = (text) => [...String(text)].map((sign) => SUPERSCRIPTS[sign] ?? sign).join("");
-const unitOf = (unit) => (unit === "1" ? "" : unit.replace(/(?<=[A-Za-z])-?\d+/g, raised));
 
 function number(value, digits = 5) {
   if (typeof value === "string") return value;
@@ -21,9 +20,9 @@ function number(value, digits = 5) {
   return String(Number(value.toPrecision(digits))).replace("-", "−");
 }
 
-const withUnit = (text, unit) => (unitOf(unit) ? `${text} ${unitOf(unit)}` : text);
-const axisLabel = (thing) => (unitOf(thing.unit) ? `${thing.label} (${unitOf(thing.unit)})` : thing.label);
-const heading = (thing) => (unitOf(thing.unit) ? `${thing.name} (${unitOf(thing.unit)})` : thing.name);
+const withUnit = (text, unit) => (unit ? `${text} ${unit}` : text);
+const axisLabel = (thing) => (thing.unit ? `${thing.label} (${thing.unit})` : thing.label);
+const heading = (thing) => (thing.unit ? `${thing.name} (${thing.unit})` : thing.name);
 
 // Stored numbers
 
@@ -59,7 +58,8 @@ function value(study, variable, place) {
 
 function shown(study, variable, place) {
   const found = value(study, variable, place);
-  return variable.flags ? variable.looks[found].label : withUnit(number(found), Number.isNaN(found) ? "1" : variable.unit);
+  if (variable.flags) return variable.looks[found].label;
+  return Number.isNaN(found) ? variable.missing : withUnit(number(found), variable.unit);
 }
 
 function messageAt(study, place) {

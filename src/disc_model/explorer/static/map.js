@@ -16,7 +16,7 @@ const failed = (study, place) =>
 function drawMap() {
   const { study, x, y, variable } = view;
   element("map-title").textContent =
-    [`${study.title}: ${variable.title}`, where(view.place, selectors())].filter(Boolean).join(", ");
+    [`${study.title}: ${variable.label}`, where(view.place, selectors())].filter(Boolean).join(", ");
   const { ink, width, height } = prepared(element("map"));
   const curve = y === NONE;
   const cells = places();
@@ -89,7 +89,7 @@ function colourBar(ink, box, colours) {
     const align = share === 0 ? "left" : share === 1 ? "right" : "center";
     write(ink, number(colours.value(share), 2), box.left + share * size, box.bottom + 5, align, "top");
   }
-  write(ink, heading(view.variable), box.left, box.top - 4, "left", "alphabetic");
+  write(ink, axisLabel(view.variable), box.left, box.top - 4, "left", "alphabetic");
 }
 
 /** The chosen cell in a frame, a ring where the motion that is shown was computed. */
@@ -117,9 +117,9 @@ function legend(seen, dots) {
   const { study, variable } = view;
   const entries = [...seen.flags].sort((a, b) => a - b)
     .map((code) => [swatchOf(variable.looks[code]), variable.looks[code].label]);
-  if (seen.empty) entries.push([style("--empty"), "no number"]);
+  if (seen.empty) entries.push([style("--empty"), variable.missing]);
   if (seen.hatched) entries.push(["hatched", "no result; the point's status says why"]);
-  if (dots) entries.push(["dotted", `${dots[1].title}: ${labelOf(dots[1], dots[2])}`]);
+  if (dots) entries.push(["dotted", `${dots[1].label}: ${labelOf(dots[1], dots[2])}`]);
   element("legend").replaceChildren(...entries.map(legendEntry));
 }
 

@@ -55,19 +55,18 @@ function drawMotion() {
   element("motion-note").textContent = `${far}. ${study.motions.text}`;
   const { ink, width, height } = prepared(canvas);
   const { traces, samples } = study.motions;
-  const names = traces.map((trace) => trace.name);
-  const each = (height - PANEL.top - PANEL.bottom - 14 - PANEL.gap * (names.length - 1)) / names.length;
+  const each = (height - PANEL.top - PANEL.bottom - 14 - PANEL.gap * (traces.length - 1)) / traces.length;
   const histories = traces.map((trace) => history(trace, study.motions.points.indexOf(motion), samples));
   const axes = histories.map((numbers) => rangeOf(numbers));
   const left = Math.max(...axes.map((axis) => widest(ink, axis.ticks))) + 14;
   const last = samples - 1;
   const horizontal = linear(0, last, left, width - PANEL.right);
-  names.forEach((name, n) => {
+  traces.forEach((_, n) => {
     const top = PANEL.top + n * (each + PANEL.gap);
     const box = { left, right: width - PANEL.right, top, bottom: top + each };
     const vertical = linear(axes[n].least, axes[n].greatest, box.bottom, box.top);
-    const unit = unitOf(traces[n].unit);
-    yAxis(ink, box, axes[n].ticks, vertical, `${name} (${axes[n].power ? `10${raised(axes[n].power)} ` : ""}${unit})`);
+    const { label, unit } = traces[n];
+    yAxis(ink, box, axes[n].ticks, vertical, `${label} (${axes[n].power ? `10${raised(axes[n].power)} ` : ""}${unit})`);
     ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
     ink.strokeStyle = style("--accent");
     polyline(ink, [...histories[n]].map((x, i) => [horizontal(i), vertical(x)]), true);
@@ -78,7 +77,7 @@ function drawMotion() {
   const ms = 1e3 * motion.length;
   const ticks = roundTicks(0, ms).map((t) => [(t / ms) * last, number(t, 4)]);
   xAxis(ink, { left, right: width - PANEL.right, bottom }, ticks, horizontal, "time (ms)");
-  motionDrawn = { histories, names, horizontal, last, ms };
+  motionDrawn = { histories, horizontal, last, ms };
 }
 
 const history = (trace, point, samples) =>
@@ -116,11 +115,11 @@ function phaseBand(ink, motions, motion, horizontal, last, top, bottom) {
 
 function hoverMotion(event) {
   if (!motionDrawn) return;
-  const { histories, names, horizontal, last, ms } = motionDrawn;
+  const { histories, horizontal, last, ms } = motionDrawn;
   const x = event.clientX - element("motion").getBoundingClientRect().left;
   const i = Math.round(((x - horizontal(0)) / (horizontal(last) - horizontal(0))) * last);
   const { traces } = view.study.motions;
   element("motion-hovered").textContent =
     i < 0 || i > last ? "" : [`${number((i / last) * ms, 4)} ms`,
-      ...names.map((name, n) => `${name} ${withUnit(number(histories[n][i]), traces[n].unit)}`)].join(", ");
+      ...traces.map((trace, n) => `${trace.label} ${withUnit(number(histories[n][i]), trace.unit)}`)].join(", ");
 }

@@ -18,7 +18,7 @@ function cellAt(canvas, event) {
 function where(place, dims = view.study.dims) {
   return dims
     .map((dim) => (dim.words ? dim.values[place[dim.name]]
-      : `${dim.name} = ${withUnit(number(dim.values[place[dim.name]]), dim.unit)}`))
+      : `${dim.symbol} = ${withUnit(number(dim.values[place[dim.name]]), dim.unit)}`))
     .join(", ");
 }
 
@@ -27,7 +27,7 @@ function hover(place) {
   const axes = [x, y].filter((name) => name !== NONE).map((name) => study.dim[name]);
   const status = place && failed(study, place) && variable !== study.status ? `; ${shown(study, study.status, place)}` : "";
   element("hovered").textContent =
-    place ? `${where(place, axes)}: ${variable.name} ${shown(study, variable, place)}${status}` : "";
+    place ? `${where(place, axes)}. ${variable.label}: ${shown(study, variable, place)}${status}` : "";
 }
 
 const MOVES = { ArrowLeft: ["x", -1], ArrowRight: ["x", 1], ArrowDown: ["y", -1], ArrowUp: ["y", 1] };
@@ -41,10 +41,11 @@ function move(event) {
   choose({ ...view.place, [name]: to });
 }
 
-/** The point as a case of the package: all numbers that it needs, in SI units. */
+/** The point as a case of the package, in SI units: what varies, and what is not as in the paper's Table 1. */
 function call(study, place) {
   const varied = study.dims.flatMap((dim) => Object.entries(dim.parts).map(([name, column]) => [name, column[place[dim.name]]]));
-  const values = [...study.fixed.map((one) => [one.name, one.value]), ...varied];
+  const unusual = study.fixed.filter((one) => !one.usual);
+  const values = [...unusual.map((one) => [one.name, one.value]), ...varied];
   const python = (value) => (value === null ? "None" : JSON.stringify(value));
   const stated = values.filter(([name]) => contents.parameters.includes(name)).map(([name, value]) => `${name}=${python(value)}`);
   return `dm.Parameters(${stated.join(", ")})`;
@@ -99,7 +100,7 @@ function choose(place, pointed = place) {
 function showPoint() {
   const { study, place, variable } = view;
   const own = study.dims.filter((dim) => study.status?.dims.includes(dim.name) || variable.dims.includes(dim.name));
-  element("point").textContent = `${where(place, own)}: ${variable.name} ${shown(study, variable, place)}`;
+  element("point").textContent = `${where(place, own)}. ${variable.label}: ${shown(study, variable, place)}`;
   element("call").textContent = call(study, place);
   const message = messageAt(study, place);
   const status = study.status ? shown(study, study.status, place) : "ok";

@@ -28,6 +28,8 @@ async function chooseStudy(name) {
   );
   for (const dim of [across, ...(up ? [up] : [])]) view.place[dim.name] = Math.floor((dim.values.length - 1) / 2);
   chooseAxes();
+  // at a point whose own motion is stored, if there is one
+  for (const [name, at] of Object.entries(nearestMotion()?.places ?? {})) if (at >= 0) view.place[name] = at;
 }
 
 /** After another choice of axes: a variable along both of them, the one before if it will do. */
@@ -70,15 +72,16 @@ function choice(label, options, chosen, act) {
 function fillControls() {
   const { study } = view;
   const axes = long(study).length ? long(study) : study.dims;
+  const axis = (dim) => [dim.name, dim.label];
   const named = (dim) => [dim.name, dim.name === dim.title ? dim.name : `${dim.name}: ${dim.title}`];
   const boxes = [
     choice("Study", contents.studies.map((one) => [one.name, `${one.name}: ${one.title}`]), study.name, chooseStudy),
-    choice("Across", axes.map(named), view.x, (name) => {
+    choice("Across", axes.map(axis), view.x, (name) => {
       if (name === view.y) view.y = view.x;
       view.x = name;
       chooseAxes();
     }),
-    choice("Up", [...axes.filter((dim) => dim.name !== view.x).map(named), [NONE, "none: a curve"]], view.y, (name) => {
+    choice("Up", [...axes.filter((dim) => dim.name !== view.x).map(axis), [NONE, "none: a curve"]], view.y, (name) => {
       view.y = name;
       chooseAxes();
     }),

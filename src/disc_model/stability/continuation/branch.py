@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
 
+import numpy as np
+
 from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.data.variables import Variable
 from disc_model.display import counted, draw, html_table, number_text
@@ -127,8 +129,9 @@ class Branch:
         return len(self.period)
 
     def __repr__(self) -> str:
+        reached = np.vstack([self.values, *(special.values for special in self.special)])
         spans = []
-        for name, values in zip(self.parameters, self.values.T, strict=True):
+        for name, values in zip(self.parameters, reached.T, strict=True):
             spans.append(f"{name} from {values.min():.6g} to {values.max():.6g}")
         folds = counted(len(self.folds), "fold")
         return f"Branch({len(self)} cycles, {', '.join(spans)}, {folds}; ended: {self.ended})"

@@ -47,7 +47,7 @@ def values_in_si(name: Any, values: Any) -> Any:
 
 @compiling()
 def continue_cycle(  # noqa: PLR0913
-    p: Parameters,
+    case: Parameters,
     name: str,
     bounds: tuple[Quantity, Quantity],
     *,
@@ -69,7 +69,7 @@ def continue_cycle(  # noqa: PLR0913
 
     Parameters
     ----------
-    p : case whose cycle is followed; its value of the parameter must lie within the bounds
+    case : case whose cycle is followed; its value of the parameter must lie within the bounds
     name : the free parameter, one of `Parameters.numbers`
     bounds : values of the parameter between which the cycle is followed; SI units, or texts with units
     direction : 0 for both ways; 1 to begin with increasing values alone, -1 with decreasing ones
@@ -77,7 +77,7 @@ def continue_cycle(  # noqa: PLR0913
     steps : length and number of the steps
     values : of the parameter; the branch has a cycle at exactly each of them, as often as it passes
     stop_at : "fold", "period_doubling" or "neimark_sacker" to end at the first such point, in each direction
-    kind : "stick_slip"; or "slipping" for the cycle of `floquet(p, kind="slipping")`, which slips all the time, from
+    kind : "stick_slip"; or "slipping" for the cycle of `floquet(case, kind="slipping")`, which slips all the time, from
         the Hopf point of steady sliding to where it touches zero slip speed
 
     Returns
@@ -117,16 +117,16 @@ def continue_cycle(  # noqa: PLR0913
         (stops, "stop_at", stop_at, f"must be None or one of {', '.join(STOPS)}"),
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
-    raise_faults(foreign_case(p) or wrong + free_faults(p, [name]))
+    raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))
     tol = float(tol)
-    start = p.numbers[name]
+    start = case.numbers[name]
     slack = 1e-9 * (span[1] - span[0])  # ratios are rounded
     within = span[0] - slack <= start <= span[1] + slack
     rule = f"must lie within the bounds, {span[0]:g} to {span[1]:g}, to start from there"
     require((within, name, start, rule))
 
-    scale = steps.scale or parameter_scale(p, name, max(map(abs, span)))
-    problem, cycle = first_cycle(p, (name,), scale, tol, guess, releases, kind)
+    scale = steps.scale or parameter_scale(case, name, max(map(abs, span)))
+    problem, cycle = first_cycle(case, (name,), scale, tol, guess, releases, kind)
     rising = np.zeros(problem.n + 1)
     rising[-1] = 1.0
     search = Search(problem, steps, span, stop_at)
