@@ -16,7 +16,6 @@ H = (mu + beta) R. The spring in the plane holds H = r_0 F.
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from types import FunctionType, ModuleType, SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,23 +25,11 @@ from disc_model.data.variables import values_text
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
 from disc_model.display import Drawn, Summarised, number_text
-from disc_model.engine import laws
 from disc_model.errors import StatusBase, raise_faults
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import engine_case
+from disc_model.stability.python_laws import LAWS
 
-
-def _in_python(module: ModuleType) -> Any:
-    """The compiled functions of a module as functions of Python, which need no compilation for
-    complex arrays."""
-    names = dict(vars(module))
-    for name, law in vars(module).items():
-        if hasattr(law, "py_func"):
-            names[name] = FunctionType(law.py_func.__code__, names)
-    return SimpleNamespace(**names)
-
-
-_LAWS = _in_python(laws)
 _MOST_ITERATIONS = 30  # of Newton's method: a few suffice, where there is an equilibrium
 _SETTLED = 1e-14  # relative change at which it ends
 
@@ -186,13 +173,11 @@ def steady_sliding(case: Parameters) -> SteadySliding:
         return join_rows(modes, (a, alpha, b, beta), (psi, case.Omega), height)
 
     i, _ = _slip(case, rows_at(0.0)[:, None])
-    friction = float(_LAWS.friction_coefficient(model, 1.0, rate))
-    if _LAWS.slip_denominator(model, case.m, friction, i.dw_dtheta[0]) <= 1e-6:
+    friction = float(LAWS.friction_coefficient(model, 1.0, rate))
+    if LAWS.slip_denominator(model, case.m, friction, i.dw_dtheta[0]) <= 1e-6:
         return _absent(case, SlidingStatus.PARADOX)
     # V and H of a unit force
-    share, braking, _ = (
-        float(part[0]) for part in _LAWS.slip_rates(model, i, friction, np.ones(1))
-    )
+    share, braking, _ = (float(part[0]) for part in LAWS.slip_rates(model, i, friction, np.ones(1)))
     force = vertical / share
     if case.k_p > 0:
         psi = braking * force / (case.r_0 * case.k_p)
@@ -202,8 +187,8 @@ def steady_sliding(case: Parameters) -> SteadySliding:
         rows = rows_at(0.0)
     else:
         return _absent(case, SlidingStatus.NO_SPRING)
-    _, rates = _slip(case, rows[:, None] + 1j * laws.TINY * np.eye(len(rows)))
-    jacobian = rates.imag / laws.TINY
+    _, rates = _slip(case, rows[:, None] + 1j * LAWS.TINY * np.eye(len(rows)))
+    jacobian = rates.imag / LAWS.TINY
     eigenvalues = np.linalg.eigvals(jacobian).astype(complex)
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
     symbol = "R" if case.contact_force == "normal" else "P"
@@ -257,7 +242,7 @@ def _equilibrium(
             """What the spring's load, the law of friction and the slip speed leave over."""
             rate, V, H = x
             a, b = _response(p, modes, rate, V, H)
-            mu = _LAWS.friction_coefficient(model, 1.0, rate)
+            mu = LAWS.friction_coefficient(model, 1.0, rate)
             beta = leans @ b
             surface = rate * (modes.diameters * tangential) @ a
             lifted = V + p.k * (compliance * V - modes.psi @ a) - load
@@ -267,7 +252,7 @@ def _equilibrium(
 
         rate, V, H = _zero(
             residual,
-            np.array([p.Omega, force, _LAWS.friction_coefficient(model, 1.0, p.Omega) * force]),
+            np.array([p.Omega, force, LAWS.friction_coefficient(model, 1.0, p.Omega) * force]),
         )
         a, b = _response(p, modes, rate, V, H)
     return a, b, V, rate
@@ -288,9 +273,9 @@ def _response(p: Parameters, modes: Modes, rate: Any, V: Any, H: Any) -> tuple[A
 def _zero(residual: Callable[[ComplexArray], ComplexArray], x: Array) -> Array:
     """A zero of a function near x (n,), by Newton's method with complex steps; nan if none is
     found."""
-    steps = 1j * laws.TINY * np.eye(len(x))
+    steps = 1j * LAWS.TINY * np.eye(len(x))
     for _ in range(_MOST_ITERATIONS):
-        slopes: Array = np.array([residual(x + step).imag for step in steps]).T / laws.TINY
+        slopes: Array = np.array([residual(x + step).imag for step in steps]).T / LAWS.TINY
         if not np.isfinite(slopes).all():
             break
         left: Array = residual(np.asarray(x, dtype=complex)).real
@@ -324,7 +309,7 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     v = velocity
     if len(height):
         u, v = height
-    i = laws.Instant(
+    i = LAWS.Instant(
         N=p.N,
         k=p.k,
         c=p.c,
@@ -344,11 +329,9 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
         u=u,
         u_velocity=v,
     )
-    friction = _LAWS.friction_coefficient(model, 1.0, g)
-    denominator = _LAWS.slip_denominator(model, p.m, friction, i.dw_dtheta)
-    V, H, rate_g = _LAWS.slip_rates(
-        model, i, friction, _LAWS.slip_numerator(model, i) / denominator
-    )
+    friction = LAWS.friction_coefficient(model, 1.0, g)
+    denominator = LAWS.slip_denominator(model, p.m, friction, i.dw_dtheta)
+    V, H, rate_g = LAWS.slip_rates(model, i, friction, LAWS.slip_numerator(model, i) / denominator)
     free_across = free_across + tangential * H
     rate_f = rate_g + np.sum(tangential * free_across, axis=0) / p.r_0
     disc = (rate_a, free_along - weight * V, rate_b, free_across)
