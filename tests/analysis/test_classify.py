@@ -255,6 +255,18 @@ def test_the_error_of_a_slope_is_that_of_students_distribution() -> None:
     assert stats.t.ppf(0.995, freedom) == pytest.approx(classify.QUANTILE, abs=1e-3)
 
 
+def test_the_least_rate_is_the_error_of_the_slope() -> None:
+    """Of means that deviate from a line, over twice the standard deviation within each window."""
+    time = np.linspace(0.0, 160.0, 8000)
+    alternating = np.where(np.arange(time.size) % 2, 1.0, -1.0)
+    means = 0.1 * np.array([1, -1, -1, 1, 1, -1, -1, 1])
+    found = settling(time, alternating + np.repeat(means, 1000))
+    middles = 10.0 + 20.0 * np.arange(8)
+    error = stats.linregress(middles, means / 2).stderr
+    # the quantile has four digits
+    assert found.least == pytest.approx(stats.t.ppf(0.995, 6) * error, rel=1e-3)
+
+
 @pytest.mark.parametrize("rate", [-10 * classify.SLOWEST, 10 * classify.SLOWEST])
 def test_changes_are_found_in_irregular_motions_and_their_absence_is_not_taken_for_one(
     rate: float,

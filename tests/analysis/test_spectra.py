@@ -34,6 +34,12 @@ def test_lines_are_found_with_frequency_and_amplitude() -> None:
     assert [line.amplitude for line in found] == pytest.approx(list(KNOWN.values()), rel=0.02)
 
 
+def test_a_line_is_weak_beside_the_strongest_of_its_band() -> None:
+    values = signal({100.0: 1.0, 300.0: 5e-4, 700.0: 1e-4})
+    found = spectra.lines(TIME, values, above=200.0, floor=0.3)
+    assert [line.frequency for line in found] == pytest.approx([300.0], abs=0.01)
+
+
 def test_the_main_vibration_has_its_share_of_the_variance() -> None:
     found = spectra.main_vibration(TIME, signal({135.42: 3.0, 270.9: 1.0}))
     assert found.frequency == pytest.approx(135.42, abs=0.005)

@@ -110,20 +110,21 @@ def test_only_the_longest_horizon_is_drawn(speeds: xr.Dataset) -> None:
     assert np.nanmin(onsets) == np.nanmin(speeds["critical_speed"].sel(horizon=1000))
 
 
-def test_loads_that_were_not_swept_are_not_shaded() -> None:
-    """The cycle is stable at all loads, but the sweep down says nothing beyond its own."""
+def test_loads_and_speeds_that_were_not_swept_are_not_shaded() -> None:
+    """The cycle is stable everywhere, but the sweep says nothing beyond its loads and speeds."""
     ax = pyplot.figure().subplots()
     swept = {"N": [200.0, 400.0], "sweep_Omega": [10.0, 20.0]}
     sweep = xr.Dataset({"offset_speed": ("N", [12.0, 14.0])}, swept)
     loads = [100.0, 200, 300, 400, 500]
-    speeds = [11.0, 13, 15]
-    stable = np.full((5, 3), -1.0)
+    speeds = [11.0, 13, 15, 21]
+    stable = np.full((5, 4), -1.0)
     cycle = xr.Dataset({"growth_rate": (("N", "Omega"), stable)}, {"N": loads, "Omega": speeds})
     critical_speed._stable_cycles(ax, sweep, cycle)
     [mesh] = [each for each in ax.collections if isinstance(each, QuadMesh)]
-    shaded = ~np.ma.getmaskarray(mesh.get_array()).reshape(5, 3)
-    # from 12 rad/s at 200 N, 13 at 300 N, and 14 at 400 N
-    assert shaded.astype(int).tolist() == [[0, 0, 0], [0, 1, 1], [0, 1, 1], [0, 0, 1], [0, 0, 0]]
+    shaded = ~np.ma.getmaskarray(mesh.get_array()).reshape(5, 4)
+    # from 12 rad/s at 200 N, 13 at 300 N, and 14 at 400 N; up to 20
+    expected = [[0, 0, 0, 0], [0, 1, 1, 0], [0, 1, 1, 0], [0, 0, 1, 0], [0, 0, 0, 0]]
+    assert shaded.astype(int).tolist() == expected
 
 
 @pytest.mark.parametrize(("kind", "drawn"), [("fold", True), ("neutral", False)])

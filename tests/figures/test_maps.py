@@ -6,9 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib import pyplot
 from matplotlib.collections import LineCollection
+from matplotlib.colors import to_hex, to_rgba
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
+from disc_model.figures.cells import Edges, edges_of, lay_over
+from disc_model.figures.classes import LOOKS, UNRESOLVED
 from disc_model.figures.drawing import save
 from disc_model.studies.quantities.regions import Regions
 from tests.figures.reading import ON_EACH_SCALE, draw, labels
@@ -28,6 +32,26 @@ def _hatched(ax: Any) -> list[Any]:
         if patch.get_hatch()
     ]
     return [corners.mean(axis=1)[:, ::-1] for corners in outlines]
+
+
+def test_edges_of_cells_are_halfway_on_the_scale_of_the_axis() -> None:
+    axes = {"N": [100.0, 200.0, 400.0], "c_p": [0.01, 0.1, 1.0, 10.0]}
+    across, up = edges_of(xr.DataArray(np.zeros((3, 4)), axes, ("N", "c_p")))
+    np.testing.assert_allclose(up, [100.0, 150.0, 300.0, 400.0], rtol=1e-12)
+    np.testing.assert_allclose(across, 10.0 ** np.array([-2, -1.5, -0.5, 0.5, 1]), rtol=1e-12)
+
+
+def test_marks_are_black_on_light_cells_and_white_on_dark_ones() -> None:
+    ax = pyplot.figure().subplots()
+    light = to_rgba(LOOKS["quiet"].face)
+    dark = to_rgba(LOOKS["undecided"].face)
+    nothing = (0.0, 0.0, 0.0, 0.0)  # on the white page
+    edges = Edges(np.arange(4.0), np.arange(2.0))
+    lay_over(ax, edges, np.ones((1, 3), dtype=bool), UNRESOLVED, np.array([[light, dark, nothing]]))
+    inks = [to_hex(patch.get_edgecolor()) for patch in ax.patches]
+    assert inks == ["#000000", "#ffffff"]
+    on_light, on_dark = (centres[:, 1].tolist() for centres in _hatched(ax))
+    assert (on_light, on_dark) == ([0.5, 2.5], [1.5])
 
 
 # ---- outcomes and regions
@@ -99,6 +123,26 @@ def test_a_stable_cycle_ends_towards_lower_values_as_well() -> None:
     turned = study.isel(N=slice(None, None, -1)).assign_coords(N=loads)
     panels = [draw("region_map", each, x="Omega", y="N").axes[0] for each in (study, turned)]
     assert lengths(panels[0]) == lengths(panels[1]) == [2, 2]
+
+
+def test_no_fold_is_where_a_motion_without_a_cycle_stays_quiet() -> None:
+    study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
+    study["outcome"][2, 0] = OUTCOMES_TO_HORIZON.index("quiet")
+    assert lengths(draw("region_map", study, x="Omega", y="N").axes[0]) == [2, 1]
+
+
+@pytest.mark.parametrize(("dims", "along"), [(("N", "Omega"), 2), (("Omega", "N"), 1)])
+def test_a_neutral_border_follows_a_branch_along_its_own_dimension(
+    dims: tuple[str, ...], along: int
+) -> None:
+    """The cycle changes along the speed, which is the first or the second dimension."""
+    names = ["branch_continues_first", "branch_continues_second"]
+    study = made_up("Omega", [5.0, 10, 20], NORMS[:1]).transpose(*dims, ...)
+    crossed = names.pop(along - 1)
+    study[names[0]] = xr.zeros_like(study[names[0]])
+    assert lengths(draw("region_map", study, x="Omega", y="N").axes[0]) == [2, 2]
+    study[crossed] = xr.zeros_like(study[crossed])
+    assert lengths(draw("region_map", study, x="Omega", y="N").axes[0]) == [0, 2]
 
 
 def test_curves_are_shown_in_a_region_map(plane: xr.Dataset) -> None:

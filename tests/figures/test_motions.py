@@ -320,6 +320,13 @@ def test_equal_periods_side_by_side_are_one_step_and_undecided_ones_are_rings() 
     assert [text.get_text() for text in zoom.texts] == ["69 releases", "35"]
 
 
+def test_periods_of_other_separations_are_other_steps() -> None:
+    study = locked_at([19.8, 19.9, 20.0], [34, 34, 34], [371, 372, 372])
+    (ax,) = draw("staircase", study, x="Omega").axes
+    steps = [[*line.get_xdata()] for line in ax.lines if line.get_linestyle() == "-"]
+    assert steps == [[19.8, 19.8], [19.9, 20.0]]
+
+
 def test_zooms_must_ascend() -> None:
     grid = {"quantity": "locking", "base": {"N": 200}, "axes": {"Omega": [19, 20]}}
     figures = {"a": {"kind": "staircase", "x": "Omega", "zooms": [[20, 19]]}}

@@ -12,6 +12,7 @@ from disc_model.figures.kinds import kind_of
 from disc_model.figures.names import Names
 from disc_model.figures.render import render
 from disc_model.figures.selection import common_points
+from disc_model.figures.sliding_modes import LEAST
 from disc_model.figures.sliding_outcome import AGREEMENTS, ROUNDING, agreement
 from tests.studies.conftest import SMALL, computed
 
@@ -71,6 +72,17 @@ def test_a_name_covers_no_line(crossed: bool, side: str) -> None:
     names.add("l = 3", (0.5, 0.5), [(0, 3), (-4, 3)])
     figure.draw_without_rendering()
     assert [text.get_ha() for text in ax.texts if text.get_visible()] == [side]
+
+
+def test_fast_decay_does_not_hide_growth(over_mu: xr.Dataset) -> None:
+    """The axis reaches as far down as growth reaches up, but for room."""
+    rates = over_mu["mode_growth_rate"]
+    largest = max(float(over_mu["largest_growth_rate"].max()), LEAST)
+    for factor in (1e-3, 1e3):
+        study = over_mu.assign(mode_growth_rate=rates.where(rates > 0, factor * rates))
+        figure = render(kind_of("sliding_modes")(), {"study": xr.DataTree(study)})
+        least = 1.1 * float(study["mode_growth_rate"].min())
+        assert figure.axes[1].get_ylim()[0] == pytest.approx(max(least, -largest), rel=1e-9)
 
 
 def test_linear_analysis_beside_the_motion() -> None:

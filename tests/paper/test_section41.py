@@ -18,6 +18,7 @@ from disc_model.paper.section41 import (
     bounded_by_separation,
     bracketed,
     excites_less,
+    falls_then_rises,
     far_below,
     force_grows_to_zero,
     keeps_sticking,
@@ -103,6 +104,35 @@ def test_kicks_that_separate_are_counted() -> None:
 
 def test_without_any_separation_there_is_no_critical_speed() -> None:
     assert maintained_below(critical_speeds(NAN, NAN), None, None, within=0.1).verdict == FALSE
+
+
+FALLS_AND_RISES = [30.0, 20.0, 12.0, NAN]
+FALLS_AGAIN = [30.0, 12.0, 20.0, 14.0]
+FALLS_ONLY = [30.0, 20.0, 14.0, 12.0]
+
+
+@pytest.mark.parametrize(
+    ("soon", "late", "verdict"),
+    [
+        (FALLS_AND_RISES, FALLS_AND_RISES, TRUE),
+        (FALLS_AND_RISES, FALLS_AGAIN, PART),
+        (FALLS_AGAIN, FALLS_AND_RISES, TRUE),
+        (FALLS_ONLY, FALLS_AND_RISES, FALSE),
+        (FALLS_AND_RISES, FALLS_ONLY, FALSE),
+    ],
+)
+def test_lowest_speeds_are_judged_within_the_longest_time_unless_one_refutes_all(
+    soon: list[float], late: list[float], verdict: str
+) -> None:
+    axes = {
+        "normalization": ["as_published"],
+        "N": [50.0, 100.0, 200.0, 385.0],
+        "horizon": [10.0, 1000.0],
+        "scan_Omega": [5.0, 24.0],
+    }
+    both = np.transpose([soon, late])
+    study = grid(axes, status=[["ok"] * 4], critical_speed=[both])
+    assert falls_then_rises(study, depth=0.3).verdict == verdict
 
 
 # ---- Cases

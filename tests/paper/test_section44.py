@@ -281,3 +281,24 @@ def test_friction_is_the_cause_where_sliding_without_it_is_stable(
     found = caused_by_friction(known(separates=separates), growth=0.0)
     assert found.verdict == verdict
     assert found.values["most"] == rate
+
+
+@pytest.mark.parametrize(
+    ("rate", "follows"),
+    [
+        (100.0, False),  # it does not change with the spring
+        (200.0, True),  # as the slider on the spring alone, with the root of its stiffness
+        (168.0, True),  # as the coupled mode, from 135.4 to 227.2 Hz
+        (400.0, False),
+    ],
+)
+def test_separations_follow_a_frequency_of_the_slider_on_its_spring(
+    rate: float, follows: bool
+) -> None:
+    cases = []
+    for stiffness, at in ((5e4, 100.0), (2e5, rate)):
+        p = Parameters(N=400, Omega=15, k=stiffness)
+        intervals = np.full(3, 1 / at)
+        separations = {"separation": intervals}
+        cases.append(known({"k": stiffness}, parameters=p, intervals=separations.get))
+    assert section44._vertical_branch(*cases, within=0.1)["contributes"] == follows

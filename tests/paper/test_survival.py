@@ -51,14 +51,16 @@ def outcome(letters: str) -> xr.Dataset:
     return grid(POINTS, outcome=np.reshape(found, (2, 3)))
 
 
-def curves(kind: str, *speeds: float, border: str = "yes", missed: int = 0) -> xr.Dataset:
+def curves(
+    kind: str, *speeds: float, border: str | Sequence[str] = "yes", missed: int = 0
+) -> xr.Dataset:
     """Return one curve from 380 to 390 N, and room for another.
 
     Parameters
     ----------
     kind : of the curve
     speeds : at its ends, rad/s
-    border : whether a stable cycle adjoins it
+    border : whether a stable cycle adjoins it, or each of its points
     missed : number of curves that could not be followed
     """
     return grid(
@@ -161,6 +163,7 @@ ALL_KNOWN = (-0.1, -0.2, 0.1, -0.1, 0.05, 0.1)
 BELOW_FOLD = curves("fold", 14.9, 15.2)
 OFF_FOLD = curves("fold", 15.0, 15.34)
 NO_FOLD = curves("neutral", 14.9, 15.2, missed=2)
+HALF_FOLD = curves("fold", 14.9, 15.2, border=["yes", "no", "no"])
 FAILED = BELOW_FOLD.assign(grid({}, status="failed"))
 
 STABLE_RAISED = np.array([[0.1, -0.1, -0.1], [-0.1, -0.1, 0.0]])
@@ -181,6 +184,7 @@ GRID_CASES = [
     (FOLD, at_fold(NO_FOLD, 25.0), NOT_COMPUTED),  # the cycle is stable below, and not above
     (FOLD, at_fold(BELOW_FOLD, 15.1), TRUE),  # at 15.05, within 15.0 .. 15.1
     (FOLD, at_fold(OFF_FOLD, 15.1), FALSE),  # at 15.17
+    (FOLD, at_fold(HALF_FOLD, 15.1), FALSE),  # a stable cycle adjoins one end only
     (FOLD, at_fold(NO_FOLD, 15.1), NOT_COMPUTED),  # a curve that was missed may be the fold
     (FOLD, at_fold(NO_FOLD, 15.1, rate=0.1), FALSE),  # the cycle goes on, unstable
     (FOLD, at_fold(BELOW_FOLD), NOT_COMPUTED),  # separation begins nowhere

@@ -13,6 +13,7 @@ from disc_model.stability.sliding import (
     SlidingStatus,
     SteadySliding,
     follow_modes,
+    height_of_slider,
     sliding_modes,
     split_rows,
 )
@@ -158,6 +159,14 @@ def test_all_rates_of_the_model_s_equations_vanish_in_steady_sliding(law, change
         assert abs(step.u[1]) < 1e-14
         limit = 1e-11 * p.N / p.m
         assert abs(step.v[1]) < limit
+
+
+@pytest.mark.parametrize("force", ["vertical", "normal"])
+def test_the_slider_sinks_into_a_compliant_contact(force: str) -> None:
+    p = Parameters(N=300, Omega=40, k=2e5, contact_compliance=1e-7, contact_force=force)
+    sliding = steady_sliding(p)
+    # of the contact's 30 micrometres, rounding leaves 1e-12
+    assert height_of_slider(p, sliding) == pytest.approx(state_of(p, sliding).u, rel=1e-11)
 
 
 BONDED = {"Omega": 1520.0, "contact": "bilateral"}

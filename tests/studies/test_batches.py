@@ -19,7 +19,7 @@ from disc_model.studies import grid as parts_of
 from disc_model.studies import run
 from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import failures, merge_batches
-from disc_model.studies.quantity import Point
+from disc_model.studies.quantity import WORK, Point
 from disc_model.studies.run import run_batch
 from disc_model.studies.study import parse_study
 from tests.studies.conftest import computed, study
@@ -151,6 +151,32 @@ def test_a_plane_is_cut_into_stretches_that_share_their_ends() -> None:
     assert [len(cut.within) for cut in cuts] == [8, 10]
     [whole] = parts_of._cuts(values[:5], 8)
     assert len(whole.within) == 5
+
+
+@pytest.mark.parametrize(
+    ("count", "sizes"), [(4, [4]), (5, [3, 2]), (9, [3, 3, 3]), (13, [4, 4, 4, 1])]
+)
+def test_up_to_three_parts_of_a_block_are_equal(count: int, sizes: list[int]) -> None:
+    block = [(float(i),) for i in range(count)]
+    parts = [*parts_of._parts([block], 4)]
+    assert [len(part) for part in parts] == sizes
+    assert [value for part in parts for (value,) in part] == block
+
+
+@pytest.mark.parametrize(("over", "batches"), [(["N", "Omega"], 8), (["N", "Omega", "c_p"], 9)])
+def test_a_tile_of_several_planes_is_so_much_smaller(
+    over: list[str], batches: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Stretches of twenty intervals, two a side, and of thirteen or fourteen, three a side."""
+    monkeypatch.setattr(GridStudy, "_cost_of", lambda self, points: WORK / 20**2)
+    axes = {
+        "N": {"start": 100, "stop": 140, "step": 1},
+        "Omega": {"start": 10, "stop": 50, "step": 1},
+        "c_p": [0.0, 0.1],
+    }
+    options = {"horizon": 1}
+    grid = parse_grid(study(quantity="regions", options=options, axes=axes, batch={"over": over}))
+    assert len(grid.batches) == batches
 
 
 def test_a_value_belongs_to_the_first_block_that_has_it() -> None:

@@ -25,13 +25,15 @@ def place(p: Parameters) -> Index:
     return int(p.N) - 1, int(p.Omega) - 1
 
 
-def near(*, stable: bool = False, slow: bool = False, x: float = 0.0) -> NearCycle:
+def near(
+    *, stable: bool = False, slow: bool = False, x: float = 0.0, deflection: float = 1.0
+) -> NearCycle:
     """A cycle that the static start follows; `slow` if it grows too slowly to leave it."""
     cycle: Any = SimpleNamespace(
         stable=stable, slow=slow, growth_rate=0.1, period=0.015, releases=1, separations=0,
         parameters=Parameters(N=100, Omega=10),
     )  # fmt: skip
-    map_: Any = SimpleNamespace(deflection=1.0)
+    map_: Any = SimpleNamespace(deflection=deflection)
     at = np.array([x, 0.0])
     return NearCycle(cycle, True, map_, at, np.zeros(2), np.eye(2))
 
@@ -189,6 +191,12 @@ def test_cycles_are_joined_if_they_are_close_or_newton_s_method_leads_from_one_t
     row = row_at(plane.tile(1, 2, 1), (0, 0))
     assert row["branch_continues_second"] == joined
     assert row["branch_continues_first"] == "no"
+
+
+def test_cycles_are_compared_in_units_of_their_own_deflections(plane: MadeUp) -> None:
+    plane.starts = {(0, 0): near(stable=True, x=3.0)}
+    plane.starts[0, 1] = near(stable=True, x=6.0, deflection=2.0)
+    assert row_at(plane.tile(1, 2, 1), (0, 0))["branch_continues_second"] == "yes"
 
 
 # ---- cells, and what a row says
