@@ -155,7 +155,7 @@ def shows_motions(shown: Explorer) -> None:
     for i, j, outcome, N, Omega in [(3, 0, "quiet", 100, 5), (2, 1, "separation", 385, 20)]:
         shown.point(i, j, click=True)
         near = f"Nearest stored motion of the same outcome, {outcome}, at N = {N} N, Ω = {Omega} rad/s, "
-        assert shown.text("motion-note").startswith(f"{near}as_published (ring in the map).")
+        assert shown.text("motion-note").startswith(f"{near}modes as published (ring in the map).")
     shown.page.point(*shown.ask("beginning"))
     assert shown.text("motion-hovered").startswith(
         "0 ms, Contact force P 385 N, Slider u −8.8 mm, Angle ψ 0 rad"

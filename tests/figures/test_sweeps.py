@@ -228,7 +228,12 @@ def test_five_classes_below_narrow_axes_stand_in_columns() -> None:
 
 
 def test_points_without_a_separation_are_no_points_without_a_value() -> None:
-    assert labels(dm.plot_sweep(outcomes(), "first_separation").figure) == ["none within 3 s"]
+    study = outcomes()
+    assert labels(dm.plot_sweep(study, "first_separation").figure) == ["none within 3 s"]
+    # where departures are extrapolated, some separations have no time
+    study.attrs["options"] = '{"horizon": 3, "extrapolate": true}'
+    shown = labels(dm.plot_sweep(study, "first_separation").figure)
+    assert shown == ["none within 3 s, or not timed"]
     pyplot.close("all")
 
 

@@ -12,7 +12,14 @@ from numpy.typing import NDArray
 
 from disc_model.data.variables import SHOWN, attributes
 from disc_model.figures.classes import Look, looks_of
-from disc_model.figures.words import WITHIN_HORIZON, label_in, missing_text, plain_name, unit_text
+from disc_model.figures.words import (
+    WITHIN_HORIZON,
+    WORDS,
+    label_in,
+    missing_text,
+    plain_name,
+    unit_text,
+)
 from disc_model.parameters import Parameters
 
 TRACES = ("P", "u", "psi")
@@ -163,7 +170,9 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
     text."""
     if dim in study.coords:
         values = study[dim].values.tolist()
-        return {**_named(dim, study[dim].attrs), "values": values, "parts": {dim: values}}
+        shown = [WORDS.get(value, value) for value in values]
+        named = _named(dim, study[dim].attrs)
+        return {**named, "values": values, "shown": shown, "parts": {dim: values}}
     columns = {
         str(name): values.values.tolist()
         for name, values in study.coords.items()
@@ -181,6 +190,7 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
         "title": title,
         "unit": "",
         "values": words,
+        "shown": words,
         "parts": columns,
     }
 

@@ -83,8 +83,8 @@ LOAD, _ = axis_of("N")
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
     """Axis label of any variable or coordinate, and the factor from SI to its unit."""
     own = str(variable.name)
-    words = str(variable.attrs.get("long_name", own)).partition(", nan ")[0]
-    words = SHORT.get(own, words)
+    long_name = str(variable.attrs.get("long_name", own))
+    words = SHORT.get(own, long_name.partition(", nan ")[0].partition("; ")[0])
     # a scanned parameter is the long name of its dimension, or its name has a prefix
     for name in (own.removeprefix("scan_").removeprefix("sweep_"), words):
         if name in SHOWN:
@@ -112,9 +112,11 @@ def label_in(study: xr.Dataset, name: str) -> str:
 def missing_text(study: xr.Dataset, name: str) -> str:
     """What figures call points of a variable that were computed and have no value."""
     horizon = horizon_text(study)
-    if name == "first_separation" and horizon:
-        return f"none within {horizon}"
-    return name_of(NO_VALUE)
+    if name != "first_separation" or not horizon:
+        return name_of(NO_VALUE)
+    if json.loads(study.attrs["options"]).get("extrapolate"):  # then some that occur have no time
+        return f"none within {horizon}, or not timed"
+    return f"none within {horizon}"
 
 
 def horizon_text(study: xr.Dataset) -> str:

@@ -47,7 +47,7 @@ function ticksOf(dim, kind, first, last, at) {
     return inside.map((x) => [log10(x), number(x, 4)]);
   }
   const every = Math.ceil(at.length / MOST_TICKS);
-  return at.filter((i) => i % every === 0).map((i) => [i, number(dim.values[i], 3)]);
+  return at.filter((i) => i % every === 0).map((i) => [i, number(dim.shown[i], 3)]);
 }
 
 function roundTicks(first, last, most = MOST_TICKS) {

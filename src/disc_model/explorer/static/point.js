@@ -17,7 +17,7 @@ function cellAt(canvas, event) {
 /** Where a point lies, in words. */
 function where(place, dims = view.study.dims) {
   return dims
-    .map((dim) => (dim.words ? dim.values[place[dim.name]]
+    .map((dim) => (dim.words ? dim.shown[place[dim.name]]
       : `${dim.symbol} = ${withUnit(number(dim.values[place[dim.name]]), dim.unit)}`))
     .join(", ");
 }

@@ -91,7 +91,7 @@ function fillControls() {
     ...selectors().filter((dim) => dim.values.length > 1).map((dim) =>
       choice(
         dim.name,
-        dim.values.map((one, i) => [String(i), withUnit(number(one), dim.unit)]),
+        dim.shown.map((one, i) => [String(i), withUnit(number(one), dim.unit)]),
         String(view.place[dim.name]),
         (i) => (view.place[dim.name] = Number(i)),
       ),
