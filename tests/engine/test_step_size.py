@@ -46,6 +46,11 @@ def wanted(*errors: float) -> float:
     return (TOLERANCE / sum(errors)) ** (1 / ORDER)
 
 
+def expect(found: float, *errors: float) -> None:
+    """Compare a step with that which these relative last terms allow."""
+    assert found == pytest.approx(wanted(*errors), rel=ROOT)
+
+
 def put_pairs(series: Series, k: int, value: float) -> None:
     """Set the velocities of a block of pairs, of order k."""
     start = in_python(displacement_at)(k, 0) + WIDTH
@@ -61,18 +66,22 @@ def test_modal_velocities_are_compared_with_those_of_static_deflection(k: int) -
     model, series = at_rest(P)
     last = SMALL * model.velocity_scale * step_size.TYPICAL_STEP ** (ORDER - k)
     series.g[k] = -last
-    assert length(model, series) == pytest.approx(wanted(SMALL), rel=ROOT)
+    found = length(model, series)
+    expect(found, SMALL)
     series.g[0] = 100 * model.velocity_scale
-    assert length(model, series) == pytest.approx(wanted(SMALL / 100), rel=ROOT)
+    found = length(model, series)
+    expect(found, SMALL / 100)
 
 
 @pytest.mark.parametrize("k", [ORDER, ORDER - 1])
 def test_slip_is_compared_with_the_drive_or_with_itself(k: int) -> None:
     model, series = at_rest(P)
     series.f[k] = SMALL * P.Omega * step_size.TYPICAL_STEP ** (ORDER - k)
-    assert length(model, series) == pytest.approx(wanted(SMALL), rel=ROOT)
+    found = length(model, series)
+    expect(found, SMALL)
     series.f[0] = -50 * P.Omega
-    assert length(model, series) == pytest.approx(wanted(SMALL / 50), rel=ROOT)
+    found = length(model, series)
+    expect(found, SMALL / 50)
 
 
 @pytest.mark.parametrize("k", [ORDER - 1, ORDER - 2])
@@ -80,7 +89,8 @@ def test_the_force_is_compared_with_the_preload_but_in_separation(k: int) -> Non
     model, series = at_rest(P)
     series.P[k] = SMALL * P.N * step_size.TYPICAL_STEP ** (ORDER - k)
     for phase in (SLIP, STICK):
-        assert length(model, series, phase) == pytest.approx(wanted(SMALL), rel=ROOT)
+        found = length(model, series, phase)
+        expect(found, SMALL)
     assert length(model, series, SEPARATION) == step_size.LONGEST_STEP
 
 
@@ -88,7 +98,8 @@ def test_the_force_is_compared_with_the_preload_but_in_separation(k: int) -> Non
 def test_the_slider_counts_where_the_disc_does_not_carry_it(p: Parameters, phase: int) -> None:
     model, series = at_rest(p)
     series.v[ORDER] = SMALL * model.slider_scale
-    assert length(model, series, phase) == pytest.approx(wanted(SMALL), rel=ROOT)
+    found = length(model, series, phase)
+    expect(found, SMALL)
 
 
 def test_the_slider_on_a_rigid_disc_does_not_count() -> None:
@@ -104,7 +115,8 @@ def test_a_step_out_of_compliant_contact_is_measured_by_its_own_motion() -> None
     )
     last = SMALL * model.slider_scale
     series.v[ORDER - 1] = last * step_size.TYPICAL_STEP * model.free_unit
-    assert length(model, series, SEPARATION) == pytest.approx(wanted(SMALL), rel=ROOT)
+    found = length(model, series, SEPARATION)
+    expect(found, SMALL)
 
 
 def test_errors_add_up() -> None:
@@ -112,7 +124,8 @@ def test_errors_add_up() -> None:
     put_pairs(series, ORDER, SMALL * model.velocity_scale)
     series.f[ORDER] = 2 * SMALL * P.Omega
     series.P[ORDER - 1] = 4 * LAST_OF_FORCE * P.N
-    assert length(model, series) == pytest.approx(wanted(SMALL, 2 * SMALL, 4 * SMALL), rel=ROOT)
+    found = length(model, series)
+    expect(found, SMALL, 2 * SMALL, 4 * SMALL)
     series.v[ORDER] = 8 * SMALL * model.slider_scale
     four = wanted(SMALL, 2 * SMALL, 8 * SMALL)
     assert length(model, series, SEPARATION) == pytest.approx(four, rel=ROOT)
@@ -143,20 +156,23 @@ def test_the_longest_step_holds_where_the_terms_allow_more() -> None:
     series.f[ORDER] = 0.5 * just * P.Omega
     assert length(model, series) == step_size.LONGEST_STEP
     series.f[ORDER] = 2.0 * just * P.Omega
-    assert length(model, series) == pytest.approx(wanted(2.0 * just), rel=ROOT)
+    found = length(model, series)
+    expect(found, 2.0 * just)
 
 
 def test_without_drive_a_start_is_compared_with_its_growth() -> None:
     model, series = at_rest(P.replace(Omega=0.0))
     series.f[1] = 3.0
     series.f[ORDER] = 3.0 * SMALL
-    assert length(model, series) == pytest.approx(wanted(SMALL), rel=ROOT)
+    found = length(model, series)
+    expect(found, SMALL)
 
 
 def test_without_anything_to_compare_with_a_term_is_its_own_error() -> None:
     model, series = at_rest(P.replace(Omega=0.0))
     series.f[ORDER] = SMALL
-    assert length(model, series) == pytest.approx(wanted(SMALL), rel=ROOT)
+    found = length(model, series)
+    expect(found, SMALL)
 
 
 @pytest.mark.parametrize("order", [14, 20, 28])
@@ -173,14 +189,16 @@ def test_slow_slip_counts_ten_times_by_its_own_speed_where_friction_falls() -> N
     slow = 1.0 / model.decay
     series.f[0] = 0.5 * slow
     series.f[ORDER] = SMALL * 1.5 * slow
-    assert length(model, series) == pytest.approx(wanted(10.0 * SMALL), rel=ROOT)
-    assert length(model, series, STICK) == pytest.approx(
-        wanted(SMALL * 1.5 * slow / P.Omega), rel=ROOT
-    )
+    found = length(model, series)
+    expect(found, 10.0 * SMALL)
+    relative = SMALL * 1.5 * slow / P.Omega
+    found = length(model, series, STICK)
+    expect(found, relative)
     # not slower than usual
     series.f[0] = P.Omega
     series.f[ORDER] = SMALL * P.Omega
-    assert length(model, series) == pytest.approx(wanted(10.0 * SMALL), rel=ROOT)
+    found = length(model, series)
+    expect(found, 10.0 * SMALL)
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
@@ -204,6 +222,7 @@ def test_release_functions_count_in_stick_under_the_normal_force() -> None:
     model, series = at_rest(P.replace(contact_force="normal"))
     for function in (series.switch, series.switch2):
         function[ORDER - 1] = LAST_OF_FORCE * P.N
-        assert length(model, series, STICK) == pytest.approx(wanted(SMALL), rel=ROOT)
+        found = length(model, series, STICK)
+        expect(found, SMALL)
         assert length(model, series, SLIP) == step_size.LONGEST_STEP
         function[ORDER - 1] = 0.0
