@@ -103,10 +103,8 @@ class Sources:
 
         They are supplied with separation and without it, and taken by damping and by impacts.
         """
-        numbers = self.evidence("F10e", "mJ")
-        supplied = np.reshape(numbers[:6], (3, 2))
-        taken = np.reshape(numbers[9:], (3, 2))
-        return np.hstack([supplied, taken])
+        columns = ("supplied_mJ", "supplied_bilateral_mJ", "damped_mJ", "impacts_mJ")
+        return _table(self.results / "paper" / "tables" / "energies.csv")[[*columns]].to_numpy()
 
     def table(self, name: str, column: str, row: int) -> float:
         """Return a value in a table of the paper's study."""

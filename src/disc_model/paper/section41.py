@@ -96,8 +96,9 @@ def keeps_sticking(*evidence: Any, share: float) -> Answer:
     shares = study["stick_fraction"].transpose(*study["settled"].dims).values
     least = np.min(shares[settled], initial=np.inf)
     most = np.max(shares[settled], initial=0.0)
+    holds = min(least, *(case.stick for case in cases)) > share
     return Answer(
-        min(least, *(case.stick for case in cases)) > share,
+        AMBIGUOUS if holds else FALSE,
         sticks=[f"{100 * case.stick:.0f} % at {case.place}" for case in cases],
         size=settled.size,
         settled=settled.sum(),

@@ -232,7 +232,7 @@ def inplane_damping(without: CaseView, case: CaseView, study: xr.Dataset | None)
     newly: list[float] = []
     size = 0
     if study is not None:
-        loads, damping, separates, _ = plane(study, "N", "c_p")
+        loads, damping, separates, *_ = plane(study, "N", "c_p")
         with_damper = separates[:, damping == case["c_p"]][:, 0]
         newly = loads[~separates[:, 0] & with_damper].tolist()
         size = loads.size
@@ -299,12 +299,12 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
     study : map of preload and in-plane damping
     c_p : the paper's damping, N s/m; others are a reservation
     """
-    loads, damping, separates, _ = plane(study, "N", "c_p")
-    quiet = ~separates[:, 0]
-    with_damper = separates[:, damping == c_p][:, 0]
-    with_any = separates[:, 1:].any(axis=1)
-    newly = loads[quiet & with_damper]
-    never = loads[quiet & ~with_any]
+    over_damping = plane(study, "N", "c_p")
+    loads = over_damping.first
+    separates = over_damping.separates
+    with_damper = separates[:, over_damping.second == c_p][:, 0]
+    newly = loads[over_damping.stable[:, 0] & with_damper]
+    never = loads[~separates.any(axis=1)]
     never = never[never > newly.max(initial=0)]
     verdict = partly(newly.size > 0, never.size > 0)
     return Answer(verdict, newly=[*newly], never=[*never])
@@ -391,7 +391,7 @@ def softer_separates_sooner(*evidence: Any) -> Answer:
     holds = bool(np.all(np.diff(times) > 0))  # false if one does not separate: its time is nan
 
     # speeds at which a stiffer spring separates again, in groups of neighbours
-    speed, _, separates, _ = plane(study, "Omega", "k")
+    speed, _, separates, *_ = plane(study, "Omega", "k")
     begins = np.diff(separates.astype(int)) > 0
     again = np.flatnonzero(begins.any(axis=1))
     gaps = np.flatnonzero(np.diff(again) > 1)
@@ -651,6 +651,9 @@ def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
 # ---- Maps
 
 
+STABLE_IN_CONTACT = [Outcome.QUIET, Outcome.OTHER_CYCLE, Outcome.STEADY_SLIDING, Outcome.AT_REST]
+
+
 class Plane(NamedTuple):
     """A map with the published modes."""
 
@@ -660,22 +663,27 @@ class Plane(NamedTuple):
     """Values of its second parameter, ascending."""
     separates: Mask
     """Whether the static start separates, shape (first, second)."""
+    stable: Mask
+    """Whether it comes to a stable motion in contact, of the same shape."""
     growth: Array
     """Growth rates of the cycle, 1/s, of the same shape."""
 
     def newly_separating(self) -> Mask:
-        """Return for each first value whether it separates, but not at the least second value."""
-        at_least = self.separates[:, :1]
-        return np.any(self.separates & ~at_least, axis=1)
+        """Return for each first value whether it separates, but is stable at the least second
+        value."""
+        at_least = self.stable[:, 0]
+        return np.asarray(at_least & self.separates.any(axis=1))
 
 
 def plane(study: xr.Dataset, first: str, second: str) -> Plane:
     """Return a map over two parameters; raises `Missing` if a point failed."""
     ordered = measures.sound(measures.published(study)).sortby([first, second])
     ordered = ordered.transpose(first, second, ...)
+    outcome = flag_names(ordered["outcome"])
     return Plane(
         first=ordered[first].values,
         second=ordered[second].values,
-        separates=flag_names(ordered["outcome"]) == "separation",
+        separates=outcome == Outcome.SEPARATION,
+        stable=np.isin(outcome, STABLE_IN_CONTACT),
         growth=ordered["growth_rate"].values,
     )

@@ -293,7 +293,8 @@ def explained_by_slider(*pair: CaseView, share: float) -> Answer:
     verdict = FALSE
     if gone_from_disc[0] and gone_from_disc == gone_from_slider:
         verdict = NOT_TESTED
-    return Answer(verdict, disc=disc, slider=slider)
+    before = {"disc": LATER[1:], "slider": of_slider[0][1:]}
+    return Answer(verdict, disc=disc, slider=slider, before=before)
 
 
 def at_natural_frequencies(case: CaseView, *, within: float, share: float, turns: float) -> Answer:
@@ -561,7 +562,7 @@ def soft_enough(study: xr.Dataset, *, slow: float) -> Answer:
     study : map of elastic modulus and speed
     slow : speed of the paper's example, rad/s
     """
-    modulus, Omega, separates, _ = plane(study, "E", "Omega")
+    modulus, Omega, separates, *_ = plane(study, "E", "Omega")
     modulus = modulus / 1e9
     some = separates.any(axis=1)
     quiet = [*modulus[~some]]
