@@ -161,25 +161,16 @@ def test_scalars_come_back_under_their_names() -> None:
     assert not other.disc.any()
 
 
-def put_column(here: state.EngineState, model: Model, column: np.ndarray) -> None:
-    """Set a state in stick at time 0 to a column of its entries."""
-    n_disc = columns.n_rows(model) - state.SLIDER
-    state.clear(here)
-    here.disc[:n_disc] = column[:n_disc]
-    here.x[state.PSI : state.PSI + state.SLIDER] = column[n_disc:]
-    here.x[state.PHASE] = state.STICK
-
-
 @pytest.mark.parametrize("size", SIZES)
 def test_a_column_of_a_state_gives_the_state_back(size: tuple[int, int]) -> None:
     model = model_of(*size)
     here = build_state(model)
     there = build_state(model)
     column = np.random.default_rng(1).normal(size=columns.n_rows(model))
-    put_column(here, model, column)
+    columns.put_column(here, model, column)
     np.testing.assert_array_equal(columns.column_of(here, model), column)
     assert state.phase_of(here) == state.STICK
-    put_column(there, model, columns.column_of(here, model))
+    columns.put_column(there, model, columns.column_of(here, model))
     np.testing.assert_array_equal(there.x, here.x)
 
 
@@ -196,6 +187,19 @@ def test_columns_stand_side_by_side_in_blocks_of_eight() -> None:
         tangent.now[place(tangent, column, row)] = 1.0
         block = columns.block_of_columns(tangent, column // 8)
         assert np.argwhere(block).tolist() == [[row, column % 8]]
+
+
+def test_orders_of_a_block_of_columns_follow_each_other() -> None:
+    """Two more than the order of the series: the next one's changes, and those of the slope."""
+    tangent = columns.build_tangent(model_of(2, 1), 11, 20, inputs=3)
+    blocks = tangent.columns // WIDTH
+    starts = [(block, k) for block in range(blocks) for k in range(22)]
+    series = np.arange(len(tangent.series)).reshape(len(starts), -1)
+    chain = np.arange(len(tangent.force)).reshape(len(starts), -1)
+    order_at = in_python(columns.order_at)
+    chain_at = in_python(columns.chain_at)
+    assert [order_at(tangent, *start) for start in starts] == series[:, 0].tolist()
+    assert [chain_at(tangent, *start) for start in starts] == chain[:, 0].tolist()
 
 
 def test_a_change_of_a_parameter_stands_in_its_column_only() -> None:
@@ -218,7 +222,9 @@ def test_a_change_of_a_parameter_stands_in_its_column_only() -> None:
 def test_rows_of_a_column_name_its_coordinates() -> None:
     model = model_of(2, 1)
     rows = columns.coordinate_rows(model, ("u",))
-    l = columns.diameters_of_rows(model)[rows]
+    of_rows = columns.diameters_of_rows(model)
+    assert len(of_rows) == columns.n_rows(model)
+    l = of_rows[rows]
     # two diameters with no and one circle: four pairs, a and b, displacements and velocities; l = 0
     assert [int((l == each).sum()) for each in (0, 1, 2)] == [5, 8, 8]
     assert rows[-1] == columns.n_rows(model) - 2
