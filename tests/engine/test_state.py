@@ -1,13 +1,24 @@
 """Where the numbers of a state and of columns stand: each has a place of its own, and is found
 there again."""
 
+import math
+
 import numpy as np
 import pytest
 
 from disc_model import Parameters
 from disc_model.engine import columns, state
-from disc_model.engine.model import Model, build_state
-from disc_model.engine.series import build_series
+from disc_model.engine.jit.simd import WIDTH
+from disc_model.engine.model import ROWS, Model, build_state, on_ramp
+from disc_model.engine.series import (
+    ORDER,
+    build_series,
+    displacement_at,
+    displacement_of_lane,
+    load_at_start,
+    load_state,
+    velocity_at,
+)
 from disc_model.simulation.states import engine_case
 
 SIZES = [(0, 0), (2, 1), (5, 0)]  # diameters, circles: no pairs; several single modes; two blocks
@@ -73,6 +84,65 @@ def test_kernels_look_for_entries_of_a_column_where_the_state_has_them(
     assert places == [behind, behind + 1, behind + 2, behind + 3]
 
 
+@pytest.mark.parametrize("size", SIZES)
+def test_coefficients_of_pairs_stand_by_block_row_and_lane(size: tuple[int, int]) -> None:
+    model = model_of(*size)
+    modes = build_series(model, 20).modes
+    lanes = len(model.shift)
+    blocks = lanes // WIDTH
+    places = np.arange(len(modes)).reshape(blocks, -1, WIDTH)
+    for k in (0, 1, 20):
+        of_lanes = [displacement_of_lane(k, j) for j in range(lanes)]
+        assert of_lanes == places[:, 2 * k].ravel().tolist()
+        starts = range(0, lanes, WIDTH)
+        assert [displacement_at(k, b) for b in starts] == places[:, 2 * k, 0].tolist()
+        assert [velocity_at(k, b) for b in starts] == places[:, 2 * k + 1, 0].tolist()
+    assert displacement_at(1, 0) - displacement_at(0, 0) == ORDER
+
+
+def test_a_series_begins_with_its_state_under_drive_and_load() -> None:
+    model = model_of(2, 1)
+    here = build_state(model)
+    series = build_series(model, 20)
+    values = dict(zip(state.SCALAR_NAMES, np.arange(1.0, 8.0).tolist(), strict=True))
+    state.put_scalars(here, values.values())
+    load_state(model, series, here)
+    at_start = {
+        "psi": series.psi[0],
+        "g": series.f[0],
+        "u": series.u[0],
+        "u_velocity": series.v[0],
+        "surface_turn": series.turn[0],
+    }
+    assert at_start == {name: values[name] for name in at_start}
+    assert series.drive[:2].tolist() == [model.Omega, 0.0]
+    assert series.preload[:2].tolist() == [model.N - model.k * model.u_0, 0.0]
+    model = on_ramp(model, 0.0, 0.0, Omega=20.0, Omega_rate=3.0, N=300.0, N_rate=5.0)
+    here.x[state.DRIVE] = 21.0
+    here.x[state.LOAD] = 310.0
+    load_state(model, series, here)
+    assert series.drive[:2].tolist() == [21.0, 3.0 * model.unit]
+    assert series.preload[:2].tolist() == [310.0 - model.k * model.u_0, 5.0 * model.unit]
+    assert load_at_start(model, series) == pytest.approx(310.0, rel=1e-15)
+
+
+def test_tables_of_a_series_integrate_and_differentiate() -> None:
+    model = model_of(1, 0)
+    series = build_series(model, 20)
+    orders = np.arange(1, ROWS + 1)
+    np.testing.assert_allclose(series.up, model.unit / orders, rtol=1e-15)
+    np.testing.assert_allclose(series.down, orders / model.unit, rtol=1e-15)
+
+
+@pytest.mark.parametrize("order", [20, 23, 24])
+def test_the_root_finder_has_room_for_all_coefficients(order: int) -> None:
+    """In whole blocks of lanes, with two numbers behind them, in each of 54 rows."""
+    rows, columns_of_row = build_series(model_of(1, 0), order).roots.shape
+    blocks = math.ceil((order + 1) / WIDTH)
+    assert rows >= 54
+    assert columns_of_row >= blocks * WIDTH + 2
+
+
 def test_scalars_come_back_under_their_names() -> None:
     here = build_state(model_of(1, 0))
     values = dict(zip(state.SCALAR_NAMES, np.arange(1.0, 8.0).tolist(), strict=True))
@@ -91,25 +161,16 @@ def test_scalars_come_back_under_their_names() -> None:
     assert not other.disc.any()
 
 
-def put_column(here: state.EngineState, model: Model, column: np.ndarray) -> None:
-    """Set a state in stick at time 0 to a column of its entries."""
-    n_disc = columns.n_rows(model) - state.SLIDER
-    state.clear(here)
-    here.disc[:n_disc] = column[:n_disc]
-    here.x[state.PSI : state.PSI + state.SLIDER] = column[n_disc:]
-    here.x[state.PHASE] = state.STICK
-
-
 @pytest.mark.parametrize("size", SIZES)
 def test_a_column_of_a_state_gives_the_state_back(size: tuple[int, int]) -> None:
     model = model_of(*size)
     here = build_state(model)
     there = build_state(model)
     column = np.random.default_rng(1).normal(size=columns.n_rows(model))
-    put_column(here, model, column)
+    columns.put_column(here, model, column)
     np.testing.assert_array_equal(columns.column_of(here, model), column)
     assert state.phase_of(here) == state.STICK
-    put_column(there, model, columns.column_of(here, model))
+    columns.put_column(there, model, columns.column_of(here, model))
     np.testing.assert_array_equal(there.x, here.x)
 
 
@@ -126,6 +187,19 @@ def test_columns_stand_side_by_side_in_blocks_of_eight() -> None:
         tangent.now[place(tangent, column, row)] = 1.0
         block = columns.block_of_columns(tangent, column // 8)
         assert np.argwhere(block).tolist() == [[row, column % 8]]
+
+
+def test_orders_of_a_block_of_columns_follow_each_other() -> None:
+    """Two more than the order of the series: the next one's changes, and those of the slope."""
+    tangent = columns.build_tangent(model_of(2, 1), 11, 20, inputs=3)
+    blocks = tangent.columns // WIDTH
+    starts = [(block, k) for block in range(blocks) for k in range(22)]
+    series = np.arange(len(tangent.series)).reshape(len(starts), -1)
+    chain = np.arange(len(tangent.force)).reshape(len(starts), -1)
+    order_at = in_python(columns.order_at)
+    chain_at = in_python(columns.chain_at)
+    assert [order_at(tangent, *start) for start in starts] == series[:, 0].tolist()
+    assert [chain_at(tangent, *start) for start in starts] == chain[:, 0].tolist()
 
 
 def test_a_change_of_a_parameter_stands_in_its_column_only() -> None:
@@ -148,7 +222,9 @@ def test_a_change_of_a_parameter_stands_in_its_column_only() -> None:
 def test_rows_of_a_column_name_its_coordinates() -> None:
     model = model_of(2, 1)
     rows = columns.coordinate_rows(model, ("u",))
-    l = columns.diameters_of_rows(model)[rows]
+    of_rows = columns.diameters_of_rows(model)
+    assert len(of_rows) == columns.n_rows(model)
+    l = of_rows[rows]
     # two diameters with no and one circle: four pairs, a and b, displacements and velocities; l = 0
     assert [int((l == each).sum()) for each in (0, 1, 2)] == [5, 8, 8]
     assert rows[-1] == columns.n_rows(model) - 2

@@ -61,8 +61,8 @@ NO_EQUATION: dict[str, dict[str, str]] = TABLES["no_equation"]
 """Functions that are left out, with the reason."""
 EQUIVALENT: dict[str, str] = TABLES["equivalent"]
 """By the name of a mutant (as `Mutant` prints it): why it makes no difference."""
-PATIENCE = 100
-"""s of the processor; all that is tried takes a fraction of that."""
+PATIENCE = 60
+"""s of the processor, after which a mutant counts as an endless loop; `BUDGET` is less."""
 BUDGET = 40.0
 """s of the processor; as many of a module's tests as take this together are tried, the quickest."""
 
