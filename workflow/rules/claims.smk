@@ -11,7 +11,11 @@ rule check_claims:
     input:
         cases=lambda w: need(sorted(map(case_file, STUDY.specs))),
         scans=list(SCANNED.values()),
-        tables=[f"{RESULTS}/tables/{table}.csv" for table in JUDGING_TABLES if table in MADE],
+        tables=[
+            f"{RESULTS}/tables/{table}.csv"
+            for table in JUDGING_TABLES
+            if table in MADE
+        ],
     output:
         csv=f"{RESULTS}/claims.csv",
         md=f"{RESULTS}/claims.md",
