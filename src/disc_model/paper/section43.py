@@ -201,14 +201,18 @@ def undamped_separates_lower(*cases: CaseView) -> Answer:
     """Judge whether the disc without damping separates at lower speeds than that with damping."""
     undamped = math.inf
     damped = math.inf
+    contacts = []
     for case in cases:
+        if case["D_star"] == 0:
+            contacts.append(f"{case.contact} at {case['Omega']:g} rad/s")
         if not case.separates:
             continue
         if case["D_star"] == 0:
             undamped = min(undamped, case["Omega"])
         else:
             damped = min(damped, case["Omega"])
-    return Answer(undamped < damped, N=cases[0]["N"], lowest=[undamped, damped])
+    lowest = [undamped, damped]
+    return Answer(undamped < damped, N=cases[0]["N"], lowest=lowest, contacts=contacts)
 
 
 def twice_the_damping(*cases: CaseView) -> Answer:
@@ -232,10 +236,10 @@ def inplane_damping(without: CaseView, case: CaseView, study: xr.Dataset | None)
     newly: list[float] = []
     size = 0
     if study is not None:
-        loads, damping, separates, *_ = plane(study, "N", "c_p")
-        with_damper = separates[:, damping == case["c_p"]][:, 0]
-        newly = loads[~separates[:, 0] & with_damper].tolist()
-        size = loads.size
+        over_damping = plane(study, "N", "c_p")
+        with_damper = over_damping.separates[:, over_damping.second == case["c_p"]][:, 0]
+        newly = over_damping.first[over_damping.stable[:, 0] & with_damper].tolist()
+        size = over_damping.first.size
     return Answer(verdict, fates=(without.fate, case.fate), newly=newly, size=size)
 
 
