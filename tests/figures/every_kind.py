@@ -494,7 +494,7 @@ def bifurcation() -> Example:
         {"study": study, "lyapunov": exponent_study},
         (
             Shown(0, "y", "Angle ψ", psi, "rad", "linear"),
-            Shown(1, "y", "Period (events)", [1, 2, 5], "", "log"),
+            Shown(1, "y", "Events in a period", [1, 2, 5], "", "log"),
             Shown(2, "x", SPEED, SPEEDS, "rad/s", "linear"),
             Shown(
                 2, "y", "Lyapunov exponents, without the trivial one", exponents, "1/s", "linear"

@@ -139,7 +139,7 @@ def _draw_periods(ax: Axes, study: xr.Dataset, along: Array) -> None:
     repeats = period > 0
     ax.plot(along[moving][repeats], period[repeats], ".", color=BLACK, markersize=mark(3))
     ax.set_yscale("log")
-    ax.set_ylabel("Period\n(events)")
+    ax.set_ylabel("Events in\na period")
     ax.set_ylim(0.4, None)  # room for crosses below period 1
     plain_decades(ax.yaxis)
     ax.yaxis.set_minor_locator(NullLocator())

@@ -97,7 +97,7 @@ def _legend(figure: Figure, studies: Sequence[xr.Dataset]) -> None:
         handles.append(sample(label="peak of growth, crossing at it", **_dot(alone=False)))
         handles.append(sample(color=GREY, linewidth=wide(0.4), label="speed of a peak"))
     if any(unjoined(rate).any() for rate in rates):
-        handles.append(sample(label="differs from both neighbours", **_dot(alone=True)))
+        handles.append(sample(label="not resolved by the steps", **_dot(alone=True)))
     if any(np.isnan(rate).any() for rate in rates):
         handles.append(Patch(label="no growth rate", **BAND))
     figure_legend(figure, handles, columns=3)
