@@ -184,7 +184,8 @@ def critical_speed(  # noqa: PLR0913
     xarray.Dataset
         `critical_speed` (rad/s, nan if there is none) and crossings by horizon; outcomes and first separations along
         the scan. Contact was lost at the critical speed, and kept at the next lower one computed, which is lower by
-        `precision`. The attribute `options` states precision, scan and horizons
+        `precision`. The attribute `options` states precision, scan and horizons.
+
     Raises
     ------
     ParameterError
