@@ -163,10 +163,10 @@ def _draw_slipping(ax: Axes, slipping: xr.Dataset, name: str, factor: float) -> 
         return
     edge = ax.get_xaxis_transform()
     heights = np.full(places.size, TOP)
-    ax.plot(places, heights, "-", color=BLUE, linewidth=wide(1.4), transform=edge)
+    ax.plot(places, heights, "D", color=BLUE, markersize=mark(2.5), transform=edge)
     drawing.say(
         ax,
-        "beside it, a motion that never sticks",
+        "beside it, at these speeds, a motion that never sticks",
         (float(places[0]), TOP),
         (3, 2),
         xycoords=edge,
