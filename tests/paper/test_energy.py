@@ -74,6 +74,8 @@ def test_a_growing_motion_is_met_where_its_range_has_a_width() -> None:
     # what is supplied is damped or gained, as 2000 samples an instant tell to some per cent
     assert found.supplied == pytest.approx(found.damped + found.gained, rel=0.05)
     assert found.gained > found.damped > 0
+    # the same runs, whether or not the whole history is known
+    assert at_range(GROWS, 30.0, 8e-3, power_history(GROWS, 30.0)) == (found, end)
     with pytest.raises(Absent):
         at_range(GROWS, 5.0, 0.1)
 

@@ -321,8 +321,11 @@ def test_energies_are_of_pairs_and_say_what_they_lack(monkeypatch: pytest.Monkey
     steady = Powers(3e-3, 0.5, 0.0, 0.3, 0.0)
     grown = Powers(3e-3, 0.9, 0.0, 0.3, 0.6)
 
-    def at_range(p: Parameters, until: float, width: float) -> tuple[Powers, float]:
+    def at_range(
+        p: Parameters, until: float, width: float, stages: Sequence[Powers]
+    ) -> tuple[Powers, float]:
         assert (p.contact, until, width) == ("bilateral", 20.0, 3e-3)
+        assert stages == [late] * 4
         return grown, 15.0
 
     def history(p: Parameters, until: float) -> list[Powers]:

@@ -216,7 +216,9 @@ def at_width(history: Sequence[Powers], width: float) -> Powers:
     raise Absent(f"maintained contact comes to {1e3 * history[-1].width:.3g} mm only")
 
 
-def at_range(p: Parameters, until: float, width: float) -> tuple[Powers, float]:
+def at_range(
+    p: Parameters, until: float, width: float, stages: Sequence[Powers] | None = None
+) -> tuple[Powers, float]:
     """Return the powers of a growing motion about where its range has a width.
 
     A stage of `power_history` has the greatest range of seconds, in which the motion may grow much.
@@ -229,6 +231,7 @@ def at_range(p: Parameters, until: float, width: float) -> tuple[Powers, float]:
     p : the case
     until : time to which the motion is followed, s
     width : range of the slider's height, m
+    stages : the `power_history` to that time, if it is known
 
     Returns
     -------
@@ -240,9 +243,11 @@ def at_range(p: Parameters, until: float, width: float) -> tuple[Powers, float]:
     Absent
         If the motion stays smaller, or is near that width in no instant.
     """
-    stages = power_history(p, until, width)
+    if stages is None:
+        stages = power_history(p, until, width)
     at_width(stages, width)  # raises if the motion stays smaller
-    begin = until * max(len(stages) - 2, 0) / STAGES
+    beyond = [stage.width > width for stage in stages[1:]].index(True)
+    begin = until * beyond / STAGES
     theta = angles_round(p)
     state = None
     if begin > 0:

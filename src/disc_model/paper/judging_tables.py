@@ -53,10 +53,11 @@ def energies_of(free: CaseView, bilateral: CaseView) -> list[float]:
     history = energy.power_history(free.parameters, free["time_reached"])
     steady = energy.in_the_end(history)
     until = bilateral["time_reached"]
-    same, _ = energy.at_range(bilateral.parameters, until, steady.width)
+    kept = energy.power_history(bilateral.parameters, until)
+    settled = energy.in_the_end(kept)
+    same, _ = energy.at_range(bilateral.parameters, until, steady.width, kept)
     watts = [steady.supplied, same.supplied, steady.damped, steady.impacts, same.gained]
     in_period = [float(1e3 * period * power) for power in watts]
-    settled = energy.in_the_end(energy.power_history(bilateral.parameters, until))
     return [*in_period, settled.pushes, settled.pulls]
 
 
