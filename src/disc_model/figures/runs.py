@@ -42,7 +42,7 @@ def stated(case: Parameters | xr.DataTree, *varied: str) -> str:
     ramps = []
     if isinstance(case, xr.DataTree):
         ramps = json.loads(case.attrs.get("ramps", "[]"))
-    for name in ("N", "Omega"):
+    for name in {ramp["parameter"] for ramp in ramps}:
         said = said.replace(what_case({name: values[name]}), _course(name, values[name], ramps))
     return said
 
@@ -50,8 +50,6 @@ def stated(case: Parameters | xr.DataTree, *varied: str) -> str:
 def _course(name: str, value: float, ramps: Sequence[Mapping[str, Any]]) -> str:
     """A parameter's value at the start and those at the ends of its ramps, in words."""
     own = [ramp for ramp in ramps if ramp["parameter"] == name]
-    if not own:
-        return what_case({name: value})
     own.sort(key=itemgetter("start"))
     shown = SHOWN[name]
     numbers = [f"{shown.factor * each:g}" for each in (value, *map(itemgetter("to"), own))]

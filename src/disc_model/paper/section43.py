@@ -203,14 +203,13 @@ def undamped_separates_lower(*cases: CaseView) -> Answer:
     damped = math.inf
     contacts = []
     for case in cases:
+        speed = case["Omega"]
+        separating = speed if case.separates else math.inf
         if case["D_star"] == 0:
-            contacts.append(f"{case.contact} at {case['Omega']:g} rad/s")
-        if not case.separates:
-            continue
-        if case["D_star"] == 0:
-            undamped = min(undamped, case["Omega"])
+            contacts.append(f"{case.contact} at {speed:g} rad/s")
+            undamped = min(undamped, separating)
         else:
-            damped = min(damped, case["Omega"])
+            damped = min(damped, separating)
     lowest = [undamped, damped]
     return Answer(undamped < damped, N=cases[0]["N"], lowest=lowest, contacts=contacts)
 
@@ -237,8 +236,7 @@ def inplane_damping(without: CaseView, case: CaseView, study: xr.Dataset | None)
     size = 0
     if study is not None:
         over_damping = plane(study, "N", "c_p")
-        with_damper = over_damping.separates[:, over_damping.second == case["c_p"]][:, 0]
-        newly = over_damping.first[over_damping.stable[:, 0] & with_damper].tolist()
+        newly = over_damping.first[over_damping.newly_separating(case["c_p"])].tolist()
         size = over_damping.first.size
     return Answer(verdict, fates=(without.fate, case.fate), newly=newly, size=size)
 
@@ -305,10 +303,8 @@ def damping_at_large_preloads(study: xr.Dataset, *, c_p: float) -> Answer:
     """
     over_damping = plane(study, "N", "c_p")
     loads = over_damping.first
-    separates = over_damping.separates
-    with_damper = separates[:, over_damping.second == c_p][:, 0]
-    newly = loads[over_damping.stable[:, 0] & with_damper]
-    never = loads[~separates.any(axis=1)]
+    newly = loads[over_damping.newly_separating(c_p)]
+    never = loads[~over_damping.separates.any(axis=1)]
     never = never[never > newly.max(initial=0)]
     verdict = partly(newly.size > 0, never.size > 0)
     return Answer(verdict, newly=[*newly], never=[*never])
@@ -672,11 +668,13 @@ class Plane(NamedTuple):
     growth: Array
     """Growth rates of the cycle, 1/s, of the same shape."""
 
-    def newly_separating(self) -> Mask:
-        """Return for each first value whether it separates, but is stable at the least second
-        value."""
-        at_least = self.stable[:, 0]
-        return np.asarray(at_least & self.separates.any(axis=1))
+    def newly_separating(self, second: float | None = None) -> Mask:
+        """Return for each first value whether it is stable at the least second value, and separates
+        at another one, or at any if none is given."""
+        separates = self.separates
+        if second is not None:
+            separates = separates[:, self.second == second]
+        return np.asarray(self.stable[:, 0] & separates.any(axis=1))
 
 
 def plane(study: xr.Dataset, first: str, second: str) -> Plane:
