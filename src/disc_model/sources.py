@@ -86,16 +86,28 @@ def code_hash(path: Path) -> str:
     it."""
     content = path.read_bytes()
     if path.suffix == ".py":
-        tree = _WithoutDocstrings().visit(ast.parse(content, str(path)))
+        tree = ast.parse(content, str(path))
+        _drop_texts(tree)
         content = ast.dump(tree).encode()
     return hashlib.sha256(content).hexdigest()
 
 
-class _WithoutDocstrings(ast.NodeTransformer):
-    def visit_Expr(self, node: ast.Expr) -> ast.Expr | None:
-        """Drop a statement that is a text."""
-        is_text = isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
-        return None if is_text else node
+def _drop_texts(statement: ast.AST) -> None:
+    """Drop the statements that are texts, such as docstrings, from all blocks of a statement."""
+    for name in ("body", "orelse", "finalbody", "handlers", "cases"):
+        block = getattr(statement, name, None)
+        if not isinstance(block, list):
+            continue
+        block[:] = [each for each in block if not _is_text(each)]
+        for each in block:
+            _drop_texts(each)
+
+
+def _is_text(statement: ast.AST) -> bool:
+    """Whether a statement is nothing but a text."""
+    if not isinstance(statement, ast.Expr) or not isinstance(statement.value, ast.Constant):
+        return False
+    return isinstance(statement.value.value, str)
 
 
 def cache_folder() -> Path:
