@@ -385,6 +385,13 @@ class Sources:
         study = self.grid("brake_two_pads").sel(disc=disc, value=16000)
         return study["largest_growth_rate"]
 
+    def two_pads_frequency(self, disc: str) -> float:
+        """Return the frequency of the mode that grows fastest between two pads at 8 kN each and
+        120 rad/s, kHz."""
+        study = self.grid("brake_two_pads").sel(disc=disc, value=16000, Omega=120)
+        fastest = study["mode_growth_rate"].argmax("mode")
+        return 1e-3 * float(study["frequency"].isel(mode=fastest))
+
     def escaped(self, N: float) -> int:
         """Return how many of the starts 1 nm apart separate."""
         return int(self.grid("escape")["first_separation"].sel(N=N).notnull().sum())

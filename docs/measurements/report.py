@@ -181,6 +181,7 @@ def draw_slips() -> Figure:
     with styled():
         figure = Figure(figsize=(6.9, 2.9), layout="constrained")
         axes = figure.subplots(1, 3)
+        above = {"textcoords": "offset points", "ha": "center", "fontsize": 6, "color": SEPARATED}
         labels = ("Duration of a slip (ms)", "Period (ms)", "Fall of the force over the weight")
         ticks = ((5, 10, 20, 30), (20, 50, 100, 500, 2000), (0.03, 0.05, 0.1, 0.2))
         for place, run in enumerate(stick_slip.runs()):
@@ -202,6 +203,8 @@ def draw_slips() -> Figure:
                 axis.plot([place, place], [low, high], color=BLACK, linewidth=0.8)
                 axis.plot(place, middle, "o", color=BLACK, ms=3.5)
                 axis.plot(place, number, "D", color=SEPARATED, ms=4, mfc="none")
+                if np.isnan(number):
+                    axis.annotate("fitted", (place, high), (0, 3), **above)
         names = [f"{stiffness}, {speed}" for stiffness, speed in stick_slip.runs()]
         for axis, label, marks in zip(axes, labels, ticks, strict=True):
             axis.set(ylabel=label, yscale="log", xticks=range(len(names)))

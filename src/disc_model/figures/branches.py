@@ -160,6 +160,8 @@ def _draw_sweep(ax: Axes, sweep: Sweep) -> None:
         start = (sweep.x[i], sweep.heights[i])
         end = (sweep.x[i + 1], sweep.heights[i + 1])
         ax.annotate("", end, start, arrowprops=arrow)
+        middle = (end[0], float(np.sqrt(max(start[1], NONE) * max(end[1], NONE))))
+        say(ax, "jump", middle, (4, 0), color=GREY, path_effects=halo())
 
 
 def _legend(figure: Figure, study: xr.Dataset) -> None:

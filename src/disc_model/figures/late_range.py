@@ -99,19 +99,17 @@ def _draw_lost_contact(ax: Axes, study: xr.Dataset, name: str, thickness: float)
     base = json.loads(study.attrs["base"])
     slider = {key: base[key] for key in ("k", "m", "c")}
     loads = study["N"].values
-    side = "top"  # the name of the lowest line, so that no other line crosses it
     for load, colour, line in zip(loads, LOAD_COLOURS, LOST, strict=False):
         p = Parameters(N=float(load), Omega=1.0, **slider)
         lost = pinned_range(p, frequency) / thickness
         ax.axhline(lost, color=colour, linestyle=line, linewidth=wide(1.0))
-        _note(ax, lost, f"contact lost, {1e-3 * load:g} kN", color=colour, va=side)
-        side = "bottom"
+        _note(ax, lost, f"contact lost, {1e-3 * load:g} kN", colour)
 
 
-def _note(ax: Axes, height: float, text: str, **look: Any) -> None:
-    """Name a horizontal line at its left end, above it unless asked for otherwise."""
-    look = {"color": GREY, "size": large(6), "va": "bottom", **look}
-    ax.annotate(text, (0.03, height), xycoords=("axes fraction", "data"), **look)
+def _note(ax: Axes, height: float, text: str, colour: str) -> None:
+    """Name a horizontal line below its right end, where motions with separation are far above."""
+    place = {"xycoords": ("axes fraction", "data"), "ha": "right", "va": "top"}
+    ax.annotate(text, (0.98, height), color=colour, size=large(6), **place)
 
 
 def _marks() -> dict[str, dict[str, Any]]:

@@ -7,16 +7,19 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.legend_handler import HandlerTuple
 
 from disc_model.data.variables import axis_of, flag_names
 from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, BLUE, GREY, VERMILION, large, mark, wide
 from disc_model.figures.kinds.motions import PhaseMap, Staircase
+from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import failed
 from disc_model.figures.types import Array, Figure
 
 ROOM = 0.055  # of a panel's width, least distance of two labels
-HEIGHT = 0.1  # of a panel's height, room that a label needs
+HEIGHT = 0.1  # of a panel's height, room that a label needs above a step,
+BESIDE = 0.06  # and beside one
 TOP = 0.9  # height of the marks of motions that never stick, as a share of the panel
 APART = "Separations per release"
 
@@ -114,8 +117,10 @@ def _draw_steps(ax: Axes, steps: Sequence[_Step], ends: Array) -> None:
 
 
 def _name_steps(ax: Axes, steps: Sequence[_Step], low: float, high: float) -> None:
-    """Write the number of releases over the steps, the widest first, as long as there is room."""
+    """Write the number of releases over the steps, the widest first, as long as there is room; then
+    to the right of those that had none above them."""
     taken: list[float] = []
+    unnamed: list[_Step] = []
     room = ROOM * (high - low)
     bottom, top = ax.get_ylim()
     for step in sorted(steps, key=lambda each: each.low - each.high):
@@ -127,6 +132,7 @@ def _name_steps(ax: Axes, steps: Sequence[_Step], low: float, high: float) -> No
         )
         is_close = any(abs(middle - other) < room for other in taken)
         if is_covered or is_close:
+            unnamed.append(step)
             continue
         taken.append(middle)
         place = (middle, step.height)
@@ -136,6 +142,15 @@ def _name_steps(ax: Axes, steps: Sequence[_Step], low: float, high: float) -> No
             side = -1
         text = f"{step.releases} releases" if len(taken) == 1 else f"{step.releases}"
         drawing.say(ax, text, place, (side, 3), fontsize=large(7))
+    apart = BESIDE * (top - bottom)
+    for step in unnamed:
+        others = [other for other in steps if other is not step]
+        near = [
+            each for each in others if step.low - room < each.high and each.low < step.high + room
+        ]
+        is_alone = all(abs(other.height - step.height) > apart for other in near)
+        if is_alone and step.high < high - room:
+            drawing.say(ax, f"{step.releases}", (step.high, step.height), (4, 0), fontsize=large(7))
 
 
 def _draw_undecided(ax: Axes, parts: Sequence[xr.Dataset], name: str, factor: float) -> None:
@@ -210,7 +225,28 @@ def draw_map(plot: PhaseMap, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     axes[1].plot(own[:-1], own[1:], zorder=4, **_ring())
     _mark_window(axes[0], near)
     drawing.letters(axes)
+    _name_marks(figure)
     return figure
+
+
+def _name_marks(figure: Figure) -> None:
+    """Name dots and rings below the panels."""
+    dot = {"linestyle": "", "marker": "."}
+    named: dict[str, Any] = {
+        "slider held once; colours change with the number of separations": (
+            drawing.sample(color=BLACK, **dot),
+            drawing.sample(color=VERMILION, **dot),
+        ),
+        "motion left to itself": drawing.sample(**_ring()),
+    }
+    figure_legend(
+        figure,
+        [*named.values()],
+        loc="outside lower center",
+        columns=2,
+        labels=[*named],
+        handler_map={tuple: HandlerTuple(None)},
+    )
 
 
 def _ring() -> dict[str, Any]:

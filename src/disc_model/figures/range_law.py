@@ -106,6 +106,8 @@ def _draw_ranges(ax: Axes, motions: _Motions) -> None:
     ax.set_xlabel("Range at which contact is lost, 2N/|k − mω²| (mm)")
     ax.set_ylabel("Range with separation (mm)")
     drawing.say(ax, "equal", (0.55 * high, 0.55 * high), (3, -3), fontsize=large(7))
+    words = "a few percent of scatter\ndo not show: see (b)"
+    drawing.say(ax, words, (1, 0), (-3, 3), xycoords="axes fraction", fontsize=large(7))
 
 
 def _draw_excess(ax: Axes, motions: _Motions) -> None:
@@ -126,6 +128,8 @@ def _draw_excess(ax: Axes, motions: _Motions) -> None:
     ax.set_ylim(low - margin, high + margin)
     ax.set_xlabel("Time apart (%)")
     ax.set_ylabel("Excess over that range (%)")
+    if np.any(100 * motions.deviation > high):
+        drawing.say(ax, f"beyond {high:g} %", (0, high), (3, 0), fontsize=large(7))
     drawing.say(ax, "within 5 %", (times[-1], -5), (-3, 2), fontsize=large(7), color="0.35")
     drawing.say(
         ax,

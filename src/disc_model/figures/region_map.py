@@ -184,7 +184,7 @@ def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
         )
         say(
             ax,
-            name,
+            f"{name}, place assumed" if mark.assumed else name,
             point,
             offset,
             path_effects=halo(2.0),

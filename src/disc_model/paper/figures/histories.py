@@ -12,7 +12,7 @@ from disc_model.figures.types import Axes, Figure
 from disc_model.paper.figures.kinds import Histories
 
 SMALL = 0.05  # share of the axis below which a range of the force is drawn once more
-SECOND_LINE = 14.0  # points above a panel
+SECOND_LINE = 14.0  # points above a panel, over the time of the first separation
 INSET = (0.3, 0.74, 0.66, 0.26)
 
 
@@ -30,12 +30,9 @@ def draw(plot: Histories, *cases: xr.DataTree) -> Figure:
         discs = axes[1::2]
     windows = [history(case, plot.history, plot.until) for case in cases]
     for force, disc, case, window in zip(forces, discs, cases, windows, strict=True):
-        p = json.loads(case.attrs["parameters"])
         for ax, name in ((force, "P"), (disc, "w_point")):
             show(ax, case, window, name, named=name == "P")
             ax.label_outer()
-        above = None if width == PAGE else SECOND_LINE  # of the time of the first separation
-        force.set_title(f"{p['N']:g} N, {p['Omega']:g} rad/s", loc="right", pad=above)
     # now the axes are known
     for force, disc, case, window in zip(forces, discs, cases, windows, strict=True):
         _draw_inset(force, window)
@@ -43,6 +40,9 @@ def draw(plot: Histories, *cases: xr.DataTree) -> Figure:
     if plot.printed is not None:
         mark_printed(forces[-1], plot.printed)
     letters(axes)
+    for force, case in zip(forces, cases, strict=True):
+        p = json.loads(case.attrs["parameters"])
+        force.set_title(f"{p['N']:g} N, {p['Omega']:g} rad/s", loc="right", pad=SECOND_LINE)
     figure.align_ylabels()
     return figure
 

@@ -77,10 +77,12 @@ def _draw_spectra(
 
 
 def _mark_highest(ax: Axes, case: xr.DataTree) -> None:
-    """Mark the disc's highest natural frequency."""
+    """Mark and name the disc's highest natural frequency."""
     p = parameters_of(case)
     natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
     ax.axhline(natural, color="white", linewidth=wide(0.9), linestyle=(0, (1, 2)))
+    words = f"highest natural frequency, {natural:.0f} Hz"
+    say(ax, words, (0.02, natural), (1, 2), xycoords=("axes fraction", "data"), color="white")
 
 
 def _draw_run(ax: Axes, plot: Response, case: xr.DataTree, spectrum: TimeFrequency) -> None:
