@@ -108,7 +108,7 @@ def _draw_lost_contact(ax: Axes, study: xr.Dataset, name: str, thickness: float)
 
 def _note(ax: Axes, height: float, text: str, colour: str) -> None:
     """Name a horizontal line below its right end, where motions with separation are far above."""
-    place = {"xycoords": ("axes fraction", "data"), "ha": "right", "va": "top"}
+    place: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "ha": "right", "va": "top"}
     ax.annotate(text, (0.98, height), color=colour, size=large(6), **place)
 
 
