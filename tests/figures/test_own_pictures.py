@@ -144,11 +144,12 @@ def branch() -> Any:
         ("growth_rate", "Growth rate of the cycle", "1/s"),
         ("period", "Period", "s"),
         ("stick_fraction", "Share of the period spent sticking", ""),
+        ("range", "Range of the slider's height over a period", "m"),
     ],
 )
 def test_a_branch_has_the_variable_that_is_asked_for(y: str, words: str, unit: str) -> None:
     figure = figure_of(branch().plot(y))
-    label = figure.axes[0].get_ylabel()
+    label = figure.axes[0].get_ylabel().replace("\n", " ")
     assert label.startswith(words)
     assert_shows(figure, Shown(0, "x", "Speed Ω", branch().values[:, 0], "rad/s"))
     known = label.rpartition(" (")[0] or label

@@ -20,6 +20,9 @@ from disc_model.figures.words import label_of
 if TYPE_CHECKING:
     from disc_model.stability.continuation import Branch, SpecialPoint
 
+IN_THOUSANDTHS = {"period": "ms", "range": "mm"}
+"""Variables that are drawn in thousandths of their SI units, with these."""
+WIDE = 30.0  # largest over least range from which the axis is logarithmic
 SPECIAL_MARKS = {
     "fold": ("s", SEPARATED, "fold"),
     "period_doubling": ("D", BLUE, "period doubling"),
@@ -57,6 +60,8 @@ def plot_branch(
         )  # what lies between is not computed
         if y == "growth_rate" and not second:
             scale_rates(axes)
+        if y == "range" and not second and np.nanmax(values) > WIDE * np.nanmin(values):
+            axes.set_yscale("log")
         looks = ((stable.any(), STABLE, "stable"), (not stable.all(), THIN, "unstable"))
         handles = [
             sample(color=BLACK, linewidth=wide(width), label=text)
@@ -79,8 +84,8 @@ def _axis_upward(branch: Branch, y: str) -> tuple[str, float]:
     require((known, "y", y, f"must be one of {', '.join(branch.variables)}"))
     attributes = branch.variables[y].attributes
     factor = 1.0
-    if y == "period":
-        attributes["units"] = "ms"
+    if y in IN_THOUSANDTHS:
+        attributes["units"] = IN_THOUSANDTHS[y]
         factor = 1e3
     label, _ = label_of(xr.DataArray(name=y, attrs=attributes))
     return label, factor

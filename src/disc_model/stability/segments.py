@@ -11,6 +11,8 @@ from disc_model.simulation.result import Result
 from disc_model.simulation.states import State
 from disc_model.stability import thresholds
 
+RANGE_TOL = 1e-10  # of the simulation of a cycle whose range is measured
+
 
 @dataclass(frozen=True)
 class Segment:
@@ -67,6 +69,15 @@ def final_segment(
     if not result.status.complete:
         return result, None
     return result, segment_of(result)
+
+
+def range_of_cycle(p: Parameters, state: State, period: float) -> float:
+    """Range of the slider's height over a period (s) from a state of a cycle, m; nan if it cannot be
+    simulated."""
+    _, stretch = final_segment(p, state, period, period, RANGE_TOL)
+    if stretch is None:
+        return float("nan")
+    return stretch.range
 
 
 def segment_of(result: Result) -> Segment:

@@ -97,6 +97,17 @@ _OF_ONE_SIZE = {
 }
 
 
+def test_ranges_are_those_of_simulated_periods(branch: Branch) -> None:
+    numbers = [0, len(branch) // 2, -1]
+    for i in numbers:
+        stop = float(branch.period[i])
+        window = {"period": Window(start=0.0, stop=stop, rate=4000.0)}
+        run = simulate(branch.case_at(i), stop, window, initial_state=branch.state(i))
+        height = run.samples["period"]["u"]
+        # both sample at 4 kHz, at times that differ by rounding
+        assert branch.range[i] == pytest.approx(float(np.ptp(height)), rel=1e-6)
+
+
 def test_special_points_have_their_multipliers(branch: Branch) -> None:
     for special in branch.special:
         if special.kind not in ("fold", "neimark_sacker", "period_doubling"):

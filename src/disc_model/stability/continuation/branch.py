@@ -16,6 +16,7 @@ from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from disc_model.stability.return_map import MapFactory, ReturnMap
+from disc_model.stability.segments import range_of_cycle
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -35,6 +36,7 @@ VARIABLES: dict[str, Variable] = {
     "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle"),
     "period": Variable("s", "period of the cycle"),
     "stick_fraction": Variable("1", "share of the period spent sticking"),
+    "range": Variable("m", "range of the slider's height over a period"),
 }
 """What is known of each cycle of a branch, and of each special point."""
 
@@ -83,6 +85,12 @@ class SpecialPoint:
         """The cycle's state on the section, at the end of stick or, without stick, where the spring
         is longest, at time 0."""
         return self.make_map(self.case).state(self.point)
+
+    @cached_property
+    def range(self) -> float:
+        """Range of the slider's height over a period of the cycle, m; simulated when it is asked
+        for."""
+        return range_of_cycle(self.case, self.state, self.period)
 
     def __repr__(self) -> str:
         values = ", ".join(f"{value:.9g}" for value in self.values)
@@ -155,7 +163,7 @@ class Branch:
 
         Columns: `kind` and `label` (AUTO's LP, PD, TR, BP, HB and EP; GR for a grazing), the parameters
         by their names (SI units), `growth_rate` (1/s), `period` (s), `stick_fraction`,
-        `multiplier`, `after` (number of the branch's point before it) and `state`, a `State` of the
+        `range` (m), `multiplier`, `after` (number of the branch's point before it) and `state`, a `State` of the
         cycle to simulate and draw.
 
         Examples
@@ -212,6 +220,15 @@ class Branch:
         reference = self._make_map(self.case)
         return own.state(self.points[i] / reference.scale * own.scale)
 
+    @cached_property
+    def range(self) -> Array:
+        """Ranges of the slider's height over a period, m, shape (n_points,); each cycle is simulated
+        for a period when they are asked for."""
+        ranges = []
+        for i, period in enumerate(self.period.tolist()):
+            ranges.append(range_of_cycle(self.case_at(i), self.state(i), period))
+        return np.array(ranges)
+
     def _number(self, i: int) -> int:
         """A number of a cycle, checked, counted from the first one."""
         try:
@@ -223,8 +240,8 @@ class Branch:
         return number % len(self)
 
     def plot(self, y: str = "growth_rate", *, ax: Axes | None = None) -> Axes:
-        """Draw growth_rate, period or stick_fraction over the parameter, thick where the cycle is
-        stable, and the special points.
+        """Draw growth_rate, period, stick_fraction, or range of the slider's height over the
+        parameter, thick where the cycle is stable, and the special points.
 
         A branch in two parameters is drawn as the second over the first. Returns the axes; raises
         `ParameterError` if `y` is another name, or `ax` no axes.

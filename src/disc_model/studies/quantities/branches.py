@@ -3,7 +3,6 @@ the cycle near the static start, is continued in both directions, unless a known
 there.
 """
 
-import math
 from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -11,7 +10,6 @@ from pydantic import Field
 
 from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
-from disc_model.parameters import Parameters
 from disc_model.studies.quantity import (
     DIRECTION,
     NUMERICAL,
@@ -22,7 +20,6 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     Range,
-    State,
     UnitCosts,
     along,
     listed,
@@ -171,9 +168,11 @@ class _Found:
     def follow(self, cycle: FloquetResult, *, reached: bool) -> None:
         """Continue a cycle in both directions, unless a known branch passes there: the one near the
         static start, or one that a motion reached."""
+        from disc_model.stability.segments import range_of_cycle
+
         assert cycle.state is not None
         value = cycle.parameters.numbers[self.options.parameter]
-        size = _range(cycle.parameters, cycle.state, cycle.period)
+        size = range_of_cycle(cycle.parameters, cycle.state, cycle.period)
         known = any(_passes(row, value, cycle.period, size) for row in self.rows)
         if known or len(self.rows) >= self.options.max_branches:
             return
@@ -205,16 +204,15 @@ def _branch(cycle: FloquetResult, reached: bool, options: Branches) -> list[dict
             float(branch.values[i, 0]),
             float(branch.period[i]),
             float(branch.growth_rate[i]),
-            _range(branch.case_at(i), branch.state(i), float(branch.period[i])),
+            float(branch.range[i]),
             int(branch.separations[i]),
         )
         for i in range(len(branch))
     ]
     for fold in reversed([special for special in branch.special if special.kind == "fold"]):
-        size = _range(fold.case, fold.state, fold.period)
         apart = points[fold.after].separations
         value = float(fold.values[0])
-        here = _BranchPoint(value, fold.period, fold.growth_rate, size, apart)
+        here = _BranchPoint(value, fold.period, fold.growth_rate, fold.range, apart)
         points.insert(fold.after + 1, here)
     return [_row(stretch, cycle.releases) for stretch in _stretches(points)]
 
@@ -257,16 +255,6 @@ def _row(stretch: list[_BranchPoint], releases: int) -> dict[str, Any]:
         "releases": releases,
         "separations": stretch[0].separations,
     }
-
-
-def _range(p: Parameters, state: State, period: float) -> float:
-    """Range of the slider's height over a period, m; nan if it cannot be simulated."""
-    from disc_model.stability.segments import final_segment
-
-    _, stretch = final_segment(p, state, period, period, 1e-10)
-    if stretch is None:
-        return math.nan
-    return stretch.range
 
 
 def _passes(row: dict[str, Any], value: float, period: float, size: float) -> bool:
