@@ -106,6 +106,14 @@ class Sources:
         columns = ("supplied_mJ", "supplied_bilateral_mJ", "damped_mJ", "impacts_mJ")
         return _table(self.results / "paper" / "tables" / "energies.csv")[[*columns]].to_numpy()
 
+    def less_in_compliant_contact(self) -> np.ndarray:
+        """Return how much less energy a compliant contact supplies than a rigid one, %, shape (cases,
+        3): on average, and in the stretches with most and with least."""
+        columns = ("compliant_mJ", "compliant_most_mJ", "compliant_least_mJ")
+        energies = _table(self.results / "paper" / "tables" / "energies.csv")
+        ratios = energies[[*columns]].div(energies["supplied_mJ"], axis="index")
+        return 100 * (1 - ratios.to_numpy())
+
     def table(self, name: str, column: str, row: int) -> float:
         """Return a value in a table of the paper's study."""
         table = _table(self.results / "paper" / "tables" / f"{name}.csv")

@@ -17,7 +17,7 @@ import yaml
 
 from disc_model.data.columns import series_dataset
 from disc_model.data.variables import EVENT_KINDS, PHASES
-from disc_model.paper.judging_tables import ENERGIES, GROWTHS, POWERS
+from disc_model.paper.judging_tables import COMPLIANT, ENERGIES, GROWTHS, POWERS
 from disc_model.paper.measures import CaseView
 from disc_model.parameters import Parameters
 from disc_model.simulation.named_case import run_case
@@ -236,6 +236,7 @@ def tables(supplied: float = 3.88, pulls: float = -3.0) -> dict[str, pd.DataFram
     in_period = [supplied, 3.94, 1.57, 2.31, 2.37]
     energies = pd.DataFrame({"case": ["F02", "F07", "F09"]})
     energies[ENERGIES + POWERS] = [*in_period, 4.0, pulls]
+    energies[COMPLIANT] = 0.75 * in_period[0]
     changes = [("F11", "a", 52.2), ("F11", "b", np.nan), ("F13", "a", np.nan), ("F13", "b", 60.1)]
     return {
         "energies": energies.assign(remark=np.nan),

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model.disc.plate import modal_damping, mode_arrays, modes_at_point
+from disc_model.paper import energy
 from disc_model.paper.energy import (
     Powers,
     angles_round,
@@ -14,9 +15,11 @@ from disc_model.paper.energy import (
     damping_by_diameters,
     in_the_end,
     power_history,
+    powers,
 )
 from disc_model.paper.measures import Absent
 from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
 
 pytestmark = pytest.mark.compiled
 
@@ -52,6 +55,25 @@ def test_in_the_end_impacts_take_what_damping_does_not() -> None:
     end = in_the_end(power_history(p, 60.0))
     assert end.gained == pytest.approx(0, abs=0.01 * end.supplied)
     assert end.impacts > 5 * end.damped > 0
+
+
+def test_in_a_compliant_contact_damping_takes_what_the_force_supplies(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(energy, "STRETCHES", 2)
+    monkeypatch.setattr(energy, "STRETCH", 5.0)
+    p = Parameters(N=800, Omega=40, n_diameters=2)
+    state = simulate(p, 30.0).final_state
+    taken = energy.taken_in_compliant_contact(p, state)
+    assert taken.shape == (2,)
+
+    soft = p.replace(contact_compliance="residual")
+    start = simulate(soft, 30.0 + energy.TRANSIENT, initial_state=state).final_state
+    windows = energy.windows_round(soft, start.time, start.time + 10.0, 8000.0)
+    run = simulate(soft, start.time + 10.0, windows, initial_state=start)
+    supplied = powers(soft, run.u_0, angles_round(soft), list(run.samples.values())).supplied
+    # samples at 400 Hz leave some per cent of the mean of ten seconds
+    assert taken.mean() == pytest.approx(supplied, rel=0.05)
 
 
 def test_damping_follows_the_square_of_the_width_to_which_a_motion_has_grown() -> None:

@@ -248,11 +248,14 @@ def test_excitation_is_withheld_over_periods_and_while_the_force_is_negative(
     table = pd.DataFrame({"case": ["free"]})
     table[judging_tables.ENERGIES] = [supplied, 0.8, 0.3, 0.0, 0.3]
     table[judging_tables.POWERS] = [4.0, pulls]
+    table[judging_tables.COMPLIANT] = [0.75 * supplied, 0.6 * supplied, 0.8 * supplied]
     pair = [known(name="free"), known(name="kept")]
     monkeypatch.setattr(section41, "pairs", lambda _: [pair])
     found = excites_less(*pair, energies=table, share=0.5)
     assert found.verdict == verdict
     assert found.values["by_sign"] == [("here", 4.0, pulls)]
+    shares = [*found.values["less"], found.values["least_less"], found.values["most_less"]]
+    assert shares == pytest.approx([0.25, 0.2, 0.4])
 
 
 @pytest.mark.parametrize(

@@ -317,6 +317,9 @@ def test_energies_are_of_pairs_and_say_what_they_lack(monkeypatch: pytest.Monkey
         parameters=bilateral.replace(contact="unilateral"),
         intervals=lambda kind: np.array([7e-3, 9e-3]),
     )
+    at_end = SimpleNamespace(final_state="at the end")
+    run = SimpleNamespace(raise_for_status=lambda: at_end)
+    monkeypatch.setattr(judging_tables, "simulate", lambda p, until, events: run)
     kept = known({"time_reached": 20.0}, name="kept", bilateral=True, parameters=bilateral)
     steady = Powers(3e-3, 0.5, 0.0, 0.3, 0.0)
     grown = Powers(3e-3, 0.9, 0.0, 0.3, 0.6)
@@ -333,11 +336,18 @@ def test_energies_are_of_pairs_and_say_what_they_lack(monkeypatch: pytest.Monkey
 
     late = Powers(9e-3, 4.0, -3.0, 1.0, 0.0)
     monkeypatch.setattr(energy, "power_history", history)
+
+    def soft(p: Parameters, state: str) -> np.ndarray:
+        assert (p.contact, state) == ("unilateral", "at the end")
+        return np.array([0.2, 0.3, 0.4])
+
     monkeypatch.setattr(energy, "at_range", at_range)
+    monkeypatch.setattr(energy, "taken_in_compliant_contact", soft)
     row = judging_tables.energies({"free": free, "kept": kept}).iloc[0]
     # mJ in a period of 8 ms
     expected = [4.0, 7.2, 2.4, 1.6, 4.8]
     assert row[judging_tables.ENERGIES].to_list() == pytest.approx(expected, rel=1e-12)
+    assert row[judging_tables.COMPLIANT].to_list() == pytest.approx([2.4, 1.6, 3.2], rel=1e-12)
     assert row[judging_tables.POWERS].to_list() == [4.0, -3.0]
     assert pd.isna(row["remark"])
 

@@ -14,7 +14,7 @@ import xarray as xr
 
 from disc_model.data.texts import fill
 from disc_model.paper import TABLE_CASES, measures, section41, section43
-from disc_model.paper.judging_tables import ENERGIES, POWERS
+from disc_model.paper.judging_tables import COMPLIANT, ENERGIES, POWERS
 from disc_model.paper.ledger import ROWS
 from disc_model.paper.measures import Range
 from disc_model.paper.paper_tables import impact_law
@@ -119,6 +119,7 @@ def test_energies_of_a_period_are_in_millijoules(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(section41, "pairs", lambda cases: [(free, bonded)])
     table = pd.DataFrame({"case": ["unilateral"]})
     table[ENERGIES + POWERS] = [3.7, 5.92, 2.22, 1.48, 3.7, 1.0, -2.0]
+    table[COMPLIANT] = [2.96, 2.22, 3.33]
     text = said(row_of("excites_less"), free, bonded, energies=table)
     assert [float(found) for found in re.findall(rf"{NUMBER} mJ", text)] == [3.7, 5.92]
     assert "supplies 1.00 W and takes 2.00 W" in text

@@ -12,6 +12,7 @@ from disc_model.paper.measures import Absent, Array
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
+from disc_model.simulation.states import State
 
 STAGES = 60
 """Stages of a run at the ends of which powers are averaged."""
@@ -25,6 +26,12 @@ INSTANT_RATE = 8000.0
 """Samples per second in such an instant."""
 NEAR = 0.05
 """Share within which the range in such an instant is near a width."""
+TRANSIENT = 60.0
+"""Time for which a motion goes on in a compliant contact before its powers are averaged, s."""
+STRETCHES = 5
+"""Stretches of that motion over which they are averaged,"""
+STRETCH = 20.0
+"""and the length of each, s."""
 
 
 class Powers(NamedTuple):
@@ -201,6 +208,30 @@ def in_the_end(history: Sequence[Powers]) -> Powers:
     """Return means over the last quarter of the stages, for the steady state."""
     late = history[-len(history) // 4 :]
     return Powers(*np.mean(late, axis=0).tolist())
+
+
+def taken_in_compliant_contact(p: Parameters, state: State) -> Array:
+    """Return mean powers in W that damping takes in each of `STRETCHES` stretches of a motion in a
+    compliant contact. As that has no impacts, these are what the contact force supplies in the
+    steady state.
+
+    Parameters
+    ----------
+    p : a case with rigid contact; its contact becomes as flexible as the modes that are left out
+    state : from which the motion goes on
+    """
+    compliant = p.replace(contact_compliance="residual")
+    theta = angles_round(compliant)
+    end = state.time + TRANSIENT
+    run = simulate(compliant, end, initial_state=state, events=False).raise_for_status()
+    taken = []
+    for _ in range(STRETCHES):
+        begin = run.final_state.time
+        windows = windows_round(compliant, begin, begin + STRETCH)
+        run = simulate(compliant, begin + STRETCH, windows, initial_state=run.final_state)
+        run.raise_for_status()
+        taken.append(powers(compliant, run.u_0, theta, list(run.samples.values())).damped)
+    return np.array(taken)
 
 
 def at_width(history: Sequence[Powers], width: float) -> Powers:

@@ -21,31 +21,36 @@ from disc_model.simulation.api import simulate
 
 ENERGIES = ["supplied_mJ", "supplied_bilateral_mJ", "damped_mJ", "impacts_mJ", "surplus_mJ"]
 """Columns of energies in one period of the vibration."""
+COMPLIANT = ["compliant_mJ", "compliant_least_mJ", "compliant_most_mJ"]
+"""Columns of the energy supplied in one period in a compliant contact: mean over all stretches, and
+over those in which it is least and most."""
 POWERS = ["pushes_W", "pulls_W"]
 """Columns of mean powers at the end of the run without separation, while the force is positive and
 while it is negative."""
+
+COLUMNS = [*ENERGIES, *COMPLIANT, *POWERS]
 
 
 def energies(cases: Mapping[str, CaseView]) -> pd.DataFrame:
     """Return energies of motions with separation, and of the same without it at equal range, mJ.
 
-    The columns are ``case``, the `ENERGIES`, the `POWERS` and ``remark``, which says why there are
-    none.
+    The columns are ``case``, the `ENERGIES`, the `COMPLIANT`, the `POWERS` and ``remark``, which
+    says why there are none.
     """
     rows = []
     for free, bilateral in pairs(list(cases.values())):
         row: dict[str, Any] = {"case": free.name}
         try:
             found = energies_of(free, bilateral)
-            row |= dict(zip(ENERGIES + POWERS, found, strict=True))
+            row |= dict(zip(COLUMNS, found, strict=True))
         except (Absent, Missing) as reason:
             row["remark"] = str(reason)
         rows.append(row)
-    return pd.DataFrame(rows, columns=["case", *ENERGIES, *POWERS, "remark"])
+    return pd.DataFrame(rows, columns=["case", *COLUMNS, "remark"])
 
 
 def energies_of(free: CaseView, bilateral: CaseView) -> list[float]:
-    """Return the `ENERGIES` and `POWERS` of a case with separation and of one without it.
+    """Return the `COLUMNS` of a case with separation and of one without it.
 
     Raises `Absent` if the latter stays smaller, or `Missing` if the former keeps no separations.
     """
@@ -56,7 +61,10 @@ def energies_of(free: CaseView, bilateral: CaseView) -> list[float]:
     kept = energy.power_history(bilateral.parameters, until)
     settled = energy.in_the_end(kept)
     same, _ = energy.at_range(bilateral.parameters, until, steady.width, kept)
+    end = simulate(free.parameters, free["time_reached"], events=False).raise_for_status()
+    soft = energy.taken_in_compliant_contact(free.parameters, end.final_state)
     watts = [steady.supplied, same.supplied, steady.damped, steady.impacts, same.gained]
+    watts += [soft.mean(), soft.min(), soft.max()]
     in_period = [float(1e3 * period * power) for power in watts]
     return [*in_period, settled.pushes, settled.pulls]
 

@@ -200,6 +200,7 @@ def excites_less(*cases: CaseView, energies: pd.DataFrame, share: float) -> Answ
     rows = []
     withheld = []
     by_sign = []
+    less = []
     for free, bilateral in pairs(cases):
         found = table.loc[free.name]
         in_period = np.asarray(found[judging_tables.ENERGIES], dtype=float)
@@ -210,6 +211,8 @@ def excites_less(*cases: CaseView, energies: pd.DataFrame, share: float) -> Answ
         withheld.append(measures.ratio(maintained - supplied, gained, surplus))
         rows.append((free.place, supplied, maintained, damped, taken, gained))
         by_sign.append((free.place, *found[judging_tables.POWERS]))
+        compliant = np.asarray(found[judging_tables.COMPLIANT], dtype=float)
+        less.append(1 - compliant / supplied)
 
     over_periods = min(withheld) >= share
     while_negative = all(pulls > 0 for *_, pulls in by_sign)
@@ -221,6 +224,11 @@ def excites_less(*cases: CaseView, energies: pd.DataFrame, share: float) -> Answ
         instant=energy.INSTANT,
         near=energy.NEAR,
         by_sign=by_sign,
+        less=[share for share, *_ in less],
+        least_less=min(share for *_, share in less),
+        most_less=max(share for _, share, _ in less),
+        stretch=energy.STRETCH,
+        stretches=energy.STRETCHES,
     )
 
 

@@ -9,7 +9,7 @@ import xarray as xr
 
 from disc_model.analysis import spectra
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
 from disc_model.paper import growth as growth_rates
 from disc_model.paper import measures, paper_tables
@@ -695,6 +695,7 @@ def errs(*evidence: Any, within: float, share: float) -> Answer:
         of=int(separates.sum()),
         unsettled=int(np.isin(kept_on, ("growing", "undecided")).sum()),
         kept=int((~separates).sum()),
+        after=stated_in(study, "options")["after_separation"],
     )
 
 
