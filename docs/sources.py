@@ -1,5 +1,6 @@
 """What the numbers of pages are made of: results below a folder, pages from results, the package."""
 
+import json
 import re
 from functools import cache
 from pathlib import Path
@@ -376,6 +377,17 @@ class Sources:
         """Return these ranges in bilateral contact over those with separation."""
         return self.brake_ranges("bilateral") / self.brake_ranges()
 
+    def brake_multiples(self) -> xr.DataArray:
+        """Return the ranges with separation over those at which vibration at the frequency of the
+        mode with the largest tangential motion loses contact."""
+        study = self.grid("brake_outcome").sel(disc="surface", contact="unilateral")
+        disc = json.loads(study.attrs["discs"])["surface"]
+        omega = disc["omega"][int(np.argmax(np.abs(disc["tangential"])))]
+        base = json.loads(study.attrs["base"])
+        lost = 2 * study["N"] / abs(base["k"] - base["m"] * omega**2)
+        multiples = (study["u_max"] - study["u_min"]) / lost
+        return multiples.where(study["first_separation"].notnull())
+
     def brake_separation(self, N: float, Omega: float) -> float:
         """Return the time of the first separation, s."""
         study = self.grid("brake_outcome").sel(disc="surface", contact="unilateral")
@@ -394,11 +406,16 @@ class Sources:
         return study["largest_growth_rate"]
 
     def two_pads_frequency(self, disc: str) -> float:
-        """Return the frequency of the mode that grows fastest between two pads at 8 kN each and
-        120 rad/s, kHz."""
+        """Return the frequency of the mode that grows fastest between these pads at 120 rad/s,
+        kHz."""
         study = self.grid("brake_two_pads").sel(disc=disc, value=16000, Omega=120)
         fastest = study["mode_growth_rate"].argmax("mode")
         return 1e-3 * float(study["frequency"].isel(mode=fastest))
+
+    def two_pads_missing(self, Omega: float) -> float:
+        """Return by how much the growth rate with 48 modes differs from that with 138, percent."""
+        rates = [self.two_pads(disc).sel(Omega=Omega) for disc in ("48 modes", "138 modes")]
+        return 100 * abs(float(rates[0] / rates[1]) - 1)
 
     def escaped(self, N: float) -> int:
         """Return how many of the starts 1 nm apart separate."""

@@ -239,6 +239,7 @@ BRAKES = Path(__file__).parents[2] / "config" / "discs"
     [
         ("brake_two_pads", "brake"),
         ("brake_two_pads_48_modes", "brake_48_modes"),
+        ("brake_two_pads_138_modes", "brake_138_modes"),
         ("brake_two_pads_heavily_damped", "brake_48_modes"),
     ],
 )

@@ -409,16 +409,17 @@ def range_law() -> Example:
         data[name] = (dims, column_values, column("range_law", name))
     data["status"] = ("N", np.zeros(3, np.int8), OK)
     study = xr.Dataset(data, over(N=LOADS) | {"begin": ["static", "displaced"]}, stated())
-    law = "Range at which contact is lost, 2N/|k − mω²|"
+    law = "Range at which contact is lost, R = 2N/|k − mω²|"
+    over_law = "Excess of the range over R"
     return Example(
         {},
         {"study": study},
         (
             Shown(0, "x", law, pinned, "m", "log"),
-            Shown(0, "y", "Range with separation", values["range"], "m", "log"),
+            Shown(0, "y", over_law, excess, "", "linear"),
             Shown(1, "x", "Time apart", apart, "", "linear"),
             # what lies beyond the panel stands at its edge
-            Shown(1, "y", "Excess over that range", np.maximum(excess, -0.2), "", "linear"),
+            Shown(1, "y", over_law, np.maximum(excess, -0.25), "", "linear"),
         ),
     )
 

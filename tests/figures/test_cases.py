@@ -13,10 +13,11 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from disc_model import Parameters, Poincare, Window, simulate
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import PHASES, flag_names
 from disc_model.figures.drawing import PHASE_COLOURS, save
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.render import render
+from disc_model.figures.stages import SECTIONS, stages_of
 from tests.damages import damaged
 from tests.figures.reading import assert_fit_for_print
 
@@ -121,6 +122,46 @@ def test_sections_of_several_cases_share_their_axes() -> None:
     factor = np.ptp(right.get_xlim()) / np.ptp(right_below.get_xlim())
     assert note == f"enlarged {factor:.0f} times"
     assert not [text for text in right.texts if "enlarged" in text.get_text()]
+
+
+def section_of(size: np.ndarray) -> xr.Dataset:
+    """A section of circles of so many units, 2.4 rad from point to point and a second each; every
+    fifth point from 100 s on is apart."""
+    time = np.arange(float(size.size))
+    is_apart = (time % 5 == 0) & (time > 99)
+    phase = np.where(is_apart, PHASES.index("separation"), PHASES.index("slip"))
+    columns = {"phase": ("time", phase.astype(np.int8))}
+    for name in SECTIONS:
+        columns[name] = ("time", size * np.cos(2.4 * time))
+        columns[f"{name}_velocity"] = ("time", size * np.sin(2.4 * time))
+    return xr.Dataset(columns, {"time": time})
+
+
+def test_points_on_the_way_to_the_final_motion_are_told_from_those_on_it() -> None:
+    """Both were black, in contact and after the first separation."""
+    case = xr.DataTree(xr.Dataset({"first_separation": 99.5}))
+    time = np.arange(600.0)
+    samples = section_of(1 + 4 * np.exp(-(time - 100) / 20) * (time > 99))
+    found = stages_of(case, samples)
+    # the circle is 2 wide, and 1 % of this is left of the 4 units after 20 ln(200) s
+    assert 150 < found.final_since <= 100 + 20 * np.log(200) + 1
+    on_the_way = found.masks["later on the way"] | found.masks["separated on the way"]
+    assert np.flatnonzero(on_the_way).tolist() == [*range(100, int(found.final_since))]
+    assert sum(mask.astype(int) for mask in found.masks.values()).tolist() == [1] * 600
+
+
+@pytest.mark.parametrize(
+    "size",
+    [np.ones(600), np.linspace(5, 1, 600), np.where(np.arange(600) < 590, 1.0, 3.0)],
+    ids=["on it at once", "still on the way at the end", "few points"],
+)
+def test_no_point_is_on_the_way_where_none_is_shown_to_be(size: np.ndarray) -> None:
+    first = 99.5 if size[-1] < 3 else 589.5
+    case = xr.DataTree(xr.Dataset({"first_separation": first}))
+    found = stages_of(case, section_of(size))
+    assert np.isnan(found.final_since)
+    assert not found.masks["later on the way"].any()
+    assert not found.masks["separated on the way"].any()
 
 
 def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:

@@ -184,6 +184,13 @@ def test_contact_is_lost_at_the_range_of_the_mode_that_friction_feeds() -> None:
     (lost,) = [line for line in figure.axes[0].lines if line.get_linestyle() == ":"]
     expected = 2 * 8000 / (0.5 * omega[1] ** 2 - 1e4) / 0.01
     assert lost.get_ydata()[0] == pytest.approx(expected)
+    # 2 thicknesses, wherever motions separate
+    words = [text.get_text() for text in figure.axes[0].texts]
+    factor = f"{2 / expected:.2g}"
+    assert words == [
+        "contact lost, 8 kN",
+        f"with separation: {factor} to {factor} times\nthe range at which contact is lost",
+    ]
     (reversal,) = [line for line in figure.axes[1].lines if line.get_linestyle() == ":"]
     assert reversal.get_ydata()[0] == 1
     assert max(figure.axes[1].lines[0].get_ydata()) == pytest.approx(0.5)

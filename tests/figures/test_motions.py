@@ -20,6 +20,7 @@ from disc_model.figures.campbell import peaks
 from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
 from disc_model.figures.late_range import LOAD_COLOURS, LOST
+from disc_model.figures.types import Axes
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
@@ -259,19 +260,19 @@ def separating_motions() -> xr.Dataset:
 
 def test_motions_of_one_frequency_are_filled_and_those_set_apart_have_their_own_mark() -> None:
     figure = draw("range_law", separating_motions(), set_apart={"heavy": {"m": 0.2}})
-    ranges, excess = figure.axes
+    whole, enlarged = figure.axes
     marks = {}
-    for line in ranges.lines:
+    for line in whole.lines:
         if line.get_marker() != "None" and line.get_xdata().size:
             is_filled = line.get_markerfacecolor() != "white"
             marks[line.get_marker(), is_filled] = line.get_xydata().ravel().tolist()
     assert marks == {
-        ("o", True): pytest.approx([4.0, 4.04]),
-        ("o", False): pytest.approx([8.0, 15.2]),
-        ("s", True): pytest.approx([16.0, 16.48]),
+        ("o", True): pytest.approx([4.0, 1.0]),
+        ("o", False): pytest.approx([8.0, 90.0]),
+        ("s", True): pytest.approx([16.0, 3.0]),
     }
     heights = np.concatenate(
-        [line.get_ydata() for line in excess.lines if line.get_marker() in "os"]
+        [line.get_ydata() for line in enlarged.lines if line.get_marker() in "os"]
     )
     assert sorted(heights) == pytest.approx([1.0, 3.0, 35.0]), "what is far off stands at the edge"
     assert labels(figure)[:3] == [
@@ -279,6 +280,26 @@ def test_motions_of_one_frequency_are_filled_and_those_set_apart_have_their_own_
         "heavy",
         "no frequency carries 95 % of height and contact force",
     ]
+
+
+def _said(ax: Axes) -> list[str]:
+    """Words in a panel."""
+    return [text.get_text() for text in ax.texts]
+
+
+def test_the_scatter_of_ranges_is_drawn_whole_on_a_linear_axis_and_counted() -> None:
+    """Logarithmic axes of both ranges hid it."""
+    whole, enlarged = draw("range_law", separating_motions()).axes
+    low, high = whole.get_ylim()
+    assert whole.get_yscale() == "linear"
+    assert low < -5 < 90 < high, "nothing is cut, and the band is there"
+    assert _said(whole) == ["within 5 % (grey):\n2 of 2 filled\n0 of 1 hollow"]
+    assert "higher: see (a)" in _said(enlarged)
+
+    inside = separating_motions()
+    inside["deviation"][:] = inside["deviation"] / 10
+    _, enlarged = draw("range_law", inside).axes
+    assert "higher: see (a)" not in _said(enlarged)
 
 
 # ---- locking

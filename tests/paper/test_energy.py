@@ -57,7 +57,7 @@ def test_in_the_end_impacts_take_what_damping_does_not() -> None:
     assert end.impacts > 5 * end.damped > 0
 
 
-def test_in_a_compliant_contact_damping_takes_all_of_a_steady_motion(
+def test_stretches_in_a_compliant_contact_follow_each_other_after_a_transient(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(energy, "STRETCHES", 2)
@@ -68,13 +68,16 @@ def test_in_a_compliant_contact_damping_takes_all_of_a_steady_motion(
     assert taken.shape == (2,)
 
     soft = p.replace(contact_compliance="residual")
-    start = simulate(soft, 30.0 + energy.TRANSIENT, initial_state=state).final_state
-    windows = energy.windows_round(soft, start.time, start.time + 10.0, 8000.0)
-    run = simulate(soft, start.time + 10.0, windows, initial_state=start)
-    fine = powers(soft, run.u_0, angles_round(soft), list(run.samples.values()))
-    # samples at 400 Hz leave some per cent of the mean of ten seconds
-    assert taken.mean() == pytest.approx(fine.damped, rel=0.05)
-    assert abs(fine.gained) < 0.05 * fine.damped
+    run = simulate(soft, 30.0 + energy.TRANSIENT, initial_state=state)
+    fine = []
+    for _ in taken:  # an irregular motion is the same in the same pieces only
+        begin = run.final_state.time
+        windows = energy.windows_round(soft, begin, begin + 5.0, 8000.0)
+        run = simulate(soft, begin + 5.0, windows, initial_state=run.final_state)
+        found = powers(soft, run.u_0, angles_round(soft), list(run.samples.values()))
+        fine.append(found.damped)
+    # two thousand samples of a stretch leave some per cent
+    assert taken == pytest.approx(fine, rel=0.05)
 
 
 def test_damping_follows_the_square_of_the_width_to_which_a_motion_has_grown() -> None:

@@ -25,7 +25,7 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.kinds.motions import LateRange
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.types import Axes, Figure
+from disc_model.figures.types import Array, Axes, Figure
 from disc_model.figures.words import SPEED
 from disc_model.parameters import Parameters
 
@@ -38,6 +38,11 @@ BEYOND = "0.9"  # grey behind ranges of more than a thickness, for which plate t
 LOST = (":", (0, (5, 1, 1, 1)), (0, (1, 4)), (0, (7, 2)))
 """Lines at which contact is lost, of preloads in their order."""
 LINES = {"unilateral": "-", "bilateral": "--"}
+LOWEST_NAME = (0.98, "right", "top")
+FURTHER_NAMES = (0.03, "left", "bottom")
+"""Where the lowest of these lines and the others have their names: share of the panel's width, and
+alignments."""
+BELOW_LINES = 0.36  # of the panel's height, top of words on all lines
 OPEN_END = ("growing", "undecided")
 """Outcomes of which a longer time would change the range."""
 
@@ -58,7 +63,7 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
         ax.axhspan(1, 1e3, color=BEYOND, zorder=0)
         _draw_panel(ax, ranges.sel(chosen), outcomes.sel(chosen))
         if name in moving:
-            _draw_lost_contact(ax, study, str(name), plot.thickness)
+            _draw_lost_contact(ax, study, plot, str(name))
         ax.set_yscale("log")
         ax.set_ylim((LARGEST / DECADES, LARGEST))
         ax.set_ylabel("Slider, peak to peak (thicknesses)")
@@ -88,8 +93,9 @@ def _moving(study: xr.Dataset, by: str) -> list[Any]:
     return [name for name in study[by].values if (study["surface_speed"].sel({by: name}) > 0).any()]
 
 
-def _draw_lost_contact(ax: Axes, study: xr.Dataset, name: str, thickness: float) -> None:
-    """Draw at which range contact is lost, for each preload.
+def _draw_lost_contact(ax: Axes, study: xr.Dataset, plot: LateRange, name: str) -> None:
+    """Draw at which range contact is lost, for each preload, and say how many times as large the
+    ranges with separation are.
 
     The vibration is that of the mode with the largest tangential motion, which friction feeds.
     """
@@ -99,17 +105,42 @@ def _draw_lost_contact(ax: Axes, study: xr.Dataset, name: str, thickness: float)
     base = json.loads(study.attrs["base"])
     slider = {key: base[key] for key in ("k", "m", "c")}
     loads = study["N"].values
+
+    limits: list[float] = []
     for load, colour, line in zip(loads, LOAD_COLOURS, LOST, strict=False):
         p = Parameters(N=float(load), Omega=1.0, **slider)
-        lost = pinned_range(p, frequency) / thickness
+        lost = pinned_range(p, frequency) / plot.thickness
         ax.axhline(lost, color=colour, linestyle=line, linewidth=wide(1.0))
-        _note(ax, lost, f"contact lost, {1e-3 * load:g} kN", colour)
+        # the lowest line has its name below, where no curve is
+        place = LOWEST_NAME if not limits else FURTHER_NAMES
+        _note(ax, lost, f"contact lost, {1e-3 * load:g} kN", place, color=colour)
+        limits.append(lost)
+    _say_how_far_beyond(ax, study.sel({plot.by: name}), np.array(limits), plot.thickness)
 
 
-def _note(ax: Axes, height: float, text: str, colour: str) -> None:
-    """Name a horizontal line below its right end, where motions with separation are far above."""
-    place: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "ha": "right", "va": "top"}
-    ax.annotate(text, (0.98, height), color=colour, size=large(6), **place)
+def _say_how_far_beyond(ax: Axes, study: xr.Dataset, limits: Array, thickness: float) -> None:
+    """Say between which multiples of the lines the ranges with separation lie.
+
+    limits : range at which contact is lost, in thicknesses, of each preload
+    """
+    loads = study["N"].values[: len(limits)]
+    lines = xr.DataArray(limits, {"N": loads}, ("N",))
+    multiples = (study["u_max"] - study["u_min"]) / (thickness * lines)
+    separates = flag_names(study["outcome"]) == "separation"
+    found = multiples.where(study["outcome"].copy(data=separates)).values
+    found = found[np.isfinite(found)]
+    if found.size:
+        factors = f"{found.min():.2g} to {found.max():.2g}"
+        text = f"with separation: {factors} times\nthe range at which contact is lost"
+        look: dict[str, Any] = {"va": "top", "ha": "right", "size": large(7)}
+        ax.annotate(text, (0.98, BELOW_LINES), xycoords="axes fraction", **look)
+
+
+def _note(ax: Axes, height: float, text: str, place: tuple[float, str, str], **look: Any) -> None:
+    """Name a horizontal line at a place, and on the side of it that is given by alignments."""
+    across, ha, va = place
+    look = {"size": large(6), "ha": ha, "va": va, **look}
+    ax.annotate(text, (across, height), xycoords=("axes fraction", "data"), **look)
 
 
 def _marks() -> dict[str, dict[str, Any]]:

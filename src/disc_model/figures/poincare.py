@@ -1,6 +1,7 @@
 """Poincaré sections of slider and disc, in the colours of the stages of a run."""
 
 import json
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -15,15 +16,24 @@ from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, SKY, letter
 from disc_model.figures.kinds.cases import PoincareSections
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.runs import sampled, show_thickness, stated
-from disc_model.figures.stages import SECTIONS, STAGES, stages_of
+from disc_model.figures.stages import ON_THE_WAY, SECTIONS, STAGES, stages_of
 from disc_model.figures.types import Array, Artist, Axes, Figure, Mask
 
+HOLLOW = {"s": 8, "linewidths": 0.5}
 LOOKS: dict[str, dict[str, Any]] = {
     "early": {"marker": "x", "color": SKY, "s": 9, "linewidths": 0.5},
+    ON_THE_WAY["later"]: {"marker": "o", "facecolors": "none", "edgecolors": GREY, **HOLLOW},
+    ON_THE_WAY["separated"]: {
+        "marker": "^",
+        "facecolors": "none",
+        "edgecolors": SEPARATED,
+        **HOLLOW,
+    },
     "later": {"marker": "o", "color": BLACK, "s": 3.5, "linewidths": 0},
     "separated": {"marker": "^", "color": SEPARATED, "s": 8, "linewidths": 0},
 }
-"""Marks by stage, told apart by shape as well as by colour; later ones are drawn over earlier ones."""
+"""Marks by stage, told apart by shape or filling as well as by colour, in the order in which they are
+drawn."""
 
 
 SMALL = 0.2  # share of both common axes below which a section has axes of its own
@@ -125,6 +135,10 @@ def draw_sections(
             look = dict(LOOKS[stage])
             look["s"] = 14
             handles.append(axes[1].scatter([], [], label=name, **look))
+    if math.isfinite(found.final_since):
+        look = {**LOOKS[ON_THE_WAY["later"]], "s": 14}
+        name = f"hollow: up to {found.final_since:.0f} s"
+        handles.append(axes[1].scatter([], [], label=name, **look))
     return handles
 
 
@@ -139,8 +153,10 @@ def _axis(variable: str, samples: xr.Dataset, compared: Sequence[xr.Dataset]) ->
 
 
 def _draw_points(ax: Axes, x: Axis, y: Axis, masks: Mapping[str, Mask]) -> None:
-    for order, (stage, mask) in enumerate(masks.items()):
+    for order, (stage, look) in enumerate(LOOKS.items()):
+        if stage not in masks:
+            continue
+        mask = masks[stage]
         above = 2 + 0.1 * order
         many = bool(mask.sum() > MANY)
-        look = LOOKS[stage]
         ax.scatter(x.values[mask], y.values[mask], zorder=above, rasterized=many, **look)

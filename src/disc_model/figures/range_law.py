@@ -1,4 +1,4 @@
-"""Range of motions with separation against the range at which contact is lost."""
+"""Excess of the range of motions with separation over the range at which contact is lost."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -17,8 +17,8 @@ from disc_model.figures.words import MODES
 
 LOOKS = {"as_published": (BLUE, "o"), "orthonormal": (VERMILION, "^")}
 OTHER_LOOK = (BLACK, "s")  # of motions that are set apart, and of discs given by a table
-HIGHEST_EXCESS = 0.35  # largest deviation drawn, and least time apart beyond the points, as shares
-LOWEST_EXCESS = -0.2
+BAND = 5.0  # percent, deviation up to which a motion counts as one that follows the law
+ENLARGED = (-25.0, 35.0)  # percent, deviations in the panel over the time apart
 
 
 class _Motions(NamedTuple):
@@ -34,13 +34,14 @@ class _Motions(NamedTuple):
 
 
 def draw(plot: RangeLawPlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
-    """Draw all motions of the study: range against pinned range, and its excess against the share
-    of time apart; hollow where several frequencies share the motion."""
+    """Draw the excess of the range over the pinned range, of all motions of the study: all of it
+    against the pinned range, and enlarged against the share of time apart; hollow where several
+    frequencies share the motion."""
     motions = _motions_of(study, plot)
     figure, axes = drawing.row_of_panels(plot.inches, 2, 3.0, 2.8)
-    _draw_ranges(axes[0], motions)
-    _draw_excess(axes[1], motions)
-    drawing.letters(axes)
+    _draw_all(axes[0], motions)
+    _draw_enlarged(axes[1], motions)
+    drawing.letters(axes, ("all motions", "enlarged"))
     _explain(figure, motions, plot.share)
     return figure
 
@@ -94,51 +95,60 @@ def _draw_points(ax: Axes, motions: _Motions, x: Array, y: Array) -> None:
             )
 
 
-def _draw_ranges(ax: Axes, motions: _Motions) -> None:
-    """Draw the range against the pinned one, and the line on which both are equal."""
-    _draw_points(ax, motions, 1e3 * motions.pinned, 1e3 * motions.range)
-    low = 1e3 * 0.8 * min(motions.pinned.min(), motions.range.min())
-    high = 1e3 * 1.25 * max(motions.pinned.max(), motions.range.max())
-    ax.plot([low, high], [low, high], color=BLACK, linewidth=wide(0.8), zorder=1)
-    ax.set(xscale="log", yscale="log", xlim=(low, high), ylim=(low, high), aspect="equal")
+def _draw_band(ax: Axes) -> None:
+    """Draw zero and the band of motions that count as following the law, in percent."""
+    ax.axhspan(-BAND, BAND, color="0.9", zorder=0)
+    ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=1)
+    ax.set_ylabel("Excess of the range over R (%)")
+
+
+def _draw_all(ax: Axes, motions: _Motions) -> None:
+    """Draw the excess, in percent, against the pinned range, and say how many are in the band."""
+    excess = 100 * motions.deviation
+    pinned = 1e3 * motions.pinned
+    _draw_band(ax)
+    _draw_points(ax, motions, pinned, excess)
+    ax.set_xscale("log")
+    ax.set_xlim(0.8 * pinned.min(), 1.25 * pinned.max())
     drawing.plain_decades(ax.xaxis)
-    drawing.plain_decades(ax.yaxis)
-    ax.set_xlabel("Range at which contact is lost, 2N/|k − mω²| (mm)")
-    ax.set_ylabel("Range with separation (mm)")
-    drawing.say(ax, "equal", (0.55 * high, 0.55 * high), (3, -3), fontsize=large(7))
-    words = "a few percent of scatter\ndo not show: see (b)"
-    drawing.say(ax, words, (1, 0), (-3, 3), xycoords="axes fraction", fontsize=large(7))
+    ax.set_xlabel("Range at which contact is lost, R = 2N/|k − mω²| (mm)")
+
+    inside = np.abs(excess) <= BAND
+    lines = [f"within {BAND:g} % (grey):"]
+    for word, chosen in (("filled", motions.single), ("hollow", ~motions.single)):
+        lines.append(f"{(inside & chosen).sum()} of {chosen.sum()} {word}")
+    look = {"xycoords": "axes fraction", "fontsize": large(7)}
+    drawing.say(ax, "\n".join(lines), (1, 1), (-3, -3), **look)
 
 
-def _draw_excess(ax: Axes, motions: _Motions) -> None:
-    """Draw the excess against the share of time apart, in percent, and the curve that it follows;
-    marks beyond the panel stand at its edge."""
-    low = 100 * LOWEST_EXCESS
-    high = 100 * HIGHEST_EXCESS
-    deviation = np.clip(100 * motions.deviation, low, high)
+def _draw_enlarged(ax: Axes, motions: _Motions) -> None:
+    """Draw the excess, in percent, against the share of time apart, and the curve that it follows;
+    motions beyond the panel stand at its edge."""
+    low, high = ENLARGED
+    excess = 100 * motions.deviation
     apart = 100 * motions.apart
-    _draw_points(ax, motions, apart, deviation)
+    _draw_band(ax)
+    _draw_points(ax, motions, apart, np.clip(excess, low, high))
     times = np.linspace(0, min(apart.max() * 1.08, 60.0), 200)
     curve = [100 * excess_of_flights(share / 100) for share in times.tolist()]
     ax.plot(times, curve, color=BLACK, linewidth=wide(0.8), zorder=4)
-    ax.axhspan(-5, 5, color="0.9", zorder=0)
-    ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=1)
     ax.set_xlim(0, times[-1])
     margin = 0.03 * (high - low)
     ax.set_ylim(low - margin, high + margin)
     ax.set_xlabel("Time apart (%)")
-    ax.set_ylabel("Excess over that range (%)")
-    if np.any(100 * motions.deviation > high):
-        drawing.say(ax, f"beyond {high:g} %", (0, high), (3, 0), fontsize=large(7))
-    drawing.say(ax, "within 5 %", (times[-1], -5), (-3, 2), fontsize=large(7), color="0.35")
+    drawing.say(ax, "within 5 %", (times[-1], -BAND), (-3, 2), fontsize=large(7), color="0.35")
     drawing.say(
         ax,
         "from flights:\n(π · time apart)²/8",
-        (times[-1], 5),
+        (times[-1], BAND),
         (-3, 3),
         fontsize=large(7),
         path_effects=drawing.halo(),
     )
+    if (excess > high).any():
+        drawing.say(ax, "higher: see (a)", (0, high), (3, -7), fontsize=large(7))
+    if (excess < low).any():
+        drawing.say(ax, "lower: see (a)", (0, low), (3, 7), fontsize=large(7))
 
 
 def _explain(figure: Figure, motions: _Motions, share: float) -> None:
