@@ -6,6 +6,7 @@ import pytest
 
 from disc_model import Parameters, Window, continue_cycle, floquet, simulate
 from disc_model.data.variables import CycleStatus
+from disc_model.errors import ParameterError
 from disc_model.stability.continuation import Branch, StepControl
 
 pytestmark = pytest.mark.compiled
@@ -127,6 +128,50 @@ def test_stability_changes_at_the_first_neimark_sacker_point_of_a_stable_cycle()
     assert below.growth_rate < 0 < above.growth_rate
     # both are as far, and the rate is linear over so little
     assert abs(below.growth_rate + above.growth_rate) < 0.05 * above.growth_rate
+
+
+@pytest.fixture(scope="module")
+def doubled() -> Branch:
+    """Separating cycles of two releases."""
+    p = Parameters(N=385, Omega=15.1)
+    state = simulate(p, 100.0).final_state
+    return continue_cycle(p, "Omega", (9.0, 18.0), guess=state, releases=2)
+
+
+def test_a_branch_of_twice_the_period_ends_at_the_doubling(doubled: Branch) -> None:
+    """It had gone on along the same cycles, half a period later, with folds that are none."""
+    assert "a period doubling at Omega = 14.28" in doubled.ended
+    assert not len(doubled.folds)
+    first = doubled.special[0]
+    assert first.kind == "period_doubling"
+    single = continue_cycle(first.case, "Omega", (14.0, 14.6), guess=first.state)
+    doubling = next(each for each in single.special if each.kind == "period_doubling")
+    # a double zero of the equations of twice the period: half of the digits
+    assert first.values[0] == pytest.approx(doubling.values[0], rel=1e-7)
+    assert first.period == pytest.approx(2 * doubling.period, rel=1e-7)
+
+
+def test_a_branch_of_twice_the_period_begins_at_the_doubling(doubled: Branch) -> None:
+    start = doubled.special[0]
+    branch = continue_cycle(start.case, "Omega", (14.0, 14.6), guess=start.state, releases=2)
+    assert branch.ended.startswith("a period doubling at Omega = 14.28")
+    assert [special.kind for special in branch.special] == ["period_doubling", "end"]
+    assert branch.special[0].values == pytest.approx(start.values, rel=1e-7)
+    assert np.all(np.diff(branch.values[:, 0]) > 0)
+    # at the other end it is the branch that came to the doubling
+    i = np.searchsorted(doubled.values[:, 0], 14.6)
+    known = continue_cycle(
+        doubled.case_at(i), "Omega", (14.5, 16.0), guess=doubled.state(i), releases=2, values=[14.6]
+    )
+    there = known.values[:, 0] == 14.6
+    assert branch.period[-1] == pytest.approx(float(known.period[there][0]), rel=1e-9)
+
+
+def test_a_cycle_is_not_followed_with_twice_its_releases(doubled: Branch) -> None:
+    doubling = doubled.special[0]
+    single = continue_cycle(doubling.case, "Omega", (13.0, 14.6), guess=doubling.state)
+    with pytest.raises(ParameterError, match="repeats after 1 release; follow it with releases=1"):
+        continue_cycle(single.case_at(0), "Omega", (12, 15), guess=single.state(0), releases=2)
 
 
 def test_a_branch_can_stop_where_the_cycle_first_loses_stability() -> None:

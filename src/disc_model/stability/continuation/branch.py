@@ -163,7 +163,7 @@ class Branch:
 
         Columns: `kind` and `label` (AUTO's LP, PD, TR, BP, HB and EP; GR for a grazing), the parameters
         by their names (SI units), `growth_rate` (1/s), `period` (s), `stick_fraction`,
-        `range` (m), `multiplier`, `after` (number of the branch's point before it) and `state`, a `State` of the
+        `multiplier`, `after` (number of the branch's point before it) and `state`, a `State` of the
         cycle to simulate and draw.
 
         Examples
@@ -184,7 +184,7 @@ class Branch:
         }
         for i, name in enumerate(self.parameters):
             columns[name] = [float(special.values[i]) for special in self.special]
-        for name in VARIABLES:
+        for name in ("growth_rate", "period", "stick_fraction"):
             columns[name] = [getattr(special, name) for special in self.special]
         columns["multiplier"] = [special.multiplier for special in self.special]
         columns["after"] = [special.after for special in self.special]

@@ -18,6 +18,12 @@ from disc_model.stability.continuation.curve import (
     follow_curve,
     interpolate,
 )
+from disc_model.stability.continuation.doubling import (
+    doubling_end,
+    half_a_period_on,
+    leave_doubling,
+    passes_doubling,
+)
 from disc_model.stability.continuation.ends import End
 from disc_model.stability.continuation.problem import CycleProblem, value_text
 from disc_model.stability.continuation.special import Located, Unlocated
@@ -67,8 +73,14 @@ class Search:
         self.trace = _Trace(problem.n + 1)
 
     def follow(self, start: CurvePoint, direction: int = 0) -> Course:
-        """The branch from a point on: both ways, or with rising (1) or falling (-1) values
-        alone."""
+        """The branch from a point on: both ways, or with rising (1) or falling (-1) values alone; one
+        way from a period doubling, at which the branch of twice the period begins."""
+        departure = leave_doubling(self.problem, start)
+        if departure is not None:
+            course = self.one_way(departure)
+            course.first = End(ends.STOPPED, doubling_end(self.problem, start).text)
+            course.special.insert(0, Located(special.PERIOD_DOUBLING, start, 1.0 + 0j, 0))
+            return course
         if direction:
             return self.one_way(start if direction > 0 else start.reversed())
         down = self.one_way(start.reversed())
@@ -105,7 +117,10 @@ class Search:
         """A course with its special points; it ends before a fold that cannot be located, and at
         the first special point of the kind at which it shall stop."""
         found = list[Located]()
-        for i in range(len(points) - 1):
+        last = len(points) - 1
+        if end.kind == ends.DOUBLED:  # where the equations are singular
+            last -= 1
+        for i in range(last):
             try:
                 between = special.locate_between(self.tracer, points[i], points[i + 1], i)
             except Unlocated as lost:
@@ -209,6 +224,8 @@ class _Watch:
         if len(points) > 3 and self.search.passes(before, new, points[0]):
             points[-1] = points[0]
             self.end = End(ends.CLOSED, "the branch closes on itself")
+        elif passes_doubling(self.search.problem, before, new):
+            self._end_at_doubling(points)
         elif not self._leaves(points):
             if self._repeats(before, new):
                 points.pop()
@@ -220,6 +237,20 @@ class _Watch:
             else:
                 self.search.trace.add(new)
         return self.end is not None
+
+    def _end_at_doubling(self, points: list[CurvePoint]) -> None:
+        """End the branch at the period doubling between its last two points, or before it where it
+        cannot be located."""
+        search = self.search
+        before, new = points[-2:]
+        apart = half_a_period_on(search.problem, before.z)
+        doubling = search.tracer.locate(
+            before, new, lambda point: float(apart @ half_a_period_on(search.problem, point.z))
+        )
+        points.pop()
+        if doubling is not None:
+            points.append(doubling)
+        self.end = doubling_end(search.problem, points[-1])
 
     def _leaves(self, points: list[CurvePoint]) -> bool:
         """Whether the branch leaves the span at the last point; or before it, and that point is

@@ -182,7 +182,10 @@ def solve(
     # one more correction, now with the derivatives at this point, which are needed anyhow
     found = problem.evaluate(z)
     left = np.concatenate([found.residual, rows @ (z - guess)])
-    return z - newton_step(np.vstack([found.by, rows]), left), found
+    step = newton_step(np.vstack([found.by, rows]), left)
+    if not np.linalg.norm(z - step - guess) <= radius:  # as where two branches cross
+        raise Rejected("the corrector moves too far")
+    return z - step, found
 
 
 def curve_point(z: Array, found: Evaluation, along: Array) -> CurvePoint:

@@ -73,7 +73,8 @@ def continue_cycle(  # noqa: PLR0913
     name : the free parameter, one of `Parameters.numbers`
     bounds : values of the parameter between which the cycle is followed; SI units, or texts with units
     direction : 0 for both ways; 1 to begin with increasing values alone, -1 with decreasing ones
-    guess, releases, tol : as in `floquet`
+    guess, releases, tol : as in `floquet`; with the state of a period doubling and twice its releases, the branch that
+        begins there is followed, one way
     steps : length and number of the steps
     values : of the parameter; the branch has a cycle at exactly each of them, as often as it passes
     stop_at : "fold", "period_doubling" or "neimark_sacker" to end at the first such point, in each direction
@@ -202,6 +203,6 @@ def _special_points(problem: CycleProblem, course: Course) -> tuple[SpecialPoint
 def _end_of(end: ends.End | None, point: CurvePoint, number: int) -> special.Located:
     """The end of a branch as a special point; without a reason it is the start."""
     kind = "end"
-    if end is not None and end.kind in (ends.GRAZED, ends.HOPF):
+    if end is not None and end.kind in (ends.GRAZED, ends.HOPF, ends.DOUBLED):
         kind = end.kind
     return special.Located(kind, point, special.leading(point), number)

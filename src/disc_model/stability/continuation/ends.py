@@ -25,6 +25,7 @@ GRAZED = "grazing"
 HOPF = "hopf"
 LIMIT = "limit"
 LOST = "lost"
+DOUBLED = "period_doubling"
 # Arclengths beyond the last cycle, which is within the shortest step of a discontinuity; events of
 # a motion without one move by about as much, over the period.
 BEYOND = (1e-6, 1e-5, 1e-4)

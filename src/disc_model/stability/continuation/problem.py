@@ -147,30 +147,36 @@ class CycleProblem:
         """Factors from the coordinates of a map to those of the reference."""
         return self.reference.scale / section_map.scale
 
-    def follow(self, z: Array, *, tangent: bool) -> Orbit:
-        """The motion from a point to its return, whatever its end."""
+    def follow(self, z: Array, *, tangent: bool, releases: int | None = None) -> Orbit:
+        """The motion from a point to its return, or to another number of releases, whatever its
+        end."""
+        if releases is None:
+            releases = self.order.releases if self.order else 1
         return self.map_at(z).evaluate(
             self.section_point(z),
-            releases=self.order.releases if self.order else 1,
+            releases=releases,
             tangent=tangent,
             may_separate=self.order is not None,
         )
 
-    def _return(self, z: Array, *, tangent: bool) -> tuple[Orbit, Array]:
-        """The motion from a point to its return, and F."""
-        orbit = self.follow(z, tangent=tangent)
+    def _return(
+        self, z: Array, *, tangent: bool, releases: int | None = None
+    ) -> tuple[Orbit, Array]:
+        """The motion from a point to its return, or to another number of releases, and F."""
+        orbit = self.follow(z, tangent=tangent, releases=releases)
         if not orbit.returned:
             raise Rejected(WITHOUT_RETURN[ENDS[orbit.outcome]])
         residual = (orbit.end - orbit.start) * self._turn(self.map_at(z)) / self.size
         return orbit, residual
 
-    def residual(self, z: Array) -> Array:
-        """F at z."""
-        return self._return(z, tangent=False)[1]
+    def residual(self, z: Array, releases: int | None = None) -> Array:
+        """F at z, of cycles with another number of releases if there is one."""
+        return self._return(z, tangent=False, releases=releases)[1]
 
-    def evaluate(self, z: Array) -> Evaluation:
-        """F at z, with its derivatives."""
-        orbit, residual = self._return(z, tangent=True)
+    def evaluate(self, z: Array, releases: int | None = None) -> Evaluation:
+        """F at z, with its derivatives, of cycles with another number of releases if there is
+        one."""
+        orbit, residual = self._return(z, tangent=True, releases=releases)
         turn = self._turn(self.map_at(z))
         jacobian = orbit.jacobian * turn[:, None] / turn[None, :]
         by_parameters = np.zeros((self.n, len(self.names)))
@@ -181,20 +187,20 @@ class CycleProblem:
                 by_parameters[:, i] = change * self.scales[i]
                 column += 1
             else:
-                by_parameters[:, i] = self._difference(z, i)
+                by_parameters[:, i] = self._difference(z, i, releases)
         by = np.hstack([jacobian - np.eye(self.n), by_parameters])
         if not (np.all(np.isfinite(by)) and np.all(np.isfinite(residual))):
             raise Rejected("the variational equations are singular: a switch is grazed")
         return Evaluation(residual, by, orbit, jacobian)
 
-    def _difference(self, z: Array, i: int) -> Array:
+    def _difference(self, z: Array, i: int, releases: int | None) -> Array:
         """Derivative of F by the i-th scaled parameter, by a difference of two orbits."""
         move = np.zeros(len(z))
         move[self.n + i] = DIFFERENCE
         ends = []
         for side in (1, -1):
             # x stays the same point of the reference's coordinates
-            ends.append(self.residual(z + side * move))
+            ends.append(self.residual(z + side * move, releases))
         return np.asarray((ends[0] - ends[1]) / (2 * DIFFERENCE), dtype=float)
 
     def place(self, cycle: FloquetResult) -> Array:
