@@ -132,7 +132,7 @@ def _say_how_far_beyond(ax: Axes, study: xr.Dataset, limits: Array, thickness: f
     if found.size:
         factors = f"{found.min():.2g} to {found.max():.2g}"
         text = f"with separation: {factors} times\nthe range at which contact is lost"
-        look = {"va": "top", "ha": "right", "size": large(7)}
+        look: dict[str, Any] = {"va": "top", "ha": "right", "size": large(7)}
         ax.annotate(text, (0.98, BELOW_LINES), xycoords="axes fraction", **look)
 
 

@@ -23,7 +23,12 @@ HOLLOW = {"s": 8, "linewidths": 0.5}
 LOOKS: dict[str, dict[str, Any]] = {
     "early": {"marker": "x", "color": SKY, "s": 9, "linewidths": 0.5},
     ON_THE_WAY["later"]: {"marker": "o", "facecolors": "none", "edgecolors": GREY, **HOLLOW},
-    ON_THE_WAY["separated"]: {"marker": "^", "facecolors": "none", "edgecolors": SEPARATED, **HOLLOW},
+    ON_THE_WAY["separated"]: {
+        "marker": "^",
+        "facecolors": "none",
+        "edgecolors": SEPARATED,
+        **HOLLOW,
+    },
     "later": {"marker": "o", "color": BLACK, "s": 3.5, "linewidths": 0},
     "separated": {"marker": "^", "color": SEPARATED, "s": 8, "linewidths": 0},
 }
