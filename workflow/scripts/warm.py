@@ -53,6 +53,9 @@ def prepare():
     for name in ("simulation.api", "studies.run", "data.texts", "figures.kinds"):
         import_module(f"disc_model.{name}")
     yield 0
+    # numba reads its tables of types when it first compiles or loads something, for 0.4 s
+    import_module("numba").njit(lambda x: x)(0)
+    yield 0
     sources = import_module("disc_model.sources")
     sources.source_hash(*sources.BATCHES)  # which every batch states
     yield 0
