@@ -12,7 +12,8 @@ from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model.errors import script
-from disc_model.figures.drawing import BLACK, SEPARATED, styled
+from disc_model.figures.drawing import BLACK, SEPARATED, sample, styled
+from disc_model.figures.legends import figure_legend
 
 DOCS = Path(__file__).parents[1]
 PAGE = DOCS / "measurements.md"
@@ -178,8 +179,10 @@ def marked(name: str) -> re.Pattern[str]:
 def draw_slips() -> Figure:
     """Draw measured and predicted medians of the runs, with quartiles of the measured slips."""
     mu_s, mu_k = stick_slip.friction()
+    measured = {"color": BLACK, "marker": "o", "ms": 3.5, "linewidth": 0.8}
+    computed = {"color": SEPARATED, "marker": "D", "ms": 4, "mfc": "none", "linestyle": "none"}
     with styled():
-        figure = Figure(figsize=(6.9, 2.9), layout="constrained")
+        figure = Figure(figsize=(6.9, 3.1), layout="constrained")
         axes = figure.subplots(1, 3)
         above = {"textcoords": "offset points", "ha": "center", "fontsize": 6, "color": SEPARATED}
         labels = ("Duration of a slip (ms)", "Period (ms)", "Fall of the force over the weight")
@@ -200,9 +203,8 @@ def draw_slips() -> Figure:
                 expected = (expected[0], np.nan, np.nan)  # friction is fitted to these slips
             for axis, value, number in zip(axes, values, expected, strict=True):
                 low, middle, high = np.percentile(value, [25, 50, 75])
-                axis.plot([place, place], [low, high], color=BLACK, linewidth=0.8)
-                axis.plot(place, middle, "o", color=BLACK, ms=3.5)
-                axis.plot(place, number, "D", color=SEPARATED, ms=4, mfc="none")
+                axis.plot([place] * 3, [low, middle, high], markevery=[1], **measured)
+                axis.plot(place, number, **computed)
                 if np.isnan(number):
                     axis.annotate("fitted", (place, high), (0, 3), **above)
         names = [f"{stiffness}, {speed}" for stiffness, speed in stick_slip.runs()]
@@ -213,6 +215,11 @@ def draw_slips() -> Figure:
             axis.margins(x=0.07)
             axis.set_xticklabels(names, fontsize=6, rotation=90)  # of up to ten characters each
             axis.set_xlabel("Stiffness (N/m), speed (µm/s)")
+        named = [
+            sample(label="measured: median and quartiles", **measured),
+            sample(label="predicted", **computed),
+        ]
+        figure_legend(figure, named, loc="outside lower right")
     return figure
 
 

@@ -116,6 +116,9 @@ def test_the_picture_shows_no_fitted_number_as_predicted() -> None:
         predicted.append(len(shown))
     others = len(stick_slip.others())
     assert predicted == [others + 1, others, others]
+    assert [text.get_text() for axis in figure.axes for text in axis.texts] == ["fitted"] * 2
+    named = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert named == ["measured: median and quartiles", "predicted"]
 
 
 def test_the_plan_has_not_changed() -> None:

@@ -125,6 +125,10 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
         {names[1], values[3]},
         {names[2], values[3]},
     ]
+    legend = {"legend": True, **ends}
+    axes = draw("curve", study, variable="drift", x="mu_k", by="c_p", **legend).axes
+    shared, again = (lines(ax)[values[3]].get_color() for ax in axes)
+    assert shared == again, "it had the colour of its place in each panel"
     axes = draw(
         "curve", study, variable="drift", x="mu_k", by="c_p", **ends | {"panels": "each"}
     ).axes

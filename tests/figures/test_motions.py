@@ -14,7 +14,7 @@ from disc_model.figures import ramps as drawn
 from disc_model.figures.basins import LARGEST
 from disc_model.figures.bifurcation import MARKS
 from disc_model.figures.borders import Curve
-from disc_model.figures.branches import Sweep
+from disc_model.figures.branches import LOWEST, Sweep
 from disc_model.figures.branches import _draw_sweep as draw_sweep
 from disc_model.figures.campbell import peaks
 from disc_model.figures.classes import LOOKS, lightness
@@ -94,6 +94,7 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
         text for text in ax.texts if isinstance(text, Annotation) and text.arrow_patch is not None
     ]
     assert [(arrow.xyann[0], arrow.xy[0]) for arrow in arrows] == [(13, 14), (11, 10)]
+    assert "jump" in labels(figure)
 
 
 # ---- basins
@@ -209,6 +210,17 @@ def test_a_sweep_has_an_arrow_where_its_range_jumps_by_more_than_ten() -> None:
     draw_sweep(ax, Sweep(np.arange(5.0), heights, ~every, every, "^"))
     arrows = [text for text in ax.texts if text.arrow_patch is not None]
     assert [(arrow.xyann[0], arrow.xy[0]) for arrow in arrows] == [(2.0, 3.0), (3.0, 4.0)]
+    pyplot.close("all")
+
+
+def test_a_sweep_has_an_arrow_where_it_leaves_or_reaches_steady_sliding() -> None:
+    """A caption spoke of arrows, and a cycle of some micrometres had none."""
+    _, ax = pyplot.subplots()
+    heights = np.array([4.0, 3.0, 1.0, 1.0, 2.0]) * LOWEST
+    every = np.ones(5, dtype=bool)
+    draw_sweep(ax, Sweep(np.arange(5.0), heights, ~every, every, "^"))
+    arrows = [text for text in ax.texts if text.arrow_patch is not None]
+    assert [(arrow.xyann[0], arrow.xy[0]) for arrow in arrows] == [(1.0, 2.0), (3.0, 4.0)]
     pyplot.close("all")
 
 
@@ -343,6 +355,17 @@ def test_equal_periods_side_by_side_are_one_step_and_undecided_ones_are_rings() 
     assert [text.get_text() for text in zoom.texts] == ["69 releases", "35"]
 
 
+def test_zooms_stand_below_each_other_in_a_column() -> None:
+    """Beside each other they had no room for the names of their steps."""
+    study = locked_at([19.8, 19.9, 20.0], [34, 35, 36], [371, 372, 373])
+    phrase = {"x": "Omega", "zooms": [[19.8, 19.85], [19.9, 20.0]]}
+    shapes = {}
+    for width in ("page", "column"):
+        figure = draw("staircase", study, width=width, **phrase)
+        shapes[width] = figure.axes[0].get_subplotspec().get_gridspec().get_geometry()
+    assert shapes == {"page": (2, 2), "column": (3, 1)}
+
+
 def test_periods_of_other_separations_are_other_steps() -> None:
     study = locked_at([19.8, 19.9, 20.0], [34, 34, 34], [371, 372, 372])
     (ax,) = draw("staircase", study, x="Omega").axes
@@ -404,6 +427,15 @@ def test_the_share_of_starts_that_have_separated_rises_at_each_separation() -> N
     low, high = interval.get_ydata()
     assert low < 0.5 < high
     assert 0.5 - low == pytest.approx(high - 0.5)
+    assert _said(ax) == ["2 of 4"]
+
+
+def test_shares_of_starts_differ_in_grey_print() -> None:
+    """Two full lines of orange and blue were of nearly one grey."""
+    (ax,) = of_example("escape").axes
+    named = [line for line in ax.lines if not line.get_label().startswith("_")]
+    assert len(named) > 1
+    assert len({line.get_linestyle() for line in named}) == len(named)
 
 
 def test_marks_of_a_sweep_differ_in_grey_print() -> None:

@@ -33,6 +33,7 @@ STABLE = 2.0  # width of lines of stable motions, points,
 THIN = 0.7  # and of unstable ones; dashes of two branches that nearly meet would look like a whole line
 BENDS = 2.5  # factor between the heights of neighbouring points beyond which a branch may bend
 ABOVE_SLIDING = 0.12  # height of the names of cases, as a share of the panel
+ROOM_BELOW = 0.45  # lower end of the axis over `LOWEST`, for the name of steady sliding
 JUMP = 1.0  # decades of the range from which a sweep jumps
 NONE = 1e-9  # mm, stands for no range on a logarithmic scale
 UNSETTLED = "#4d4d4d"  # a sweep's marks, filled ones, where motions are not shown to have settled
@@ -55,16 +56,15 @@ def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
         stable = branch["growth_rate"].values < 0
         draw_branch(ax, values, 1e3 * branch["range"].values, stable, colour, BENDS)
     _draw_sliding(ax, study, along)
-    for sweep in sweeps_of(study, along):
-        _draw_sweep(ax, sweep)
+    jumps = [_draw_sweep(ax, sweep) for sweep in sweeps_of(study, along)]
 
     places = {case: value * factor for case, value in plot.paper_cases.items()}
     mark_cases([ax], places, ABOVE_SLIDING)
     ax.set_xlabel(label)
     ax.set_ylabel("Range of the slider's height (mm)")
     ax.set_xlim((along[0], along[-1]))
-    ax.set_ylim(bottom=0.8 * LOWEST)
-    _legend(figure, study)
+    ax.set_ylim(bottom=ROOM_BELOW * LOWEST)
+    _legend(figure, study, any(jumps))
     return figure
 
 
@@ -96,7 +96,7 @@ def _draw_sliding(ax: Axes, study: xr.Dataset, along: Array) -> None:
     draw_branch(ax, along, np.full(along.size, LOWEST), ~unstable, GREY)
     place = (along[-1], LOWEST)
     look: dict[str, Any] = {"fontsize": large(7), "color": GREY, "path_effects": halo(2.5)}
-    say(ax, f"steady sliding: {phrase}", place, (-4, 3), **look)
+    say(ax, f"steady sliding: {phrase}", place, (-4, -3), **look)
 
 
 # ---- Sweeps
@@ -144,8 +144,9 @@ def _mark_look(colour: str) -> dict[str, Any]:
     }
 
 
-def _draw_sweep(ax: Axes, sweep: Sweep) -> None:
-    """Draw the marks of a sweep, and an arrow at each jump, by a factor of more than 10."""
+def _draw_sweep(ax: Axes, sweep: Sweep) -> bool:
+    """Draw the marks of a sweep, and an arrow at each jump, by a factor of more than 10 or between
+    vibration and rest; returns whether there is one."""
     for mask, colour in (
         (sweep.settled & ~sweep.separates, BLACK),
         (sweep.settled & sweep.separates, SEPARATED),
@@ -155,17 +156,18 @@ def _draw_sweep(ax: Axes, sweep: Sweep) -> None:
             look = _mark_look(colour)
             ax.plot(sweep.x[mask], sweep.heights[mask], sweep.shape, clip_on=False, **look)
     decades = np.log10(np.maximum(sweep.heights, NONE))
+    rests = sweep.heights <= LOWEST
+    jumps = (np.abs(np.diff(decades)) > JUMP) | (rests[1:] != rests[:-1])
     arrow = {"arrowstyle": "->", "color": GREY, "lw": wide(1.0)}
-    for i in np.flatnonzero(np.abs(np.diff(decades)) > JUMP):
+    for i in np.flatnonzero(jumps):
         start = (sweep.x[i], sweep.heights[i])
         end = (sweep.x[i + 1], sweep.heights[i + 1])
         ax.annotate("", end, start, arrowprops=arrow)
-        middle = (end[0], float(np.sqrt(max(start[1], NONE) * max(end[1], NONE))))
-        say(ax, "jump", middle, (4, 0), color=GREY, path_effects=halo())
+    return bool(jumps.any())
 
 
-def _legend(figure: Figure, study: xr.Dataset) -> None:
-    """Name lines and marks below the panel."""
+def _legend(figure: Figure, study: xr.Dataset, has_jumps: bool) -> None:
+    """Name lines, marks and arrows below the panel."""
     separating = bool((study["separations"].values > 0).any())
     separating |= bool((study["sweep_separation_rate"].values > 0).any())
     swept = np.isfinite(study["sweep_range"].values)
@@ -191,6 +193,8 @@ def _legend(figure: Figure, study: xr.Dataset) -> None:
         named["simulated, separating"] = both(SEPARATED)
     if unsettled:
         named["simulated, not settled, or undecided"] = both(UNSETTLED)
+    if has_jumps:
+        named["jump"] = sample(color=GREY, linestyle="", marker=r"$\rightarrow$", ms=mark(9))
     figure_legend(
         figure,
         [*named.values()],

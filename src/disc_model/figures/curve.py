@@ -58,7 +58,7 @@ MOST_BESIDE = 4  # names of lines from which the legend stands beside the panel
 LONGEST_BESIDE = 25  # characters of a name that fits there
 ABOVE = 1.03  # height of the first row of missing values, as a share of the panel
 ROW = 0.05  # and the distance of two rows
-APART = 0.05  # least distance of the ends of lines that are named there, as a share of the panel
+APART = 0.14  # least distance of the ends of lines that are named there, inch of the row of panels
 WIDEST_NAME = 0.35  # width of such a name, as a share of the page
 
 
@@ -68,6 +68,8 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     width = plot.inches_of(len(panels))
     figure, axes = row_of_panels(width, len(panels), 2.9, 2.2, sharey=True)
     marks: dict[str, str] = {}
+    for part in panels:
+        _choose_marks(marks, _lines_of(part.data, plot.variable, plot.x))
     for ax, part in zip(axes, panels, strict=True):
         draw_lines(ax, part.data, plot.variable, plot.x, plot.log, marks)
         ax.label_outer()
@@ -130,8 +132,8 @@ def draw_lines(
     """Draw a line, or one for each value of a second dimension, or points that are not `joined`;
     marks above the panel stand for missing values.
 
-    Panels of a figure share `marks`, by the names of lines, so that a line has the same mark in all
-    of them.
+    Panels of a figure share `marks`, by the names of lines, so that a line has the same mark and
+    colour in all of them.
     """
     if marks is None:
         marks = {}
@@ -143,12 +145,13 @@ def draw_lines(
 
     # lines, in the colours of their order
     parts = parts_along(array, by)
+    _choose_marks(marks, parts)
     gapless = joined and not (names or rates or array.isnull().any())
     # of cycles, of which the next point may have another; steady sliding is one equilibrium
     jumps = rates and "sliding" not in array.attrs.get("long_name", "")
     line = "" if names or not joined else "-"
-    for colour, part, title in zip(_colours(parts), parts, titles_of(parts), strict=True):
-        shape = marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
+    for colour, part, title in zip(_colours(parts, marks), parts, titles_of(parts), strict=True):
+        shape = marks[part.name]
         heights = part.data.values
         look = {"color": colour, "label": title or None, **_look()}
         if gapless:
@@ -205,11 +208,24 @@ def _set_ticks(ax: Axes, names: Sequence[str], array: xr.DataArray) -> None:
         ax.set_yticks([], minor=True)
 
 
-def _colours(parts: Sequence[Part[Any]]) -> list[Any]:
-    """Colours of lines in their order; a single one is black."""
+def _lines_of(study: xr.Dataset, variable: str, x: str) -> list[Part[xr.DataArray]]:
+    """The lines of a variable in a panel."""
+    array = as_classes(study[variable])
+    return parts_along(array, remaining(array, [x]))
+
+
+def _choose_marks(marks: dict[str, str], parts: Sequence[Part[Any]]) -> None:
+    """Give lines that have none a mark."""
+    for part in parts:
+        marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
+
+
+def _colours(parts: Sequence[Part[Any]], marks: Mapping[str, str]) -> list[Any]:
+    """Colours of lines by the order of all that have marks; a single one is black."""
     if len(parts) == 1:
         return [BLACK]
-    return [cm.batlow(i / len(parts)) for i in range(len(parts))]
+    order = [*marks]
+    return [cm.batlow(order.index(part.name) / len(order)) for part in parts]
 
 
 def _look() -> dict[str, Any]:
@@ -233,7 +249,7 @@ def _mark_gaps(
     for name, gone in gaps(study, array).items():
         first = top
         parts = parts_along(gone, by)
-        for colour, part in zip(_colours(parts), parts, strict=True):
+        for colour, part in zip(_colours(parts, marks), parts, strict=True):
             mask = part.data.values
             if not mask.any():
                 continue
@@ -285,9 +301,12 @@ def name_ends(ax: Axes) -> bool:
     apart = np.diff(np.sort(ends)) / (high - low)
     widest = CHARACTER * max((len(str(line.get_label())) for line in lines), default=0)
     page: Any = ax.get_figure(root=True)
+    place = ax.get_subplotspec()
+    rows = place.get_gridspec().nrows if place is not None else 1
+    row = page.get_figheight() / rows
     if widest > WIDEST_NAME * page.get_figwidth():
         return False
-    if len(lines) < 2 or not (apart > APART).all() or ax.get_yscale() != "linear":
+    if len(lines) < 2 or not (row * apart > APART).all() or ax.get_yscale() != "linear":
         return False
     for line, end in zip(lines, ends, strict=True):
         line.set_color(BLACK)

@@ -8,7 +8,17 @@ from matplotlib.lines import Line2D
 
 from disc_model.analysis.classify import share
 from disc_model.data.variables import stated_in
-from disc_model.figures.drawing import BLACK, BLUE, GREEN, PURPLE, VERMILION, panels, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    BLUE,
+    GREEN,
+    PURPLE,
+    VERMILION,
+    large,
+    panels,
+    say,
+    wide,
+)
 from disc_model.figures.kinds.motions import EscapeShares
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import failed
@@ -16,6 +26,8 @@ from disc_model.figures.types import Array, Axes, Figure
 from disc_model.figures.words import named_value
 
 COLOURS = (VERMILION, BLUE, BLACK, GREEN, PURPLE)
+STYLES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)))
+"""Of lines in their order, as some of their colours are alike in grey print."""
 
 
 def draw(plot: EscapeShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -27,8 +39,8 @@ def draw(plot: EscapeShares, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     for place, value in enumerate(study[plot.by].values):
         row = study.sel({plot.by: value})
         times = row["first_separation"].values[~failed(row).values]
-        colour = COLOURS[place % len(COLOURS)]
-        line = _draw_share(ax, times, horizon, colour)
+        line = _draw_share(ax, times, horizon, COLOURS[place % len(COLOURS)])
+        line.set_linestyle(STYLES[place % len(STYLES)])
         line.set_label(named_value(row, plot.by))
         handles.append(line)
     ax.set_xlabel("Time (s)")
@@ -40,7 +52,8 @@ def draw(plot: EscapeShares, study: xr.Dataset, overlays: Mapping[str, xr.Datase
 
 
 def _draw_share(ax: Axes, times: Array, horizon: float, colour: str) -> Line2D:
-    """Draw how the share of starts that have separated grows, and its confidence at the horizon.
+    """Draw how the share of starts that have separated grows, and their number and its confidence
+    at the horizon.
 
     Parameters
     ----------
@@ -57,4 +70,6 @@ def _draw_share(ax: Axes, times: Array, horizon: float, colour: str) -> Line2D:
     ax.plot(
         [horizon, horizon], [low, high], color=colour, linewidth=wide(3), alpha=0.5, clip_on=False
     )
+    counted = f"{separated.size} of {times.size}"
+    say(ax, counted, (horizon, shares[-1]), (-6, 3), color=colour, fontsize=large(7))
     return line

@@ -47,10 +47,8 @@ def draw_staircase(
         parts.append(overlays["fine"].squeeze(drop=True))
     label, factor = axis_of(plot.x)
 
-    figure = drawing.new_figure(plot.inches, 2.3 + 2.2 * bool(plot.zooms))
-    layout: list[Any] = [["whole"] * max(len(plot.zooms), 1)]
-    if plot.zooms:
-        layout.append([f"zoom {i}" for i in range(len(plot.zooms))])
+    layout = _layout(len(plot.zooms), beside=plot.inches == drawing.PAGE)
+    figure = drawing.new_figure(plot.inches, 0.1 + 2.2 * len(layout))
     panels = list(figure.subplot_mosaic(layout).values())
     whole, *zooms = panels
 
@@ -70,6 +68,15 @@ def draw_staircase(
         ax.xaxis.set_major_formatter("{x:.6g}")
     drawing.letters(panels)
     return figure
+
+
+def _layout(zooms: int, beside: bool) -> list[Any]:
+    """Names of panels, row by row: the whole above its zooms, which stand beside each other or, in
+    a column, below each other."""
+    names = [f"zoom {i}" for i in range(zooms)]
+    if not beside or not zooms:
+        return [["whole"], *([name] for name in names)]
+    return [["whole"] * zooms, names]
 
 
 def _steps(parts: Sequence[xr.Dataset], name: str, factor: float) -> list[_Step]:
