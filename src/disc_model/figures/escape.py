@@ -1,6 +1,7 @@
 """Share of starts that have separated, against time."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -26,7 +27,7 @@ from disc_model.figures.types import Array, Axes, Figure
 from disc_model.figures.words import named_value
 
 COLOURS = (VERMILION, BLUE, BLACK, GREEN, PURPLE)
-STYLES = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)))
+STYLES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)))
 """Of lines in their order, as some of their colours are alike in grey print."""
 
 
