@@ -36,6 +36,10 @@ class _Step(NamedTuple):
     height: float
     releases: int
 
+    def meets(self, low: float, high: float) -> bool:
+        """Whether a part of the step lies between two values."""
+        return self.low < high and self.high > low
+
 
 def draw_staircase(
     plot: Staircase, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]
@@ -128,36 +132,59 @@ def _name_steps(ax: Axes, steps: Sequence[_Step], low: float, high: float) -> No
     to the right of those that had none above them."""
     taken: list[float] = []
     unnamed: list[_Step] = []
-    room = ROOM * (high - low)
-    bottom, top = ax.get_ylim()
     for step in sorted(steps, key=lambda each: each.low - each.high):
         middle = (max(step.low, low) + min(step.high, high)) / 2
-        ceiling = step.height + HEIGHT * (top - bottom)
-        above = [other for other in steps if step.height < other.height < ceiling]
-        is_covered = any(
-            other.low < middle + room / 2 and other.high > middle - room / 2 for other in above
-        )
-        is_close = any(abs(middle - other) < room for other in taken)
-        if is_covered or is_close:
+        if not _has_room_above(ax, step, middle, steps, taken, ROOM * (high - low)):
             unnamed.append(step)
             continue
         taken.append(middle)
         place = (middle, step.height)
         side = 0
-        if middle > high - room:  # the words would leave the panel
+        if middle > high - ROOM * (high - low):  # the words would leave the panel
             place = (min(step.high, high), step.height)
             side = -1
         text = f"{step.releases} releases" if len(taken) == 1 else f"{step.releases}"
         drawing.say(ax, text, place, (side, 3), fontsize=large(7))
-    apart = BESIDE * (top - bottom)
+
     for step in unnamed:
         others = [other for other in steps if other is not step]
-        near = [
-            each for each in others if step.low - room < each.high and each.low < step.high + room
-        ]
-        is_alone = all(abs(other.height - step.height) > apart for other in near)
-        if is_alone and step.high < high - room:
-            drawing.say(ax, f"{step.releases}", (step.high, step.height), (4, 0), fontsize=large(7))
+        if _has_room_beside(ax, step, others, high, ROOM * (high - low)):
+            place = (step.high, step.height)
+            drawing.say(ax, f"{step.releases}", place, (4, 0), fontsize=large(7))
+
+
+def _has_room_above(
+    ax: Axes,
+    step: _Step,
+    middle: float,
+    steps: Sequence[_Step],
+    taken: Sequence[float],
+    room: float,
+) -> bool:
+    """Whether no step lies where the name of one would stand, above its middle, and no name near.
+
+    taken : places of names, along the axis
+    room : that a name needs there
+    """
+    bottom, top = ax.get_ylim()
+    ceiling = step.height + HEIGHT * (top - bottom)
+    above = [other for other in steps if step.height < other.height < ceiling]
+    is_free = not any(other.meets(middle - room / 2, middle + room / 2) for other in above)
+    return is_free and all(abs(middle - other) >= room for other in taken)
+
+
+def _has_room_beside(
+    ax: Axes, step: _Step, others: Sequence[_Step], high: float, room: float
+) -> bool:
+    """Whether no other step lies beside the right end of one, where its name would stand.
+
+    high : end of the axis
+    room : that a name needs along it
+    """
+    bottom, top = ax.get_ylim()
+    near = [other for other in others if other.meets(step.low - room, step.high + room)]
+    apart = [abs(other.height - step.height) for other in near]
+    return step.high < high - room and all(each > BESIDE * (top - bottom) for each in apart)
 
 
 def _draw_undecided(ax: Axes, parts: Sequence[xr.Dataset], name: str, factor: float) -> None:
