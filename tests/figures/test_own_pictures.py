@@ -156,6 +156,20 @@ def test_a_branch_has_the_variable_that_is_asked_for(y: str, words: str, unit: s
     assert_shows(figure, Shown(0, "y", known, getattr(branch(), y), unit))
 
 
+@pytest.mark.parametrize(
+    ("y", "factor"), [("growth_rate", 1.0), ("period", 1e3), ("stick_fraction", 1.0)]
+)
+def test_a_special_point_is_marked_in_the_units_of_both_axes(y: str, factor: float) -> None:
+    """The axis of periods is in ms."""
+    branch = dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2))
+    (fold,) = [special for special in branch.special if special.kind == "fold"]
+    (ax,) = figure_of(branch.plot(y)).axes
+    (mark,) = [line for line in ax.lines if line.get_label() == "fold at 15.095"]
+    # the same numbers, but for the factor's rounding
+    assert mark.get_xdata() == pytest.approx([fold.values[0]], rel=1e-12)
+    assert mark.get_ydata() == pytest.approx([factor * getattr(fold, y)], rel=1e-12)
+
+
 def test_critical_values_are_over_the_parameter_and_growth_per_second() -> None:
     critical = dm.critical(P.replace(Omega=12), "k_p", (1.8e4, 2.2e4), points=5)
     figure = figure_of(critical.plot())

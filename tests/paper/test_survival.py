@@ -162,6 +162,8 @@ ALL_KNOWN = (-0.1, -0.2, 0.1, -0.1, 0.05, 0.1)
 
 BELOW_FOLD = curves("fold", 14.9, 15.2)
 OFF_FOLD = curves("fold", 15.0, 15.34)
+JUST_BELOW = curves("fold", 14.82, 15.12)
+FAR_BELOW = curves("fold", 14.79, 15.09)
 NO_FOLD = curves("neutral", 14.9, 15.2, missed=2)
 HALF_FOLD = curves("fold", 14.9, 15.2, border=["yes", "no", "no"])
 FAILED = BELOW_FOLD.assign(grid({}, status="failed"))
@@ -184,6 +186,8 @@ GRID_CASES = [
     (FOLD, at_fold(NO_FOLD, 25.0), NOT_COMPUTED),  # the cycle is stable below, and not above
     (FOLD, at_fold(BELOW_FOLD, 15.1), TRUE),  # at 15.05, within 15.0 .. 15.1
     (FOLD, at_fold(OFF_FOLD, 15.1), FALSE),  # at 15.17
+    (FOLD, at_fold(JUST_BELOW, 15.1), TRUE),  # at 14.97, less than 0.05 below 15.0 .. 15.1
+    (FOLD, at_fold(FAR_BELOW, 15.1), FALSE),  # at 14.94
     (FOLD, at_fold(HALF_FOLD, 15.1), FALSE),  # a stable cycle adjoins one end only
     (FOLD, at_fold(NO_FOLD, 15.1), NOT_COMPUTED),  # a curve that was missed may be the fold
     (FOLD, at_fold(NO_FOLD, 15.1, rate=0.1), FALSE),  # the cycle goes on, unstable

@@ -5,9 +5,17 @@ import math
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Status, floquet, plate_modes, steady_sliding
+from disc_model import (
+    ParameterError,
+    Parameters,
+    Status,
+    floquet,
+    plate_modes,
+    simulate,
+    steady_sliding,
+)
 from disc_model.engine import columns
-from disc_model.simulation.states import static_start
+from disc_model.simulation.states import perturb, static_start
 from disc_model.stability.lyapunov import _averaged, lyapunov_exponents
 from tests.stability.test_attractor import paradox
 from tests.stability.test_sliding import state_of
@@ -103,6 +111,21 @@ def test_on_a_cycle_they_are_its_exponents_and_zero():
     assert found.trivial_exponent == pytest.approx(0, abs=0.1)
     rate = np.mean(cycle.exponents.real[:2])
     assert np.mean(found.exponents) == pytest.approx(rate, rel=1e-3)
+
+
+@pytest.mark.compiled
+def test_separations_are_those_of_the_averaging_time() -> None:
+    """Those while the columns converge, in an equal time before, do not count."""
+    p = Parameters(N=300, Omega=20, n_diameters=1)
+    rest = static_start(p)
+    start = perturb(p, rest, u=-3 * rest.u)
+    events = simulate(p, 0.4, initial_state=start).events
+    times = events["time"][events["kind"] == "separation"]
+    late = int((times > 0.2).sum())
+    assert 20 < late < len(times) - 20
+    found = lyapunov_exponents(p, 0.2, count=1, initial_state=start)
+    assert found.duration == pytest.approx(0.2)
+    assert found.separations == late
 
 
 def test_errors_are_standard_errors_of_16_segments_unless_both_halves_differ_by_more():

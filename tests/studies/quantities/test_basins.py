@@ -74,6 +74,18 @@ def test_shares_are_counted_with_wilsons_intervals(made: None) -> None:
     assert table["attractor_index"][0, 0].tolist() == [2, 2, 2, *[1] * 7]
 
 
+@pytest.mark.parametrize("share", ["separating_fraction", "basin_fraction"])
+def test_intervals_of_all_shares_have_the_stated_confidence(made: None, share: str) -> None:
+    """Three of ten: 0.154 to 0.503 by Wilson's formula with z = 1.2816, at 80 %."""
+    table = found(energies=[0.07], n_starts=10, confidence=0.8).arrays
+    place: tuple[int, ...] = (0,)
+    if share == "basin_fraction":
+        place = (0, basins.CLASSES.index("separating"))
+    assert table[share][place] == 0.3
+    assert table[f"{share}_low"][place] == pytest.approx(0.1538, abs=1e-4)
+    assert table[f"{share}_high"][place] == pytest.approx(0.5026, abs=1e-4)
+
+
 def test_the_least_kick_is_bisected_along_the_start_that_separates_first(made: None) -> None:
     table = found(energies=[0.05, 1.0], n_starts=3, n_bisection_directions=2, precision=0.01).arrays
     assert table["critical_energy_sampled"] == 0.05

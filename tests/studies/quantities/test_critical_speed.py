@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import Outcome, flag_names
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability.outcome import OutcomeResult
@@ -109,6 +109,26 @@ def test_all_simulations_are_counted_with_their_time(monkeypatch: pytest.MonkeyP
     assert followed == [12, 12.5, 13, 13.5, 14, 14.5, 15]
     assert found["simulations"].tolist() == [7]
     assert found["simulated_time"].tolist() == [70.0 + 28.0]
+
+
+def test_a_separation_after_an_extrapolation_counts_and_has_no_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It is compared with the horizon; its time is known to a hundredth only."""
+
+    def motion(p: Parameters, horizon: float, **_: Any) -> OutcomeResult:
+        if p.Omega < 13:
+            return OutcomeResult(Outcome.QUIET)
+        rough = p.Omega < 14
+        return OutcomeResult(Outcome.SEPARATION, first_separation=100.0, extrapolated=rough)
+
+    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", motion)
+    options = CriticalSpeed.model_validate({"horizons": [900], "scan": SCAN, "precision": 0.1})
+    found = compute(options, [Point(Parameters(N=200, Omega=1))]).arrays
+    assert found["critical_speed"].tolist() == [[13.0]]
+    # from 12 to 15 rad/s in steps of 0.5 rad/s
+    times = [np.nan] * 4 + [100.0] * 3
+    np.testing.assert_array_equal(found["scan_first_separation"], [times])
 
 
 RESULTS = Path(__file__).parents[3] / "results"
