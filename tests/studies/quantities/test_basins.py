@@ -74,13 +74,22 @@ def test_shares_are_counted_with_wilsons_intervals(made: None) -> None:
     assert table["attractor_index"][0, 0].tolist() == [2, 2, 2, *[1] * 7]
 
 
-@pytest.mark.parametrize("share", ["separating_fraction", "basin_fraction"])
-def test_intervals_of_all_shares_have_the_stated_confidence(made: None, share: str) -> None:
+SEPARATES = basins.CLASSES.index("separating")
+
+
+@pytest.mark.parametrize(
+    ("share", "place"),
+    [
+        ("separating_fraction", (0,)),
+        ("basin_fraction", (0, SEPARATES)),
+        ("basin_fraction_by_energy", (0, 0, SEPARATES)),
+    ],
+)
+def test_intervals_of_all_shares_have_the_stated_confidence(
+    made: None, share: str, place: tuple[int, ...]
+) -> None:
     """Three of ten: 0.154 to 0.503 by Wilson's formula with z = 1.2816, at 80 %."""
     table = found(energies=[0.07], n_starts=10, confidence=0.8).arrays
-    place: tuple[int, ...] = (0,)
-    if share == "basin_fraction":
-        place = (0, basins.CLASSES.index("separating"))
     assert table[share][place] == 0.3
     assert table[f"{share}_low"][place] == pytest.approx(0.1538, abs=1e-4)
     assert table[f"{share}_high"][place] == pytest.approx(0.5026, abs=1e-4)

@@ -90,3 +90,18 @@ def test_a_motion_settles_if_it_is_left_before_the_horizon(
     assert arrays["cycle_distance"][0] == 0.02
     assert arrays["P_max"][0] == segment.P_max
     assert arrays["slip_fraction"][0] == segment.slip_fraction
+
+
+@pytest.mark.parametrize(("extrapolated", "timed"), [(False, 40.0), (True, np.nan)])
+def test_a_separation_after_an_extrapolation_has_no_time(
+    extrapolated: bool, timed: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is known to a hundredth only."""
+    segment = stretch(separation_rate=0, separation_fraction=0)
+    known = OutcomeResult(
+        Outcome.OTHER_CYCLE, first_separation=40.0, segment=segment, extrapolated=extrapolated
+    )
+    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", lambda *_, **__: known)
+    arrays, words = outcomes([Parameters(N=300, Omega=20)], horizon=200)
+    assert words == ["other_cycle"]
+    np.testing.assert_array_equal(arrays["first_separation"], [timed])
