@@ -224,7 +224,6 @@ def excites_less(*cases: CaseView, energies: pd.DataFrame, share: float) -> Answ
         instant=energy.INSTANT,
         near=energy.NEAR,
         by_sign=by_sign,
-        less=[share for share, *_ in less],
         least_less=min(share for *_, share in less),
         most_less=max(share for _, share, _ in less),
         stretch=energy.STRETCH,
