@@ -217,8 +217,9 @@ def _weights(p: Parameters, modes: Modes, pairs: list[Pair]) -> Array:
     in_pairs = square[of_pairs]
     slider = [p.k_p * p.r_0**2, p.m * p.r_0**2]
     height = []
-    if contact_compliance(p) > 0:
-        height = [p.k, p.m]
+    compliance = contact_compliance(p)
+    if compliance > 0:
+        height = [p.k + 1 / compliance, p.m]
     return np.concatenate(
         [square, np.ones_like(square), in_pairs, np.ones_like(in_pairs), slider, height]
     )
