@@ -312,7 +312,8 @@ def test_an_executor_computes_the_batches_of_a_study() -> None:
 
 
 @pytest.mark.parametrize(
-    "unnamed, told", [((200,), "horizon: .* horizon=200"), (3 * [1], "one more than the function")]
+    ("unnamed", "told"),
+    [((200,), "horizon: .* horizon=200"), (3 * [1], "one more than the function")],
 )
 def test_an_argument_without_a_name_is_told_its_name(unnamed: Any, told: str) -> None:
     """Python said that `sweep` takes two positional arguments, but not what to write."""
