@@ -1,17 +1,22 @@
 """A trip through the explorer in a real browser, as wide as a screen and as narrow as a
 telephone."""
 
+import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from cmcrameri import cm
+from matplotlib.colors import to_hex
 from PIL import Image
 
 from disc_model.explorer import LEVELS, Picture, page
+from disc_model.explorer import study_contents as contents_of
 from disc_model.figures.classes import LOOKS
+from disc_model.figures.growth import growth_norm
 from tests import needs
-from tests.explorer.test_page import FAILED, MESSAGE, contents, force, plane
+from tests.explorer.test_page import FAILED, MESSAGE, WITHOUT_CYCLE, contents, force, plane
 from tests.workflow.browser import Page, browser
 
 pytestmark = [pytest.mark.slow, needs.BROWSER.mark]
@@ -71,11 +76,73 @@ def test_a_trip_through_the_page(size: tuple[int, int], tmp_path: Path) -> None:
         assert [message for message in opened.messages() if message["level"] == "SEVERE"] == []
 
 
+def test_it_opens_where_there_is_a_value(tmp_path: Path) -> None:
+    """It opened on the middle of the map, and told of a point without one that it has none."""
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", [contents_of("plane", plane())], []), encoding="utf-8")
+    with browser(tmp_path / "profile") as opened:
+        opened.prefer("dark")
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        shown = Explorer(opened)
+        assert "no cycle" not in shown.text("point")
+        # neither of the two points in the middle has a rate; the next are above and below
+        assert re.search(r"N = (100|385) N, Ω = (10|15.1) rad/s", shown.text("point"))
+        draws_gaps_and_scale(shown)
+        keeps_what_is_chosen_in_the_link(shown)
+        draws_dots_on_curves(shown)
+
+
+def draws_gaps_and_scale(shown: Explorer) -> None:
+    """A point without a rate has its class's colour and name, others the figures' colours."""
+    face = LOOKS["no_cycle"].face
+    place = (WITHOUT_CYCLE["Omega"], WITHOUT_CYCLE["N"])
+    seen = [shown.ask("pixel", *place, shift) for shift in range(-4, 5)]
+    assert face in seen, "between the lines of its pattern"
+    shown.point(*place)
+    assert shown.text("hovered").endswith("no cycle found")
+    assert {"no cycle found", "cycle nearby, not followed"} <= {*shown.text("legend").split("\n")}
+    rates = plane()["growth_rate"].values
+    norm = growth_norm(rates)
+    for rate in (-0.2, -0.01, 0.003, 0.1, 0.4):
+        share = float(np.clip(norm(rate), 0, 1))
+        expected = to_hex(cm.vik(round(share * 255)))
+        assert shown.ask("colourOf", rate) == expected, rate
+
+
+def keeps_what_is_chosen_in_the_link(shown: Explorer) -> None:
+    shown.choose("Colours", "linear")
+    shown.choose("Dots", "outcome=separation")
+    link = shown.ask("link")
+    shown.choose("Colours", "stretched")
+    shown.choose("Dots", "")
+    shown.page.run("location.hash = arguments[0]", link)
+    shown.page.wait_for(f"{SEEN}\nreturn seen.link() === '{link}'")
+    controls = "return ['Colours', 'Dots'].map(x => document.getElementById('controls')[x].value)"
+    assert shown.page.run(controls) == ["linear", "outcome=separation"]
+
+
+def draws_dots_on_curves(shown: Explorer) -> None:
+    """A curve had the selector, and no dots."""
+    shown.choose("Up", "")
+    shown.choose("N", "2")
+    dots = {}
+    for option in ("", "outcome=separation", "outcome=quiet"):
+        shown.choose("Dots", option)
+        dots[option] = shown.ask("whites")
+    # a dot of radius 3 without its line has some 20 pixels; there are two of each class
+    assert dots[""] == 0
+    assert dots["outcome=separation"] >= 20
+    assert dots["outcome=quiet"] >= 20
+
+
 def fits(shown: Explorer) -> None:
     """It fits the window and needs no network."""
     assert shown.page.run("return document.documentElement.scrollWidth <= window.innerWidth")
     loaded = shown.page.run("return performance.getEntriesByType('resource').map(x => x.name)")
     assert [name for name in loaded if not name.startswith("data:")] == []
+    assert shown.ask("titleFits"), "the title of the colour bar was cut on telephones"
+    assert shown.ask("untitled") == []
     # small type of books, in CSS pixels
     assert min(shown.ask("sizesOfType", READABLE)) >= 12
 
@@ -122,7 +189,7 @@ def tells_of_points(shown: Explorer) -> None:
     shown.choose("normalization", "0")
     shown.point(FAILED["Omega"], FAILED["N"], click=True)
     assert shown.text("message") == f"failed: {MESSAGE}"
-    assert "no result" in shown.text("legend")
+    assert "cycle nearby, not followed" in shown.text("legend")
     shown.point(3, 1, click=True)
     assert shown.text("message") == ""
     case = shown.text("call")

@@ -18,6 +18,8 @@ from PIL import Image
 from disc_model.data.variables import PHASES
 from disc_model.explorer import BITS, PAGE_WIDTH, PICTURE_WIDTH, Picture, page
 from disc_model.explorer import study_contents as contents_of
+from disc_model.figures.classes import LOOKS
+from disc_model.figures.growth import growth_norm
 from disc_model.studies.motions import SAMPLES, Motions
 from disc_model.studies.run import describe
 
@@ -25,6 +27,8 @@ AXES: dict[str, list[Any]] = {"N": [100.0, 200.0, 385.0], "Omega": [5.0, 10.0, 1
 AXES["normalization"] = ["as_published", "orthonormal"]
 FAILED = {"N": 1, "Omega": 2, "normalization": 0}
 """Place of the one point that failed."""
+WITHOUT_CYCLE = {"N": 1, "Omega": 1, "normalization": 0}
+"""Place of a point in the middle of the plane that has no cycle."""
 MESSAGE = 'SimulationError: </script> & "worse"'
 CAPTION = 'A curve of f < 0 & "more"'
 
@@ -48,9 +52,14 @@ def plane() -> xr.Dataset:
     message[place] = MESSAGE
     growth = np.linspace(-0.2, 0.4, status.size).reshape(shape)
     growth[place] = np.nan
+    cycle = np.ones(shape, np.int8)
+    apart = tuple(WITHOUT_CYCLE.values())
+    growth[apart] = np.nan
+    cycle[[place[0], apart[0]], [place[1], apart[1]], [place[2], apart[2]]] = [2, 0]
     data = {
         "status": ([*AXES], status, flagged("ok failed")),
         "outcome": ([*AXES], outcome - 1, flagged("quiet separation", first=-1)),
+        "cycle": ([*AXES], cycle, flagged("no_cycle followed nearby_only")),
         "growth_rate": ([*AXES], growth, {"long_name": "growth rate", "units": "s-1"}),
         "releases": (
             ["N", "Omega"],
@@ -176,7 +185,6 @@ def test_numbers_flags_and_messages_come_through() -> None:
     assert told["fixed"][0] == spring
     assert [one["usual"] for one in told["fixed"]] == [True, False, True]
     assert variables["outcome"]["label"] == "Outcome within 200 s"
-    assert variables["growth_rate"]["missing"] == "no value"
     traced = {trace["label"]: trace["unit"] for trace in told["motions"]["traces"]}
     assert traced == {"Contact force P": "N", "Slider u": "mm", "Angle ψ": "rad"}
     labels = {dim["name"]: dim["label"] for dim in told["dims"]}
@@ -186,6 +194,29 @@ def test_numbers_flags_and_messages_come_through() -> None:
         name: label for name, label in labels.items() if name in known
     }
     assert known.keys() & labels.keys(), "axes are called as in figures"
+
+
+def test_points_without_a_number_have_the_class_that_figures_show() -> None:
+    """All were grey and "no value", where the study's figure told two reasons apart."""
+    variables = {variable["name"]: variable for variable in contents()[0]["variables"]}
+    gaps = variables["growth_rate"]["gaps"]
+    codes = numbers(gaps, "u1").reshape(plane()["growth_rate"].shape)
+    for place, word in ((FAILED, "nearby_only"), (WITHOUT_CYCLE, "no_cycle")):
+        look = gaps["looks"][codes[tuple(place.values())] - 1]
+        expected = LOOKS[word]
+        assert look == {**expected._asdict(), "ink": expected.ink}
+    assert np.count_nonzero(codes) == 2, "all other points have a rate"
+    assert variables["releases"]["gaps"] is None
+    unknown = contents()[1]["variables"][0]["gaps"]
+    assert [look["label"] for look in unknown["looks"]] == ["no value"]
+    assert numbers(unknown, "u1").tolist() == [0, 0, 1]
+
+
+def test_growth_rates_have_the_colours_of_figures() -> None:
+    variables = {variable["name"]: variable for variable in contents()[0]["variables"]}
+    norm = growth_norm(plane()["growth_rate"].values)
+    assert variables["growth_rate"]["scale"] == {"width": norm.linear_width, "end": norm.vmax}
+    assert variables["releases"]["scale"] is None
 
 
 def test_an_axis_that_ends_at_infinity_is_told_in_words() -> None:

@@ -5,6 +5,7 @@ from matplotlib import pyplot
 
 from disc_model.figures.labels import break_labels, in_lines, part_numbers
 from disc_model.figures.spectrum import name_lines
+from disc_model.figures.words import head_text, what_case
 from tests.figures.reading import assert_numbers_are_apart
 
 
@@ -117,4 +118,31 @@ def test_a_name_that_would_stand_nearer_to_another_point_is_left_out() -> None:
     figure.draw_without_rendering()
     shown = {text.get_text() for text in ax.texts if text.get_visible()}
     assert shown == {"136.0 Hz", "144.4 Hz"}
+    pyplot.close(figure)
+
+
+def test_many_values_take_two_lines_above_a_figure() -> None:
+    """The head of a map of a steel disc took seven lines, a third of its figure."""
+    values = ", ".join(f"x{i} = {i} N" for i in range(40))
+    title, *lines = head_text(3.5, "A title", values, most=2).split("\n")
+    assert title == "A title"
+    assert len(lines) == 2
+    shown = " ".join(lines).count("=")
+    assert lines[-1].endswith(f"and {40 - shown} more")
+    assert head_text(3.5, "", "N = 1 N", most=2) == "N = 1 N"
+    assert head_text(3.5, "", values).count("=") == 40
+
+
+def test_parameters_without_a_symbol_have_words() -> None:
+    assert what_case({"contact_arc": 0.4}) == "a pad over 0.4 rad"
+
+
+def test_the_label_of_a_colour_bar_is_no_longer_than_the_bar() -> None:
+    """It ran up to the title above a low map."""
+    figure, ax = pyplot.subplots(figsize=(3.5, 2.0), layout="constrained")
+    label = "Largest speed of the disc's surface relative to the drive's"
+    bar = figure.colorbar(ax.pcolormesh([[0.0, 1.0]]), label=label)
+    break_labels(figure)
+    figure.draw_without_rendering()
+    assert bar.ax.yaxis.label.get_window_extent().height <= bar.ax.get_window_extent().height
     pyplot.close(figure)

@@ -12,11 +12,13 @@ from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import disc_model as dm
+from disc_model.analysis.spectra import Resonance
 from disc_model.data.variables import CycleStatus
 from disc_model.figures.disc import Motion, scale_of
 from disc_model.figures.film import film as film_of
 from disc_model.simulation.api import snapshots
 from disc_model.stability.critical import Critical
+from disc_model.stability.curves import NeutralCurves, StabilityCurve
 from disc_model.stability.cycle import FloquetResult
 from tests.figures.described import drawn
 from tests.figures.every_kind import flag
@@ -206,6 +208,31 @@ def test_neutral_curves_have_both_parameters_in_their_units() -> None:
     points = np.concatenate([curve.values for curve in curves])
     assert_shows(figure, Shown(0, "x", "Speed Ω", points[:, 0], "rad/s"))
     assert_shows(figure, Shown(0, "y", "In-plane spring k_p", points[:, 1], "N/m"))
+
+
+def test_a_resonance_is_named_once_for_each_kind_of_curve_and_covers_none() -> None:
+    """ "2 f_s = 135.42 Hz" stood three times, across curves and over the numbers of an axis."""
+    speeds = np.linspace(10, 16, 40)
+    loads = {"neutral": [30 * speeds + 60], "fold": [30 * speeds - 50, 28 * speeds - 40]}
+    resonance = Resonance(2, 135.42, 0, 0, 0.0)
+    curves = []
+    for kind, lines_of_kind in loads.items():
+        for line in lines_of_kind:
+            values = np.column_stack([speeds, line])
+            stable = np.ones(40, dtype=bool)
+            curves.append(StabilityCurve(kind, values, stable, speeds, speeds + 0j, resonance))
+    bounds = {"Omega": (10.0, 22.0), "N": (250.0, 450.0)}
+    figure = figure_of(NeutralCurves(P, bounds, tuple(curves), ()).plot())
+    figure.draw_without_rendering()
+    ax = figure.axes[0]
+    shown = [text for text in ax.texts if text.get_visible()]
+    assert len(shown) == 2, "one of either kind"
+    boxes = [text.get_window_extent() for text in shown]
+    assert not boxes[0].overlaps(boxes[1])
+    for box in boxes:
+        assert ax.get_window_extent().count_contains(box.corners()) == 4
+        for curve in curves:
+            assert not box.count_contains(ax.transData.transform(curve.values))
 
 
 def test_exponents_are_per_second() -> None:

@@ -49,6 +49,22 @@ def test_modes_are_drawn_along_the_parameter(
     ]
 
 
+def test_names_of_a_root_locus_cover_neither_marks_nor_each_other(over_mu: xr.Dataset) -> None:
+    """Halos cut names, and the rims of 150 marks of a mode left nothing of their colours."""
+    many = over_mu.drop_vars("message").interp(value=np.linspace(0, 0.4, 150))
+    many = many.assign(diameters=over_mu["diameters"], frequency=many["frequency"])
+    figure = render(kind_of("root_locus")(), {"study": xr.DataTree(many)})
+    figure.draw_without_rendering()
+    ax = figure.axes[0]
+    boxes = [text.get_window_extent() for text in ax.texts if text.get_visible()]
+    assert len(boxes) >= 3
+    for i, box in enumerate(boxes):
+        assert not box.count_overlaps(boxes[:i])
+        for marks in ax.collections:
+            assert not box.count_contains(ax.transData.transform(marks.get_offsets()))
+    assert {width for marks in ax.collections for width in marks.get_linewidths()} == {0.0}
+
+
 def test_modes_have_thick_lines_where_they_grow(over_mu: xr.Dataset) -> None:
     figure = render(kind_of("sliding_modes")(), {"study": xr.DataTree(over_mu)})
     shown = [line for line in figure.axes[1].lines if line.get_marker() == "."]

@@ -8,7 +8,8 @@ import pytest
 import xarray as xr
 
 from disc_model.studies.merge import MergeError, failures, merge_batches, merge_cases
-from disc_model.studies.run import run_batch
+from disc_model.studies.quantities.bifurcation import Bifurcation
+from disc_model.studies.run import coordinates_of, run_batch
 from tests.studies.conftest import computed
 from tests.studies.refused import parse_grid
 
@@ -106,6 +107,28 @@ def test_what_a_quantity_varies_is_no_value_of_the_base(fake_motions: None) -> N
     base = json.loads(done.attrs["base"])
     assert "mu_k" not in base
     assert base["mu_s"] == 0.4
+    assert done["value"].attrs["units"] == "1", "a coordinate in mm or N had no unit"
+
+
+def test_a_damping_that_a_ratio_replaces_is_no_value_of_the_base() -> None:
+    """A study of modes stated D_star = 1e-5, which none of its points had."""
+    options = {"parameter": "Omega", "scan": {"start": 10, "stop": 20, "count": 2}}
+    given = {"N": 200, "damping_ratio": 0.001}
+    modes = computed(quantity="sliding", options=options, base=given, axes={"c": [0.0]})
+    assert modes["value"].attrs["units"] == "rad s-1"
+    cycles = computed(
+        quantity="floquet", base={"N": 385, "Omega": 10}, axes={"damping_ratio": [0.001]}
+    )
+    for study in (modes, cycles):
+        assert "D_star" not in json.loads(study.attrs["base"])
+
+
+def test_samples_at_events_are_called_events() -> None:
+    """They were called turns after the transient."""
+    for section, word in (("stroboscopic", "turn"), ("event", "event")):
+        options = {"section": section, "transient": 1, "max_transient": 1, "samples": 2}
+        made = coordinates_of(Bifurcation.COORDINATES, Bifurcation(**options))
+        assert made["sample"].attrs["long_name"] == f"number of the {word} after the transient"
 
 
 def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:

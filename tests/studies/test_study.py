@@ -53,6 +53,18 @@ def test_a_file_can_say_both_and_figures_of_both() -> None:
     ]
 
 
+def test_captions_of_grids_have_all_values_that_do_not_vary() -> None:
+    """The figure itself has two lines of them."""
+    place = {"N": 200, "Omega": 20}
+    for more, told in (
+        ({}, "N = 200 N, Ω = 20 rad/s"),
+        ({"k": 4e5, "n_diameters": 2}, "N = 200 N, Ω = 20 rad/s, k = 400 kN/m, n_diameters = 2"),
+    ):
+        study = parse_study(GRID | {"base": place | more})
+        [entry] = study.entries(study.grids()[0]).values()
+        assert entry.caption == f"From the grid study {study.name}, with {told}."
+
+
 def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:
     other = GRID | {"study": "other"}
     path = tmp_path / "other.yaml"

@@ -311,6 +311,34 @@ def test_an_executor_computes_the_batches_of_a_study() -> None:
     assert backwards.submitted == 2
 
 
+@pytest.mark.parametrize(
+    ("unnamed", "told"),
+    [((200,), "horizon: .* horizon=200"), (3 * [1], "one more than the function")],
+)
+def test_an_argument_without_a_name_is_told_its_name(unnamed: Any, told: str) -> None:
+    """Python said that `sweep` takes two positional arguments, but not what to write."""
+
+    def found(case: dm.Parameters, horizon: float) -> float:
+        return horizon
+
+    with pytest.raises(dm.ParameterError, match=told):
+        sweep(found, dm.Parameters(N=385, Omega=15), *unnamed, Omega=[10, 20])
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_an_error_of_another_kind_names_the_point(workers: int) -> None:
+    """One of hundreds of calls ended the sweep, and did not say which."""
+
+    def found(case: dm.Parameters) -> float:
+        if case.Omega == 12:
+            raise RuntimeError("no answer")
+        return case.Omega
+
+    with pytest.raises(RuntimeError, match="no answer") as caught:
+        sweep(found, dm.Parameters(N=385, Omega=15), Omega=[10, 12], mu_k=[0.4], workers=workers)
+    assert caught.value.__notes__ == ["at the point Omega=12.0, mu_k=0.4 of the sweep"]
+
+
 def test_an_error_leaves_out_the_calls_that_have_not_begun() -> None:
     called = []
 

@@ -11,8 +11,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.variables import SHOWN, attributes
-from disc_model.figures.classes import Look, looks_of
+from disc_model.figures.classes import LOOKS, Look, looks_of
+from disc_model.figures.growth import classes_without_rate, growth_norm, is_growth
+from disc_model.figures.selection import classes_of_gaps, statuses
+from disc_model.figures.types import Words
 from disc_model.figures.words import (
+    NO_VALUE,
     WITHIN_HORIZON,
     WORDS,
     label_in,
@@ -207,22 +211,58 @@ def _place(names: Iterable[str], values: Sequence[Any]) -> str:
 
 
 def _variable(study: xr.Dataset, variable: xr.DataArray) -> dict[str, Any]:
-    """Numbers as 32-bit floats of `BITS`; flags as bytes with words and their looks, those of the
-    figures."""
+    """Numbers as 32-bit floats of `BITS`, with the classes of points that have none, and the scale
+    of colours of growth rates; flags as bytes with words and their looks, those of the figures."""
     name = str(variable.name)
     described = _named(name, variable.attrs)
     if name in WITHIN_HORIZON:
         described["label"] = label_in(study, name)
-    described["missing"] = missing_text(study, name)
     described["dims"] = list(variable.dims)
     meanings = variable.attrs.get("flag_meanings")
     if meanings is None:
+        described["gaps"] = _gaps(study, variable)
+        described["scale"] = _scale(variable)
         return {**described, "data": packed(shortened(variable.values), "<f4")}
     words = str(meanings).split()
     codes = np.atleast_1d(variable.attrs.get("flag_values", range(len(words))))
     looks = [_look(look) for look in looks_of(words).values()]
     data = packed(np.searchsorted(codes, variable.values), "u1")
     return {**described, "flags": words, "looks": looks, "data": data}
+
+
+def _gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, Any] | None:
+    """Looks of the classes of points that have no number, those of the figures, and for each point
+    the place of its class among them from 1 on, or 0; None if all points have a number."""
+    words = _words_of_gaps(study, variable)
+    classes = [str(word) for word in np.unique(words) if word]
+    if not classes:
+        return None
+    codes = np.searchsorted(["", *classes], words)
+    unvalued = LOOKS[NO_VALUE]._replace(label=missing_text(study, str(variable.name)))
+    looks = {**looks_of(classes), NO_VALUE: unvalued}
+    return {
+        "dims": list(variable.dims),
+        "looks": [_look(looks[word]) for word in classes],
+        "data": packed(codes, "u1"),
+    }
+
+
+def _words_of_gaps(study: xr.Dataset, variable: xr.DataArray) -> Words:
+    """The class of each point that has no number, as in the figures; "" for other points."""
+    if not {*statuses(study).dims} <= {*variable.dims}:  # then no one status is that of the number
+        return np.where(np.isfinite(variable.values.astype(float)), "", NO_VALUE)
+    if is_growth(variable.name):
+        return classes_without_rate(study, str(variable.name))
+    return classes_of_gaps(study, variable)
+
+
+def _scale(variable: xr.DataArray) -> dict[str, float] | None:
+    """The scale of colours that figures have for growth rates: where it ends, and the width around 0
+    in which it is nearly linear (1/s); None for other variables."""
+    if not is_growth(variable.name):
+        return None
+    norm = growth_norm(variable.values)
+    return {"width": norm.linear_width, "end": float(norm.vmax or 0.0)}
 
 
 def _look(look: Look) -> dict[str, str]:

@@ -24,13 +24,12 @@ from disc_model.figures.kinds.general import General, HeatMap
 from disc_model.figures.legends import Key, figure_legend
 from disc_model.figures.selection import (
     Part,
-    class_of_gap,
+    classes_of_gaps,
     has_values,
     parts_along,
     picked,
     remaining,
     statuses,
-    statuses_like,
     titles_of,
 )
 from disc_model.figures.types import Artist, Axes, Figure, FigureBase
@@ -150,7 +149,7 @@ def number_panels(
         edges = edges_of(array)
         values = measured(array).values.astype(float)
         mesh = ax.pcolormesh(*edges, values, cmap=colours.cmap, norm=colours.norm, rasterized=True)
-        missing = _classes_of_gaps(plane, array)
+        missing = classes_of_gaps(plane, array)
         paint(ax, edges, missing, LOOKS)
         used |= set(missing.flat)
 
@@ -165,11 +164,3 @@ def number_panels(
     elif log and within_a_decade(colours.norm):
         bar.ax.yaxis.set_minor_formatter("{x:g}")
     return entries(used, looks)
-
-
-def _classes_of_gaps(plane: xr.Dataset, array: xr.DataArray) -> np.ndarray:
-    """The class of each point without a number, "" where there is one."""
-    status = statuses_like(plane, array)
-    gone = array.isnull().values | (status == EXCLUDED)
-    classes = np.vectorize(class_of_gap, otypes=[str])(status)
-    return np.where(gone, classes, "")

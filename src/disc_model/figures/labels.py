@@ -21,6 +21,7 @@ BEYOND = 1.15  # length of a label over that of its axis, at most
 MARKUP = re.compile(r"\\\w+|[${}_^]")  # of mathematical text; a symbol for a command
 WHOLE = re.compile(r"(?<=\()[^()]{1,12}(?=\))| = (-?[\d.]+ (?=\S{1,5}(,|$)))?")
 """What stays on one line: a unit, and a value with its name and unit."""
+COLOUR_BAR = "<colorbar>"  # what matplotlib calls the axes of one, above which a title may stand
 HARD = "\ue000"  # stands for a blank at which no line ends
 
 
@@ -65,7 +66,9 @@ def _texts_of(ax: Axes) -> Iterator[Breakable]:
     """Labels and titles of axes that say something."""
     for label, direction in ((ax.xaxis.label, "width"), (ax.yaxis.label, "height")):
         if label.get_text().strip():
-            beyond = 1.0 if direction == "height" and _named_above(ax) else BEYOND
+            beyond = BEYOND
+            if direction == "height" and (_named_above(ax) or ax.get_label() == COLOUR_BAR):
+                beyond = 1.0
             yield Breakable(label, ax, direction, beyond)
     for title in titles_of(ax):
         yield Breakable(title, ax, "width", 1.0)

@@ -1,6 +1,7 @@
 """Names in a panel: of points, written where there is room, and of modes by their nodal diameters."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -45,12 +46,23 @@ class Names(Artist):
         **look: Any,
     ) -> None:
         """Add the name of a point, by the offsets in points at which it may stand, best first."""
+        self.add_along(text, [point], offsets, **look)
+
+    def add_along(
+        self,
+        text: str,
+        points: Sequence[tuple[float, float]],
+        offsets: Iterable[tuple[float, float]],
+        **look: Any,
+    ) -> None:
+        """Add the name of a line, by the points of it beside which it may stand, and the offsets
+        from these, best first."""
         ax: Any = self.axes
-        names = [say(ax, text, point, offset, **look) for offset in offsets]
+        names = [say(ax, text, *place, **look) for place in product(points, offsets)]
         for name in names:
             name.set_in_layout(False)
         self._candidates.append(names)
-        self._points.append(point)
+        self._points.append(points[0])
 
     def draw(self, renderer: Any) -> None:
         """Choose the places of all names, which are drawn after it."""
@@ -61,14 +73,14 @@ class Names(Artist):
             for name in names:
                 name.set_visible(False)
             if self._most is None or len(taken) < self._most:
-                nearness = Nearness(points[i], np.delete(points, i, axis=0))
-                self._place(names, nearness, taken, renderer)
+                self._place(names, np.delete(points, i, axis=0), taken, renderer)
         self.stale = False
 
     def _place(
-        self, names: Sequence[Annotation], nearness: "Nearness", taken: list[Any], renderer: Any
+        self, names: Sequence[Annotation], others: Array, taken: list[Any], renderer: Any
     ) -> None:
-        """Show the first of a point's names that finds room; its box is added to those taken."""
+        """Show the first of a point's names that finds room, nearer to it than to other ones, in
+        pixels; its box is added to those taken."""
         panel: Any = self.axes
         frame = panel.get_window_extent(renderer)
         lines = panel.transData.transform(self._lines)
@@ -77,6 +89,7 @@ class Names(Artist):
             box = name.get_window_extent(renderer).padded(GAP)
             inside = frame.count_contains(box.corners()) == len(box.corners())
             covers = box.count_contains(lines) or box.count_overlaps(taken)
+            nearness = Nearness(panel.transData.transform(name.xy), others)
             if inside and not covers and nearness.is_clear(box):
                 taken.append(box)
                 return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,19 +10,20 @@ import numpy as np
 from disc_model.data.variables import axis_of, typeset
 from disc_model.figures.branches import STABLE, draw_branch
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, halo, large, sample, say, wide
+from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, halo, large, sample, wide
+from disc_model.figures.names import Names
 from disc_model.figures.runs import stated
-from disc_model.figures.types import Axes
+from disc_model.figures.types import Array, Axes
 
 if TYPE_CHECKING:
-    from disc_model.stability.curves import NeutralCurves
+    from disc_model.stability.curves import NeutralCurves, StabilityCurve
 
 KINDS = {"neutral": (BLACK, "cycle loses stability"), "fold": (SEPARATED, "cycle ends in a fold")}
 """Colours and names of the curves."""
-NAMED = (0.02, 0.75)  # part of the axes, across, in which names of curves may begin,
-BELOW = 0.98  # and up
-STEEP = 0.5  # run over rise, as shares of the axes, up to which a name stands beside a line
-APART = (0.27, 0.06)  # least distance of two names, across and up
+APART = (0.1, 0.2, 0.3, 0.4)
+"""Shares of a curve from its middle at which its name may stand, too,"""
+OFFSETS = ((-4, 4), (4, -4), (4, 4), (-4, -4), (8, 0), (-8, 0))
+"""and offsets of the name in points."""
 
 
 def plot_neutral_curves(
@@ -44,12 +46,12 @@ def plot_neutral_curves(
         axes.set_ylabel(up)
         axes.set_xlim((low[0], high[0]))
         axes.set_ylim((low[1], high[1]))
-        names: list[np.ndarray] = []
-        for curve in curves:
-            points = curve.values * factors
+        lines = [curve.values * factors for curve in curves]
+        for curve, line in zip(curves, lines, strict=True):
             colour, _ = KINDS[curve.kind]
-            draw_branch(axes, points[:, 0], points[:, 1], curve.adjoins_stable_cycle, colour)
-            _name(axes, points, typeset(curve.resonance.label), colour, names)
+            draw_branch(axes, line[:, 0], line[:, 1], curve.adjoins_stable_cycle, colour)
+        if lines:
+            _name_curves(axes, curves.curves, lines)
         present = {curve.kind for curve in curves}
         handles = [
             sample(color=colour, linewidth=wide(STABLE), label=text)
@@ -60,23 +62,29 @@ def plot_neutral_curves(
     return page.ax
 
 
-def _name(ax: Axes, points: np.ndarray, text: str, colour: str, taken: list[np.ndarray]) -> None:
-    """Write the name of a curve beside its middle, where there is room beside other names, whose
-    places are `taken`."""
-    share = ax.transAxes.inverted().transform(ax.transData.transform(points))
-    left, right = NAMED
-    inside = (share[:, 0] > left) & (share[:, 0] < right)
-    inside &= (share[:, 1] > left) & (share[:, 1] < BELOW)
-    for place in taken:
-        inside &= np.any(np.abs(share - place) > APART, axis=1)
-    free = np.flatnonzero(inside)
-    if not free.size:
-        return
-    i = free[free.size // 2]
-    taken.append(share[i])
-    # above a line, on the side to which it falls; beside a steep one
-    across, up = share[min(i + 1, len(share) - 1)] - share[max(i - 1, 0)]
-    offset = (8, 0)
-    if abs(across) > STEEP * abs(up):
-        offset = (4, 4) if across * up <= 0 else (-4, 4)
-    say(ax, text, points[i], offset, fontsize=large(6), color=colour, path_effects=halo())
+def _name_curves(ax: Axes, curves: Sequence[StabilityCurve], lines: Sequence[Array]) -> None:
+    """Write the resonance of each kind of curves once, beside the first that has it, where it covers
+    no curve."""
+    low, high = np.transpose([ax.get_xlim(), ax.get_ylim()])
+    names = Names(ax, lines=np.concatenate([_dense(line, high - low) for line in lines]))
+    named = set()
+    for curve, line in zip(curves, lines, strict=True):
+        name = (curve.kind, curve.resonance.label)
+        inside = line[np.all((line > low) & (line < high), axis=1)]
+        if name in named or not len(inside):
+            continue
+        named.add(name)
+        shares = 0.5 + np.concatenate([[0.0], *([-apart, apart] for apart in APART)])
+        points = inside[np.round(shares * (len(inside) - 1)).astype(int)]
+        colour, _ = KINDS[curve.kind]
+        look: dict[str, Any] = {"fontsize": large(6), "color": colour, "path_effects": halo()}
+        text = typeset(curve.resonance.label)
+        names.add_along(text, [(x, y) for x, y in points.tolist()], OFFSETS, **look)
+
+
+def _dense(line: Array, extent: Array) -> Array:
+    """A line with points at hundredths of a panel or less, in the units of its axes."""
+    steps = np.diff(line, axis=0) / extent
+    lengths = np.concatenate([[0.0], np.cumsum(np.hypot(*steps.T))])
+    places = np.linspace(0.0, lengths[-1], 2 + int(100 * lengths[-1]))
+    return np.column_stack([np.interp(places, lengths, column) for column in line.T])

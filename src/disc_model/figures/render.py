@@ -80,6 +80,9 @@ DRAWINGS: Drawings = {
 figure and its cases."""
 
 
+MOST_LINES = 2  # of values above a figure; the caption has all
+
+
 class Drawn(NamedTuple):
     """A figure, and what stands above it: a title unless the file gives one, and values."""
 
@@ -103,7 +106,7 @@ def render(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Figure:
             restate_axes(drawn.figure)
             break_labels(drawn.figure)
             width = drawn.figure.get_figwidth()
-            text = head_text(width, plot.title or drawn.title, drawn.values)
+            text = head_text(width, plot.title or drawn.title, drawn.values, MOST_LINES)
             if text and not plot.caption:
                 _write_title(plot, drawn.figure, text)
             return drawn.figure

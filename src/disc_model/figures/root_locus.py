@@ -7,23 +7,15 @@ import numpy as np
 import xarray as xr
 from cmcrameri import cm
 
-from disc_model.figures.drawing import (
-    BLACK,
-    GREY,
-    halo,
-    large,
-    letters,
-    mark,
-    row_of_panels,
-    say,
-    wide,
-)
+from disc_model.figures.drawing import BLACK, GREY, halo, large, letters, mark, row_of_panels, wide
 from disc_model.figures.kinds.motions import RootLocus
-from disc_model.figures.names import named_modes
+from disc_model.figures.names import Names, named_modes
 from disc_model.figures.selection import parts_along, titles_of
 from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import measured
 
+MOST_RIMS = 40  # marks of a mode up to which each has a rim; those of more would hide their colours
+HEIGHTS = (0, 2, -2, 5, -5)  # points, of names above or below their rings, best first
 NAMES_APART = 0.01  # of the highest frequency, least distance of names
 CHARACTER = 0.0136  # of the extent of growth rates, width of a character of a name
 
@@ -43,9 +35,10 @@ def draw(plot: RootLocus, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
 
 
 def _draw_panel(ax: Axes, study: xr.Dataset) -> Any:
-    """Draw points, with a ring where a mode begins, and its name on the side from which it leads
-    away."""
+    """Draw points, with a ring where a mode begins, and its name, rather on the side from which it
+    leads away."""
     along = measured(study["value"]).values
+    rim = wide(0.3) if len(along) <= MOST_RIMS else 0.0
     for _, mode in study.groupby("mode"):
         rate = mode["mode_growth_rate"].values
         frequency = mode["frequency"].values
@@ -54,7 +47,7 @@ def _draw_panel(ax: Axes, study: xr.Dataset) -> Any:
             frequency,
             c=along,
             s=mark(14),
-            linewidth=wide(0.3),
+            linewidth=rim,
             edgecolor=GREY,
             clip_on=False,
             zorder=2,
@@ -67,16 +60,37 @@ def _draw_panel(ax: Axes, study: xr.Dataset) -> Any:
     rates = first["mode_growth_rate"].values
     heights = first["frequency"].values
     ax.plot(rates, heights, "o", color=BLACK, markersize=mark(4), markerfacecolor="white")
-    apart = NAMES_APART * float(study["frequency"].max())
-    for part in named_modes(first["diameters"].values, heights, apart):
-        side, ring = _side_of_name(study, part.modes, len(part.name))
-        place = (ring, float(heights[part.modes].mean()))
-        say(ax, part.name, place, (4 * side, 0), fontsize=large(7), path_effects=halo())
+    _name_modes(ax, study)
     ax.axvline(0, color=BLACK, linewidth=wide(0.6))
     ax.margins(x=0.04)
     ax.set_xlabel("Growth rate (1/s)")
     ax.set_ylabel("Frequency in the slider's frame (Hz)")
     return points
+
+
+def _name_modes(ax: Axes, study: xr.Dataset) -> None:
+    """Write the names of modes where they cover no mark: beside their rings, or else their ends."""
+    first = study.isel(value=0)
+    heights = first["frequency"].values
+    apart = NAMES_APART * float(study["frequency"].max())
+    every = study["mode_growth_rate"]
+    marks = [every.values.ravel(), study["frequency"].transpose(*every.dims).values.ravel()]
+    names = Names(ax, lines=np.column_stack(marks))
+    for part in named_modes(first["diameters"].values, heights, apart):
+        side, rate = _side_of_name(study, part.modes, len(part.name))
+        ring = (rate, float(heights[part.modes].mean()))
+        places = [ring, *_ends(study.isel(mode=part.modes))]
+        offsets = [(4 * across, up) for up in HEIGHTS for across in (side, -side)]
+        offsets += [(0, 5), (0, -5)]
+        names.add_along(part.name, places, offsets, fontsize=large(7), path_effects=halo())
+
+
+def _ends(modes: xr.Dataset) -> list[tuple[float, float]]:
+    """The points of some modes of the least and the greatest growth rate."""
+    rates = modes["mode_growth_rate"].values.ravel()
+    heights = modes["frequency"].transpose(*modes["mode_growth_rate"].dims).values.ravel()
+    found = [np.nanargmin(rates), np.nanargmax(rates)]
+    return [(float(rates[i]), float(heights[i])) for i in found]
 
 
 def _side_of_name(study: xr.Dataset, modes: np.ndarray, length: int) -> tuple[int, float]:

@@ -179,6 +179,14 @@ def class_of_gap(status: str) -> str:
     return "failed"
 
 
+def classes_of_gaps(study: xr.Dataset, array: xr.DataArray) -> Words:
+    """The class of each point at which a variable has no number, "" where it has one."""
+    status = statuses_like(study, array)
+    gone = ~np.isfinite(array.values.astype(float)) | (status == EXCLUDED)
+    classes = np.vectorize(class_of_gap, otypes=[str])(status)
+    return np.where(gone, classes, "")
+
+
 def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
     """Points where a variable has no value, by the name of their class; without those that a rule
     excludes."""

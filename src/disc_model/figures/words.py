@@ -46,6 +46,9 @@ IN_WORDS = {
     "n_diameters = -1": "rigid disc",
     "n_diameters =": "nodal diameters up to",
     "n_circles =": "nodal circles up to",
+    "contact_arc =": "a pad over",
+    "contact_compliance =": "contact compliance",
+    "friction_offset =": "friction above the middle plane by",
 }
 """What heads of figures say for parameters without a symbol."""
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
@@ -237,10 +240,16 @@ def what_case(values: Mapping[str, Any]) -> str:
     return ", ".join(filter(None, [said, *words]))
 
 
-def head_text(width: float, title: str, values: str) -> str:
+def head_text(width: float, title: str, values: str, most: int | None = None) -> str:
     """A title and values of parameters, in lines that fit a width in inches; a value stays on the
-    line of its name."""
+    line of its name. Of values that need more lines than `most`, the last ones are only counted."""
     unbroken = [value.replace(" ", "\u00a0") for value in typeset(values).split(", ")]
-    texts = [text for text in (title, ", ".join(unbroken)) if text]
-    lines = [fill(text, round(width / CHARACTER)) for text in texts]
+    length = round(width / CHARACTER)
+    said = fill(", ".join(unbroken), length)
+    for count in range(len(unbroken) - 1, 0, -1):
+        if most is None or said.count("\n") < most:
+            break
+        rest = f"and {len(unbroken) - count} more".replace(" ", "\u00a0")
+        said = fill(f"{', '.join(unbroken[:count])} {rest}", length)
+    lines = [text for text in (fill(title, length), said) if text]
     return "\n".join(lines).replace("\u00a0", " ")

@@ -66,14 +66,19 @@ class Call:
             yield point
 
 
-def checked_call(function: Any, case: Any, zipped: Any, named: Mapping[str, Any]) -> Call:
-    """Return the call of a sweep; raises `ParameterError` with all that is wrong with it."""
+def checked_call(
+    function: Any, case: Any, unnamed: Sequence[Any], zipped: Any, named: Mapping[str, Any]
+) -> Call:
+    """Return the call of a sweep; raises `ParameterError` with all that is wrong with it, such as
+    arguments of the function without a name."""
     rule = "must be a function, such as disc_model.floquet"
     faults = [*foreign_case(case), *violations((callable(function), "function", function, rule))]
     raise_faults(faults)
 
     # what is named is a number of the case, or an argument of the function
     parameters = inspect.signature(function).parameters
+    faults += _faults_of_unnamed(unnamed, [*parameters][1:])
+    raise_faults(faults)
     numbers = case.numbers.keys() | Parameters.model_fields.keys() | RATIOS.keys()
     dimensions = []
     options = {}
@@ -106,6 +111,19 @@ def checked_call(function: Any, case: Any, zipped: Any, named: Mapping[str, Any]
             faults.append(Fault((each.name,), "", f"is required by {title}"))
     raise_faults(faults)
     return Call(title, dimensions, options, frozenset(arguments), defaults)
+
+
+def _faults_of_unnamed(unnamed: Sequence[Any], arguments: Sequence[str]) -> list[Fault]:
+    """What is wrong with values without a name, which a function's arguments would take in turn."""
+    faults = []
+    for i, value in enumerate(unnamed):
+        if i < len(arguments):
+            rule = f"must be named, as in {arguments[i]}={value!r}"
+            faults.append(Fault((arguments[i],), "", rule))
+        else:
+            rule = "must be named, and is one more than the function's arguments"
+            faults.append(Fault.of(("function",), value, rule))
+    return faults
 
 
 def _zipped_columns(

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 import pydantic
 from pydantic import Field, Tag, WithJsonSchema, create_model
 
-from disc_model.data.variables import PERTURBATIONS, START, attributes
+from disc_model.data.variables import PERTURBATIONS, START, attributes, values_text
 from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import General, Kind, Plot, RegionMap
@@ -669,10 +669,19 @@ class GridStudy:
         return plot.faults_among(values, variables)
 
     def entry_of(self, name: str, plot: Plot) -> FigureEntry:
+        """A figure of the grid, whose caption states the values that differ from Table 1 and do not
+        vary."""
         inputs = {"study": self.name, **dict(sorted(plot.overlays.items()))}
         category = "Figures" if plot.section else "Maps and curves"
         title = plot.title or f"{self.title or self.name}: {name}"
-        caption = f"{plot.caption} From the grid study {self.name}.".strip()
+        stated = {name: value for name, value in self.base.items() if value or name not in REQUIRED}
+        values = values_text(stated)
+        source = (
+            f"the grid study {self.name}, with {values}"
+            if values
+            else f"the grid study {self.name}"
+        )
+        caption = f"{plot.caption} From {source}.".strip()
         return FigureEntry(plot, inputs, category, plot.section, title, caption)
 
 

@@ -119,7 +119,7 @@ def _common_attributes(batches: Sequence[Batch], quantity: Quantity) -> dict[str
     described = {
         "quantity": first.quantity,
         "options": json_attribute(first.options),
-        "base": json_attribute(_fixed(first.base, quantity)),
+        "base": json_attribute(_fixed(first.base, first.names, quantity)),
     }
     if starts:
         described["starts"] = json_attribute(dict(sorted(starts.items())))
@@ -128,11 +128,14 @@ def _common_attributes(batches: Sequence[Batch], quantity: Quantity) -> dict[str
     return described
 
 
-def _fixed(base: Mapping[str, Any], quantity: Quantity) -> dict[str, Any]:
-    """The values of a base that a quantity does not vary by itself: of others it has those with
-    which the file was checked, such as a speed of zero."""
+def _fixed(base: Mapping[str, Any], names: Sequence[str], quantity: Quantity) -> dict[str, Any]:
+    """The values of a base that all points have: not of what a quantity varies by itself, of which
+    it has those with which the file was checked, such as a speed of zero; nor the damping that a
+    damping ratio replaces, which may be among the names of axes."""
     varied = {*quantity.scanned}
     varied.update(RATIOS[name][0] for name in quantity.scanned if name in RATIOS)
+    if "damping_ratio" in names or base.get("damping_ratio") is not None:
+        varied.add("D_star")
     return {name: value for name, value in base.items() if name not in varied}
 
 

@@ -14,7 +14,13 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple,
 import numpy as np
 from pydantic import AfterValidator, ConfigDict, Field, PrivateAttr, model_validator
 
-from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, CycleStatus, Variable
+from disc_model.data.variables import (
+    OUTCOMES_TO_HORIZON,
+    SCALARS,
+    CycleStatus,
+    Variable,
+    attributes,
+)
 from disc_model.errors import DiscModelError, Fault, Status
 from disc_model.parameters import DEFAULTS, RATIOS, Parameters, with_ratios
 from disc_model.simulation.case import Start
@@ -167,8 +173,8 @@ class Point(NamedTuple):
 
 
 class Coordinate(NamedTuple):
-    """A dimension of a quantity's own: unit, name in words, which may show options, and values for
-    given options."""
+    """A dimension of a quantity's own: unit and name in words, both of which may show options, and
+    values for given options."""
 
     units: str
     long_name: str
@@ -176,6 +182,13 @@ class Coordinate(NamedTuple):
 
 
 DIRECTION = Coordinate("", "direction of the sweep", lambda options: ("up", "down"))
+
+
+def units_of(parameter: str) -> str:
+    """The unit of a number of the case, as datasets have it; "" for one of a disc's modes."""
+    if parameter in (*Parameters.model_fields, *RATIOS):
+        return str(attributes(parameter).get("units", ""))
+    return ""
 
 
 def failed(error: Exception, flag: str = "status") -> tuple[Row, str]:

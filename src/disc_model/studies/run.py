@@ -144,7 +144,8 @@ def coordinates_of(
     """Return the dimensions of a quantity's own, with values for its options."""
     made = {}
     for name, coordinate in coordinates.items():
-        described = Variable(coordinate.units, coordinate.long_name.format(quantity))
+        units = coordinate.units.format(quantity)
+        described = Variable(units, coordinate.long_name.format(quantity))
         values = np.array(coordinate.values(quantity))
         made[name] = xr.Variable(name, values, described.attributes)
     return made

@@ -22,7 +22,7 @@ from disc_model.studies.workers import checked_workers
 def sweep(
     function: Callable[..., Any],
     case: Parameters,
-    *,
+    *unnamed: Any,
     zip: Mapping[str, Any] | None = None,
     workers: int = 1,
     processes: bool = False,
@@ -38,6 +38,7 @@ def sweep(
     ----------
     function : one that takes a case first, such as `floquet`, `simulate`, `outcome` or a function of your own
     case : values of all parameters that do not vary
+    *unnamed : nothing, since arguments of the function are given by name, such as ``horizon=200``
     zip : columns of values that vary together, by the names of numbers of the case, such as paired samples or a
         pandas.DataFrame of cases. They are one dimension, whose name joins theirs
     workers : number of calls at a time; compiled code runs beside other threads
@@ -60,7 +61,8 @@ def sweep(
     ParameterError
         If `case` is no case, a name is neither a number of it nor an argument of the function, or a value breaks a rule
         by itself; and if an argument of the function is missing, or refused at the first point. Where values of the
-        case break a rule together, the point has failed.
+        case break a rule together, the point has failed. Any other error of the function ends the sweep, with a note
+        of what varies at the point.
 
     Examples
     --------
@@ -75,7 +77,7 @@ def sweep(
     >>> pairs["growth_rate"].sizes, pairs["N"].values
     (Frozen({'N_Omega': 2}), array([385., 300.]))
     """
-    call = checked_call(function, case, zip, named)
+    call = checked_call(function, case, unnamed, zip, named)
     calls = checked_workers(workers, processes, executor, progress)
     row = partial(_row, partial(function, **call.options), case, call.arguments)
     rows = calls.results(row, [*enumerate(call.points())], call.title)
@@ -109,6 +111,18 @@ def _described(name: str) -> dict[str, Any]:
     return {}
 
 
+def _called(function: Any, case: Parameters, point: Mapping[str, Any]) -> Any:
+    """The result of a function for one point; an error that ends the sweep has a note of the point."""
+    try:
+        return function(case.replace(**point))
+    except NUMERICAL:
+        raise
+    except Exception as error:
+        place = ", ".join(f"{name}={value!r}" for name, value in point.items())
+        error.add_note(f"at the point {place} of the sweep")
+        raise
+
+
 def _row(
     function: Any, case: Parameters, names: frozenset[str], numbered: tuple[int, Any]
 ) -> dict[str, xr.Variable]:
@@ -116,7 +130,7 @@ def _row(
     of all."""
     number, point = numbered
     try:
-        result = function(case.replace(**point))
+        result = _called(function, case, point)
     except NUMERICAL as error:
         refused = {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}
         if number == 0 and names & refused:

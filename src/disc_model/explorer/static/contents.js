@@ -43,6 +43,7 @@ async function unpacked(text, Kind) {
 async function unpack(study) {
   const parts = [
     ...study.variables.map((variable) => [variable, variable.flags ? Uint8Array : Float32Array]),
+    ...study.variables.filter((variable) => variable.gaps).map((variable) => [variable.gaps, Uint8Array]),
     ...(study.messages ? [[study.messages, Uint32Array]] : []),
     ...(study.motions ? study.motions.traces.map((trace) => [trace, Uint16Array]) : []),
   ].filter(([part]) => !part.numbers);
@@ -56,10 +57,16 @@ function value(study, variable, place) {
   return variable.numbers[at];
 }
 
+/** The look of the class of a point where a variable has no number, which says why; null where it has one. */
+function gapAt(study, variable, place) {
+  const code = variable.gaps ? value(study, variable.gaps, place) : 0;
+  return code ? variable.gaps.looks[code - 1] : null;
+}
+
 function shown(study, variable, place) {
   const found = value(study, variable, place);
   if (variable.flags) return variable.looks[found].label;
-  return Number.isNaN(found) ? variable.missing : withUnit(number(found), variable.unit);
+  return gapAt(study, variable, place)?.label ?? withUnit(number(found), variable.unit);
 }
 
 function messageAt(study, place) {

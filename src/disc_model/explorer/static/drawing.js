@@ -66,16 +66,14 @@ const style = (name) => getComputedStyle(document.documentElement).getPropertyVa
 /** What figures call a class, by its word. */
 const labelOf = (variable, word) => variable.looks[variable.flags.indexOf(word)].label;
 
-/** What an area of a flag's class is filled with: its colour, and its pattern over it. */
-const flagFills = (ink, variable, code) => {
-  const { face, hatch, ink: line } = variable.looks[code];
-  return hatch ? [face, pattern(ink, hatch, line)] : [face];
-};
+/** What an area of a class is filled with: its colour, and its pattern over it. */
+const fillsOf = (ink, { face, hatch, ink: line }) => (hatch ? [face, pattern(ink, hatch, line)] : [face]);
 
-/** Colours of numbers: `colour(x)`, and `value(share)` for the ticks of the bar. */
-function colouring(numbers) {
+/** Colours of numbers: `colour(x)`, and `ticks(size)` of the bar, of a size in pixels, as shares of it and numbers. */
+function colouring(numbers, scale) {
   const finite = numbers.filter(Number.isFinite).sort((a, b) => a - b);
   if (!finite.length) return null;
+  if (scale && view.colours === "auto") return asInFigures(scale);
   const [least, greatest] = [finite[0], finite[finite.length - 1]];
   const both = least < 0 && greatest > 0;
   const zero = both ? 0 : least;
@@ -88,13 +86,23 @@ function colouring(numbers) {
   const back = (s) => (stretched ? width * Math.sinh(s * Math.asinh(size / width)) : s * size);
   const map = both ? contents.maps.diverging : contents.maps.sequential;
   const place = (x) => (size === 0 ? 0.5 : both ? (1 + share(x)) / 2 : share(x - zero));
+  const found = (at) => (size === 0 ? least : both ? back(2 * at - 1) : zero + back(at));
   return {
     map,
-    least,
-    greatest,
-    colour: (x) => map[Math.round(Math.min(1, Math.max(0, place(x))) * (map.length - 1))],
-    value: (at) => (size === 0 ? least : both ? back(2 * at - 1) : zero + back(at)),
+    colour: (x) => colourAt(map, place(x)),
+    ticks: (size) => (size < 360 ? [0, 0.5, 1] : [0, 0.25, 0.5, 0.75, 1]).map((at) => [at, found(at)]),
   };
+}
+
+const colourAt = (map, share) => map[Math.round(Math.min(1, Math.max(0, share)) * (map.length - 1))];
+
+/** Colours of growth rates on the scale of the figures, which ends at a rate of either sign. */
+function asInFigures({ width, end }) {
+  const map = contents.maps.diverging;
+  const place = (x) => (1 + Math.asinh(x / width) / Math.asinh(end / width)) / 2;
+  const largest = 10 ** Math.floor(log10(end));
+  const rates = [-largest, -largest / 10, 0, largest / 10, largest];
+  return { map, colour: (x) => colourAt(map, place(x)), ticks: () => rates.map((rate) => [place(rate), rate]) };
 }
 
 // Canvas
@@ -115,6 +123,24 @@ function write(ink, text, x, y, align = "center", baseline = "middle") {
   ink.textAlign = align;
   ink.textBaseline = baseline;
   ink.fillText(text, x, y);
+}
+
+const LINE = 16; // height of a line of text, pixels
+
+/** A text in lines that fit a width. */
+function wrapped(ink, text, width) {
+  const lines = [];
+  for (const word of text.split(" ")) {
+    const longer = lines.length ? `${lines.at(-1)} ${word}` : word;
+    if (lines.length && ink.measureText(longer).width <= width) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines;
+}
+
+/** Lines of text of which the last one stands at a height. */
+function writeLines(ink, lines, x, y) {
+  lines.forEach((text, n) => write(ink, text, x, y - LINE * (lines.length - 1 - n), "left", "alphabetic"));
 }
 
 /** A pattern for points without a result. */
@@ -163,10 +189,21 @@ function swatchOf(look) {
   const swatch = document.createElement("canvas");
   swatch.width = swatch.height = 16;
   const own = swatch.getContext("2d");
-  for (const fill of look.hatch ? [look.face, pattern(own, look.hatch, look.ink)] : [look.face]) {
+  for (const fill of fillsOf(own, look)) {
     own.fillStyle = fill;
     own.fillRect(0, 0, swatch.width, swatch.height);
   }
+  return swatch;
+}
+
+const MOST_RADIUS = 3; // of a dot, pixels
+
+/** A legend's swatch with a dot as in the map. */
+function dotSwatch() {
+  const swatch = document.createElement("canvas");
+  swatch.width = swatch.height = 16;
+  swatch.classList.add("bare");
+  disc(swatch.getContext("2d"), 8, 8, MOST_RADIUS);
   return swatch;
 }
 
@@ -185,6 +222,7 @@ function xAxis(ink, box, ticks, position, title) {
   write(ink, title, (box.left + box.right) / 2, box.bottom + 26, "center", "top");
 }
 
+/** An axis on the left, its title in lines above it. */
 function yAxis(ink, box, ticks, position, title) {
   ink.strokeStyle = style("--line");
   for (const [at, text] of ticks) {
@@ -192,7 +230,7 @@ function yAxis(ink, box, ticks, position, title) {
     line(ink, box.left - 4, y, box.left, y);
     write(ink, text, box.left - 7, y, "right");
   }
-  write(ink, title, box.left, box.top - 10, "left", "alphabetic");
+  writeLines(ink, title, box.left, box.top - 10);
 }
 
 function line(ink, x0, y0, x1, y1) {

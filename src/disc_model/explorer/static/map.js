@@ -22,15 +22,20 @@ function drawMap() {
   const cells = places();
   const numbers = cells.map((cell) => value(study, variable, cell.place));
   const [xs, ys] = [scaleOf(study.dim[x]), curve ? scaleOfNumbers(variable, numbers) : scaleOf(study.dim[y])];
-  const colours = curve || variable.flags ? null : colouring(numbers);
-  const box = { left: widest(ink, ys.ticks()) + 14, right: width - 14, top: 26, bottom: height - (colours ? 104 : 48) };
+  const colours = curve || variable.flags ? null : colouring(numbers, variable.scale);
+  const [left, right] = [widest(ink, ys.ticks()) + 14, width - 14];
+  const upward = wrapped(ink, axisLabel(curve ? variable : study.dim[y]), right - left);
+  const named = colours ? wrapped(ink, axisLabel(variable), right - left) : [];
+  const below = 48 + (colours ? 40 + LINE * named.length : 0);
+  const box = { left, right, top: 10 + LINE * upward.length, bottom: height - below };
   const horizontal = linear(xs.borders[0], xs.borders.at(-1), box.left, box.right);
   const vertical = linear(ys.borders[0], ys.borders.at(-1), box.bottom, box.top);
   ink.fillStyle = style(curve ? "--back" : "--empty");
   ink.fillRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   const hatch = hatching(ink);
-  const dots = curve ? undefined : marks().find(([key]) => key === view.mark);
-  const seen = { flags: new Set(), hatched: false, empty: false };
+  const dots = marks().find(([key]) => key === view.mark);
+  const dotted = (place) => dots && dots[1].flags[value(study, dots[1], place)] === dots[2];
+  const seen = { flags: new Set(), gaps: new Set(), hatched: false };
   cells.forEach(({ i, j, place }, n) => {
     // whole pixels, so that no seams show
     const [x0, x1] = [Math.round(horizontal(xs.borders[i])), Math.round(horizontal(xs.borders[i + 1]))];
@@ -40,30 +45,33 @@ function drawMap() {
       ink.fillStyle = look;
       ink.fillRect(x0, y0, x1 - x0, y1 - y0);
     };
-    const lost = failed(study, place);
+    const gap = gapAt(study, variable, place);
     if (!curve && variable.flags) seen.flags.add(numbers[n]);
-    if (!curve && Number.isFinite(numbers[n]))
-      (variable.flags ? flagFills(ink, variable, numbers[n]) : [colours.colour(numbers[n])]).forEach(fill);
-    else if (!curve && !lost) seen.empty = true;
-    if (variable !== study.status && lost) {
+    if (gap) {
+      seen.gaps.add(gap);
+      fillsOf(ink, gap).forEach(fill);
+    } else if (!curve && variable.flags) fillsOf(ink, variable.looks[numbers[n]]).forEach(fill);
+    else if (!curve) fill(colours.colour(numbers[n]));
+    if (variable !== study.status && !gap && failed(study, place)) {
       seen.hatched = true;
       fill(hatch);
     }
-    if (dots && dots[1].flags[value(study, dots[1], place)] === dots[2]) {
-      disc(ink, (x0 + x1) / 2, (y0 + y1) / 2, Math.max(1, Math.min(3, (x1 - x0) / 5, (y1 - y0) / 5)));
-    }
+    if (!curve && dotted(place)) disc(ink, (x0 + x1) / 2, (y0 + y1) / 2, dotRadius(x1 - x0, y1 - y0));
   });
   ink.fillStyle = style("--text");
   xAxis(ink, box, xs.ticks(), horizontal, axisLabel(study.dim[x]));
-  yAxis(ink, box, ys.ticks(), vertical, axisLabel(curve ? variable : study.dim[y]));
-  if (colours) colourBar(ink, { left: box.left, right: box.right, top: height - 44, bottom: height - 32 }, colours);
+  yAxis(ink, box, ys.ticks(), vertical, upward);
+  if (colours) colourBar(ink, { left, right, top: height - 44, bottom: height - 32 }, colours, named);
   drawn = { box, horizontal, vertical, xs, ys };
-  if (curve) drawCurve(ink, cells.map(({ i }, n) => [horizontal(xs.at[i]), vertical(numbers[n])]));
+  if (curve) drawCurve(ink, cells.map(({ i, place }, n) => [horizontal(xs.at[i]), vertical(numbers[n]), dotted(place)]));
   else markChosen(ink);
   legend(seen, dots);
 }
 
 const linear = (from, to, start, end) => (x) => start + ((x - from) / (to - from || 1)) * (end - start);
+
+/** The radius of a dot in a cell. */
+const dotRadius = (width, height) => Math.max(1, Math.min(MOST_RADIUS, width / 5, height / 5));
 
 /** A dot that shows on any colour. */
 function disc(ink, x, y, radius) {
@@ -77,19 +85,18 @@ function disc(ink, x, y, radius) {
   ink.lineWidth = 1;
 }
 
-function colourBar(ink, box, colours) {
+function colourBar(ink, box, colours, title) {
   const size = box.right - box.left;
   colours.map.forEach((colour, i) => {
     ink.fillStyle = colour;
     ink.fillRect(box.left + (i / colours.map.length) * size, box.top, size / colours.map.length + 0.5, box.bottom - box.top);
   });
   ink.fillStyle = style("--text");
-  const shares = size < 360 ? [0, 0.5, 1] : [0, 0.25, 0.5, 0.75, 1];
-  for (const share of shares) {
+  for (const [share, found] of colours.ticks(size)) {
     const align = share === 0 ? "left" : share === 1 ? "right" : "center";
-    write(ink, number(colours.value(share), 2), box.left + share * size, box.bottom + 5, align, "top");
+    write(ink, number(found, 2), box.left + share * size, box.bottom + 5, align, "top");
   }
-  write(ink, axisLabel(view.variable), box.left, box.top - 4, "left", "alphabetic");
+  writeLines(ink, title, box.left, box.top - 4);
 }
 
 /** The chosen cell in a frame, a ring where the motion that is shown was computed. */
@@ -117,9 +124,9 @@ function legend(seen, dots) {
   const { study, variable } = view;
   const entries = [...seen.flags].sort((a, b) => a - b)
     .map((code) => [swatchOf(variable.looks[code]), variable.looks[code].label]);
-  if (seen.empty) entries.push([style("--empty"), variable.missing]);
+  for (const look of variable.gaps?.looks ?? []) if (seen.gaps.has(look)) entries.push([swatchOf(look), look.label]);
   if (seen.hatched) entries.push(["hatched", "no result; the point's status says why"]);
-  if (dots) entries.push(["dotted", `${dots[1].label}: ${labelOf(dots[1], dots[2])}`]);
+  if (dots) entries.push([dotSwatch(), `${dots[1].label}: ${labelOf(dots[1], dots[2])}`]);
   element("legend").replaceChildren(...entries.map(legendEntry));
 }
 
@@ -127,7 +134,7 @@ function legendEntry([look, text]) {
   const item = document.createElement("li");
   const swatch = look instanceof Node ? look : document.createElement("span");
   swatch.classList.add("swatch");
-  if (["hatched", "dotted"].includes(look)) swatch.classList.add(look);
+  if (look === "hatched") swatch.classList.add(look);
   else if (!(look instanceof Node)) swatch.style.background = look;
   item.append(swatch, text);
   return item;
@@ -146,12 +153,13 @@ function scaleOfNumbers(variable, numbers) {
   return { borders: [least - room, greatest + room], ticks: () => ticks };
 }
 
-/** The curve in its frame, and a line at the chosen point. */
+/** The curve in its frame, with its dots, and a line at the chosen point. */
 function drawCurve(ink, points) {
   const { box, horizontal, xs } = drawn;
   ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   ink.strokeStyle = ink.fillStyle = style("--accent");
   polyline(ink, points, !view.variable.flags);
+  for (const [x, y, dotted] of points) if (dotted && Number.isFinite(y)) disc(ink, x, y, MOST_RADIUS);
   ink.strokeStyle = style("--text");
   ink.setLineDash([4, 3]);
   const at = horizontal(xs.at[view.place[view.x]]);

@@ -11,6 +11,12 @@ function motionPlaces(study, motion) {
   return motion.places;
 }
 
+/** Motions stored at a point. */
+const motionsAt = (place) =>
+  (view.study.motions?.points ?? []).filter((motion) =>
+    Object.entries(motionPlaces(view.study, motion)).every(([name, at]) => at === place[name]),
+  );
+
 /** The stored motion nearest the chosen point by places along the axes, of the same outcome if there is one. */
 function nearestMotion() {
   const { study, place } = view;
@@ -66,7 +72,7 @@ function drawMotion() {
     const box = { left, right: width - PANEL.right, top, bottom: top + each };
     const vertical = linear(axes[n].least, axes[n].greatest, box.bottom, box.top);
     const { label, unit } = traces[n];
-    yAxis(ink, box, axes[n].ticks, vertical, `${label} (${axes[n].power ? `10${raised(axes[n].power)} ` : ""}${unit})`);
+    yAxis(ink, box, axes[n].ticks, vertical, [`${label} (${axes[n].power ? `10${raised(axes[n].power)} ` : ""}${unit})`]);
     ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
     ink.strokeStyle = style("--accent");
     polyline(ink, [...histories[n]].map((x, i) => [horizontal(i), vertical(x)]), true);

@@ -25,9 +25,14 @@ function where(place, dims = view.study.dims) {
 function hover(place) {
   const { study, variable, x, y } = view;
   const axes = [x, y].filter((name) => name !== NONE).map((name) => study.dim[name]);
-  const status = place && failed(study, place) && variable !== study.status ? `; ${shown(study, study.status, place)}` : "";
-  element("hovered").textContent =
-    place ? `${where(place, axes)}. ${variable.label}: ${shown(study, variable, place)}${status}` : "";
+  if (!place) {
+    element("hovered").textContent = "";
+    return;
+  }
+  const found = shown(study, variable, place);
+  const status = failed(study, place) ? shown(study, study.status, place) : found;
+  const said = status === found ? found : `${found}; ${status}`;
+  element("hovered").textContent = `${where(place, axes)}. ${variable.label}: ${said}`;
 }
 
 const MOVES = { ArrowLeft: ["x", -1], ArrowRight: ["x", 1], ArrowDown: ["y", -1], ArrowUp: ["y", 1] };
@@ -51,9 +56,11 @@ function call(study, place) {
   return `dm.Parameters(${stated.join(", ")})`;
 }
 
-/** The address of a point: its study, what is shown of it, and its place along each dimension. */
-const address = () =>
-  new URLSearchParams({ study: view.study.name, across: view.x, up: view.y, variable: view.variable.name, ...view.place });
+/** The address of a point: its study, what is shown of it and how, and its place along each dimension. */
+function address() {
+  const { study, x, y, variable, colours, mark, place } = view;
+  return new URLSearchParams({ study: study.name, across: x, up: y, variable: variable.name, colours, dots: mark, ...place });
+}
 
 /** Choose what an address says, as far as it is there. */
 async function follow(hash) {
@@ -65,6 +72,8 @@ async function follow(hash) {
   view.y = study.dim[asked.get("up")] && asked.get("up") !== view.x ? asked.get("up") : NONE;
   view.variable = study.variables.find((one) => one.name === asked.get("variable")) ?? view.variable;
   chooseAxes();
+  if (COLOURS.some(([key]) => key === asked.get("colours"))) view.colours = asked.get("colours");
+  if ([NONE, ...marks().map(([key]) => key)].includes(asked.get("dots"))) view.mark = asked.get("dots");
   for (const dim of study.dims) {
     const index = Number(asked.get(dim.name) ?? view.place[dim.name]);
     if (index >= 0 && index < dim.values.length) view.place[dim.name] = Math.floor(index);

@@ -28,8 +28,19 @@ async function chooseStudy(name) {
   );
   for (const dim of [across, ...(up ? [up] : [])]) view.place[dim.name] = Math.floor((dim.values.length - 1) / 2);
   chooseAxes();
-  // at a point whose own motion is stored, if there is one
-  for (const [name, at] of Object.entries(nearestMotion()?.places ?? {})) if (at >= 0) view.place[name] = at;
+  view.place = opening();
+}
+
+/** The point at which a study opens: nearest the middle of its map one that has a value and whose own motion is stored, or
+ * else one that has a value. */
+function opening() {
+  const { study, variable, x, y, place } = view;
+  const valued = places().filter((cell) => !gapAt(study, variable, cell.place));
+  const stored = valued.filter((cell) => motionsAt(cell.place).length);
+  const middle = (name) => (name === NONE ? 0 : (study.sizes[name] - 1) / 2);
+  const apart = ({ i, j }) => Math.hypot((i - middle(x)) / study.sizes[x], (j - middle(y)) / (study.sizes[y] ?? 1));
+  const [first] = (stored.length ? stored : valued).sort((a, b) => apart(a) - apart(b));
+  return first?.place ?? place;
 }
 
 /** After another choice of axes: a variable along both of them, the one before if it will do. */
@@ -53,12 +64,15 @@ function marks() {
 
 // Controls
 
+const COLOURS = [["auto", "automatic"], ["linear", "linear"], ["stretched", "small values spread"]];
+
 function choice(label, options, chosen, act) {
   const box = document.createElement("label");
   box.textContent = label;
   const select = document.createElement("select");
   select.name = label;
   for (const [key, text] of options) select.add(new Option(text, key, false, key === chosen));
+  select.title = select.selectedOptions[0]?.text ?? "";
   select.addEventListener("change", async () => {
     element("grids").ariaBusy = "true";
     await act(select.value);
@@ -101,7 +115,7 @@ function fillControls() {
     boxes.push(
       choice(
         "Colours",
-        [["auto", "automatic"], ["linear", "linear"], ["stretched", "small values spread"]],
+        COLOURS.map(([key, text]) => [key, key === "auto" && view.variable.scale ? "as in the figures" : text]),
         view.colours,
         (name) => (view.colours = name),
       ),

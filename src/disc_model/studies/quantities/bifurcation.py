@@ -82,9 +82,14 @@ class Bifurcation(Start, Quantity):
     }
     COORDINATES: ClassVar = {
         "sample": Coordinate(
-            "1", "number of the turn after the transient", lambda o: range(o.samples)
+            "1", "number of the {0.counted} after the transient", lambda o: range(o.samples)
         )
     }
+
+    @property
+    def counted(self) -> str:
+        """What samples are numbered by."""
+        return "turn" if self.section == "stroboscopic" else "event"
 
     def cost(self, unit: UnitCosts) -> float:
         """Some transients are doubled to the longest, most are not."""

@@ -16,6 +16,7 @@ from disc_model.studies.quantity import (
     Range,
     UnitCosts,
     listed,
+    units_of,
 )
 from disc_model.units import Count, Unit
 
@@ -54,11 +55,16 @@ class Sliding(Quantity):
         ),
     }
     COORDINATES: ClassVar = {
-        "value": Coordinate("", "{0.parameter}", lambda o: o.scan.values),
+        "value": Coordinate("{0.units}", "{0.parameter}", lambda o: o.scan.values),
         "mode": Coordinate(
             "1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1)
         ),
     }
+
+    @property
+    def units(self) -> str:
+        """The unit of the parameter."""
+        return units_of(self.parameter)
 
     def cost(self, unit: UnitCosts) -> float:
         """Eigenvalues at each value."""
