@@ -104,11 +104,11 @@ def render(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Figure:
                 _of_cases(plot, inputs) if isinstance(plot, CasePlot) else _of_grid(plot, inputs)
             )
             restate_axes(drawn.figure)
-            break_labels(drawn.figure)
             width = drawn.figure.get_figwidth()
             text = head_text(width, plot.title or drawn.title, drawn.values, MOST_LINES)
             if text and not plot.caption:
                 _write_title(plot, drawn.figure, text)
+            break_labels(drawn.figure)  # below the title, which leaves them less room
             return drawn.figure
     finally:
         UNITS.reset(token)
