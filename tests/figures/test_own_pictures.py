@@ -163,13 +163,17 @@ def test_a_branch_has_the_variable_that_is_asked_for(y: str, words: str, unit: s
 )
 def test_a_special_point_is_marked_in_the_units_of_both_axes(y: str, factor: float) -> None:
     """The axis of periods is in ms."""
-    branch = dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2))
+    p = P.replace(Omega=14.9)
+    branch = dm.continue_cycle(p, "Omega", (14.8, 15.2))
     (fold,) = [special for special in branch.special if special.kind == "fold"]
     (ax,) = figure_of(branch.plot(y)).axes
-    (mark,) = [line for line in ax.lines if line.get_label() == "fold at 15.095"]
+    shown = lines(ax)
+    mark = shown["fold at 15.095"]
+    speed = fold.values[0]
+    height = factor * getattr(fold, y)
     # the same numbers, but for the factor's rounding
-    assert mark.get_xdata() == pytest.approx([fold.values[0]], rel=1e-12)
-    assert mark.get_ydata() == pytest.approx([factor * getattr(fold, y)], rel=1e-12)
+    assert mark.get_xdata() == pytest.approx([speed], rel=1e-12)
+    assert mark.get_ydata() == pytest.approx([height], rel=1e-12)
 
 
 def test_critical_values_are_over_the_parameter_and_growth_per_second() -> None:
@@ -213,26 +217,33 @@ def test_neutral_curves_have_both_parameters_in_their_units() -> None:
 def test_a_resonance_is_named_once_for_each_kind_of_curve_and_covers_none() -> None:
     """ "2 f_s = 135.42 Hz" stood three times, across curves and over the numbers of an axis."""
     speeds = np.linspace(10, 16, 40)
-    loads = {"neutral": [30 * speeds + 60], "fold": [30 * speeds - 50, 28 * speeds - 40]}
+    steep = 30 * speeds - 50
+    flat = 28 * speeds - 40
+    loads = {"neutral": [30 * speeds + 60], "fold": [steep, flat]}
     resonance = Resonance(2, 135.42, 0, 0, 0.0)
     curves = []
     for kind, lines_of_kind in loads.items():
         for line in lines_of_kind:
             values = np.column_stack([speeds, line])
             stable = np.ones(40, dtype=bool)
-            curves.append(StabilityCurve(kind, values, stable, speeds, speeds + 0j, resonance))
+            curve = StabilityCurve(kind, values, stable, speeds, speeds + 0j, resonance)
+            curves.append(curve)
     bounds = {"Omega": (10.0, 22.0), "N": (250.0, 450.0)}
-    figure = figure_of(NeutralCurves(P, bounds, tuple(curves), ()).plot())
+    found = NeutralCurves(P, bounds, tuple(curves), ())
+    figure = figure_of(found.plot())
     figure.draw_without_rendering()
     ax = figure.axes[0]
     shown = [text for text in ax.texts if text.get_visible()]
     assert len(shown) == 2, "one of either kind"
     boxes = [text.get_window_extent() for text in shown]
     assert not boxes[0].overlaps(boxes[1])
+    panel = ax.get_window_extent()
     for box in boxes:
-        assert ax.get_window_extent().count_contains(box.corners()) == 4
+        corners = box.corners()
+        assert panel.count_contains(corners) == 4
         for curve in curves:
-            assert not box.count_contains(ax.transData.transform(curve.values))
+            points = ax.transData.transform(curve.values)
+            assert not box.count_contains(points)
 
 
 def test_exponents_are_per_second() -> None:

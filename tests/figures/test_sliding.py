@@ -51,17 +51,23 @@ def test_modes_are_drawn_along_the_parameter(
 
 def test_names_of_a_root_locus_cover_neither_marks_nor_each_other(over_mu: xr.Dataset) -> None:
     """Halos cut names, and the rims of 150 marks of a mode left nothing of their colours."""
-    many = over_mu.drop_vars("message").interp(value=np.linspace(0, 0.4, 150))
-    many = many.assign(diameters=over_mu["diameters"], frequency=many["frequency"])
+    values = np.linspace(0, 0.4, 150)
+    many = over_mu.drop_vars("message").interp(value=values)
+    diameters = over_mu["diameters"]
+    many = many.assign(diameters=diameters)
     figure = render(kind_of("root_locus")(), {"study": xr.DataTree(many)})
     figure.draw_without_rendering()
     ax = figure.axes[0]
-    boxes = [text.get_window_extent() for text in ax.texts if text.get_visible()]
+    shown = [text for text in ax.texts if text.get_visible()]
+    boxes = [text.get_window_extent() for text in shown]
     assert len(boxes) >= 3
     for i, box in enumerate(boxes):
-        assert not box.count_overlaps(boxes[:i])
+        former = boxes[:i]
+        assert not box.count_overlaps(former)
         for marks in ax.collections:
-            assert not box.count_contains(ax.transData.transform(marks.get_offsets()))
+            places = marks.get_offsets()
+            points = ax.transData.transform(places)
+            assert not box.count_contains(points)
     assert {width for marks in ax.collections for width in marks.get_linewidths()} == {0.0}
 
 

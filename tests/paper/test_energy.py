@@ -69,12 +69,16 @@ def test_stretches_in_a_compliant_contact_follow_each_other_after_a_transient(
 
     soft = p.replace(contact_compliance="residual")
     run = simulate(soft, 30.0 + energy.TRANSIENT, initial_state=state)
+    theta = angles_round(soft)
     fine = []
     for _ in taken:  # an irregular motion is the same in the same pieces only
-        begin = run.final_state.time
-        windows = energy.windows_round(soft, begin, begin + 5.0, 8000.0)
-        run = simulate(soft, begin + 5.0, windows, initial_state=run.final_state)
-        found = powers(soft, run.u_0, angles_round(soft), list(run.samples.values()))
+        start = run.final_state
+        begin = start.time
+        end = begin + 5.0
+        windows = energy.windows_round(soft, begin, end, 8000.0)
+        run = simulate(soft, end, windows, initial_state=start)
+        samples = list(run.samples.values())
+        found = powers(soft, run.u_0, theta, samples)
         fine.append(found.damped)
     # two thousand samples of a stretch leave some per cent
     assert taken == pytest.approx(fine, rel=0.05)

@@ -120,7 +120,8 @@ def test_separations_are_those_of_the_averaging_time() -> None:
     rest = static_start(p)
     start = perturb(p, rest, u=-3 * rest.u)
     events = simulate(p, 0.4, initial_state=start).events
-    times = events["time"][events["kind"] == "separation"]
+    separations = events["kind"] == "separation"
+    times = events["time"][separations]
     late = int((times > 0.2).sum())
     assert 20 < late < len(times) - 20
     found = lyapunov_exponents(p, 0.2, count=1, initial_state=start)

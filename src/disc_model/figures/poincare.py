@@ -1,7 +1,6 @@
 """Poincaré sections of slider and disc, in the colours of the stages of a run."""
 
 import json
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -135,7 +134,7 @@ def draw_sections(
             look = dict(LOOKS[stage])
             look["s"] = 14
             handles.append(axes[1].scatter([], [], label=name, **look))
-    if math.isfinite(found.final_since):
+    if np.isfinite(found.final_since):
         look = {**LOOKS[ON_THE_WAY["later"]], "s": 14}
         name = f"hollow: up to {found.final_since:.0f} s"
         handles.append(axes[1].scatter([], [], label=name, **look))

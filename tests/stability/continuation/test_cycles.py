@@ -101,12 +101,15 @@ _OF_ONE_SIZE = {
 def test_ranges_are_those_of_simulated_periods(branch: Branch) -> None:
     numbers = [0, len(branch) // 2, -1]
     for i in numbers:
+        p = branch.case_at(i)
+        state = branch.state(i)
         stop = float(branch.period[i])
-        window = {"period": Window(start=0.0, stop=stop, rate=4000.0)}
-        run = simulate(branch.case_at(i), stop, window, initial_state=branch.state(i))
-        height = run.samples["period"]["u"]
+        period = Window(start=0.0, stop=stop, rate=4000.0)
+        run = simulate(p, stop, {"period": period}, initial_state=state)
+        samples = run.samples["period"]
+        size = float(np.ptp(samples["u"]))
         # both sample at 4 kHz, at times that differ by rounding
-        assert branch.range[i] == pytest.approx(float(np.ptp(height)), rel=1e-6)
+        assert branch.range[i] == pytest.approx(size, rel=1e-6)
 
 
 def test_special_points_have_their_multipliers(branch: Branch) -> None:
@@ -144,8 +147,11 @@ def test_a_branch_of_twice_the_period_ends_at_the_doubling(doubled: Branch) -> N
     assert not len(doubled.folds)
     first = doubled.special[0]
     assert first.kind == "period_doubling"
-    single = continue_cycle(first.case, "Omega", (14.0, 14.6), guess=first.state)
-    doubling = next(each for each in single.special if each.kind == "period_doubling")
+    p = first.case
+    single = continue_cycle(p, "Omega", (14.0, 14.6), guess=first.state)
+    kinds = [each.kind for each in single.special]
+    number = kinds.index("period_doubling")
+    doubling = single.special[number]
     # a double zero of the equations of twice the period: half of the digits
     assert first.values[0] == pytest.approx(doubling.values[0], rel=1e-7)
     assert first.period == pytest.approx(2 * doubling.period, rel=1e-7)
@@ -153,25 +159,34 @@ def test_a_branch_of_twice_the_period_ends_at_the_doubling(doubled: Branch) -> N
 
 def test_a_branch_of_twice_the_period_begins_at_the_doubling(doubled: Branch) -> None:
     start = doubled.special[0]
-    branch = continue_cycle(start.case, "Omega", (14.0, 14.6), guess=start.state, releases=2)
+    p = start.case
+    branch = continue_cycle(p, "Omega", (14.0, 14.6), guess=start.state, releases=2)
     assert branch.ended.startswith("a period doubling at Omega = 14.28")
-    assert [special.kind for special in branch.special] == ["period_doubling", "end"]
+    kinds = [special.kind for special in branch.special]
+    assert kinds == ["period_doubling", "end"]
     assert branch.special[0].values == pytest.approx(start.values, rel=1e-7)
     assert np.all(np.diff(branch.values[:, 0]) > 0)
     # at the other end it is the branch that came to the doubling
-    i = np.searchsorted(doubled.values[:, 0], 14.6)
+    speeds = doubled.values[:, 0]
+    i = np.searchsorted(speeds, 14.6)
     known = continue_cycle(
         doubled.case_at(i), "Omega", (14.5, 16.0), guess=doubled.state(i), releases=2, values=[14.6]
     )
     there = known.values[:, 0] == 14.6
-    assert branch.period[-1] == pytest.approx(float(known.period[there][0]), rel=1e-9)
+    [period] = known.period[there]
+    last = branch.period[-1]
+    assert last == pytest.approx(period, rel=1e-9)
 
 
 def test_a_cycle_is_not_followed_with_twice_its_releases(doubled: Branch) -> None:
     doubling = doubled.special[0]
-    single = continue_cycle(doubling.case, "Omega", (13.0, 14.6), guess=doubling.state)
-    with pytest.raises(ParameterError, match="repeats after 1 release; follow it with releases=1"):
-        continue_cycle(single.case_at(0), "Omega", (12, 15), guess=single.state(0), releases=2)
+    p = doubling.case
+    single = continue_cycle(p, "Omega", (13.0, 14.6), guess=doubling.state)
+    p = single.case_at(0)
+    state = single.state(0)
+    rule = "repeats after 1 release; follow it with releases=1"
+    with pytest.raises(ParameterError, match=rule):
+        continue_cycle(p, "Omega", (12, 15), guess=state, releases=2)
 
 
 def test_a_branch_can_stop_where_the_cycle_first_loses_stability() -> None:

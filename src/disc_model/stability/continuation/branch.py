@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar
@@ -231,13 +230,13 @@ class Branch:
 
     def _number(self, i: int) -> int:
         """A number of a cycle, checked, counted from the first one."""
-        try:
-            number = operator.index(i)
-        except TypeError:
-            number = len(self)
+        numbers = range(len(self))
         rule = f"must be the number of a cycle, from {-len(self)} to {len(self) - 1}"
-        require((-len(self) <= number < len(self), "i", i, rule))
-        return number % len(self)
+        try:
+            return numbers[i]
+        except (TypeError, IndexError):
+            require((False, "i", i, rule))
+            raise
 
     def plot(self, y: str = "growth_rate", *, ax: Axes | None = None) -> Axes:
         """Draw growth_rate, period, stick_fraction, or range of the slider's height over the
