@@ -22,7 +22,7 @@ class Powers(NamedTuple):
 
     damping : by the frequency in Hz of a mode
     impacts : the rest of the balance of the disc and of the slider's vertical motion (docs/model.md,
-        Energy); in a compliant contact it is that of the contact's elasticity, whose mean vanishes
+        Energy)
     """
 
     damping: dict[int, float]
@@ -30,19 +30,18 @@ class Powers(NamedTuple):
 
 
 @cache
-def powers(Omega: float, contact: str, compliance: float = 0.0) -> Powers:
+def powers(Omega: float, contact: str) -> Powers:
     """Return mean powers at 8 kN from the static start.
 
     Parameters
     ----------
     Omega : speed, rad/s
-    contact : ``unilateral`` or ``bilateral``
-    compliance : of the contact, m/N
+    contact : ``unilateral`` or ``bilateral``; rigid
     """
     disc = dm.Disc.from_csv(ROOT / "config" / "discs" / "brake.csv")
     p = dm.Parameters(
         N=8000, Omega=Omega, disc=disc, r_0=0.1, k=1e6, k_p=1e6, m=0.5, mu_s=0.45, mu_k=0.35,
-        friction_offset="surface", contact=contact, contact_compliance=compliance,
+        friction_offset="surface", contact=contact,
     )  # fmt: skip
     start = dm.simulate(p, BEGIN, events=False).final_state
     times = start.time + np.arange(int(LENGTH * RATE)) / RATE

@@ -31,6 +31,7 @@ rule merge_cases:
         ),
     log:
         f"{RESULTS}/logs/merge_cases.log",
+    priority: 1  # the longest job after a changed case
     conda:
         "../envs/disc_model.yaml"
     params:
