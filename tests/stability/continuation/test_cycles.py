@@ -275,7 +275,7 @@ def test_the_reason_of_an_end_is_the_margin_that_vanishes_there(ended: str) -> N
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(24))
+@pytest.mark.parametrize("seed", [*range(24), 710])
 def test_branches_of_random_cases_are_those_of_shorter_steps(seed: int) -> None:
     rng = np.random.default_rng(seed)
     if seed % 3 == 2:

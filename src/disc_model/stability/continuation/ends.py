@@ -29,6 +29,9 @@ DOUBLED = "period_doubling"
 # Arclengths beyond the last cycle, which is within the shortest step of a discontinuity; events of
 # a motion without one move by about as much, over the period.
 BEYOND = (1e-6, 1e-5, 1e-4)
+# Such arclengths for motions: beside a grazing release a leading multiplier of a million leaves it to
+# chance on which side a motion goes.
+TRIED = (*BEYOND, 2e-6, 5e-6, 2e-5, 5e-5, 2e-4, 5e-4, 1e-3)
 SAME_TIME = 5e-3  # largest difference of two times of one event, over the period
 
 GRAZINGS = {
@@ -80,7 +83,7 @@ def reason_of_loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) 
         except ParameterError as fault:
             return End(LIMIT, f"beyond it the case is not valid: {fault}")
     cycle = _events(problem, last.z, last.orbit.period)
-    for distance in BEYOND:
+    for distance in TRIED:
         motion = _events(problem, last.z + distance * last.tangent, last.orbit.period)
         text = _first_difference(cycle, motion)
         if text:
