@@ -1,6 +1,5 @@
 """What the numbers of pages are made of: results below a folder, pages from results, the package."""
 
-import json
 import re
 from functools import cache
 from pathlib import Path
@@ -14,6 +13,7 @@ from docs.sentences import NUMBER, ROOT, Value, numbers_of
 import disc_model as dm
 from disc_model.data.dataset import Missing, MissingFile, load
 from disc_model.data.variables import flag_names
+from disc_model.figures.late_range import lost_contact
 from disc_model.figures.selection import common_points
 from disc_model.figures.sensitivity import probabilities
 from disc_model.figures.sliding_outcome import agreement
@@ -381,11 +381,7 @@ class Sources:
         """Return the ranges with separation over those at which vibration at the frequency of the
         mode with the largest tangential motion loses contact."""
         study = self.grid("brake_outcome").sel(disc="surface", contact="unilateral")
-        disc = json.loads(study.attrs["discs"])["surface"]
-        omega = disc["omega"][int(np.argmax(np.abs(disc["tangential"])))]
-        base = json.loads(study.attrs["base"])
-        lost = 2 * study["N"] / abs(base["k"] - base["m"] * omega**2)
-        multiples = (study["u_max"] - study["u_min"]) / lost
+        multiples = (study["u_max"] - study["u_min"]) / lost_contact(study, "surface")
         return multiples.where(study["first_separation"].notnull())
 
     def brake_separation(self, N: float, Omega: float) -> float:

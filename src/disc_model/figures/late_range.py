@@ -25,7 +25,7 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.kinds.motions import LateRange
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.types import Array, Axes, Figure
+from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import SPEED
 from disc_model.parameters import Parameters
 
@@ -99,33 +99,35 @@ def _draw_lost_contact(ax: Axes, study: xr.Dataset, plot: LateRange, name: str) 
 
     The vibration is that of the mode with the largest tangential motion, which friction feeds.
     """
+    limits = lost_contact(study, name)
+    place = LOWEST_NAME  # the lowest line has its name below, where no curve is
+    for limit, colour, line in zip(limits, LOAD_COLOURS, LOST, strict=False):
+        lost = float(limit) / plot.thickness
+        ax.axhline(lost, color=colour, linestyle=line, linewidth=wide(1.0))
+        _note(ax, lost, f"contact lost, {1e-3 * float(limit['N']):g} kN", place, color=colour)
+        place = FURTHER_NAMES
+    _say_how_far_beyond(ax, study.sel({plot.by: name}), limits)
+
+
+def lost_contact(study: xr.Dataset, name: str) -> xr.DataArray:
+    """Ranges at which vibration at the frequency of a disc's mode with the largest tangential motion
+    loses contact, m, along the preload."""
     disc = json.loads(study.attrs["discs"])[name]
     fed = np.argmax(np.abs(disc["tangential"]))
     frequency = float(disc["omega"][fed]) / (2 * np.pi)
     base = json.loads(study.attrs["base"])
     slider = {key: base[key] for key in ("k", "m", "c")}
-    loads = study["N"].values
-
-    limits: list[float] = []
-    for load, colour, line in zip(loads, LOAD_COLOURS, LOST, strict=False):
-        p = Parameters(N=float(load), Omega=1.0, **slider)
-        lost = pinned_range(p, frequency) / plot.thickness
-        ax.axhline(lost, color=colour, linestyle=line, linewidth=wide(1.0))
-        # the lowest line has its name below, where no curve is
-        place = LOWEST_NAME if not limits else FURTHER_NAMES
-        _note(ax, lost, f"contact lost, {1e-3 * load:g} kN", place, color=colour)
-        limits.append(lost)
-    _say_how_far_beyond(ax, study.sel({plot.by: name}), np.array(limits), plot.thickness)
+    limits = []
+    for load in study["N"].values.tolist():
+        p = Parameters(N=load, Omega=1.0, **slider)
+        limits.append(pinned_range(p, frequency))
+    return xr.DataArray(limits, {"N": study["N"].values}, ("N",))
 
 
-def _say_how_far_beyond(ax: Axes, study: xr.Dataset, limits: Array, thickness: float) -> None:
-    """Say between which multiples of the lines the ranges with separation lie.
-
-    limits : range at which contact is lost, in thicknesses, of each preload
-    """
-    loads = study["N"].values[: len(limits)]
-    lines = xr.DataArray(limits, {"N": loads}, ("N",))
-    multiples = (study["u_max"] - study["u_min"]) / (thickness * lines)
+def _say_how_far_beyond(ax: Axes, study: xr.Dataset, limits: xr.DataArray) -> None:
+    """Say between which multiples of the ranges at which contact is lost those with separation
+    lie."""
+    multiples = (study["u_max"] - study["u_min"]) / limits
     separates = flag_names(study["outcome"]) == "separation"
     found = multiples.where(study["outcome"].copy(data=separates)).values
     found = found[np.isfinite(found)]

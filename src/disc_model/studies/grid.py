@@ -676,11 +676,9 @@ class GridStudy:
         title = plot.title or f"{self.title or self.name}: {name}"
         stated = {name: value for name, value in self.base.items() if value or name not in REQUIRED}
         values = values_text(stated)
-        source = (
-            f"the grid study {self.name}, with {values}"
-            if values
-            else f"the grid study {self.name}"
-        )
+        source = f"the grid study {self.name}"
+        if values:
+            source += f", with {values}"
         caption = f"{plot.caption} From {source}.".strip()
         return FigureEntry(plot, inputs, category, plot.section, title, caption)
 

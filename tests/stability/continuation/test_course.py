@@ -160,7 +160,7 @@ def test_special_points_are_a_table_with_states(branch):
     assert fold.case == P.replace(Omega=float(fold.values[0]))
     assert branch.state(-1) == pytest.approx(cycle_at(12, 300, upper=False), abs=1e-9)
     assert branch.case_at(-1).Omega == 12
-    for wrong in (len(branch), -len(branch) - 1, 0.5, "0"):
+    for wrong in (len(branch), -len(branch) - 1, 0.5, "0", slice(2)):
         with pytest.raises(ParameterError, match="must be the number of a cycle"):
             branch.state(wrong)
     assert len(pickle.loads(pickle.dumps(branch))) == len(branch)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -230,13 +230,14 @@ class Branch:
 
     def _number(self, i: int) -> int:
         """A number of a cycle, checked, counted from the first one."""
-        numbers = range(len(self))
-        rule = f"must be the number of a cycle, from {-len(self)} to {len(self) - 1}"
+        number: Any
         try:
-            return numbers[i]
+            number = range(len(self))[i]
         except (TypeError, IndexError):
-            require((False, "i", i, rule))
-            raise
+            number = None
+        rule = f"must be the number of a cycle, from {-len(self)} to {len(self) - 1}"
+        require((isinstance(number, int), "i", i, rule))  # a slice gives several
+        return int(number)
 
     def plot(self, y: str = "growth_rate", *, ax: Axes | None = None) -> Axes:
         """Draw growth_rate, period, stick_fraction, or range of the slider's height over the

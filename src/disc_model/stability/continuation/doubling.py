@@ -17,30 +17,30 @@ from disc_model.stability.continuation.problem import CycleProblem
 from disc_model.stability.continuation.spectrum import spectrum_of
 from disc_model.stability.return_map import Array
 
-SAME = (
-    1e-3  # largest distance, over the deflection, of a cycle from itself half a period later that
-)
-# is looked at as one of half the period: at a doubling, Newton's method comes to a double zero
+# largest distance, over the deflection, of a cycle from itself half a period later that is looked at
+# as one of half the period: at a doubling, Newton's method comes to a double zero
+SAME = 1e-3
 NEAR_DOUBLING = 0.02  # distance from -1 of the multiplier from which a branch is sought there
 DEPARTURE = 5e-3  # distance of a branch's first cycle from the doubling, over the deflection
 
 
-def is_even(problem: CycleProblem) -> bool:
-    """Whether cycles of the problem have an even number of releases in a period."""
-    return problem.order is not None and problem.order.releases % 2 == 0
+def releases_in_half(problem: CycleProblem) -> int:
+    """Releases in half a period of the problem's cycles; 0 if a period has an odd number."""
+    if problem.order is None or problem.order.releases % 2:
+        return 0
+    return problem.order.releases // 2
 
 
 def half_a_period_on(problem: CycleProblem, z: Array) -> Array:
     """The way on the section from a cycle of an even number of releases to itself half a period
     later, (n,), over the deflection; raises `Rejected` without a return."""
-    assert problem.order is not None
-    return problem.residual(z, problem.order.releases // 2)
+    return problem.residual(z, releases_in_half(problem))
 
 
 def passes_doubling(problem: CycleProblem, before: CurvePoint, after: CurvePoint) -> bool:
     """Whether two neighbours on a branch of cycles of an even number of releases are the same ones,
     half a period apart: the curve passes a period doubling between them."""
-    if not is_even(problem):
+    if not releases_in_half(problem):
         return False
     try:
         first = half_a_period_on(problem, before.z)
@@ -52,8 +52,7 @@ def passes_doubling(problem: CycleProblem, before: CurvePoint, after: CurvePoint
 
 def doubling_end(problem: CycleProblem, point: CurvePoint) -> End:
     """The end of a branch at a period doubling near a point, in words."""
-    assert problem.order is not None
-    half = counted(problem.order.releases // 2, "release")
+    half = counted(releases_in_half(problem), "release")
     text = f"a period doubling at {problem.words(point)}: the cycle becomes one of {half}"
     return End(DOUBLED, text)
 
@@ -64,10 +63,9 @@ def leave_doubling(problem: CycleProblem, start: CurvePoint) -> CurvePoint | Non
 
     Raises `ParameterError` if the start is one of half as many releases, and not at a doubling.
     """
-    if not is_even(problem) or np.linalg.norm(half_a_period_on(problem, start.z)) > SAME:
+    half = releases_in_half(problem)
+    if not half or np.linalg.norm(half_a_period_on(problem, start.z)) > SAME:
         return None
-    assert problem.order is not None
-    half = problem.order.releases // 2
     shorter = problem.evaluate(start.z, half)
     spectrum = spectrum_of(shorter.jacobian)
     critical = int(np.argmin(np.abs(spectrum.values + 1)))
