@@ -153,3 +153,12 @@ def test_a_case_of_the_workflow_keeps_the_record_of_its_choice() -> None:
     assert done.attrs["parameters"] == run_case(given).attrs["parameters"]
     assert "truncation" not in run_case(given).attrs
     assert given.modes == ""
+
+
+def test_a_choice_says_for_which_speed_it_is(measured: Measured) -> None:
+    """At the highest speed of interest more modes may take part."""
+    measured(lambda l, c: 1.0)
+    choice = choose_modes(P, quantity="growth")
+    assert repr(choice) == "ModeChoice(1 diameter, 0 circles, by growth at 15.1 rad/s, error 0)"
+    assert dict(choice.summary())["at"].startswith("15.1 rad/s, 385 N")
+    assert "at" not in dict(choose_modes(P, 1e-2).summary()), "frequencies are those at rest"

@@ -15,7 +15,7 @@ import numpy as np
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
-from disc_model.display import Summarised, counted
+from disc_model.display import Summarised, counted, number_text
 from disc_model.errors import DiscModelError, require
 from disc_model.mode_request import FREQUENCIES, SLIDING_GROWTH, ModeRequest
 from disc_model.parameters import Disc, Parameters
@@ -58,6 +58,13 @@ class ModeChoice(Summarised):
     quantity: str = FREQUENCIES
     values: Mapping[tuple[int, ...], float] = field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        p = self.parameters
+        size = (p.n_diameters, p.n_circles) if p.disc is None else (len(p.disc.omega),)
+        at = number_text(p.Omega, "rad/s")
+        by = f"{self.quantity} at {at}"
+        return f"ModeChoice({self._size_text(size)}, by {by}, error {self.error:.2g})"
+
     def _summary(self) -> Iterator[tuple[str, object]]:
         p = self.parameters
         if p.disc is None:
@@ -65,6 +72,8 @@ class ModeChoice(Summarised):
             yield "n_circles", p.n_circles
         yield "modes", f"{self.modes}, a pair counts as two"
         yield "chosen by", self.quantity
+        if self.quantity != FREQUENCIES:
+            yield "at", f"{p.Omega:g} rad/s, {p.N:g} N; other speeds may need more modes"
         yield "error", f"{self.error:.2g}, relative; {self.tolerance:g} was asked for"
         yield "largest model compared", self._size_text(self.rich)
         for size, value in self.values.items():
@@ -187,6 +196,9 @@ def choose_modes(
     quantity: str = FREQUENCIES,
 ) -> ModeChoice:
     """Find the fewest real-valued modes with which a quantity's error is within ``tolerance``.
+
+    A quantity of the motion is that of the case's own speed and preload. More modes may take part at higher
+    speeds, so choose at the highest speed of interest.
 
     Parameters
     ----------

@@ -361,7 +361,11 @@ class Strict(BaseModel, metaclass=_Model):
 
     if not TYPE_CHECKING:  # type checkers have the fields from pydantic
 
-        def __init__(self, /, **data: Any) -> None:
+        def __init__(self, /, *unnamed: Any, **data: Any) -> None:
+            if unnamed:
+                kind = type(self)
+                named = f"{next(iter(kind.model_fields))}=..."
+                raise TypeError(f"{kind.__name__} takes values by name, such as {named}")
             try:
                 super().__init__(**data)
             except ValidationError as error:

@@ -1,6 +1,7 @@
 """Values that can hardly be meant, told once; and none of the paper's among them."""
 
 import warnings
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -81,3 +82,11 @@ def test_a_study_tells_of_doubts_once() -> None:
         }
     )
     assert [text.partition(" ")[0] for text in study.doubts] == ["rho"]
+
+
+def test_a_doubt_is_told_at_the_reader_s_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It showed a line of this package."""
+    monkeypatch.setattr(plausibility, "_reported", set())
+    with pytest.warns(ImplausibleValue) as caught:
+        simulate(Parameters(**BASE, E=150, normalization="orthonormal"), 1e-3)
+    assert {Path(warning.filename).name for warning in caught} == {Path(__file__).name}

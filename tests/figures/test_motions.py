@@ -475,6 +475,8 @@ def test_lines_of_phases_differ_in_grey_print() -> None:
     }
     assert len(looks) == 3
     assert len({*looks.values()}) == 3
+    # where slip runs along stick, the colour of stick is seen on either side
+    assert looks["stick"][0] > 3 * looks["slip"][0]
 
 
 def test_preloads_of_late_ranges_differ_in_grey_print() -> None:

@@ -175,9 +175,7 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
         dm.ParameterError, match="variable='perod': must be one over the grid, did you mean period"
     ):
         dm.plot_sweep(plane, "perod")
-    with pytest.raises(
-        dm.ParameterError, match="variable='period': varies along c, Omega, N: select"
-    ):
+    with pytest.raises(dm.ParameterError, match="study='c, Omega, N': must vary along at most two"):
         dm.plot_sweep(plane.expand_dims(c=[0.0, 0.1]), "period")
     counted = {
         "growth_rate": (("branch", "branch_point"), np.ones((2, 3))),

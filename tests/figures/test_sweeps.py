@@ -186,15 +186,21 @@ def test_a_sweep_without_any_value_has_no_scale(variable: str, label: str, log: 
     pyplot.close("all")
 
 
-@pytest.mark.parametrize(("count", "rings"), [(50, 50), (1000, 13)])
-def test_many_points_are_no_band_of_rings(count: int, rings: int) -> None:
-    """Some 1000 points in one dimension had a ring each, which hid the line."""
+@pytest.mark.parametrize(
+    ("count", "discs", "rings"), [(50, ["a"], [50]), (1000, ["a"], []), (1000, ["a", "b"], [13])]
+)
+def test_many_points_are_no_band_of_rings(count: int, discs: list[str], rings: list[int]) -> None:
+    """Some 1000 points in one dimension had a ring each, which hid the line; of a single line, a
+    ring on every eleventh point was taken for a special point."""
     speeds = np.linspace(10, 20, count)
-    rates = (("Omega",), -0.01 * speeds, {"units": "s-1", "long_name": "growth rate"})
-    ax = dm.plot_sweep(xr.Dataset({"growth_rate": rates}, {"Omega": speeds}))
+    axes = {"disc": discs, "Omega": speeds}
+    attrs = {"units": "s-1", "long_name": "growth rate"}
+    values = np.tile(-0.01 * speeds, (len(discs), 1))
+    study = xr.Dataset({"growth_rate": ([*axes], values, attrs)}, axes)
+    ax = dm.plot_sweep(study)
     large = [line for line in ax.lines if line.get_marker() == "o"]
     marked = [len(line.get_xdata()[:: line.get_markevery() or 1]) for line in large]
-    assert marked == [rings]
+    assert marked == rings
     pyplot.close("all")
 
 
@@ -305,3 +311,27 @@ def test_a_sweep_in_other_units_is_drawn_in_those_of_its_label() -> None:
     assert ax.get_ylabel() == "Slider u (mm)"
     np.testing.assert_allclose(ax.lines[0].get_ydata(), 1e-3 * np.array(SPEEDS))
     pyplot.close("all")
+
+
+def test_a_map_of_numbers_takes_other_colours_and_its_bar_too() -> None:
+    axes = {"N": [100.0, 200.0], "Omega": [10.0, 20.0, 30.0]}
+    values = np.arange(6.0).reshape(2, 3)
+    attrs = {"units": "m", "long_name": "height"}
+    study = xr.Dataset({"height": ([*axes], values, attrs)}, axes)
+    ax = dm.plot_sweep(study, cmap="magma")
+    [mesh] = ax.collections
+    assert mesh.get_cmap().name == "magma"
+    assert mesh.colorbar.cmap.name == "magma"
+    with pytest.raises(dm.ParameterError, match="cmap='magma': is for maps of numbers"):
+        dm.plot_sweep(outcomes(), "outcome", cmap="magma")
+    with pytest.raises(dm.ParameterError, match="cmap='magmas': must be a colour map"):
+        dm.plot_sweep(outcomes(), "first_separation", cmap="magmas")
+    pyplot.close("all")
+
+
+def test_a_sweep_of_three_dimensions_is_to_be_narrowed_by_its_reader() -> None:
+    axes = {"N": [1.0, 2.0], "Omega": [1.0, 2.0], "m": [1.0, 2.0]}
+    rates = [*axes], np.zeros((2, 2, 2))
+    study = xr.Dataset({"growth_rate": rates}, axes)
+    with pytest.raises(dm.ParameterError, match=r"study='N, Omega, m': must vary along at most"):
+        dm.plot_sweep(study)

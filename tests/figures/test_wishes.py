@@ -152,6 +152,35 @@ WRONG = {
 }
 
 
+def test_a_label_that_replaces_nothing_is_named() -> None:
+    with pytest.raises(dm.ParameterError, match=r"labels='slipp': .*did you mean slip"):
+        DRAWN["portrait"](labels={"slipp": "sliding"})
+
+
+def test_the_values_of_a_case_take_three_lines_at_most() -> None:
+    """Those of another disc took six, and left half of the page to the picture."""
+    other = dm.Parameters(
+        N=3000,
+        Omega=30,
+        E=2.1e11,
+        a=0.05,
+        b=0.15,
+        r_0=0.12,
+        h=0.008,
+        rho=7850,
+        nu=0.3,
+        D_star=0,
+        k=1e6,
+        k_p=5e5,
+        contact_arc=0.3,
+        normalization="orthonormal",
+    )
+    said = one(dm.steady_sliding(other).plot()).figure.get_suptitle()
+    assert said.count("\n") == 2
+    assert said.startswith("N = 3000 N")
+    assert said.endswith(" more")
+
+
 @pytest.mark.parametrize("wish", WRONG)
 def test_a_wish_that_cannot_be_understood_is_named(wish: str) -> None:
     value, rule = WRONG[wish]

@@ -65,6 +65,11 @@ def test_a_function_gives_what_a_study_does(function: Any, arguments: Any, optio
     [
         (lambda: dm.critical_speed(P, (14, 15), [5, "x"]), "horizon.1='x'"),
         (lambda: dm.critical_speed(P, (14, 15), step=-1), "step=-1"),
+        (
+            lambda: dm.critical_speed(P, (14, 15), step=0.3),
+            "bounds=(14, 15): highest - lowest must be a multiple of step=0.3",
+        ),
+        (lambda: dm.hysteresis(P, (15, 14), 10), "bounds=(15, 14): lowest=15 must be < highest=14"),
         (lambda: dm.outcome(P, 10, start={"u": "x"}), "start.u='x'"),
         (lambda: dm.basins(P, n_starts=0), "n_starts=0"),
     ],

@@ -2,6 +2,7 @@
 
 import json
 import re
+import sys
 import threading
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -14,6 +15,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from matplotlib import pyplot
 
 import disc_model as dm
 from disc_model.studies import workers
@@ -377,6 +379,16 @@ def test_a_bar_counts_the_calls_that_are_done(capsys: pytest.CaptureFixture[str]
     assert re.search(r"products .*3/3", printed.err)
 
 
+def test_a_notebook_without_widgets_has_a_bar_of_text(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """rich would only warn that it needs ipywidgets."""
+    monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
+    monkeypatch.setitem(sys.modules, "ipywidgets", None)
+    sweep(products, P, zip=PAIRS, progress=True)
+    assert re.search(r"products .*3/3", capsys.readouterr().err)
+
+
 def test_a_bar_stays_where_a_call_ended_the_sweep(capsys: pytest.CaptureFixture[str]) -> None:
     def function(case: dm.Parameters) -> float:
         if case.N > 1:
@@ -404,3 +416,21 @@ def test_as_many_workers_are_started_as_are_asked_for(
     swept = sweep(products, P, N=[1, 2, 3], workers=3, processes=processes)
     assert started == [3]
     np.testing.assert_allclose(swept["load"], P.mu_k * np.array([1, 2, 3]))
+
+
+@pytest.mark.parametrize(
+    ("function", "options"),
+    [
+        (dm.critical, {"name": "Omega", "bounds": (14, 16), "points": 3}),
+        (dm.critical_speed, {"bounds": (15, 15.5), "horizon": 1, "step": 0.5}),
+    ],
+)
+def test_a_speed_that_is_searched_is_no_value_of_the_case(
+    function: Any, options: dict[str, Any]
+) -> None:
+    """A picture's title said 15 rad/s, at which nothing was computed."""
+    found = sweep(function, P.replace(N=385, Omega=15), mu_s=[0.4, 0.45], **options)
+    assert set(json.loads(found.attrs["base"])) >= {"N"}
+    assert "Omega" not in json.loads(found.attrs["base"])
+    assert dm.plot_sweep(found).figure.get_suptitle() == "N = 385 N"
+    pyplot.close("all")

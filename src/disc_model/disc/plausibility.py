@@ -2,9 +2,11 @@
 GPa."""
 
 import math
+import sys
 import warnings
 from collections.abc import Callable
 from functools import partial
+from types import FrameType
 
 import numpy as np
 
@@ -12,6 +14,7 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.errors import DiscModelError
 from disc_model.parameters import DEFAULTS, Disc, Parameters
 
+INNER = ("disc_model", "functools", "contextlib")  # modules between a reader and a warning
 APART = 20.0  # ratio of a frequency to the nearest other one beyond which its unit is doubted
 
 
@@ -44,18 +47,28 @@ def warn_of_doubts(p: Parameters, tell: Callable[[str], object] | None = None) -
     for kind, text in doubts(p).items():
         if kind not in _reported:
             _reported.add(kind)
-            (tell or partial(warnings.warn, category=ImplausibleValue))(text)
+            (tell or _warn)(text)
 
 
 def warn_of_disc(disc: Disc) -> None:
     """Warn of implausible modes of a disc that was read from a file, and of the doubts of its
     report."""
     for text in disc.report.doubts if disc.report else ():
-        warnings.warn(text, ImplausibleValue, stacklevel=3)
+        _warn(text)
     for kind, doubt in DISC_RULES.items():
         if text := doubt(disc):
             _reported.add(kind)
-            warnings.warn(text, ImplausibleValue, stacklevel=3)
+            _warn(text)
+
+
+def _warn(text: str) -> None:
+    """Warn at the line of the reader that called this package, however far above it is."""
+    level = 1
+    frame: FrameType | None = sys._getframe()
+    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] in INNER:
+        frame = frame.f_back
+        level += 1
+    warnings.warn(text, ImplausibleValue, stacklevel=level)
 
 
 def _value(p: Parameters, name: str) -> str:

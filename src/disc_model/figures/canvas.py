@@ -21,6 +21,7 @@ from disc_model.figures.words import head_text
 
 Place = Literal["inside", "below"]
 LEGEND_OPTIONS = [*signature(Legend).parameters][3:]  # after its axes, handles and labels
+MOST_LINES = 3  # of values of a case above a picture
 LEAST_PANEL = 8.0  # mm, side of a panel beside a bar and a legend
 LEGEND_RULE = "must be True, False, or options of a legend of matplotlib"
 
@@ -141,7 +142,9 @@ def page_for(
         page = Page(list(figure.subplots(rows, columns, squeeze=False, **shared).flat), own=True)
         try:
             yield page
-            usual = head_text(width, "", title) if wishes.title is None else wishes.title
+            usual = wishes.title
+            if usual is None:
+                usual = head_text(width, "", title, MOST_LINES)
             if usual:
                 figure.suptitle(usual, fontsize=large(8))
             _restate(page, wishes)
@@ -188,7 +191,12 @@ def _restate(page: Page, wishes: Wishes) -> None:
 
 
 def _relabel(page: Page, labels: Mapping[str, str]) -> None:
-    """Give axes and entries of the legend other words."""
+    """Give axes and entries of the legend other words; raises `ParameterError` if there is nothing
+    that a label replaces."""
+    replaced = ["x", "y", *(str(handle.get_label()) for handle in page.handles)]
+    for name in labels:
+        rule = f"must replace x, y or an entry of the legend{suggestion(name, replaced)}"
+        require((name in replaced, "labels", name, rule))
     for ax in page.axes:
         if ax.get_xlabel() and "x" in labels:
             ax.set_xlabel(labels["x"])

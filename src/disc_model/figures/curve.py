@@ -158,6 +158,8 @@ def draw_lines(
             look["markevery"] = _marked(heights)
         elif heights.size > CROWDED:
             look |= _draw_dots(ax, across.values, heights, colour, joined=bool(line))
+            if len(marks) == 1:  # a mark on some of the dots would tell it from no other line
+                shape = ""
         ax.plot(*_pieces(across.values, heights, jumps), f"{shape}{line}", **look)
 
     # scales and labels

@@ -11,17 +11,19 @@ from disc_model.display import draw
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
+    from matplotlib.colors import Colormap
     from numpy.typing import NDArray
 
     from disc_model.parameters import Parameters
 
 
-def plot_sweep(
+def plot_sweep(  # noqa: PLR0913
     study: xr.Dataset | xr.DataTree,
     variable: str = "",
     x: str = "",
     *,
     log: bool = False,
+    cmap: str | Colormap | None = None,
     ax: Axes | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
@@ -43,6 +45,7 @@ def plot_sweep(
     variable : the shares of starts, the growth rate, the outcome or the first number there is if not given
     x : the dimension, or the column of paired values, along the horizontal axis; the first of numbers if not given
     log : whether the scale of the variable is logarithmic
+    cmap : another colour map of matplotlib for a map of numbers; classes have the same colours in all pictures
     ax, legend, labels, title : as in `Result.plot`
 
     Returns
@@ -61,9 +64,8 @@ def plot_sweep(
     >>> dm.plot_sweep(growth).get_xlabel()
     'Speed Ω (rad/s)'
     """
-    return draw(
-        "plot_sweep", study, variable, x, log=log, ax=ax, legend=legend, labels=labels, title=title
-    )
+    wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
+    return draw("plot_sweep", study, variable, x, log=log, cmap=cmap, **wishes)
 
 
 def plot_modes(

@@ -14,11 +14,11 @@ from disc_model.figures.legends import figure_legend
 from disc_model.figures.runs import sampled, stated, window_of
 from disc_model.figures.types import Artist, Axes, Figure
 
-LINES = {"stick": 0.8, "slip": 0.5, "separation": 1.2}
-"""Widths of the lines of phases, points."""
+LINES = {"stick": 1.6, "slip": 0.5, "separation": 1.2}
+"""Widths of the lines of phases, points: where slip lies on stick, both show."""
 EDGED = "stick"
 """The phase whose line has a black edge: in grey print the three are thin, thick and dark."""
-EDGE = 0.5
+EDGE = 0.4
 """Width of this edge, points."""
 
 

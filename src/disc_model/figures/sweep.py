@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib import colormaps, colors
 
 from disc_model.errors import require, suggestion
 from disc_model.figures.basins import draw_shares, outcomes_in
@@ -33,12 +34,13 @@ COUNTED = ("branch", "branch_point")
 """Dimensions whose values only count something."""
 
 
-def plot_sweep(
+def plot_sweep(  # noqa: PLR0913
     study: xr.Dataset | xr.DataTree,
     variable: str = "",
     x: str = "",
     *,
     log: bool = False,
+    cmap: Any = None,
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
@@ -50,6 +52,7 @@ def plot_sweep(
         (isinstance(variable, str | None), "variable", variable, "must be a name"),
         (isinstance(x, str | None), "x", x, "must be a name"),
         (isinstance(log, bool), "log", log, "must be True or False"),
+        (_is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
     )
     whole = _varying(_with_names_of_discs(study))  # type: ignore[arg-type]  # checked
     varying, column = _along_pairs(whole, x)
@@ -58,7 +61,29 @@ def plot_sweep(
         drawn = replace(drawn, mapped=False, joined=False)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.9, title=_case_of(varying)) as page:
         _draw(page, varying, drawn, log)
+        if cmap is not None:
+            _recolour(page.ax, cmap)
     return page.ax
+
+
+def _is_colormap(cmap: Any) -> bool:
+    """Whether this is a colour map, its name, or nothing."""
+    if isinstance(cmap, str):
+        return cmap in colormaps
+    return cmap is None or isinstance(cmap, colors.Colormap)
+
+
+def _recolour(ax: Axes, cmap: Any) -> None:
+    """Give the numbers of a map other colours; raises `ParameterError` where there are none."""
+    of_numbers = []
+    for mesh in ax.collections:
+        array = mesh.get_array()
+        if array is not None and array.ndim == 2:
+            of_numbers.append(mesh)
+    rule = "is for maps of numbers: classes and lines have colours of their own"
+    require((bool(of_numbers), "cmap", cmap, rule))
+    for mesh in of_numbers:
+        mesh.set_cmap(cmap)
 
 
 # ---- What is drawn
@@ -148,8 +173,8 @@ def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
     dims = [str(dim) for dim in study[variable].dims]
     numbers = [dim for dim in dims if dim in _numeric_dims(study)]
     across = x or numbers[0]
-    rule = f"varies along {', '.join(dims)}: select values of all but two"
-    require((len(dims) < 3, "variable", variable, rule))
+    many = "must vary along at most two: select values of the others, as by study.sel(N=300)"
+    require((len(dims) < 3, "study", ", ".join(dims), many))
     require((across in numbers, "x", across, f"must be one of {', '.join(numbers)}"))
     second = next((dim for dim in dims if dim != across), None)
     return Drawn(variable, across, second, mapped=len(numbers) == 2)

@@ -21,6 +21,8 @@ ARGUMENTS = {"perturbation": "start", "horizons": "horizon"}
 """Arguments of functions for options of other names."""
 OF_SCANS = {"start": "bounds", "stop": "bounds", "step": "step"}
 """Arguments of functions for the parts of an option `scan`."""
+IN_RULES = {"stop - start": "highest - lowest", "start=": "lowest=", "stop=": "highest="}
+"""What rules of a scan say, and what they say of `bounds`."""
 
 
 def _quantity(
@@ -51,8 +53,7 @@ def _quantity(
         begin = Start.model_validate({} if start is None else {"perturbation": start})
         quantity = quantity_of(name).model_validate(options)
     except ParameterError as error:
-        for fault in error.faults:
-            faults.append(Fault(_argument(fault.path), fault.value, fault.rule))
+        faults += [_fault_of_argument(fault, options) for fault in error.faults]
     faults += violations(
         (isinstance(progress, bool), "progress", progress, "must be True or False")
     )
@@ -75,11 +76,18 @@ def _quantity(
     return dataset
 
 
-def _argument(path: tuple[str, ...]) -> tuple[str, ...]:
-    """The argument of a function for an option, as the path of a fault."""
-    if path[:1] == ("scan",) and len(path) > 1:
-        return (OF_SCANS[path[1]],)
-    return tuple(ARGUMENTS.get(part, part) for part in path)
+def _fault_of_argument(fault: Fault, options: Mapping[str, Any]) -> Fault:
+    """The fault of an option, as that of a function's argument."""
+    if fault.path == ("scan",):  # of its parts together, each of which is right by itself
+        scan = options["scan"]
+        rule = fault.rule
+        for part, words in IN_RULES.items():
+            rule = rule.replace(part, words)
+        return Fault.of(("bounds",), (scan["start"], scan["stop"]), rule)
+    if fault.path[:1] == ("scan",):
+        return Fault((OF_SCANS[fault.path[1]],), fault.value, fault.rule)
+    path = tuple(ARGUMENTS.get(part, part) for part in fault.path)
+    return Fault(path, fault.value, fault.rule)
 
 
 def _scan(ends: Any, step: Any) -> Any:
@@ -225,8 +233,12 @@ def basins(  # noqa: PLR0913
     tol: float = 1e-10,
     progress: bool = False,
 ) -> xr.Dataset:
-    """Attractors of a case, the share of starts that comes to each, and the least energy that leads
-    to separation.
+    """Attractors of a case, the share of starts that comes to each, and the least energy found that
+    leads to separation.
+
+    This critical energy is an upper bound: it depends on the directions that are tried, and is lower with more
+    `energies`, `n_starts` or `n_bisection_directions`. Which directions these are depends on the seed and on the
+    number of starts at lower energies.
 
     Parameters
     ----------

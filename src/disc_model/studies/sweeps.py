@@ -15,6 +15,7 @@ from disc_model.parameters import RATIOS, Parameters
 from disc_model.studies.calls import checked_call
 from disc_model.studies.gathering import stacked, variables_of_result
 from disc_model.studies.quantity import NUMERICAL
+from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
 from disc_model.studies.workers import checked_workers
 
@@ -88,8 +89,12 @@ def sweep(
             coordinates[name] = (dimension.name, _plain(values), _described(name))
     sizes = {dimension.name: len(dimension) for dimension in call.dimensions}
     variables, fixed = stacked(rows, sizes)
-    base = canonical_json({**case.stated, "disc": case.canonical.get("disc")})
-    options = json.dumps({**call.defaults, **call.options}, sort_keys=True, default=repr)
+    chosen = {**call.defaults, **call.options}
+    options = json.dumps(chosen, sort_keys=True, default=repr)
+    stated = {**case.stated, "disc": case.canonical.get("disc")}
+    for name in _searched(call.title, chosen):
+        stated.pop(name, None)
+    base = canonical_json(stated)
     attrs = {
         "function": call.title,
         "options": options,
@@ -97,6 +102,16 @@ def sweep(
         "base": base,
     }
     return xr.Dataset(variables, {**fixed, **coordinates}, attrs)
+
+
+def _searched(function: str, options: Mapping[str, Any]) -> set[str]:
+    """Parameters that a function varies by itself, so that their values in the case mean nothing: of
+    `critical` the one that it searches, of quantities of studies those of their scans."""
+    if function == "critical":
+        return {options["name"]}
+    if function in quantity_names():
+        return {options.get(name, name) for name in quantity_of(function).scans}
+    return set()
 
 
 def _plain(values: list[Any]) -> list[Any]:

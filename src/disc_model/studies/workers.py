@@ -10,10 +10,13 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
+from importlib.util import find_spec
 from typing import Any
 
 from disc_model.errors import Fault, ParameterError, require
 from disc_model.units import is_whole
+
+NOTEBOOK = 90  # characters of a line in a notebook
 
 
 @dataclass(frozen=True)
@@ -121,7 +124,6 @@ def progress_bar(title: str, total: int, shown: bool) -> Iterator[Callable[[], N
     if not shown:
         yield lambda: None
         return
-    from rich.console import Console
     from rich.progress import (
         BarColumn,
         MofNCompleteColumn,
@@ -139,6 +141,17 @@ def progress_bar(title: str, total: int, shown: bool) -> Iterator[Callable[[], N
         TextColumn("left"),
         TimeRemainingColumn(),
     )
-    with Progress(*columns, console=Console(stderr=True)) as bar:
+    with Progress(*columns, console=_console()) as bar:
         task = bar.add_task(title, total=total)
         yield partial(bar.advance, task)
+
+
+def _console() -> Any:
+    """Standard error for a bar: as text in a notebook without ipywidgets, where rich would draw
+    nothing."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    if console.is_jupyter and find_spec("ipywidgets") is None:
+        return Console(stderr=True, force_jupyter=False, force_terminal=True, width=NOTEBOOK)
+    return console

@@ -48,6 +48,12 @@ class Hysteresis(Quantity):
         "separation_rate": Variable(
             "s-1", "separations per second at the end of the stay at a speed", dims=_DIMS
         ),
+        "u_min": Variable(
+            "m", "lowest displacement of the slider at the end of the stay at a speed", dims=_DIMS
+        ),
+        "u_max": Variable(
+            "m", "highest displacement of the slider at the end of the stay at a speed", dims=_DIMS
+        ),
         "P_min": Variable("N", "least contact force at the end of the stay at a speed", dims=_DIMS),
         "P_max": Variable(
             "N", "greatest contact force at the end of the stay at a speed", dims=_DIMS
